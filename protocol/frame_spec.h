@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "protocol/camera.h"
+#include "protocol/light.h"
+#include "protocol/output_options.h"
+#include "protocol/shadow_options.h"
+
+namespace gnomon {
+
+/// Even light from everywhere.
+struct Ambient {
+  Vec3 color{1, 1, 1};    ///< linear RGB, 0..1
+  double intensity = 0.4; ///< radiance of the surroundings, in the unit of the lights
+};
+
+/// What stands where no surface is. Neither exposed nor tone mapped.
+struct Background {
+  Vec3 color{0.60, 0.66, 0.74}; ///< linear RGB, 0..1
+  double alpha = 1;             ///< 0..1
+};
+
+/// Everything that a frame depends on besides the scene. JSON keys are the members' names.
+struct FrameSpec {
+  int width = 1280; ///< pixels
+  int height = 720; ///< pixels
+  Camera camera;
+  std::optional<std::vector<Light>> lights; ///< absent = the scene's own; if it has none, one sun
+  Shadow shadow;                            ///< for every directional light without a shadow of its own
+  Atlas atlas;
+  std::optional<int> scene; ///< index of the glTF scene; absent = the file's default
+  Ambient ambient;
+  Background background;
+  double exposure = 0; ///< stops; light is multiplied by 2^exposure before tone mapping
+  ToneMapping toneMapping = ToneMapping::aces;
+  Antialiasing antialiasing = Antialiasing::msaa4x;
+  std::vector<View> views{View::color}; ///< at least one, each once
+  Output output;
+};
+
+} // namespace gnomon

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "protocol/camera.h"
+#include "protocol/shadow_options.h"
+
+namespace gnomon {
+
+enum class LightType { directional, spot, point };
+
+/// A direction by the sun's place in the sky.
+struct Sun {
+  double azimuthDegrees = 135;  ///< clockwise from north (-Z) seen from above
+  double elevationDegrees = 45; ///< above the horizon, -90..90
+};
+
+struct Light {
+  LightType type = LightType::directional;
+  std::optional<Vec3> direction; ///< where the light travels; directional and spot. Not zero
+  std::optional<Sun> sun;        ///< directional only, instead of direction
+  std::optional<Vec3> position;  ///< metres; spot and point
+  std::optional<double> range;   ///< metres; spot and point; absent = infinite
+  double innerConeDegrees = 0;   ///< half angle; spot
+  double outerConeDegrees = 45;  ///< half angle; spot, > inner, < 90
+  Vec3 color{1, 1, 1};           ///< linear RGB, 0..1
+  double intensity = 3;          ///< lux (directional) or candela (spot, point)
+  std::optional<Shadow> shadow;  ///< absent = the frame's `shadow`; directional only
+};
+
+} // namespace gnomon

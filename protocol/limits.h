@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon {
+
+/// Every bound that a request or a scene meets. A problem that quotes a limit quotes one of these.
+struct Limits {
+  // Frames
+  int maxFrameSide = 8192;                  ///< pixels
+  std::int64_t maxFramePixels = 33'554'432; ///< width x height
+  int maxAtlasSide = 8192;                  ///< texels; the device may allow less
+  int maxLights = 16;                       ///< lights in one frame
+  int maxCascades = 4;                      ///< cascades of one light
+
+  // Requests
+  std::size_t maxSpecBytes = 1 << 20;     ///< a FrameSpec's JSON
+  std::size_t maxSceneBytes = 256u << 20; ///< a bundle: the model and every file that it names
+  std::size_t maxBundleFiles = 256;       ///< files in a multipart upload
+  int maxJsonDepth = 64;                  ///< nested objects and arrays
+
+  // Scenes
+  std::size_t maxNodes = 100'000;
+  std::size_t maxTriangles = 8'000'000; ///< with node reuse counted
+  std::size_t maxVertices = 16'000'000; ///< over all meshes
+  std::size_t maxMaterials = 4'096;
+  std::size_t maxImages = 1'024;
+  int maxImageSide = 8192;                   ///< pixels of one image
+  std::int64_t maxImagePixels = 134'217'728; ///< of all images together
+};
+
+inline constexpr Limits kLimits{};
+
+} // namespace gnomon

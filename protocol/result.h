@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace gnomon {
+
+/// What kind of thing went wrong. The server derives the HTTP status from it, in one place.
+enum class ProblemCode {
+  malformed,            ///< the bytes are not what they claim to be (JSON, GLB, multipart)
+  invalidValue,         ///< well formed, but a value is of the wrong type, out of range or contradicts another
+  notFound,             ///< a scene, route, node or camera that does not exist
+  methodNotAllowed,     ///< the route exists, the method does not
+  notAcceptable,        ///< no view or format matches the Accept header
+  lengthRequired,       ///< a body without Content-Length where one is needed
+  tooLarge,             ///< a limit on bytes, pixels, triangles or nodes was passed
+  unsupportedMediaType, ///< a Content-Type that the route does not take
+  invalidScene,         ///< a glTF that breaks its own rules
+  unsupportedFeature,   ///< a valid request or glTF that needs what Gnomon does not have
+  hashMismatch,         ///< the uploaded bytes are not the ones that were named
+  busy,                 ///< the render queue is full
+  deadlineExceeded,     ///< the job waited or ran longer than it may
+  unavailable,          ///< not ready, or shutting down
+  backend,              ///< no graphics context, or the driver refused
+  internal              ///< our own mistake
+};
+
+/// One thing that is wrong, told so that the user can mend it.
+struct Problem {
+  ProblemCode code = ProblemCode::internal;
+  std::string pointer; ///< where: a JSON pointer ("/camera/eye/0"), a query key, a part name; empty = the whole
+  std::string detail;  ///< one sentence for people; never a path of the server or an internal address
+  std::string limit;   ///< what would have been accepted, e.g. "1..16384"; empty = not about a limit
+  std::string actual;  ///< what came, shortened; empty = not about a value
+};
+
+using Problems = std::vector<Problem>;
+
+/// A value, or every problem that stood in its way (at least one).
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::move(value)) {}
+  Result(Problem problem) : state_(Problems{std::move(problem)}) {}
+  Result(Problems problems) : state_(std::move(problems)) { assert(!std::get<1>(state_).empty()); }
+
+  explicit operator bool() const { return state_.index() == 0; }
+
+  T& operator*() & { return std::get<0>(state_); }
+  const T& operator*() const& { return std::get<0>(state_); }
+  T&& operator*() && { return std::get<0>(std::move(state_)); }
+  T* operator->() { return &std::get<0>(state_); }
+  const T* operator->() const { return &std::get<0>(state_); }
+
+  const Problems& problems() const& { return std::get<1>(state_); }
+  Problems&& problems() && { return std::get<1>(std::move(state_)); }
+
+ private:
+  std::variant<T, Problems> state_;
+};
+
+/// The result of an action that gives nothing back.
+struct Done {};
+using Status = Result<Done>;
+
+} // namespace gnomon

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace gnomon {
+
+/// A camera, resolved: where it stands, its orthonormal axes and its lens. All in world units and double precision.
+/// Everything the renderer computes for a frame is relative to `eye`, so that no large coordinate meets a float.
+struct CameraView {
+  glm::dvec3 eye{0};
+  glm::dvec3 right{1, 0, 0};
+  glm::dvec3 up{0, 1, 0};
+  glm::dvec3 forward{0, 0, -1};
+  bool perspective = true;
+  /// Perspective: tangents of the half angles. Orthographic: half width and half height in metres.
+  glm::dvec2 halfSize{1, 1};
+  double near = 0.1;                                    ///< view depth, metres; > 0 for perspective
+  double far = std::numeric_limits<double>::infinity(); ///< view depth; infinite only for perspective
+};
+
+/// A point relative to the eye (world axes), given its position on the picture (-1..1, y up) and its view depth.
+inline glm::dvec3 pointAt(const CameraView& view, glm::dvec2 ndc, double depth) {
+  const double scale = view.perspective ? depth : 1.0;
+  return view.forward * depth + view.right * (ndc.x * view.halfSize.x * scale) +
+         view.up * (ndc.y * view.halfSize.y * scale);
+}
+
+/// View space (right, up, -forward) from eye-relative world space: a rotation.
+glm::dmat4 viewFromRelative(const CameraView& view);
+
+/// Clip space from view space, depth reversed: 1 at near, 0 at far or at infinity.
+/// (Reversed depth: Reed, "Depth Precision Visualized", 2015.)
+glm::dmat4 clipFromView(const CameraView& view);
+
+} // namespace gnomon

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gnomon {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Pixels, interleaved, first row on top. Eight bits: 0..255, sRGB where it is a colour; float: linear.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels; ///< in order, e.g. {"R","G","B","A"}, {"Z"}
+  std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
+};
+
+} // namespace gnomon

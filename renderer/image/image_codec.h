@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/output_options.h"
+#include "protocol/result.h"
+#include "renderer/image/image.h"
+
+namespace gnomon {
+
+/// One layer of an EXR: its channels are written as "name.channel"; an empty name leaves the channel names alone.
+struct ImageLayer {
+  std::string name;
+  const Image* image = nullptr;
+};
+
+/// The size of an encoded image, read from its header alone.
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// An 8-bit PNG (1, 3 or 4 channels). level 0..9.
+Result<Bytes> encodePng(const Image& image, int level);
+
+/// A float image per layer. Layers of one size share a part; a layer of another size gets a part of its own.
+/// The bytes depend on nothing but the arguments.
+Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType);
+
+/// Size of a PNG or JPEG, told by its signature and header; anything else is unsupportedFeature.
+Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
+
+/// Decodes a PNG or JPEG to 8-bit RGBA, refusing before any pixel is decoded when it is larger than
+/// `maxSide` a side or `maxPixels` in all.
+Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
+
+/// Loads the image library now, so that the first picture does not wait for it. Safe from any thread.
+void warmImageCodec();
+
+} // namespace gnomon

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "protocol/capabilities.h"
+#include "protocol/frame_report.h"
+#include "protocol/frame_spec.h"
+#include "protocol/limits.h"
+#include "protocol/result.h"
+#include "protocol/scene_summary.h"
+#include "renderer/image/image.h"
+#include "renderer/scene/scene_bundle.h"
+
+/// The only door into the renderer.
+namespace gnomon {
+
+struct Scene;
+using ScenePtr = std::shared_ptr<const Scene>;
+
+/// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly.
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits);
+
+/// What the scene holds; `id` is empty. Any thread.
+const SceneSummary& summaryOf(const Scene& scene);
+
+struct RendererOptions {
+  BackendOptions backend;
+  std::size_t gpuSceneBytes = 1u << 30; ///< uploaded scenes kept, least recently used dropped first
+};
+
+/// One picture: 8-bit sRGB for PNG, linear float for EXR, as the frame's output asks.
+struct ViewImage {
+  View view = View::color;
+  Image image;
+};
+
+/// A rendered frame, not yet encoded. Stages queue, load and encode are the caller's to add to the report.
+struct Frame {
+  FrameReport report;
+  std::vector<ViewImage> images; ///< in the order of the spec's views
+};
+
+/// Owns a graphics context. Everything but `info` only on the thread that made it.
+class Renderer {
+ public:
+  static Result<Renderer> create(const RendererOptions& options);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  const RendererInfo& info() const;
+
+  /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
+  Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec);
+
+ private:
+  struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread.
+Result<Bytes> encodePng(const Frame& frame, std::size_t index);
+Result<Bytes> encodeExr(const Frame& frame);
+
+/// Loads what encoding needs ahead of the first picture. Any thread.
+void warmEncoders();
+
+} // namespace gnomon

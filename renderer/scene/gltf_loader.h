@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "protocol/limits.h"
+#include "protocol/result.h"
+#include "renderer/scene/scene.h"
+#include "renderer/scene/scene_bundle.h"
+
+namespace gnomon {
+
+/// Loads a GLB or a .gltf with the files it names, all from memory: no file and no address outside the bundle
+/// is ever opened. Pointers in the problems are JSON pointers into the glTF ("/accessors/3/count").
+Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits = kLimits);
+
+} // namespace gnomon

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/camera.h"
+#include "protocol/light.h"
+#include "protocol/scene_summary.h"
+#include "renderer/core/aabb.h"
+#include "renderer/image/image.h"
+
+namespace gnomon {
+
+/// What shading needs of a vertex besides its position; uploaded as it stands.
+struct VertexAttributes {
+  glm::vec3 normal{0, 0, 1};
+  glm::vec4 tangent{1, 0, 0, 1}; ///< w = sign of the bitangent
+  glm::vec2 uv0{0};
+  glm::vec2 uv1{0};
+  glm::u16vec4 color{65535, 65535, 65535, 65535}; ///< linear RGBA, 0..65535
+};
+
+/// Triangles in a cluster. Every cluster of a primitive but its last has exactly this many.
+inline constexpr std::uint32_t kClusterTriangles = 1024;
+
+/// A run of neighbouring triangles: the unit that is culled.
+struct Cluster {
+  Aabb bounds; ///< in the primitive's own space
+};
+
+/// One indexed triangle list with one material.
+struct Primitive {
+  int material = 0;             ///< index into Scene::materials
+  std::uint32_t baseVertex = 0; ///< added to each index
+  std::uint32_t vertexCount = 0;
+  std::uint32_t firstIndex = 0; ///< into Scene::indices
+  std::uint32_t indexCount = 0;
+  std::uint32_t firstCluster = 0; ///< into Scene::clusters; cluster k holds triangles [k, k+1) * kClusterTriangles
+  std::uint32_t clusterCount = 0;
+  bool hasTangents = false;
+  Aabb bounds; ///< in its own space
+};
+
+enum class AlphaMode { opaque, mask };
+enum class Wrap { repeat, clampToEdge, mirroredRepeat };
+
+/// A texture as a material uses it.
+struct TextureUse {
+  int image = -1;   ///< index into Scene::images
+  int texCoord = 0; ///< 0 or 1
+  Wrap wrapS = Wrap::repeat;
+  Wrap wrapT = Wrap::repeat;
+  bool nearest = false; ///< magnification filter
+};
+
+/// glTF metallic-roughness.
+struct Material {
+  std::string name;
+  glm::vec4 baseColorFactor{1}; ///< linear
+  glm::vec3 emissiveFactor{0};  ///< linear
+  float metallicFactor = 1;
+  float roughnessFactor = 1;
+  float normalScale = 1;
+  float occlusionStrength = 1;
+  float alphaCutoff = 0.5f; ///< mask: below it, nothing is there
+  AlphaMode alphaMode = AlphaMode::opaque;
+  bool doubleSided = false;
+  bool hasVertexColors = false;
+  std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
+};
+
+/// A primitive placed in the world.
+struct Instance {
+  int node = 0;      ///< index into the file's nodes
+  int primitive = 0; ///< index into Scene::primitives
+  glm::dmat4 worldFromLocal{1};
+  Aabb bounds; ///< in the world
+};
+
+struct SceneCamera {
+  int node = 0;
+  std::string name;
+  glm::dvec3 eye{0}, forward{0, 0, -1}, up{0, 1, 0}; ///< orthonormal directions, whatever the node's scale
+  std::optional<Perspective> perspective;            ///< exactly one of the two
+  std::optional<Orthographic> orthographic;
+};
+
+struct SceneLight {
+  int node = 0;
+  std::string name;
+  Light light; ///< position and direction in the world
+};
+
+/// One of the file's scenes, its node tree flattened.
+struct SceneView {
+  std::vector<Instance> instances;
+  std::vector<SceneCamera> cameras;
+  std::vector<SceneLight> lights;
+  Aabb bounds; ///< in the world
+  std::uint64_t triangles = 0;
+};
+
+/// A loaded glTF file: immutable, shared between threads. At least one scene.
+struct Scene {
+  std::vector<glm::vec3> positions;         ///< of all primitives
+  std::vector<VertexAttributes> attributes; ///< parallel to positions
+  std::vector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
+  std::vector<Cluster> clusters;
+  std::vector<Primitive> primitives;
+  std::vector<Material> materials; ///< at least one (the default material)
+  std::vector<Image> images;       ///< 8-bit RGBA
+  std::vector<SceneView> scenes;
+  int defaultScene = 0;
+  SceneSummary summary; ///< id is left to whoever stores it
+};
+
+} // namespace gnomon

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace gnomon {
+
+/// An uploaded model and the files that it names.
+struct SceneBundle {
+  Bytes model;                        ///< a GLB or glTF JSON
+  std::map<std::string, Bytes> files; ///< by the name that the model uses, percent-decoded; never a path upwards
+};
+
+} // namespace gnomon
