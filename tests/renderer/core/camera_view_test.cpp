@@ -1,0 +1,91 @@
+#include "renderer/core/camera_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+#include <tuple>
+
+#include "tests/renderer/core/random_view.h"
+
+namespace gnomon {
+namespace {
+
+CameraView perspectiveView(double fovYDegrees, double near, double far) {
+  CameraView view;
+  const double tangent = std::tan(glm::radians(fovYDegrees) / 2);
+  view.halfSize = {tangent * 16 / 9, tangent};
+  view.near = near;
+  view.far = far;
+  return view;
+}
+
+glm::dvec3 ndcOf(const CameraView& view, const glm::dvec3& point) {
+  const glm::dvec4 clip = clipFromView(view) * viewFromRelative(view) * glm::dvec4(point, 1.0);
+  return glm::dvec3(clip) / clip.w;
+}
+
+using FovAndFar = std::tuple<double, double>;
+class ReversedDepth : public testing::TestWithParam<FovAndFar> {};
+
+TEST_P(ReversedDepth, G5_IsOneAtNearAndZeroAtFar) {
+  const auto [fov, far] = GetParam();
+  const CameraView view = perspectiveView(fov, 0.25, far);
+  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {0.3, -0.8}, 0.25)).z, 1.0);
+  if (std::isinf(far)) {
+    EXPECT_EQ((clipFromView(view) * glm::dvec4(0, 0, -1, 0)).z, 0.0); // a direction is a point at infinity
+    EXPECT_NEAR(ndcOf(view, pointAt(view, {0.3, -0.8}, 1e12)).z, 0.0, 1e-12);
+  } else {
+    EXPECT_NEAR(ndcOf(view, pointAt(view, {0.3, -0.8}, far)).z, 0.0, 1e-15);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, ReversedDepth,
+                         testing::Combine(testing::Values(1.0, 45.0, 170.0),
+                                          testing::Values(0.5, 1000.0, std::numeric_limits<double>::infinity())));
+
+TEST(CameraView, G5_OrthographicNearMayBeNegative) {
+  CameraView view;
+  view.perspective = false;
+  view.halfSize = {8, 4.5};
+  view.near = -20;
+  view.far = 30;
+  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {1, 1}, -20)).z, 1.0);
+  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {-1, 1}, 30)).z, 0.0);
+  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {0, 0}, 5)).z, 0.5);
+  EXPECT_EQ(pointAt(view, {1, -1}, -20), glm::dvec3(8, -4.5, 20));
+}
+
+TEST(CameraView, PointAtIsTheInverseOfTheMatrices) {
+  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y, const RandomUnit& d) {
+    const CameraView& view = random.view;
+    const double far = std::min(view.far, view.near + 1000.0);
+    const double depth = view.near + d.value * (far - view.near);
+    const glm::dvec2 ndc(2 * x.value - 1, 2 * y.value - 1);
+    const glm::dvec3 found = ndcOf(view, pointAt(view, ndc, depth));
+    RC_ASSERT(std::abs(found.x - ndc.x) < 1e-9);
+    RC_ASSERT(std::abs(found.y - ndc.y) < 1e-9);
+    RC_ASSERT(found.z > -1e-9 && found.z < 1 + 1e-9);
+  }));
+}
+
+TEST(CameraView, DepthFallsAsTheSurfaceRecedes) {
+  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& d) {
+    const CameraView& view = random.view;
+    const double depth = view.near + d.value * 100.0;
+    RC_ASSERT(ndcOf(view, pointAt(view, {0, 0}, depth)).z > ndcOf(view, pointAt(view, {0, 0}, depth * 1.01 + 100)).z);
+  }));
+}
+
+TEST(CameraView, ViewFromRelativeIsARotation) {
+  EXPECT_TRUE(rc::check([](const RandomView& random) {
+    const glm::dmat3 rotation(viewFromRelative(random.view));
+    RC_ASSERT(std::abs(glm::determinant(rotation) - 1.0) < 1e-12);
+    const glm::dvec3 ahead = rotation * random.view.forward;
+    RC_ASSERT(glm::length(ahead - glm::dvec3(0, 0, -1)) < 1e-12);
+  }));
+}
+
+} // namespace
+} // namespace gnomon
