@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "protocol/result.h"
+#include "renderer/core/rect.h"
+#include "renderer/gl/object.h"
+#include "renderer/gl/texture.h"
+
+namespace gnomon::gl {
+
+struct Attachment {
+  const Texture* texture = nullptr;
+  int level = 0;
+};
+
+/// What is drawn into. Color attachment i is the fragment shader's output location i.
+struct Attachments {
+  std::vector<Attachment> color;
+  Attachment depth; ///< no texture = no depth
+};
+
+/// A framebuffer over textures that outlive it.
+class Framebuffer {
+ public:
+  Framebuffer() = default;
+  /// A backend problem that names the reason where the driver finds the attachments incomplete.
+  static Result<Framebuffer> create(const Attachments& attachments, std::string_view label);
+
+  GLuint id() const { return object_.get(); }
+
+  /// Clears depend on the scissor and the write masks: state a PipelineState first.
+  void clearColor(int attachment, const glm::vec4& color);
+  void clearColor(int attachment, const glm::uvec4& color);
+  void clearColor(int attachment, const glm::ivec4& color);
+  void clearDepth(float depth);
+
+  /// The texels of a rectangle, lowest row first. Waits for the GPU. REQUIRES: texels has room for them.
+  void readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
+  void readDepth(const Rect& rect, std::span<float> depths) const;
+
+ private:
+  struct Delete {
+    void operator()(GLuint id) const { glDeleteFramebuffers(1, &id); }
+  };
+  Object<Delete{}> object_;
+};
+
+/// Copies one color attachment, texel for texel; resolves multisampled colors where `to` has no samples.
+/// Depends on the scissor of `to`.
+void copyColor(const Framebuffer& from, int fromAttachment, const Framebuffer& to, int toAttachment, const Rect& rect);
+void copyDepth(const Framebuffer& from, const Framebuffer& to, const Rect& rect);
+
+} // namespace gnomon::gl

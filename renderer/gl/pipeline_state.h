@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "renderer/core/rect.h"
+#include "renderer/gl/gl.h"
+
+namespace gnomon::gl {
+
+struct DepthState {
+  bool test = false;
+  bool write = false;       ///< also masks clears of depth
+  GLenum func = GL_GREATER; ///< reversed depth: nearer is greater
+
+  bool operator==(const DepthState&) const = default;
+};
+
+enum class Cull { none, back, front };
+enum class FrontFace { counterClockwise, clockwise };
+
+/// Everything that stands between a draw and its target. Also clears and copies depend on `scissor` and the masks.
+/// What has no member is always off or at its neutral value: blending, stencil, polygon offset, logic operation,
+/// dithering, sRGB conversion, primitive restart, rasterizer discard, depth range 0..1, window origin lower left,
+/// clip depth 0..1.
+struct PipelineState {
+  GLuint framebuffer = 0;
+  Rect viewport;
+  std::optional<Rect> scissor;
+  DepthState depth;
+  bool depthClamp = false;
+  Cull cull = Cull::none;
+  FrontFace frontFace = FrontFace::counterClockwise;
+  std::array<bool, 4> colorMask{true, true, true, true};
+  bool multisample = false; ///< false = samples, where the target has them, all get the pixel's one value
+  int clipDistances = 0;    ///< how many of gl_ClipDistance[0..7] cut
+
+  bool operator==(const PipelineState&) const = default;
+};
+
+/// States all of it, whatever was stated before; nothing is ever restored.
+void apply(const PipelineState& state);
+
+} // namespace gnomon::gl

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+
+#include "renderer/core/rect.h"
+#include "renderer/gl/object.h"
+
+namespace gnomon::gl {
+
+struct TextureShape {
+  GLenum format = GL_RGBA8; ///< a sized internal format
+  int width = 1;            ///< texels
+  int height = 1;           ///< texels
+  int levels = 1;           ///< mip levels; must be 1 with samples
+  int samples = 0;          ///< 0 = an ordinary 2D texture, else 2D multisample with fixed sample places
+
+  bool operator==(const TextureShape&) const = default;
+};
+
+/// How many levels a full mip chain has, down to 1 x 1.
+int fullLevels(int width, int height);
+
+/// How texels lie in client memory: rows tightly packed (no alignment), lowest row first.
+struct TexelLayout {
+  GLenum format = GL_RGBA;
+  GLenum type = GL_UNSIGNED_BYTE;
+};
+
+/// An immutable-storage 2D texture. Its contents are undefined until written, cleared or drawn.
+class Texture {
+ public:
+  Texture() = default;
+  Texture(const TextureShape& shape, std::string_view label);
+
+  GLuint id() const { return object_.get(); }
+  const TextureShape& shape() const { return shape_; }
+  int width() const { return shape_.width; }
+  int height() const { return shape_.height; }
+
+  /// Writes the whole of a level. REQUIRES: texels has exactly the level's bytes.
+  void write(int level, TexelLayout layout, std::span<const std::byte> texels);
+  /// The texels of a rectangle of a level. Waits for the GPU. REQUIRES: texels has room for them.
+  void read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
+  void clear(int level, TexelLayout layout, std::span<const std::byte> texel);
+  void generateLevels();
+  void bind(GLuint unit) const;
+
+ private:
+  struct Delete {
+    void operator()(GLuint id) const { glDeleteTextures(1, &id); }
+  };
+  Object<Delete{}> object_;
+  TextureShape shape_;
+};
+
+} // namespace gnomon::gl
