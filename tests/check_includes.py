@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Holds every #include of the source tree against the order of the house.
+
+usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
+
+Who may include whom, one way:
+  protocol <- renderer/core <- renderer/{image,scene,shadow} <- renderer/gl <- renderer/passes
+           <- renderer/render.h <- server;  clients see protocol and renderer/render.h.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
+ROOMS = ("protocol", "renderer", "server", "clients")
+
+BELOW_GL = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
+BELOW_DOOR = BELOW_GL + ["renderer/gl", "renderer/passes", "renderer/shaders"]
+
+# Folder -> folders that its files may include.
+MAY_INCLUDE = {
+    "protocol": ["protocol"],
+    "renderer/core": ["protocol", "renderer/core"],
+    "renderer/image": ["protocol", "renderer/core", "renderer/image"],
+    "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
+    "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
+    "renderer/gl": BELOW_GL + ["renderer/gl"],
+    "renderer/shaders": ["renderer/shaders"],
+    "renderer/passes": BELOW_GL + ["renderer/gl", "renderer/passes", "renderer/shaders"],
+    "renderer": BELOW_DOOR + ["renderer"],
+    "server": ["protocol", "server"],
+    "clients/cli": ["protocol", "clients/cli"],
+    "clients/web": ["clients/web"],
+}
+
+# These also see the renderer's door: render.h, and the headers that it includes itself.
+DOOR = "renderer/render.h"
+AT_THE_DOOR = ("server", "clients/cli")
+
+# The assembler puts the parts together, and so sees the clients that it offers.
+ASSEMBLER = "server/main.cpp"
+ASSEMBLED = ["clients/cli", "clients/web"]
+
+# Third-party header (the first characters of its path) -> the only files or folders that may include it.
+KEPT_IN = {
+    "httplib.h": ["server/http_server.cpp", "clients/cli/http_client.cpp"],
+    "nlohmann/": ["protocol", "server", "clients/cli", "renderer/scene"],
+    "tiny_gltf.h": ["renderer/scene"],
+    "OpenImageIO/": ["renderer/image"],
+    "glad/": ["renderer/gl", "renderer/passes"],
+    "GL/": ["renderer/gl"],
+    "EGL/": ["renderer/gl"],
+}
+
+
+def inside(path, place):
+    return path == place or path.startswith(place + "/")
+
+
+def room_of(path):
+    """The folder of MAY_INCLUDE that `path` lies in, at any depth; None where no rule speaks of it."""
+    rooms = [room for room in MAY_INCLUDE if inside(path, room)]
+    room = max(rooms, key=len, default=None)
+    # A new folder of the renderer needs a rule of its own.
+    return None if room == "renderer" and path.count("/") > 1 else room
+
+
+def includes_of(file):
+    """(line number, '<' or '"', path) of each include of a file."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    matches = [(number, INCLUDE.match(line)) for number, line in enumerate(lines, 1)]
+    return [(number, match.group(1), match.group(2)) for number, match in matches if match]
+
+
+def door_of(root):
+    """render.h and the renderer's headers that it includes."""
+    door = root / DOOR
+    seen = [path for _, _, path in includes_of(door) if inside(path, "renderer")] if door.exists() else []
+    return [DOOR] + seen
+
+
+def may_include(path, target, door):
+    allowed = MAY_INCLUDE[room_of(path)] + (ASSEMBLED if path == ASSEMBLER else [])
+    at_the_door = any(inside(path, place) for place in AT_THE_DOOR)
+    return room_of(target) in allowed or (at_the_door and target in door)
+
+
+def fault_of(root, path, kind, target, door):
+    """What is wrong with `path` including `target`; None if nothing is."""
+    for header, places in KEPT_IN.items():
+        if target.startswith(header):
+            allowed = any(inside(path, place) for place in places)
+            return None if allowed else f"{target} belongs to {', '.join(places)} alone"
+    if kind == "<":
+        return f"<{target}> is ours, and is written in quotes" if (root / target).exists() else None
+    if not (root / target).exists():
+        return f'"{target}" is no file of the tree; includes are written from its root'
+    if room_of(path) is None:
+        return "its folder has no rule in tests/check_includes.py"
+    return None if may_include(path, target, door) else f'"{target}" is not below {room_of(path)}'
+
+
+def faults_of_file(root, file, door):
+    path = file.relative_to(root).as_posix()
+    includes = includes_of(file)
+    for number, kind, target in includes:
+        fault = fault_of(root, path, kind, target, door)
+        if fault:
+            yield f"{path}:{number}: {fault}"
+    own = file.with_suffix(".h").relative_to(root).as_posix()
+    if file.suffix == ".cpp" and (root / own).exists() and (not includes or includes[0][2] != own):
+        yield f'{path}: its own header "{own}" is not its first include'
+
+
+def faults_of_tree(root):
+    door = door_of(root)
+    for room in ROOMS:
+        for file in sorted((root / room).rglob("*")):
+            if file.suffix in (".h", ".cpp") and file.is_file():
+                yield from faults_of_file(root, file, door)
+
+
+def main(arguments):
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    faults = list(faults_of_tree(root))
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
