@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of the binary that need no server in the process.
+namespace gnomon::cli {
+
+/// What the shell is told.
+enum ExitCode : int {
+  kExitOk = 0,
+  kExitProblem = 1, ///< the request, the scene, the server or the disk refused; every problem is on stderr
+  kExitUsage = 2    ///< the command line itself is wrong
+};
+
+/// A subcommand that was declared: run it once the command line has been parsed and `chosen` is true.
+struct Subcommand {
+  std::function<bool()> chosen;
+  std::function<int()> run; ///< gives an ExitCode
+};
+
+Subcommand addRenderCommand(CLI::App& app);
+Subcommand addInspectCommand(CLI::App& app);
+Subcommand addHealthCommand(CLI::App& app);
+
+} // namespace gnomon::cli

@@ -1,0 +1,77 @@
+#include "clients/cli/local_render.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "protocol/json_codec.h"
+#include "renderer/render.h"
+
+namespace gnomon::cli {
+namespace {
+
+class StopWatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::vector<std::string> viewNames(const FrameSpec& spec) {
+  return toJson(spec).at("views");
+}
+
+Result<std::vector<Picture>> encode(const Frame& frame, const FrameSpec& spec) {
+  const auto names = viewNames(spec);
+  std::vector<Picture> pictures;
+  if (spec.output.format == ImageFormat::exr) {
+    auto file = encodeExr(frame);
+    if (!file) return file.problems();
+    pictures.push_back({names.front(), std::move(*file)});
+    return pictures;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto file = encodePng(frame, i);
+    if (!file) return file.problems();
+    pictures.push_back({names[i], std::move(*file)});
+  }
+  return pictures;
+}
+
+} // namespace
+
+Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
+                            Progress& progress) {
+  // The encoder's libraries load while the scene and the graphics context do.
+  const std::jthread warming(warmEncoders);
+
+  progress.stage("loading the scene");
+  const StopWatch load;
+  auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  const double loadMs = load.milliseconds();
+
+  progress.stage("starting the renderer");
+  RendererOptions options;
+  options.backend = backend;
+  auto renderer = Renderer::create(options);
+  if (!renderer) return renderer.problems();
+
+  progress.stage("rendering");
+  auto frame = renderer->render(*scene, spec);
+  if (!frame) return frame.problems();
+
+  progress.stage("encoding");
+  const StopWatch encoding;
+  auto pictures = encode(*frame, spec);
+  if (!pictures) return pictures.problems();
+  auto& stages = frame->report.stages;
+  stages.insert(stages.begin(), {"load", loadMs});
+  stages.push_back({"encode", encoding.milliseconds()});
+  return Rendered{std::move(*pictures), toJson(frame->report).dump(2) + "\n"};
+}
+
+} // namespace gnomon::cli

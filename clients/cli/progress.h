@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace gnomon::cli {
+
+/// What is being done, told on stderr while it lasts: a spinner, the stage, a bar where the share is known, the
+/// seconds so far. Only on a terminal; anywhere else it writes nothing and starts no thread.
+class Progress {
+ public:
+  explicit Progress(bool shown);
+  static Progress onTerminal(); ///< shown when stderr is a terminal
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void stage(const std::string& name); ///< the stage that begins now; the one before is done
+  void share(double done);             ///< of the stage, 0..1
+  void finish();                       ///< clears the line; call before anything else is printed
+
+ private:
+  void draw();
+  void run();
+
+  using Clock = std::chrono::steady_clock;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string stage_;         // empty = nothing to show
+  double share_ = -1;         // < 0 = not known
+  Clock::time_point started_; // of the stage
+  std::size_t frame_ = 0;     // of the spinner
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+} // namespace gnomon::cli
