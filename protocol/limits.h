@@ -19,9 +19,11 @@ struct Limits {
   std::size_t maxSceneBytes = 256u << 20; ///< a bundle: the model and every file that it names
   std::size_t maxBundleFiles = 256;       ///< files in a multipart upload
   int maxJsonDepth = 64;                  ///< nested objects and arrays
+  std::size_t maxJsonValues = 4'000'000;  ///< values in a glTF's JSON
 
   // Scenes
   std::size_t maxNodes = 100'000;
+  std::size_t maxInstances = 1'000'000; ///< nodes and primitives placed, over all scenes of a file
   std::size_t maxTriangles = 8'000'000; ///< with node reuse counted
   std::size_t maxVertices = 16'000'000; ///< over all meshes
   std::size_t maxMaterials = 4'096;
