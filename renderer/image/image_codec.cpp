@@ -1,0 +1,156 @@
+#include "renderer/image/image_codec.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "renderer/image/codec_loader.h"
+#include "renderer/image/exr_layout.h"
+#include "renderer/image/image_container.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kMaxMessage = 200; ///< characters of the library's own words in a problem
+
+template <class Container>
+codec::Sink sinkInto(Container& target) {
+  return {&target, [](void* container, const std::uint8_t* bytes, std::size_t size) {
+            auto& kept = *static_cast<Container*>(container);
+            try {
+              kept.insert(kept.end(), bytes, bytes + size);
+            } catch (const std::bad_alloc&) {
+              return false;
+            }
+            return true;
+          }};
+}
+
+/// The library's words, made fit for a problem: one line, ASCII, short.
+std::string oneLine(std::string text) {
+  if (text.size() > kMaxMessage) text.resize(kMaxMessage);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, ' ');
+  return text;
+}
+
+Problem failure(ProblemCode code, const std::string& what, const std::string& message) {
+  return {code, "", message.empty() ? what : what + ": " + oneLine(message), "", ""};
+}
+
+codec::Compression tableValue(ExrCompression compression) {
+  switch (compression) {
+    case ExrCompression::none:
+      return codec::Compression::none;
+    case ExrCompression::rle:
+      return codec::Compression::rle;
+    case ExrCompression::zip:
+      return codec::Compression::zip;
+    case ExrCompression::piz:
+      return codec::Compression::piz;
+  }
+  return codec::Compression::none;
+}
+
+/// Points into the part, whose own vectors must stay where they are.
+struct PartView {
+  std::vector<const char*> names;
+  std::unique_ptr<bool[]> half;
+  codec::FloatPart part;
+
+  explicit PartView(const ExrPart& source) : half(std::make_unique<bool[]>(source.half.size())) {
+    for (const std::string& name : source.channels) names.push_back(name.c_str());
+    std::copy(source.half.begin(), source.half.end(), half.get());
+    part = {source.name.c_str(), source.width, source.height,       static_cast<int>(names.size()),
+            names.data(),        half.get(),   source.pixels.data()};
+  }
+};
+
+Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
+  const std::string actual = std::to_string(size.width) + "x" + std::to_string(size.height);
+  if (size.width > maxSide || size.height > maxSide) {
+    return Problem{ProblemCode::tooLarge, "", "the image is too wide or too high", std::to_string(maxSide) + " a side",
+                   actual};
+  }
+  if (std::int64_t{size.width} * size.height > maxPixels) {
+    return Problem{ProblemCode::tooLarge, "", "the image has too many pixels", std::to_string(maxPixels) + " pixels",
+                   actual};
+  }
+  return Done{};
+}
+
+} // namespace
+
+Result<Bytes> encodePng(const Image& image, int level) {
+  const auto* pixels = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
+  const std::size_t channels = image.channels.size();
+  const bool sound = pixels && image.width > 0 && image.height > 0 && (channels == 1 || channels == 3 || channels == 4);
+  if (!sound ||
+      pixels->size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * channels) {
+    return failure(ProblemCode::internal, "a PNG needs an 8-bit image of 1, 3 or 4 channels", "");
+  }
+  if (level < 0 || level > 9) {
+    return Problem{ProblemCode::invalidValue, "", "the PNG compression level is out of range", "0..9",
+                   std::to_string(level)};
+  }
+  auto codec = imageCodec();
+  if (!codec) return std::move(codec).problems();
+  Bytes encoded;
+  std::string message;
+  if (!(*codec)->encodePng({image.width, image.height, static_cast<int>(channels), pixels->data()}, level,
+                           sinkInto(encoded), sinkInto(message))) {
+    return failure(ProblemCode::internal, "the PNG could not be written", message);
+  }
+  return encoded;
+}
+
+Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType) {
+  auto parts = exrParts(layers, pixelType);
+  if (!parts) return std::move(parts).problems();
+  std::vector<PartView> views;
+  views.reserve(parts->size());
+  std::vector<codec::FloatPart> tableParts;
+  for (const ExrPart& part : *parts) tableParts.push_back(views.emplace_back(part).part);
+  auto codec = imageCodec();
+  if (!codec) return std::move(codec).problems();
+  Bytes encoded;
+  std::string message;
+  if (!(*codec)->encodeExr(tableParts.data(), tableParts.size(), tableValue(compression), sinkInto(encoded),
+                           sinkInto(message))) {
+    return failure(ProblemCode::internal, "the EXR could not be written", message);
+  }
+  return encoded;
+}
+
+Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
+  const auto format = formatOf(encoded);
+  if (!format) return unsupportedImage("the image is neither a PNG nor a JPEG");
+  return *format == codec::Format::png ? pngSize(encoded) : jpegSize(encoded);
+}
+
+Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
+  const auto size = imageSize(encoded);
+  if (!size) return size.problems();
+  if (auto status = checkSize(*size, maxSide, maxPixels); !status) return std::move(status).problems();
+  const codec::Format format = *formatOf(encoded);
+  const auto essential = format == codec::Format::png ? essentialPng(encoded) : essentialJpeg(encoded);
+  if (!essential) return essential.problems();
+  auto codec = imageCodec();
+  if (!codec) return std::move(codec).problems();
+  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) * 4);
+  std::string message;
+  if (!(*codec)->decode(format, essential->data(), essential->size(), size->width, size->height, rgba.data(),
+                        sinkInto(message))) {
+    return failure(ProblemCode::malformed, "the image could not be decoded", message);
+  }
+  return Image{size->width, size->height, {"R", "G", "B", "A"}, std::move(rgba)};
+}
+
+void warmImageCodec() {
+  (void)imageCodec();
+}
+
+} // namespace gnomon
