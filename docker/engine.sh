@@ -1,7 +1,7 @@
 # Sourced by docker/check: podman from Debian's packages, ready on a machine with no container engine and no systemd.
 # Sets CONTAINERS_CONF (in $work, which the caller made) and offers ensureTools and ensureBase.
 
-engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl)
+engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl python3)
 base_image=localhost/debian:bookworm-slim
 
 ensureTools() {
