@@ -21,6 +21,12 @@ class Context {
   RendererInfo info_;
 };
 
+/// Sets, where they are unset, the variables that Mesa reads: LP_NUM_THREADS to the cores that the control group grants
+/// where these are fewer than the machine's (Mesa sees only the machine's), and MESA_SHADER_CACHE_DISABLE. Once a
+/// process; createContext calls it. A program with threads calls it before it starts them: the environment is not safe
+/// to change while another thread reads it.
+void prepareEnvironment();
+
 /// The first context that works. When none does, one problem names everything that was tried.
 Result<std::unique_ptr<Context>> createContext(const BackendOptions& options);
 

@@ -33,6 +33,9 @@ class Framebuffer {
 
   GLuint id() const { return object_.get(); }
 
+  /// Makes draws go to every color attachment, as they do unless copyColor is at work.
+  void drawToAll() const;
+
   /// Clears depend on the scissor and the write masks: state a PipelineState first.
   void clearColor(int attachment, const glm::vec4& color);
   void clearColor(int attachment, const glm::uvec4& color);
@@ -48,6 +51,7 @@ class Framebuffer {
     void operator()(GLuint id) const { glDeleteFramebuffers(1, &id); }
   };
   Object<Delete{}> object_;
+  int colors_ = 0;
 };
 
 /// Copies one color attachment, texel for texel; resolves multisampled colors where `to` has no samples.

@@ -9,7 +9,7 @@
 namespace gnomon::gl {
 
 struct DepthState {
-  bool test = false;
+  bool test = false;        ///< false = every fragment passes
   bool write = false;       ///< also masks clears of depth
   GLenum func = GL_GREATER; ///< reversed depth: nearer is greater
 
@@ -21,7 +21,7 @@ enum class FrontFace { counterClockwise, clockwise };
 
 /// Everything that stands between a draw and its target. Also clears and copies depend on `scissor` and the masks.
 /// What has no member is always off or at its neutral value: blending, stencil, polygon offset, logic operation,
-/// dithering, sRGB conversion, primitive restart, rasterizer discard, depth range 0..1, window origin lower left,
+/// dithering, primitive restart, rasterizer discard, depth range 0..1, window origin lower left,
 /// clip depth 0..1.
 struct PipelineState {
   GLuint framebuffer = 0;
@@ -32,8 +32,9 @@ struct PipelineState {
   Cull cull = Cull::none;
   FrontFace frontFace = FrontFace::counterClockwise;
   std::array<bool, 4> colorMask{true, true, true, true};
-  bool multisample = false; ///< false = samples, where the target has them, all get the pixel's one value
-  int clipDistances = 0;    ///< how many of gl_ClipDistance[0..7] cut
+  bool multisample = false;    ///< false = samples, where the target has them, all get the pixel's one value
+  bool srgbConversion = false; ///< true = linear colors written to an sRGB target are encoded, and blended as linear
+  int clipDistances = 0;       ///< how many of gl_ClipDistance[0..7] cut
 
   bool operator==(const PipelineState&) const = default;
 };

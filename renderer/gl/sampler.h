@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "renderer/gl/object.h"
@@ -12,7 +13,7 @@ struct SamplerState {
   GLenum wrapS = GL_CLAMP_TO_EDGE;
   GLenum wrapT = GL_CLAMP_TO_EDGE;
   GLenum compare = GL_NONE; ///< GL_NONE, or a comparison such as GL_LEQUAL for sampler2DShadow
-  float borderColor[4] = {0, 0, 0, 0};
+  std::array<float, 4> borderColor{};
 
   bool operator==(const SamplerState&) const = default;
 };

@@ -29,6 +29,10 @@ struct TexelLayout {
   GLenum type = GL_UNSIGNED_BYTE;
 };
 
+/// Formats of 1 to 4 components (color, integer or depth) of 8, 16 or 32 bits.
+std::size_t bytesPerTexel(TexelLayout layout);
+std::size_t bytesOf(const Rect& rect, TexelLayout layout);
+
 /// An immutable-storage 2D texture. Its contents are undefined until written, cleared or drawn.
 class Texture {
  public:

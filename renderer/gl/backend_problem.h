@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "protocol/result.h"
+
+namespace gnomon::gl {
+
+inline Problem backendProblem(std::string detail) {
+  Problem problem;
+  problem.code = ProblemCode::backend;
+  problem.detail = std::move(detail);
+  return problem;
+}
+
+} // namespace gnomon::gl

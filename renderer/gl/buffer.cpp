@@ -1,0 +1,68 @@
+#include "renderer/gl/buffer.h"
+
+#include <array>
+#include <cassert>
+
+namespace gnomon::gl {
+namespace {
+
+GLuint makeBuffer(std::string_view label) {
+  GLuint id = 0;
+  glCreateBuffers(1, &id);
+  setLabel(GL_BUFFER, id, label);
+  return id;
+}
+
+void allocate(GLuint id, std::size_t bytes, const std::byte* contents, GLbitfield flags) {
+  static constexpr std::array<std::byte, 16> kZeros{}; // OpenGL has no storage of size 0
+  if (bytes == 0) {
+    glNamedBufferStorage(id, kZeros.size(), kZeros.data(), flags);
+  } else {
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), contents, flags);
+  }
+}
+
+} // namespace
+
+Buffer::Buffer(std::span<const std::byte> contents, std::string_view label)
+    : object_(makeBuffer(label)), bytes_(contents.size()) {
+  allocate(id(), bytes_, contents.data(), 0);
+}
+
+Buffer::Buffer(std::size_t bytes, std::string_view label) : object_(makeBuffer(label)), bytes_(bytes) {
+  allocate(id(), bytes, nullptr, GL_DYNAMIC_STORAGE_BIT);
+  clear();
+}
+
+void Buffer::clear() {
+  glClearNamedBufferData(id(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+}
+
+void Buffer::update(std::size_t offset, std::span<const std::byte> contents) {
+  assert(offset <= bytes_ && contents.size() <= bytes_ - offset);
+  if (contents.empty()) return;
+  glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(contents.size()), contents.data());
+}
+
+void Buffer::read(std::size_t offset, std::span<std::byte> contents) const {
+  assert(offset <= bytes_ && contents.size() <= bytes_ - offset);
+  if (contents.empty()) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders may have written it
+  glGetNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(contents.size()),
+                          contents.data());
+}
+
+void Buffer::bindUniform(GLuint slot) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, slot, id());
+}
+
+void Buffer::bindUniform(GLuint slot, std::size_t offset, std::size_t bytes) const {
+  assert(offset <= bytes_ && bytes <= bytes_ - offset);
+  glBindBufferRange(GL_UNIFORM_BUFFER, slot, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
+void Buffer::bindStorage(GLuint slot) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, slot, id());
+}
+
+} // namespace gnomon::gl

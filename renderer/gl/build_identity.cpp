@@ -1,0 +1,93 @@
+#include "renderer/gl/build_identity.h"
+
+#include <cstring>
+#include <elf.h>
+#include <link.h>
+#include <span>
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#else
+#include <sys/utsname.h>
+#endif
+
+namespace gnomon::gl {
+namespace {
+
+std::string hexOf(std::span<const unsigned char> bytes) {
+  std::string hex;
+  for (const unsigned char byte : bytes) {
+    hex += "0123456789abcdef"[byte >> 4];
+    hex += "0123456789abcdef"[byte & 15];
+  }
+  return hex;
+}
+
+std::size_t padded(std::size_t size) {
+  return (size + 3) & ~std::size_t{3};
+}
+
+/// The build id among the notes of a PT_NOTE segment; empty when it isn't there.
+std::string buildIdAmong(std::span<const unsigned char> notes) {
+  while (notes.size() >= sizeof(ElfW(Nhdr))) {
+    ElfW(Nhdr) header;
+    std::memcpy(&header, notes.data(), sizeof header);
+    notes = notes.subspan(sizeof header);
+    const std::size_t name = padded(header.n_namesz);
+    const std::size_t size = padded(header.n_descsz);
+    if (notes.size() < name + size) return {};
+    if (header.n_type == NT_GNU_BUILD_ID && header.n_namesz == 4 && std::memcmp(notes.data(), "GNU", 4) == 0) {
+      return hexOf(notes.subspan(name, header.n_descsz));
+    }
+    notes = notes.subspan(name + size);
+  }
+  return {};
+}
+
+/// Called for each loaded object: finds the one that this function is in.
+int visit(dl_phdr_info* object, std::size_t, void* found) {
+  const std::span headers(object->dlpi_phdr, object->dlpi_phnum);
+  const auto here = reinterpret_cast<ElfW(Addr)>(&visit);
+  bool ours = false;
+  for (const ElfW(Phdr) & header : headers) {
+    const ElfW(Addr) start = object->dlpi_addr + header.p_vaddr;
+    ours = ours || (header.p_type == PT_LOAD && here >= start && here < start + header.p_memsz);
+  }
+  if (!ours) return 0;
+  std::string& id = *static_cast<std::string*>(found);
+  for (const ElfW(Phdr) & header : headers) {
+    if (header.p_type != PT_NOTE || !id.empty()) continue;
+    id = buildIdAmong({reinterpret_cast<const unsigned char*>(object->dlpi_addr + header.p_vaddr), header.p_memsz});
+  }
+  return 1;
+}
+
+} // namespace
+
+std::string buildId() {
+  std::string id;
+  dl_iterate_phdr(visit, &id);
+  return id;
+}
+
+std::string cpuMake() {
+#if defined(__x86_64__) || defined(__i386__)
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  if (__get_cpuid(0, &a, &b, &c, &d) == 0) return "x86";
+  char vendor[12];
+  std::memcpy(vendor, &b, 4);
+  std::memcpy(vendor + 4, &d, 4);
+  std::memcpy(vendor + 8, &c, 4);
+  unsigned family = 0;
+  if (__get_cpuid(1, &a, &b, &c, &d) != 0) {
+    family = a >> 8 & 15u;
+    if (family == 15) family += a >> 20 & 255u;
+  }
+  return std::string(vendor, sizeof vendor) + " " + std::to_string(family);
+#else
+  utsname name{};
+  uname(&name);
+  return name.machine;
+#endif
+}
+
+} // namespace gnomon::gl

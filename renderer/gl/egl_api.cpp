@@ -1,0 +1,65 @@
+#include "renderer/gl/egl_api.h"
+
+#include <array>
+
+#include "renderer/gl/backend_problem.h"
+#include "renderer/gl/shared_library.h"
+
+namespace gnomon::gl {
+namespace {
+
+Result<EglApi> openEgl() {
+  constexpr const char* kName = "libEGL.so.1";
+  const SharedLibrary library(kName);
+  if (!library.isOpen()) return backendProblem(library.failure());
+  EglApi egl;
+  library.load(egl.getProcAddress, "eglGetProcAddress");
+  library.load(egl.queryString, "eglQueryString");
+  library.load(egl.initialize, "eglInitialize");
+  library.load(egl.terminate, "eglTerminate");
+  library.load(egl.bindApi, "eglBindAPI");
+  library.load(egl.chooseConfig, "eglChooseConfig");
+  library.load(egl.createContext, "eglCreateContext");
+  library.load(egl.destroyContext, "eglDestroyContext");
+  library.load(egl.makeCurrent, "eglMakeCurrent");
+  library.load(egl.getError, "eglGetError");
+  library.load(egl.releaseThread, "eglReleaseThread");
+  if (!egl.getProcAddress || !egl.queryString || !egl.initialize || !egl.terminate || !egl.bindApi ||
+      !egl.chooseConfig || !egl.createContext || !egl.destroyContext || !egl.makeCurrent || !egl.getError ||
+      !egl.releaseThread) {
+    return backendProblem(std::string(kName) + " lacks functions of EGL 1.4");
+  }
+  const auto extension = [&]<class Function>(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(egl.getProcAddress(name));
+  };
+  extension(egl.getPlatformDisplay, "eglGetPlatformDisplayEXT");
+  extension(egl.queryDevices, "eglQueryDevicesEXT");
+  extension(egl.queryDeviceString, "eglQueryDeviceStringEXT");
+  return egl;
+}
+
+} // namespace
+
+const Result<EglApi>& eglApi() {
+  static const Result<EglApi> api = openEgl();
+  return api;
+}
+
+std::string eglErrorName(const EglApi& egl) {
+  constexpr std::array<const char*, 15> kNames{"EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
+                                               "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",       "EGL_BAD_CONFIG",
+                                               "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
+                                               "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP",   "EGL_BAD_NATIVE_WINDOW",
+                                               "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",         "EGL_CONTEXT_LOST"};
+  const EGLint code = egl.getError() - EGL_SUCCESS;
+  if (code < 0 || code >= static_cast<EGLint>(kNames.size())) return "error " + std::to_string(code + EGL_SUCCESS);
+  return kNames[static_cast<std::size_t>(code)];
+}
+
+bool hasExtension(const char* extensions, std::string_view name) {
+  if (!extensions) return false;
+  const std::string list = " " + std::string(extensions) + " ";
+  return list.find(" " + std::string(name) + " ") != std::string::npos;
+}
+
+} // namespace gnomon::gl

@@ -1,0 +1,114 @@
+#include "renderer/gl/framebuffer.h"
+
+#include <cassert>
+#include <string>
+
+#include "renderer/gl/backend_problem.h"
+
+namespace gnomon::gl {
+namespace {
+
+std::string statusName(GLenum status) {
+  switch (status) {
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "an attachment can't be drawn to";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "the attachments differ in their samples";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "the driver does not support this combination of formats";
+    default:
+      return "status " + std::to_string(status);
+  }
+}
+
+GLenum depthAttachment(GLenum format) {
+  const bool stencil = format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH32F_STENCIL8;
+  return stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+}
+
+GLenum colorAttachment(int attachment) {
+  return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment);
+}
+
+void copy(const Framebuffer& from, const Framebuffer& to, const Rect& rect, GLbitfield what) {
+  glBlitNamedFramebuffer(from.id(), to.id(), rect.x, rect.y, rect.x + rect.width, rect.y + rect.height, rect.x, rect.y,
+                         rect.x + rect.width, rect.y + rect.height, what, GL_NEAREST);
+}
+
+} // namespace
+
+Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::string_view label) {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  Framebuffer framebuffer;
+  framebuffer.object_ = Object<Delete{}>(id);
+  framebuffer.colors_ = static_cast<int>(attachments.color.size());
+  setLabel(GL_FRAMEBUFFER, id, label);
+  for (int i = 0; i < framebuffer.colors_; ++i) {
+    const Attachment& color = attachments.color[static_cast<std::size_t>(i)];
+    glNamedFramebufferTexture(id, colorAttachment(i), color.texture->id(), color.level);
+  }
+  if (const Attachment& depth = attachments.depth; depth.texture) {
+    glNamedFramebufferTexture(id, depthAttachment(depth.texture->shape().format), depth.texture->id(), depth.level);
+  }
+  framebuffer.drawToAll();
+  if (framebuffer.colors_ == 0) glNamedFramebufferReadBuffer(id, GL_NONE);
+  const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    return backendProblem("the framebuffer \"" + std::string(label) + "\" is incomplete: " + statusName(status));
+  }
+  return framebuffer;
+}
+
+void Framebuffer::drawToAll() const {
+  std::vector<GLenum> targets;
+  for (int i = 0; i < colors_; ++i) targets.push_back(colorAttachment(i));
+  if (targets.empty()) targets.push_back(GL_NONE);
+  glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(targets.size()), targets.data());
+}
+
+void Framebuffer::clearColor(int attachment, const glm::vec4& color) {
+  glClearNamedFramebufferfv(id(), GL_COLOR, attachment, &color.x);
+}
+
+void Framebuffer::clearColor(int attachment, const glm::uvec4& color) {
+  glClearNamedFramebufferuiv(id(), GL_COLOR, attachment, &color.x);
+}
+
+void Framebuffer::clearColor(int attachment, const glm::ivec4& color) {
+  glClearNamedFramebufferiv(id(), GL_COLOR, attachment, &color.x);
+}
+
+void Framebuffer::clearDepth(float depth) {
+  glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
+}
+
+void Framebuffer::readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
+  assert(attachment >= 0 && attachment < colors_ && texels.size() >= bytesOf(rect, layout));
+  glNamedFramebufferReadBuffer(id(), colorAttachment(attachment));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+  glReadnPixels(rect.x, rect.y, rect.width, rect.height, layout.format, layout.type,
+                static_cast<GLsizei>(texels.size()), texels.data());
+}
+
+void Framebuffer::readDepth(const Rect& rect, std::span<float> depths) const {
+  assert(depths.size_bytes() >= bytesOf(rect, {GL_DEPTH_COMPONENT, GL_FLOAT}));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+  glReadnPixels(rect.x, rect.y, rect.width, rect.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                static_cast<GLsizei>(depths.size_bytes()), depths.data());
+}
+
+void copyColor(const Framebuffer& from, int fromAttachment, const Framebuffer& to, int toAttachment, const Rect& rect) {
+  glNamedFramebufferReadBuffer(from.id(), colorAttachment(fromAttachment));
+  glNamedFramebufferDrawBuffer(to.id(), colorAttachment(toAttachment)); // a copy goes to every one that is drawn to
+  copy(from, to, rect, GL_COLOR_BUFFER_BIT);
+  to.drawToAll();
+}
+
+void copyDepth(const Framebuffer& from, const Framebuffer& to, const Rect& rect) {
+  copy(from, to, rect, GL_DEPTH_BUFFER_BIT);
+}
+
+} // namespace gnomon::gl

@@ -1,0 +1,107 @@
+#include "renderer/gl/texture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace gnomon::gl {
+namespace {
+
+GLuint makeTexture(const TextureShape& shape, std::string_view label) {
+  assert(shape.samples == 0 || shape.levels == 1);
+  GLuint id = 0;
+  glCreateTextures(shape.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id);
+  if (shape.samples > 0) {
+    glTextureStorage2DMultisample(id, shape.samples, shape.format, shape.width, shape.height, GL_TRUE);
+  } else {
+    glTextureStorage2D(id, shape.levels, shape.format, shape.width, shape.height);
+  }
+  setLabel(GL_TEXTURE, id, label);
+  return id;
+}
+
+int sizeAt(int size, int level) {
+  return std::max(1, size >> level);
+}
+
+} // namespace
+
+int fullLevels(int width, int height) {
+  return std::bit_width(static_cast<unsigned>(std::max({1, width, height})));
+}
+
+std::size_t bytesPerTexel(TexelLayout layout) {
+  std::size_t components = 0;
+  switch (layout.format) {
+    case GL_RED:
+    case GL_RED_INTEGER:
+    case GL_DEPTH_COMPONENT:
+      components = 1;
+      break;
+    case GL_RG:
+    case GL_RG_INTEGER:
+      components = 2;
+      break;
+    case GL_RGB:
+    case GL_RGB_INTEGER:
+      components = 3;
+      break;
+    case GL_RGBA:
+    case GL_RGBA_INTEGER:
+      components = 4;
+      break;
+    default:
+      assert(false);
+  }
+  switch (layout.type) {
+    case GL_BYTE:
+    case GL_UNSIGNED_BYTE:
+      return components;
+    case GL_SHORT:
+    case GL_UNSIGNED_SHORT:
+    case GL_HALF_FLOAT:
+      return 2 * components;
+    case GL_INT:
+    case GL_UNSIGNED_INT:
+    case GL_FLOAT:
+      return 4 * components;
+    default:
+      assert(false);
+      return 0;
+  }
+}
+
+std::size_t bytesOf(const Rect& rect, TexelLayout layout) {
+  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height) * bytesPerTexel(layout);
+}
+
+Texture::Texture(const TextureShape& shape, std::string_view label)
+    : object_(makeTexture(shape, label)), shape_(shape) {}
+
+void Texture::write(int level, TexelLayout layout, std::span<const std::byte> texels) {
+  const Rect all{0, 0, sizeAt(shape_.width, level), sizeAt(shape_.height, level)};
+  assert(level >= 0 && level < shape_.levels && texels.size() == bytesOf(all, layout));
+  glTextureSubImage2D(id(), level, 0, 0, all.width, all.height, layout.format, layout.type, texels.data());
+}
+
+void Texture::read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
+  assert(texels.size() >= bytesOf(rect, layout));
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT); // shaders may have written it
+  glGetTextureSubImage(id(), level, rect.x, rect.y, 0, rect.width, rect.height, 1, layout.format, layout.type,
+                       static_cast<GLsizei>(texels.size()), texels.data());
+}
+
+void Texture::clear(int level, TexelLayout layout, std::span<const std::byte> texel) {
+  assert(texel.size() == bytesPerTexel(layout));
+  glClearTexImage(id(), level, layout.format, layout.type, texel.data());
+}
+
+void Texture::generateLevels() {
+  glGenerateTextureMipmap(id());
+}
+
+void Texture::bind(GLuint unit) const {
+  glBindTextureUnit(unit, id());
+}
+
+} // namespace gnomon::gl

@@ -1,0 +1,21 @@
+// What a masked surface leaves out: the same test for the eye and for the light.
+#ifdef ALPHA_MASK
+layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };
+layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;
+in MaskVertex {
+  vec2 uv;
+  float alpha;
+  flat uint material;
+} mask;
+
+void discardMasked() {
+  MaterialData material = materials[mask.material];
+  float alpha = material.baseColorFactor.a * mask.alpha;
+#ifdef BASE_COLOR_TEXTURE
+  alpha *= texture(baseColorTexture, mask.uv).a;
+#endif
+  if (alpha < material.emissiveFactor.w) discard;
+}
+#else
+void discardMasked() {}
+#endif

@@ -1,0 +1,26 @@
+#ifdef FRAGMENT_STAGE
+#define STAGE_IO in
+#else
+#define STAGE_IO out
+#endif
+
+STAGE_IO Surface {
+  vec3 relative;
+#if SAMPLES > 1
+  centroid vec3 coveredRelative; // a point that the surface really covers
+#endif
+  vec3 normal;
+#ifdef TANGENTS
+  vec4 tangent;
+#endif
+#ifdef UV0
+  vec2 uv0;
+#endif
+#ifdef UV1
+  vec2 uv1;
+#endif
+#ifdef VERTEX_COLORS
+  vec4 color;
+#endif
+  flat uint material;
+} surface;

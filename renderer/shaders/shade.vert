@@ -1,0 +1,39 @@
+#include "shared/frame_types.h"
+#include "common_transform.glsl"
+
+layout(location = GNOMON_NORMAL) in vec3 normal;
+layout(location = GNOMON_TANGENT) in vec4 tangent;
+layout(location = GNOMON_UV0) in vec2 uv0;
+layout(location = GNOMON_UV1) in vec2 uv1;
+layout(location = GNOMON_COLOR) in vec4 color;
+
+invariant gl_Position;
+#include "common_surface_varyings.glsl"
+
+vec3 turned(vec3 v) {
+  return vec3(dot(instances[draw.x].normalFromLocal[0].xyz, v), dot(instances[draw.x].normalFromLocal[1].xyz, v),
+              dot(instances[draw.x].normalFromLocal[2].xyz, v));
+}
+
+void main() {
+  vec3 relative = relativeFromLocal(position);
+  gl_Position = frame.clipFromRelative * vec4(relative, 1.0);
+  surface.relative = relative;
+#if SAMPLES > 1
+  surface.coveredRelative = relative;
+#endif
+  surface.normal = turned(normal);
+#ifdef TANGENTS
+  surface.tangent = vec4(relativeFromLocal(position + tangent.xyz) - relative, tangent.w);
+#endif
+#ifdef UV0
+  surface.uv0 = uv0;
+#endif
+#ifdef UV1
+  surface.uv1 = uv1;
+#endif
+#ifdef VERTEX_COLORS
+  surface.color = color;
+#endif
+  surface.material = draw.z;
+}

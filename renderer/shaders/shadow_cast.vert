@@ -1,0 +1,10 @@
+#include "shared/frame_types.h"
+#include "common_transform.glsl"
+#include "common_mask_vertex.glsl"
+
+layout(location = 0) uniform mat4 clipFromRelative;
+
+void main() {
+  gl_Position = clipFromRelative * vec4(relativeFromLocal(position), 1.0);
+  passMask();
+}

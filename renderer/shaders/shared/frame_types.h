@@ -1,0 +1,85 @@
+// Structs that C++ writes and GLSL reads (std430). Positions are relative to the camera's eye ("relative").
+#ifdef __cplusplus
+#pragma once
+#include <glm/glm.hpp>
+namespace gnomon::shared {
+using glm::mat4;
+using glm::uvec4;
+using glm::vec4;
+#else
+// Samples of a pixel in the target that is drawn or read.
+#ifndef SAMPLES
+#define SAMPLES 1
+#endif
+#endif
+
+// Attribute locations.
+#define GNOMON_POSITION 0
+#define GNOMON_NORMAL 1
+#define GNOMON_TANGENT 2
+#define GNOMON_UV0 3
+#define GNOMON_UV1 4
+#define GNOMON_COLOR 5
+#define GNOMON_DRAW 6
+
+// Storage buffer bindings.
+#define GNOMON_FRAME_BUFFER 0
+#define GNOMON_INSTANCE_BUFFER 1
+#define GNOMON_MATERIAL_BUFFER 2
+#define GNOMON_LIGHT_BUFFER 3
+#define GNOMON_TILE_BUFFER 4
+#define GNOMON_VISIBLE_BUFFER 5
+
+// Texture units.
+#define GNOMON_BASE_COLOR_UNIT 0
+#define GNOMON_METALLIC_ROUGHNESS_UNIT 1
+#define GNOMON_NORMAL_UNIT 2
+#define GNOMON_OCCLUSION_UNIT 3
+#define GNOMON_EMISSIVE_UNIT 4
+#define GNOMON_ATLAS_UNIT 5
+
+// Triangles in a cluster (scene.h), pixels along a side of a survey block (shadow_plan.h).
+#define GNOMON_CLUSTER_TRIANGLES 1024
+#define GNOMON_BLOCK_SIZE 8
+
+// LightData.type
+#define GNOMON_DIRECTIONAL 0
+#define GNOMON_SPOT 1
+#define GNOMON_POINT 2
+
+struct FrameData {
+  mat4 clipFromRelative;
+  vec4 forward;    // xyz: the view axis; w: 1 perspective, 0 orthographic
+  vec4 ambient;    // rgb: radiance of the surroundings
+  vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure
+};
+
+struct InstanceData {
+  vec4 relativeFromLocal[3]; // rows of the affine matrix
+  vec4 normalFromLocal[3];   // rows; xyz
+};
+
+struct MaterialData {
+  vec4 baseColorFactor;
+  vec4 emissiveFactor; // rgb; w: alpha cutoff
+  vec4 surface;        // metallic, roughness, normal scale, occlusion strength
+};
+
+struct LightData {
+  vec4 direction; // xyz: towards the light (directional), axis along which it shines (spot); w: type
+  vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
+  vec4 radiance;  // rgb: colour times intensity
+  vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
+  uvec4 tiles;    // first tile, tile count, filter size in texels
+};
+
+struct TileData {
+  vec4 atlasFromRelative[3]; // rows: to atlas u, v (0..1 over the atlas) and depth
+  vec4 bounds;               // atlas u v of the lowest and highest texel centres that a lookup may touch
+  vec4 interval;             // near, blendNear, far (view depth, metres); w: normal offset in metres
+  vec4 bias;                 // x: depth bias
+};
+
+#ifdef __cplusplus
+} // namespace gnomon::shared
+#endif

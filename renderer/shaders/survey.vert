@@ -1,0 +1,12 @@
+#include "shared/frame_types.h"
+#include "common_transform.glsl"
+#include "common_mask_vertex.glsl"
+
+invariant gl_Position;
+flat out uint firstSlot;
+
+void main() {
+  gl_Position = frame.clipFromRelative * vec4(relativeFromLocal(position), 1.0);
+  firstSlot = draw.y;
+  passMask();
+}
