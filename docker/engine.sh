@@ -1,6 +1,8 @@
+# shellcheck shell=bash
 # Sourced by docker/check: podman from Debian's packages, ready on a machine with no container engine and no systemd.
-# Sets CONTAINERS_CONF (in $work, which the caller made) and offers ensureTools and ensureBase.
+# Offers ensureTools, which sets CONTAINERS_CONF, and ensureBase. Both write below $work, a folder of the caller's.
 
+: "${work:?}"
 engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl python3)
 base_image=localhost/debian:bookworm-slim
 
@@ -53,7 +55,7 @@ Dir::Cache::pkgcache ""; Dir::Cache::srcpkgcache "";
 Acquire::Languages "none"; Acquire::GzipIndexes "true";
 CONF
   (
-    cd "$root"
+    cd "$root" || exit
     rm -rf var/cache/apt/* var/lib/apt/lists/* var/log/*.log var/log/apt usr/share/{man,info,locale}/* \
       etc/resolv.conf etc/hostname
     find usr/share/doc -mindepth 1 ! -name copyright ! -type d -delete
