@@ -14,6 +14,8 @@ struct EyeTarget {
   Vec3 eye{0, 0, 5};
   Vec3 target{0, 0, 0};
   Vec3 up{0, 1, 0}; ///< must not be parallel to the view direction
+
+  bool operator==(const EyeTarget&) const = default;
 };
 
 /// Placement on a sphere around a target.
@@ -22,18 +24,24 @@ struct Orbit {
   double azimuthDegrees = 30;     ///< of the eye seen from the target, clockwise from north (-Z) seen from above
   double elevationDegrees = 20;   ///< of the eye above the horizon, -90..90
   std::optional<double> distance; ///< metres; absent = far enough for the whole scene
+
+  bool operator==(const Orbit&) const = default;
 };
 
 struct Perspective {
   double fovYDegrees = 45;    ///< full vertical angle, > 0 and < 180
   std::optional<double> near; ///< metres; absent = from the scene's bounds
   std::optional<double> far;  ///< metres; absent = infinite
+
+  bool operator==(const Perspective&) const = default;
 };
 
 struct Orthographic {
   double height = 10; ///< metres from the lower to the upper edge of the picture
   double near = 0;    ///< metres; may be negative
   double far = 1000;  ///< metres, > near
+
+  bool operator==(const Orthographic&) const = default;
 };
 
 /// Exactly one placement and at most one lens. With nothing given: an orbit that shows the whole scene.
@@ -45,6 +53,8 @@ struct Camera {
   std::optional<bool> fit; ///< true = frame the whole scene from the default direction
   std::optional<Perspective> perspective;
   std::optional<Orthographic> orthographic;
+
+  bool operator==(const Camera&) const = default;
 };
 
 } // namespace gnomon

@@ -14,12 +14,16 @@ namespace gnomon {
 struct Ambient {
   Vec3 color{1, 1, 1};    ///< linear RGB, 0..1
   double intensity = 0.4; ///< radiance of the surroundings, in the unit of the lights
+
+  bool operator==(const Ambient&) const = default;
 };
 
 /// What stands where no surface is. Neither exposed nor tone mapped.
 struct Background {
   Vec3 color{0.60, 0.66, 0.74}; ///< linear RGB, 0..1
   double alpha = 1;             ///< 0..1
+
+  bool operator==(const Background&) const = default;
 };
 
 /// Everything that a frame depends on besides the scene. JSON keys are the members' names.
@@ -38,6 +42,8 @@ struct FrameSpec {
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color}; ///< at least one, each once
   Output output;
+
+  bool operator==(const FrameSpec&) const = default;
 };
 
 } // namespace gnomon

@@ -14,6 +14,8 @@ enum class LightType { directional, spot, point };
 struct Sun {
   double azimuthDegrees = 135;  ///< clockwise from north (-Z) seen from above
   double elevationDegrees = 45; ///< above the horizon, -90..90
+
+  bool operator==(const Sun&) const = default;
 };
 
 struct Light {
@@ -27,6 +29,8 @@ struct Light {
   Vec3 color{1, 1, 1};           ///< linear RGB, 0..1
   double intensity = 3;          ///< lux (directional) or candela (spot, point)
   std::optional<Shadow> shadow;  ///< absent = the frame's `shadow`; directional only
+
+  bool operator==(const Light&) const = default;
 };
 
 } // namespace gnomon

@@ -25,6 +25,8 @@ struct Output {
   int pngCompression = 2; ///< 0 fastest .. 9 smallest
   ExrCompression exrCompression = ExrCompression::piz;
   ExrPixelType exrPixelType = ExrPixelType::half; ///< JSON: "half" | "float"
+
+  bool operator==(const Output&) const = default;
 };
 
 } // namespace gnomon

@@ -31,10 +31,10 @@ enum class ProblemCode {
 /// One thing that is wrong, told so that the user can mend it.
 struct Problem {
   ProblemCode code = ProblemCode::internal;
-  std::string pointer; ///< where: a JSON pointer ("/camera/eye/0"), a query key, a part name; empty = the whole
-  std::string detail;  ///< one sentence for people; never a path of the server or an internal address
-  std::string limit;   ///< what would have been accepted, e.g. "1..16384"; empty = not about a limit
-  std::string actual;  ///< what came, shortened; empty = not about a value
+  std::string pointer{}; ///< where: a JSON pointer ("/camera/eye/0"), a query key, a part name; empty = the whole
+  std::string detail{};  ///< one sentence for people; never a path of the server or an internal address
+  std::string limit{};   ///< what would have been accepted, e.g. "1..16384"; empty = not about a limit
+  std::string actual{};  ///< what came, shortened; empty = not about a value
 };
 
 using Problems = std::vector<Problem>;

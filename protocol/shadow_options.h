@@ -16,6 +16,8 @@ struct Partition {
   PartitionMode mode = PartitionMode::logarithmic;
   double pssmFactor = 0.5;    ///< logarithmic: 0 = logarithmic, 1 = uniform
   std::vector<double> splits; ///< manual: far ends as fractions of the range, increasing, one per cascade, at most 1
+
+  bool operator==(const Partition&) const = default;
 };
 
 /// The depths that the cascades cover.
@@ -23,11 +25,15 @@ struct DepthRange {
   DepthRangeMode mode = DepthRangeMode::automatic; ///< automatic = the nearest and farthest surface in this frame
   std::optional<double> min;                       ///< manual: metres from the camera's near plane, >= 0
   std::optional<double> max;                       ///< manual: metres from the camera's near plane, > min
+
+  bool operator==(const DepthRange&) const = default;
 };
 
 struct Filter {
   FilterType type = FilterType::pcf;
   int size = 5; ///< pcf: texels across, 3, 5 or 7
+
+  bool operator==(const Filter&) const = default;
 };
 
 struct Shadow {
@@ -40,12 +46,16 @@ struct Shadow {
   Stabilization stabilization = Stabilization::none;
   bool blendCascades = true; ///< cross-fade over the last 20 % of each cascade
   Filter filter;
+
+  bool operator==(const Shadow&) const = default;
 };
 
 /// The one depth texture that holds every tile.
 struct Atlas {
   int size = 4096;     ///< texels along a side at most, a power of two
   int baseSize = 1024; ///< texels along a side of a Large tile, a power of two
+
+  bool operator==(const Atlas&) const = default;
 };
 
 } // namespace gnomon

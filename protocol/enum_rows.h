@@ -1,0 +1,105 @@
+#pragma once
+
+#include "protocol/frame_spec.h"
+#include "protocol/spellings.h"
+
+/// The spelling of every enum that a frame's specification can hold.
+namespace gnomon {
+
+template <>
+inline constexpr std::array kSpellings<LightType>{
+    spelling(LightType::directional, "directional", "from everywhere in one direction, as the sun"),
+    spelling(LightType::spot, "spot", "from a point, within a cone"),
+    spelling(LightType::point, "point", "from a point, to all sides"),
+};
+static_assert(spellsAll<LightType>());
+
+template <>
+inline constexpr std::array kSpellings<ShadowSize>{
+    spelling(ShadowSize::XSmall, "XSmall", "an eighth of atlas.baseSize"),
+    spelling(ShadowSize::Small, "Small", "a quarter of atlas.baseSize"),
+    spelling(ShadowSize::Medium, "Medium", "half of atlas.baseSize"),
+    spelling(ShadowSize::Large, "Large", "atlas.baseSize"),
+    spelling(ShadowSize::XLarge, "XLarge", "twice atlas.baseSize"),
+};
+static_assert(spellsAll<ShadowSize>());
+
+template <>
+inline constexpr std::array kSpellings<PartitionMode>{
+    spelling(PartitionMode::manual, "manual", "at `splits`"),
+    spelling(PartitionMode::uniform, "uniform", "into equal lengths"),
+    spelling(PartitionMode::logarithmic, "logarithmic", "into equal ratios, mixed with equal lengths by `pssmFactor`"),
+};
+static_assert(spellsAll<PartitionMode>());
+
+template <>
+inline constexpr std::array kSpellings<DepthRangeMode>{
+    spelling(DepthRangeMode::automatic, "automatic", "the nearest and farthest surface in this frame"),
+    spelling(DepthRangeMode::manual, "manual", "from `min` to `max`"),
+};
+static_assert(spellsAll<DepthRangeMode>());
+
+template <>
+inline constexpr std::array kSpellings<Stabilization>{
+    spelling(Stabilization::none, "none", "the tightest fit; sharpest for stills"),
+    spelling(Stabilization::projectionSnapping, "projectionSnapping", "a sphere's fit moved by whole texels"),
+    spelling(Stabilization::viewSnapping, "viewSnapping", "a sphere's fit whose centre lies on a grid in the world"),
+};
+static_assert(spellsAll<Stabilization>());
+
+template <>
+inline constexpr std::array kSpellings<FilterType>{
+    spelling(FilterType::hard, "hard", "one sample, a sharp edge"),
+    spelling(FilterType::pcf, "pcf", "percentage-closer filtering over `size` x `size` texels"),
+};
+static_assert(spellsAll<FilterType>());
+
+template <>
+inline constexpr std::array kSpellings<View>{
+    spelling(View::color, "color", "the shaded scene"),
+    spelling(View::depth, "depth", "distance along the view axis: metres in EXR, near-to-far grey in PNG"),
+    spelling(View::normal, "normal", "world-space shading normal: -1..1 in EXR, 0..1 in PNG"),
+    spelling(View::cascades, "cascades", "the shaded scene tinted by cascade: green, blue, purple, red"),
+    spelling(View::shadow, "shadow", "the share of the first shadow-casting light that arrives, 0..1"),
+    spelling(View::atlas, "atlas", "the shadow atlas, depth as grey, at its own size"),
+};
+static_assert(spellsAll<View>());
+
+template <>
+inline constexpr std::array kSpellings<ImageFormat>{
+    spelling(ImageFormat::png, "png", "8 bits a channel, sRGB"),
+    spelling(ImageFormat::exr, "exr", "linear light, every view a named layer"),
+};
+static_assert(spellsAll<ImageFormat>());
+
+template <>
+inline constexpr std::array kSpellings<ExrCompression>{
+    spelling(ExrCompression::none, "none"),
+    spelling(ExrCompression::rle, "rle"),
+    spelling(ExrCompression::zip, "zip"),
+    spelling(ExrCompression::piz, "piz"),
+};
+static_assert(spellsAll<ExrCompression>());
+
+template <>
+inline constexpr std::array kSpellings<ExrPixelType>{
+    spelling(ExrPixelType::half, "half", "16 bits"),
+    spelling(ExrPixelType::float_, "float", "32 bits"),
+};
+static_assert(spellsAll<ExrPixelType>());
+
+template <>
+inline constexpr std::array kSpellings<ToneMapping>{
+    spelling(ToneMapping::aces, "aces", "a film-like curve"),
+    spelling(ToneMapping::none, "none", "light as it is, cut off at 1"),
+};
+static_assert(spellsAll<ToneMapping>());
+
+template <>
+inline constexpr std::array kSpellings<Antialiasing>{
+    spelling(Antialiasing::none, "none", "one sample a pixel"),
+    spelling(Antialiasing::msaa4x, "msaa4x", "four samples a pixel"),
+};
+static_assert(spellsAll<Antialiasing>());
+
+} // namespace gnomon

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "protocol/camera_rows.h"
+#include "protocol/enum_rows.h"
+#include "protocol/fields.h"
+#include "protocol/frame_spec.h"
+#include "protocol/light_rows.h"
+#include "protocol/ranges.h"
+#include "protocol/shadow_rows.h"
+
+/// One row for each member of every struct that a frame's specification is made of. A new member without its row
+/// does not compile. A default is not repeated here: it is the member's initialiser.
+namespace gnomon {
+
+template <>
+inline constexpr auto kRows<Ambient> =
+    rows("Ambient", "Even light from everywhere.",
+         field("color", &Ambient::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+         field("intensity", &Ambient::intensity,
+               {.says = "Radiance of the surroundings, in the unit of the lights.", .range = kIntensityRange}));
+static_assert(kRowsAreComplete<Ambient>);
+
+template <>
+inline constexpr auto kRows<Background> =
+    rows("Background", "What stands where no surface is; neither exposed nor tone mapped.",
+         field("color", &Background::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+         field("alpha", &Background::alpha, {.says = "0 = transparent, 1 = opaque.", .range = kUnitRange}));
+static_assert(kRowsAreComplete<Background>);
+
+template <>
+inline constexpr auto kRows<Output> =
+    rows("Output", "The picture's file.",
+         field("format", &Output::format, {.says = "The kind of file where the Accept header names none."}),
+         field("pngCompression", &Output::pngCompression, {.says = "0 = fastest, 9 = smallest.", .range = {0, 9}}),
+         field("exrCompression", &Output::exrCompression, {.says = "Compression of an EXR, all without loss."}),
+         field("exrPixelType", &Output::exrPixelType, {.says = "Width of an EXR's numbers."}));
+static_assert(kRowsAreComplete<Output>);
+
+template <>
+inline constexpr auto kRows<FrameSpec> = rows(
+    "FrameSpec", "Everything that a frame depends on besides the scene; every field may be left out.",
+    field("width", &FrameSpec::width, {.says = "Width of the picture.", .unit = "pixels", .range = kFrameSideRange}),
+    field("height", &FrameSpec::height, {.says = "Height of the picture.", .unit = "pixels", .range = kFrameSideRange}),
+    field("camera", &FrameSpec::camera, {.says = "Where the picture is taken from, and with which lens."}),
+    field("lights", &FrameSpec::lights,
+          {.says = "The lights; absent = the scene's own, or one sun where it has none.",
+           .maxCount = kLimits.maxLights}),
+    field("shadow", &FrameSpec::shadow, {.says = "The shadow of every directional light that has none of its own."}),
+    field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every cascade's tile."}),
+    field("scene", &FrameSpec::scene,
+          {.says = "Index of the glTF scene; absent = the file's default.", .range = kNodeRange}),
+    field("ambient", &FrameSpec::ambient, {.says = "Even light from everywhere."}),
+    field("background", &FrameSpec::background, {.says = "What stands where no surface is."}),
+    field("exposure", &FrameSpec::exposure,
+          {.says = "Light is multiplied by 2 to this power before tone mapping.", .unit = "stops", .range = {-32, 32}}),
+    field("toneMapping", &FrameSpec::toneMapping, {.says = "How light is fitted into a PNG."}),
+    field("antialiasing", &FrameSpec::antialiasing, {.says = "How edges are smoothed."}),
+    field("views", &FrameSpec::views,
+          {.says = "What to show, each view once; a reply of one picture shows the first.",
+           .minCount = 1,
+           .maxCount = kSpellings<View>.size(),
+           .distinct = true}),
+    field("output", &FrameSpec::output, {.says = "The picture's file."}));
+static_assert(kRowsAreComplete<FrameSpec>);
+
+} // namespace gnomon

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+/// How a struct describes its members, once. Decoding, encoding, range checks, the JSON schema and the field
+/// tables are all computed from these descriptions (field_rows.h, reply_rows.h).
+namespace gnomon {
+
+/// The numbers that a field takes; an open end is excluded. Applies to each component of a vector.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool minOpen = false;
+  bool maxOpen = false;
+
+  /// False for NaN.
+  constexpr bool contains(double value) const {
+    return (minOpen ? value > min : value >= min) && (maxOpen ? value < max : value <= max);
+  }
+};
+
+/// The only numbers that an integer field takes, where a range would say too little.
+struct Choices {
+  std::array<int, 16> values{};
+  std::size_t count = 0;
+
+  constexpr bool contains(double value) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (values[i] == value) return true;
+    }
+    return false;
+  }
+};
+
+template <class... Values>
+constexpr Choices choices(Values... values) {
+  return {{values...}, sizeof...(values)};
+}
+
+constexpr Choices powersOfTwo(int first, int last) {
+  Choices result;
+  for (int value = first; value <= last; value *= 2) result.values[result.count++] = value;
+  return result;
+}
+
+/// What the type of a member doesn't say.
+struct Notes {
+  std::string_view says;      ///< one sentence: what it means, and what its absence means
+  std::string_view unit = ""; ///< "" = a plain number, or no number
+  Range range{};
+  Choices choices{};        ///< none = every value of the range
+  std::size_t minCount = 0; ///< elements of a list, bytes of a string
+  std::size_t maxCount = std::numeric_limits<std::size_t>::max();
+  bool distinct = false; ///< a list's elements all differ
+  bool onlyTrue = false; ///< a switch that may be left out, but not be false
+};
+
+template <class Owner, class MemberType>
+struct Field {
+  using Member = MemberType;
+  std::string_view name; ///< the JSON key and the member's name
+  Member Owner::*member;
+  Notes notes;
+  bool inlined = false; ///< an optional struct whose own fields stand directly in the owner's JSON object
+};
+
+template <class Owner, class Member>
+constexpr Field<Owner, Member> field(std::string_view name, Member Owner::*member, Notes notes) {
+  return {name, member, notes, false};
+}
+
+template <class Owner, class Member>
+constexpr Field<Owner, Member> inlined(std::string_view name, Member Owner::*member, Notes notes) {
+  return {name, member, notes, true};
+}
+
+/// Optional fields of which at most one may be given; unused places are empty.
+using Alternatives = std::array<std::string_view, 4>;
+
+template <class Owner, class... Members>
+struct Rows {
+  std::string_view name; ///< the schema's name
+  std::string_view says; ///< one sentence
+  std::tuple<Field<Owner, Members>...> fields;
+  std::array<Alternatives, 2> alternatives{};
+
+  constexpr Rows withAlternatives(Alternatives first, Alternatives second = {}) const {
+    return {name, says, fields, {first, second}};
+  }
+};
+
+template <class Owner, class... Members>
+constexpr Rows<Owner, Members...> rows(std::string_view name, std::string_view says, Field<Owner, Members>... fields) {
+  return {name, says, {fields...}, {}};
+}
+
+/// A described struct has a specialisation of this.
+template <class T>
+inline constexpr std::nullptr_t kRows = nullptr;
+
+template <class T>
+concept Described = !std::is_same_v<std::remove_cv_t<decltype(kRows<T>)>, std::nullptr_t>;
+
+template <Described T>
+inline constexpr std::size_t kRowCount = std::tuple_size_v<decltype(kRows<T>.fields)>;
+
+/// Calls `visit` with every field of T in order.
+template <Described T, class Visit>
+constexpr void forEachField(Visit&& visit) {
+  std::apply([&](const auto&... fields) { (visit(fields), ...); }, kRows<T>.fields);
+}
+
+/// Stands for any member when an aggregate is initialised in an unevaluated place.
+struct AnyMember {
+  template <class T>
+  operator T() const;
+};
+
+/// How many members the aggregate T has: the most initialisers that it takes.
+template <class T, class... Initialisers>
+consteval std::size_t memberCount() {
+  if constexpr (requires { T{Initialisers{}..., AnyMember{}}; }) {
+    return memberCount<T, Initialisers..., AnyMember>();
+  } else {
+    return sizeof...(Initialisers);
+  }
+}
+
+/// True where every member of T has its row, so that none is forgotten.
+template <Described T>
+inline constexpr bool kRowsAreComplete = kRowCount<T> == memberCount<T>();
+
+} // namespace gnomon

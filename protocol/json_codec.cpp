@@ -1,0 +1,40 @@
+#include "protocol/json_codec.h"
+
+#include "protocol/field_decode.h"
+#include "protocol/field_encode.h"
+#include "protocol/reply_rows.h"
+#include "protocol/spec_decode.h"
+#include "protocol/validate.h"
+
+namespace gnomon {
+
+Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems) {
+  FrameSpec spec;
+  decodeValue(root, Notes{}, Place(), problems, spec);
+  for (Problem& problem : problemsBeyond(problems.problems(), brokenRules(spec))) problems.add(std::move(problem));
+  if (problems.empty()) return spec;
+  return std::move(problems).take();
+}
+
+Result<FrameSpec> decodeFrameSpec(std::string_view json) {
+  if (json.find_first_not_of(" \t\r\n") == std::string_view::npos) return FrameSpec{};
+  ProblemList problems;
+  const std::optional<JsonNode> root = readJson(json, problems);
+  if (!root) return std::move(problems).take();
+  return decodeFrameTree(*root, std::move(problems));
+}
+
+Json toJson(const FrameSpec& spec) {
+  return encodeValue(spec);
+}
+Json toJson(const FrameReport& report) {
+  return encodeValue(report);
+}
+Json toJson(const SceneSummary& summary) {
+  return encodeValue(summary);
+}
+Json toJson(const RendererInfo& info) {
+  return encodeValue(info);
+}
+
+} // namespace gnomon

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "protocol/enum_rows.h"
+#include "protocol/fields.h"
+#include "protocol/light.h"
+#include "protocol/ranges.h"
+#include "protocol/shadow_rows.h"
+
+/// The rows of a light; see field_rows.h.
+namespace gnomon {
+
+template <>
+inline constexpr auto kRows<Sun> =
+    rows("Sun", "A direction by the sun's place in the sky.",
+         field("azimuthDegrees", &Sun::azimuthDegrees,
+               {.says = "Where the sun stands, clockwise from north (-Z) seen from above; east (+X) is 90.",
+                .unit = "degrees",
+                .range = kAzimuthRange}),
+         field("elevationDegrees", &Sun::elevationDegrees,
+               {.says = "How high the sun stands above the horizon.", .unit = "degrees", .range = kElevationRange}));
+static_assert(kRowsAreComplete<Sun>);
+
+template <>
+inline constexpr auto kRows<Light> =
+    rows("Light", "A light; a directional one needs `direction` or `sun`.",
+         field("type", &Light::type, {.says = "Where the light comes from."}),
+         field("direction", &Light::direction,
+               {.says = "Where the light travels, of any length but zero; directional and spot.",
+                .range = kPositionRange}),
+         field("sun", &Light::sun, {.says = "The sun's place in the sky, instead of `direction`; directional only."}),
+         field("position", &Light::position,
+               {.says = "Where the light stands; needed by spot and point, and only theirs.",
+                .unit = "metres",
+                .range = kPositionRange}),
+         field("range", &Light::range,
+               {.says = "Distance at which the light ends; spot and point; absent = no end.",
+                .unit = "metres",
+                .range = kLengthRange}),
+         field("innerConeDegrees", &Light::innerConeDegrees,
+               {.says = "Half angle within which a spot is at its full intensity, less than the outer.",
+                .unit = "degrees",
+                .range = {0, 90, false, true}}),
+         field("outerConeDegrees", &Light::outerConeDegrees,
+               {.says = "Half angle at which a spot ends.", .unit = "degrees", .range = {0, 90, true, true}}),
+         field("color", &Light::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+         field("intensity", &Light::intensity,
+               {.says = "Brightness: lux (directional) or candela (spot and point).",
+                .unit = "lux or candela",
+                .range = kIntensityRange}),
+         field("shadow", &Light::shadow,
+               {.says = "The light's own shadow, whole; absent = the frame's `shadow`; directional only."}))
+        .withAlternatives({"direction", "sun"});
+static_assert(kRowsAreComplete<Light>);
+
+} // namespace gnomon

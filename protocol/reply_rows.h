@@ -1,0 +1,123 @@
+#pragma once
+
+#include "protocol/capabilities.h"
+#include "protocol/field_rows.h"
+#include "protocol/fields.h"
+#include "protocol/frame_report.h"
+#include "protocol/scene_summary.h"
+
+/// One row for each member of the structs that replies are made of; see field_rows.h. StageTime has none: the stages
+/// are one JSON object.
+namespace gnomon {
+
+template <>
+inline constexpr auto kRows<CascadeReport> =
+    rows("CascadeReport", "One cascade as it was drawn.",
+         field("near", &CascadeReport::near, {.says = "View depth where it begins.", .unit = "metres"}),
+         field("far", &CascadeReport::far, {.says = "View depth where it ends.", .unit = "metres"}),
+         field("tile", &CascadeReport::tile,
+               {.says = "x, y, width and height in the atlas, border included.", .unit = "texels"}),
+         field("texelSize", &CascadeReport::texelSize, {.says = "Size of a texel across and along.", .unit = "metres"}),
+         field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
+         field("culledTriangles", &CascadeReport::culledTriangles,
+               {.says = "Triangles not drawn, because they can't shadow anything that this cascade serves."}));
+static_assert(kRowsAreComplete<CascadeReport>);
+
+template <>
+inline constexpr auto kRows<LightReport> =
+    rows("LightReport", "What was decided for one light.",
+         field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
+         field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
+         field("askedTileSize", &LightReport::askedTileSize,
+               {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
+         field("grantedTileSize", &LightReport::grantedTileSize,
+               {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
+         field("note", &LightReport::note,
+               {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
+         field("cascades", &LightReport::cascades, {.says = "Its cascades, nearest first."}));
+static_assert(kRowsAreComplete<LightReport>);
+
+template <>
+inline constexpr auto kRows<FrameCounts> =
+    rows("FrameCounts", "How much was drawn.",
+         field("sceneTriangles", &FrameCounts::sceneTriangles, {.says = "Triangles in the chosen glTF scene."}),
+         field("surveyedTriangles", &FrameCounts::surveyedTriangles,
+               {.says = "Triangles drawn by the survey: those inside the view."}),
+         field("shadedTriangles", &FrameCounts::shadedTriangles,
+               {.says = "Triangles drawn by one shading pass: in clusters that the survey saw."}),
+         field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
+         field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
+static_assert(kRowsAreComplete<FrameCounts>);
+
+template <>
+inline constexpr auto kRows<FrameReport> = rows(
+    "FrameReport", "What a frame's rendering gives besides its pictures.",
+    field("spec", &FrameReport::spec,
+          {.says = "The effective specification: every default resolved, so that it can be asked for again."}),
+    field("depthRange", &FrameReport::depthRange,
+          {.says = "Nearest and farthest surface in view; 0 0 = nothing in view.", .unit = "metres"}),
+    field("atlasSize", &FrameReport::atlasSize,
+          {.says = "Width and height that the atlas really took; 0 0 = no atlas.", .unit = "texels"}),
+    field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
+    field("counts", &FrameReport::counts, {.says = "How much was drawn."}),
+    field("stages", &FrameReport::stages,
+          {.says = "Time that each stage took: queue, load, upload, survey, plan, shadow, shade, readback, encode.",
+           .unit = "milliseconds"}),
+    field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));
+static_assert(kRowsAreComplete<FrameReport>);
+
+template <>
+inline constexpr auto kRows<CameraSummary> =
+    rows("CameraSummary", "A camera of the scene.",
+         field("node", &CameraSummary::node, {.says = "Index of its node, usable as camera.node."}),
+         field("name", &CameraSummary::name, {.says = "Its node's name, or its own."}),
+         field("type", &CameraSummary::type, {.says = "perspective or orthographic."}));
+static_assert(kRowsAreComplete<CameraSummary>);
+
+template <>
+inline constexpr auto kRows<LightSummary> =
+    rows("LightSummary", "A light of the scene.", field("node", &LightSummary::node, {.says = "Index of its node."}),
+         field("name", &LightSummary::name, {.says = "Its node's name, or its own."}),
+         field("type", &LightSummary::type, {.says = "directional, spot or point."}));
+static_assert(kRowsAreComplete<LightSummary>);
+
+template <>
+inline constexpr auto kRows<SceneSummary> =
+    rows("SceneSummary", "What an uploaded scene holds; counts are of its default glTF scene.",
+         field("id", &SceneSummary::id, {.says = "SHA-256 of the upload, 64 lower-case hexadecimal digits."}),
+         field("bytes", &SceneSummary::bytes, {.says = "Size of the upload.", .unit = "bytes"}),
+         field("memoryBytes", &SceneSummary::memoryBytes, {.says = "Size of the loaded scene.", .unit = "bytes"}),
+         field("scenes", &SceneSummary::scenes, {.says = "Scenes in the file."}),
+         field("defaultScene", &SceneSummary::defaultScene, {.says = "Index of the scene that is drawn by default."}),
+         field("nodes", &SceneSummary::nodes, {.says = "Nodes."}),
+         field("meshes", &SceneSummary::meshes, {.says = "Meshes."}),
+         field("materials", &SceneSummary::materials, {.says = "Materials."}),
+         field("images", &SceneSummary::images, {.says = "Images."}),
+         field("triangles", &SceneSummary::triangles, {.says = "Triangles, those of reused meshes counted each time."}),
+         field("vertices", &SceneSummary::vertices, {.says = "Vertices."}),
+         field("animations", &SceneSummary::animations, {.says = "Animations."}),
+         field("boundsMin", &SceneSummary::boundsMin, {.says = "Lower corner of the scene's box.", .unit = "metres"}),
+         field("boundsMax", &SceneSummary::boundsMax, {.says = "Upper corner of the scene's box.", .unit = "metres"}),
+         field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
+         field("lights", &SceneSummary::lights, {.says = "Its lights."}),
+         field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),
+         field("warnings", &SceneSummary::warnings,
+               {.says = "What the file holds that is drawn without, or drawn differently."}));
+static_assert(kRowsAreComplete<SceneSummary>);
+
+template <>
+inline constexpr auto kRows<RendererInfo> = rows(
+    "RendererInfo", "What the graphics context is and can do.",
+    field("backend", &RendererInfo::backend, {.says = "egl or osmesa."}),
+    field("platform", &RendererInfo::platform, {.says = "device, surfaceless or osmesa."}),
+    field("vendor", &RendererInfo::vendor, {.says = "GL_VENDOR."}),
+    field("renderer", &RendererInfo::renderer, {.says = "GL_RENDERER."}),
+    field("version", &RendererInfo::version, {.says = "GL_VERSION."}),
+    field("software", &RendererInfo::software, {.says = "True = no GPU."}),
+    field("maxTextureSize", &RendererInfo::maxTextureSize, {.says = "Largest side of a texture.", .unit = "texels"}),
+    field("maxSamples", &RendererInfo::maxSamples, {.says = "Most samples a pixel."}),
+    field("fingerprint", &RendererInfo::fingerprint,
+          {.says = "Changes whenever the same request could give other bytes."}));
+static_assert(kRowsAreComplete<RendererInfo>);
+
+} // namespace gnomon

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "protocol/camera.h"
+#include "protocol/light.h"
+#include "protocol/validate.h"
+
+namespace gnomon {
+
+/// Rules across the fields of the camera, at "/camera".
+void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken);
+
+/// Rules across the fields of a light, at "/lights/<index>". Its shadow's own rules are elsewhere.
+void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenRule>& broken);
+
+} // namespace gnomon
