@@ -1,0 +1,30 @@
+#include "renderer/gpu_scene_cache.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+const GpuScene& GpuSceneCache::get(const std::shared_ptr<const Scene>& scene) {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.scene.lock() == scene; });
+  if (found != entries_.end()) {
+    entries_.splice(entries_.begin(), entries_, found);
+    return entries_.front().gpu;
+  }
+  entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
+  entries_.push_front({scene, uploadScene(*scene)});
+  drop();
+  return entries_.front().gpu;
+}
+
+void GpuSceneCache::drop() {
+  std::size_t bytes = 0;
+  auto entry = entries_.begin();
+  while (entry != entries_.end()) {
+    bytes += entry->gpu.bytes;
+    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
+    entry = keep ? std::next(entry) : entries_.erase(entry);
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,63 @@
+#include "renderer/make_report.h"
+
+namespace gnomon {
+namespace {
+
+CascadeReport cascadeReport(const ShadowTile& tile, const TileCounts& counts) {
+  return {tile.near,
+          tile.far,
+          {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height},
+          {tile.texelSize.x, tile.texelSize.y},
+          counts.casterTriangles,
+          counts.culledTriangles};
+}
+
+std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const ShadowAtlas& atlas) {
+  std::vector<LightReport> reports;
+  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+    LightReport report;
+    report.light = static_cast<int>(i);
+    const Light& light = (*spec.lights)[i];
+    if (light.type != LightType::directional) report.note = "lit without a shadow: only directional lights cast";
+    if (light.shadow && !light.shadow->enabled) report.note = "its shadow is turned off";
+    reports.push_back(std::move(report));
+  }
+  for (const PlannedLight& planned : plan.lights) {
+    LightReport& report = reports[static_cast<std::size_t>(planned.light)];
+    report.shadowed = planned.tileCount > 0;
+    report.askedTileSize = planned.askedTileSize;
+    report.grantedTileSize = planned.grantedTileSize;
+    report.note = planned.note;
+    for (int i = 0; i < planned.tileCount; ++i) {
+      const auto tile = static_cast<std::size_t>(planned.firstTile + i);
+      report.cascades.push_back(cascadeReport(plan.tiles[tile], atlas.tiles[tile]));
+    }
+  }
+  return reports;
+}
+
+} // namespace
+
+FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, const ShadowPlan& plan,
+                       const ShadowAtlas& atlas, const std::vector<ShadedView>& shaded, std::vector<StageTime> stages) {
+  FrameReport report;
+  report.spec = frame.spec;
+  if (!survey.receivers.range.empty()) {
+    report.depthRange = {survey.receivers.range.nearest, survey.receivers.range.farthest};
+  }
+  report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
+  report.lights = lightReports(frame.spec, plan, atlas);
+  report.counts.sceneTriangles = scene.triangles;
+  report.counts.surveyedTriangles = survey.triangles;
+  report.counts.drawCalls = survey.drawCalls + atlas.drawCalls;
+  for (const TileCounts& tile : atlas.tiles) report.counts.casterTriangles += tile.casterTriangles;
+  for (const ShadedView& view : shaded) {
+    report.counts.shadedTriangles += view.triangles;
+    report.counts.drawCalls += view.drawCalls;
+  }
+  report.stages = std::move(stages);
+  report.warnings = frame.warnings;
+  return report;
+}
+
+} // namespace gnomon

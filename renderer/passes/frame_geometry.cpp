@@ -1,0 +1,52 @@
+#include "renderer/passes/frame_geometry.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+glm::vec4 rowOf(const glm::dmat4& matrix, int row) {
+  return glm::vec4(matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]);
+}
+
+/// Turns normals: the cofactors of the upper 3 x 3, which is the inverse transpose times the determinant and exists for
+/// every matrix; its sign undone where the matrix mirrors.
+glm::dmat3 normalMatrix(const glm::dmat3& m) {
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  return glm::determinant(m) < 0 ? -1.0 * cofactors : cofactors;
+}
+
+shared::InstanceData instanceData(const glm::dmat4& relativeFromLocal) {
+  const glm::dmat3 linear(relativeFromLocal);
+  glm::dmat3 normals = normalMatrix(linear);
+  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
+  if (size > 0) normals /= size;
+  shared::InstanceData data{};
+  for (int row = 0; row < 3; ++row) {
+    data.relativeFromLocal[row] = rowOf(relativeFromLocal, row);
+    data.normalFromLocal[row] = glm::vec4(normals[0][row], normals[1][row], normals[2][row], 0.0);
+  }
+  return data;
+}
+
+} // namespace
+
+FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye) {
+  FrameGeometry geometry;
+  geometry.instances.reserve(view.instances.size());
+  geometry.firstSlot.reserve(view.instances.size() + 1);
+  geometry.firstSlot.push_back(0);
+  for (const Instance& instance : view.instances) {
+    glm::dmat4 relativeFromLocal = instance.worldFromLocal;
+    relativeFromLocal[3] -= glm::dvec4(eye, 0.0);
+    geometry.instances.push_back(instanceData(relativeFromLocal));
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+    for (std::uint32_t i = 0; i < primitive.clusterCount; ++i) {
+      geometry.slotBounds.push_back(transformed(relativeFromLocal, scene.clusters[primitive.firstCluster + i].bounds));
+    }
+    geometry.firstSlot.push_back(static_cast<std::uint32_t>(geometry.slotBounds.size()));
+  }
+  return geometry;
+}
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/core/aabb.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shaders/shared/frame_types.h"
+
+namespace gnomon {
+
+/// Where a scene's instances and clusters are, seen from one eye: every position is relative to it.
+/// A slot is one cluster of one instance; the slots of instance i are firstSlot[i] .. firstSlot[i + 1] - 1.
+struct FrameGeometry {
+  std::vector<shared::InstanceData> instances;
+  std::vector<std::uint32_t> firstSlot; ///< one more than there are instances
+  std::vector<Aabb> slotBounds;
+
+  std::size_t slotCount() const { return slotBounds.size(); }
+};
+
+FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye);
+
+} // namespace gnomon

@@ -1,0 +1,100 @@
+#include "renderer/passes/gpu_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "renderer/shaders/shared/frame_types.h"
+
+namespace gnomon {
+namespace {
+
+shared::MaterialData materialData(const Material& material) {
+  return {
+      material.baseColorFactor,
+      glm::vec4(material.emissiveFactor, material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 0.0f),
+      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength)};
+}
+
+GLenum glWrap(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return GL_REPEAT;
+    case Wrap::clampToEdge:
+      return GL_CLAMP_TO_EDGE;
+    case Wrap::mirroredRepeat:
+      return GL_MIRRORED_REPEAT;
+  }
+  return GL_REPEAT;
+}
+
+/// Uploads each image once per colour space and each sampler once.
+class TextureUpload {
+ public:
+  TextureUpload(const Scene& scene, GpuScene& gpu) : scene_(scene), gpu_(gpu) {}
+
+  GpuTexture use(const std::optional<TextureUse>& use, bool srgb) {
+    if (!use || use->image < 0) return {};
+    return {texture(use->image, srgb), sampler(*use)};
+  }
+
+ private:
+  int texture(int image, bool srgb) {
+    const auto [found, added] = textures_.try_emplace({image, srgb}, static_cast<int>(gpu_.textures.size()));
+    if (added) {
+      const Image& source = scene_.images[static_cast<std::size_t>(image)];
+      const int levels = gl::fullLevels(source.width, source.height);
+      gl::Texture made({srgb ? static_cast<GLenum>(GL_SRGB8_ALPHA8) : static_cast<GLenum>(GL_RGBA8), source.width,
+                        source.height, levels, 0},
+                       "scene image");
+      made.write(0, {GL_RGBA, GL_UNSIGNED_BYTE},
+                 std::as_bytes(std::span(std::get<std::vector<std::uint8_t>>(source.pixels))));
+      made.generateLevels();
+      gpu_.bytes += static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height) * 16 / 3;
+      gpu_.textures.push_back(std::move(made));
+    }
+    return found->second;
+  }
+
+  int sampler(const TextureUse& use) {
+    const auto key = std::tuple(use.wrapS, use.wrapT, use.nearest);
+    const auto [found, added] = samplers_.try_emplace(key, static_cast<int>(gpu_.samplers.size()));
+    if (added) {
+      gl::SamplerState state;
+      state.minFilter = GL_LINEAR_MIPMAP_LINEAR;
+      state.magFilter = use.nearest ? GL_NEAREST : GL_LINEAR;
+      state.wrapS = glWrap(use.wrapS);
+      state.wrapT = glWrap(use.wrapT);
+      gpu_.samplers.emplace_back(state, "material");
+    }
+    return found->second;
+  }
+
+  const Scene& scene_;
+  GpuScene& gpu_;
+  std::map<std::pair<int, bool>, int> textures_;
+  std::map<std::tuple<Wrap, Wrap, bool>, int> samplers_;
+};
+
+} // namespace
+
+GpuScene uploadScene(const Scene& scene) {
+  GpuScene gpu;
+  gpu.positions = gl::Buffer(gl::bytesOf(scene.positions), "positions");
+  gpu.attributes = gl::Buffer(gl::bytesOf(scene.attributes), "attributes");
+  gpu.indices = gl::Buffer(gl::bytesOf(scene.indices), "indices");
+  gpu.bytes = gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes();
+
+  std::vector<shared::MaterialData> data;
+  TextureUpload upload(scene, gpu);
+  for (const Material& material : scene.materials) {
+    data.push_back(materialData(material));
+    gpu.materials.push_back({{upload.use(material.baseColor, true), upload.use(material.metallicRoughness, false),
+                              upload.use(material.normal, false), upload.use(material.occlusion, false),
+                              upload.use(material.emissive, true)}});
+  }
+  gpu.materialData = gl::Buffer(gl::bytesOf(data), "materials");
+  return gpu;
+}
+
+} // namespace gnomon

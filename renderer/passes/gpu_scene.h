@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// A texture of a material, ready to bind.
+struct GpuTexture {
+  int texture = -1; ///< index into GpuScene::textures; -1 = the material has none
+  int sampler = -1; ///< index into GpuScene::samplers
+};
+
+/// A material's textures, in the order of their units (GNOMON_BASE_COLOR_UNIT ...).
+struct GpuMaterial {
+  std::array<GpuTexture, 5> textures;
+};
+
+/// A scene's geometry and materials on the device. Made once per scene.
+struct GpuScene {
+  gl::Buffer positions;  ///< vec3
+  gl::Buffer attributes; ///< VertexAttributes
+  gl::Buffer indices;
+  gl::Buffer materialData; ///< shared::MaterialData
+  std::vector<GpuMaterial> materials;
+  std::vector<gl::Texture> textures;
+  std::vector<gl::Sampler> samplers;
+  std::size_t bytes = 0; ///< of device memory, about
+};
+
+GpuScene uploadScene(const Scene& scene);
+
+} // namespace gnomon

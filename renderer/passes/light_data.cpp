@@ -1,0 +1,103 @@
+#include "renderer/passes/light_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace gnomon {
+namespace {
+
+glm::dvec3 vec(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+float typeOf(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return GNOMON_DIRECTIONAL;
+    case LightType::spot:
+      return GNOMON_SPOT;
+    case LightType::point:
+      return GNOMON_POINT;
+  }
+  return GNOMON_DIRECTIONAL;
+}
+
+/// Angular falloff as KHR_lights_punctual recommends: 1 inside the inner cone, 0 outside the outer one.
+glm::vec2 coneFalloff(const Light& light) {
+  const double inner = std::cos(glm::radians(light.innerConeDegrees));
+  const double outer = std::cos(glm::radians(light.outerConeDegrees));
+  const double scale = 1.0 / std::max(1e-3, inner - outer);
+  return {scale, -outer * scale};
+}
+
+/// Texels a side that the shader's filter compares.
+unsigned filterTexels(const Filter& filter) {
+  return filter.type == FilterType::pcf ? static_cast<unsigned>(filter.size) : 1u;
+}
+
+} // namespace
+
+glm::dvec3 directionOf(const Light& light) {
+  if (light.sun) {
+    const double azimuth = glm::radians(light.sun->azimuthDegrees);
+    const double elevation = glm::radians(light.sun->elevationDegrees);
+    return -glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                       -std::cos(azimuth) * std::cos(elevation));
+  }
+  if (light.direction) {
+    const glm::dvec3 direction = vec(*light.direction);
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    return glm::normalize(direction / largest);
+  }
+  return {0, -1, 0};
+}
+
+std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye) {
+  std::vector<shared::LightData> data;
+  for (const Light& light : lights) {
+    shared::LightData out{};
+    const glm::dvec3 direction = directionOf(light);
+    out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
+    if (light.position) out.position = glm::vec4(vec(*light.position) - eye, light.range.value_or(0.0));
+    out.radiance = glm::vec4(vec(light.color) * light.intensity, 0.0);
+    if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
+    data.push_back(out);
+  }
+  for (const PlannedLight& planned : plan.lights) {
+    shared::LightData& out = data[static_cast<std::size_t>(planned.light)];
+    const Shadow& shadow = *lights[static_cast<std::size_t>(planned.light)].shadow;
+    out.tiles = {planned.firstTile, planned.tileCount, filterTexels(shadow.filter), 0};
+    out.cone.z = static_cast<float>(shadow.strength);
+    out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
+  }
+  return data;
+}
+
+std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
+  std::vector<shared::TileData> data;
+  for (const ShadowTile& tile : plan.tiles) {
+    shared::TileData out{};
+    const glm::dvec2 atlas(plan.atlasWidth, plan.atlasHeight);
+    const glm::dvec2 corner(tile.rect.x, tile.rect.y);
+    const glm::dvec2 size(tile.rect.width, tile.rect.height);
+    const auto row = [&](int r) {
+      const glm::dmat4& m = tile.clipFromRelative;
+      return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]);
+    };
+    for (int axis = 0; axis < 2; ++axis) {
+      glm::dvec4 uv = row(axis) * (0.5 * size[axis] / atlas[axis]);
+      uv.w += (corner[axis] + 0.5 * size[axis]) / atlas[axis];
+      out.atlasFromRelative[axis] = glm::vec4(uv);
+    }
+    out.atlasFromRelative[2] = glm::vec4(row(2));
+    // A tile without texels has lowest above highest: every lookup falls outside and is lit.
+    out.bounds = glm::vec4((corner + 0.5) / atlas, (corner + size - 0.5) / atlas);
+    out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.normalOffset);
+    out.bias = glm::vec4(tile.depthBias, 0, 0, 0);
+    data.push_back(out);
+  }
+  return data;
+}
+
+} // namespace gnomon

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "protocol/light.h"
+#include "renderer/shaders/shared/frame_types.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// Where the light travels, unit length, from `direction` or `sun`; for a point light it means nothing.
+glm::dvec3 directionOf(const Light& light);
+
+/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles.
+std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye);
+
+std::vector<shared::TileData> tileData(const ShadowPlan& plan);
+
+} // namespace gnomon

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "renderer/core/camera_view.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/passes/frame_geometry.h"
+#include "renderer/passes/gpu_scene.h"
+#include "renderer/passes/program_cache.h"
+
+namespace gnomon {
+
+/// What every pass of a frame reads. All of it outlives the frame.
+struct PassInputs {
+  const Scene& scene;
+  const SceneView& view;
+  const GpuScene& gpu;
+  const FrameGeometry& geometry;
+  const CameraView& camera;
+  const gl::Buffer& frame;     ///< shared::FrameData
+  const gl::Buffer& instances; ///< shared::InstanceData, one an instance
+  ProgramCache& programs;
+  int width = 0; ///< of the frame, pixels
+  int height = 0;
+};
+
+/// Binds the storage buffers that every vertex shader reads.
+void bindInputs(const PassInputs& inputs);
+
+} // namespace gnomon

@@ -1,0 +1,79 @@
+#include "renderer/passes/shader_variants.h"
+
+#include <array>
+
+namespace gnomon {
+namespace {
+
+std::string uvName(const TextureUse& use) {
+  return use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
+}
+
+const char* viewDefine(View view) {
+  switch (view) {
+    case View::color:
+      return "VIEW_COLOR";
+    case View::cascades:
+      return "VIEW_CASCADES";
+    case View::depth:
+      return "VIEW_DEPTH";
+    case View::normal:
+      return "VIEW_NORMAL";
+    case View::shadow:
+      return "VIEW_SHADOW";
+    case View::atlas:
+      break;
+  }
+  return "VIEW_COLOR";
+}
+
+} // namespace
+
+std::vector<std::string> maskDefines(const Material* material) {
+  if (material == nullptr) return {};
+  std::vector<std::string> defines{"ALPHA_MASK"};
+  if (material->hasVertexColors) defines.emplace_back("VERTEX_COLORS");
+  if (material->baseColor) {
+    defines.emplace_back("BASE_COLOR_TEXTURE");
+    if (material->baseColor->texCoord == 1) defines.emplace_back("BASE_COLOR_UV1");
+  }
+  return defines;
+}
+
+gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant) {
+  std::vector<std::string> defines{viewDefine(variant.view), "SAMPLES " + std::to_string(variant.samples)};
+  const bool shaded = variant.view == View::color || variant.view == View::cascades;
+  const bool masked = material.alphaMode == AlphaMode::mask;
+
+  struct Slot {
+    const std::optional<TextureUse>* use;
+    const char* name;
+    bool needed;
+  };
+  const std::array<Slot, 5> slots{{{&material.baseColor, "BASE_COLOR", shaded || masked},
+                                   {&material.metallicRoughness, "METALLIC_ROUGHNESS", shaded},
+                                   {&material.normal, "NORMAL", shaded || variant.view == View::normal},
+                                   {&material.occlusion, "OCCLUSION", shaded},
+                                   {&material.emissive, "EMISSIVE", shaded}}};
+  std::array<bool, 2> uvs{};
+  for (const Slot& slot : slots) {
+    if (!slot.needed || !*slot.use) continue;
+    const TextureUse& use = **slot.use;
+    defines.push_back(std::string(slot.name) + "_TEXTURE");
+    defines.push_back(std::string(slot.name) + "_UV " + uvName(use));
+    uvs[use.texCoord == 0 ? 0 : 1] = true;
+  }
+  if (uvs[0]) defines.emplace_back("UV0");
+  if (uvs[1]) defines.emplace_back("UV1");
+  if (material.hasVertexColors && (shaded || masked)) defines.emplace_back("VERTEX_COLORS");
+  if (variant.tangents) defines.emplace_back("TANGENTS");
+  if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
+  if (masked) defines.emplace_back("ALPHA_MASK");
+  if (variant.encoded) {
+    defines.emplace_back("ENCODED");
+    defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");
+  }
+  return {"shade.vert", "shade.frag", "", std::move(defines)};
+}
+
+} // namespace gnomon

@@ -1,0 +1,72 @@
+#include "renderer/passes/shadow_pass.h"
+
+#include <algorithm>
+
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/passes/draw_batch.h"
+#include "renderer/passes/shader_variants.h"
+
+namespace gnomon {
+namespace {
+
+std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry& geometry) {
+  std::vector<std::uint8_t> keep(geometry.slotCount());
+  std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), keep.begin(),
+                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
+  return keep;
+}
+
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
+  gl::PipelineState state;
+  state.framebuffer = framebuffer;
+  state.viewport = tile.rect;
+  state.scissor = tile.rect;
+  state.depth = {true, true, GL_LESS};
+  state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
+  gl::apply(state);
+  for (const DrawGroup& group : batch.groups) {
+    const Material* masked =
+        group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
+    const auto program =
+        inputs.programs.get({"shadow_cast.vert", masked != nullptr ? "shadow_cast.frag" : "", "", maskDefines(masked)});
+    if (!program) return program.problems();
+    if (masked != nullptr) bindMaterial(inputs.gpu, group.material);
+    (*program)->set(0, glm::mat4(tile.clipFromRelative));
+    drawGroup(batch, group, **program);
+  }
+  return Done{};
+}
+
+} // namespace
+
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan) {
+  ShadowAtlas atlas;
+  atlas.tiles.resize(plan.tiles.size());
+  if (plan.atlasWidth == 0) return atlas;
+  atlas.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight}, "shadow atlas");
+  auto target = gl::Framebuffer::create({{}, {&atlas.depth}}, "shadow atlas");
+  if (!target) return target.problems();
+
+  gl::PipelineState whole;
+  whole.framebuffer = target->id();
+  whole.viewport = {0, 0, plan.atlasWidth, plan.atlasHeight};
+  whole.depth = {true, true, GL_LESS};
+  gl::apply(whole);
+  target->clearDepth(1.0f);
+
+  bindInputs(inputs);
+  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+    const ShadowTile& tile = plan.tiles[i];
+    if (tile.rect.width == 0) continue;
+    const DrawBatch batch = uploadDraws(
+        buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::cast, castersOf(tile, inputs.geometry)),
+        inputs.gpu);
+    if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
+    atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
+    atlas.drawCalls += batch.drawCalls;
+  }
+  return atlas;
+}
+
+} // namespace gnomon

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "protocol/result.h"
+#include "renderer/gl/texture.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// What was drawn into one tile.
+struct TileCounts {
+  std::uint64_t casterTriangles = 0;
+  std::uint64_t culledTriangles = 0;
+};
+
+/// Every light's tiles, drawn.
+struct ShadowAtlas {
+  gl::Texture depth;             ///< D32F, 0 nearest the light; 1 where nothing casts. Empty for an empty plan
+  std::vector<TileCounts> tiles; ///< one a tile of the plan
+  std::size_t drawCalls = 0;
+};
+
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan);
+
+} // namespace gnomon

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "protocol/result.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// What the camera sees.
+struct Survey {
+  ReceiverDepths receivers;
+  std::vector<std::uint8_t> drawn;   ///< one a slot: inside the view
+  std::vector<std::uint8_t> visible; ///< one a slot: at least one sample shows it
+  gl::Texture depth;                 ///< D32F, reversed; as many samples as the frame has
+  std::uint64_t triangles = 0;       ///< drawn
+  std::size_t drawCalls = 0;
+};
+
+/// Draws depth and cluster of everything in view, and reduces both. `samples`: 1 or 4.
+Result<Survey> surveyScene(const PassInputs& inputs, int samples);
+
+/// The view depth in metres of a reversed depth value.
+double viewDepthOf(const CameraView& camera, double depth);
+
+} // namespace gnomon

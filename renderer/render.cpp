@@ -1,0 +1,159 @@
+#include "renderer/render.h"
+
+#include <cmath>
+
+#include "renderer/gl/context.h"
+#include "renderer/gl/debug_log.h"
+#include "renderer/gl/stage_clock.h"
+#include "renderer/gpu_scene_cache.h"
+#include "renderer/make_report.h"
+#include "renderer/passes/light_data.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/read_back.h"
+#include "renderer/passes/shade_pass.h"
+#include "renderer/passes/shadow_pass.h"
+#include "renderer/passes/survey_pass.h"
+#include "renderer/resolve_frame.h"
+#include "renderer/scene/gltf_loader.h"
+
+namespace gnomon {
+
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits) {
+  return loadGltf(bundle, limits);
+}
+
+const SceneSummary& summaryOf(const Scene& scene) {
+  return scene.summary;
+}
+
+/// The context comes first, so that it outlives everything made in it.
+struct Renderer::Impl {
+  std::unique_ptr<gl::Context> context;
+  ProgramCache programs;
+  GpuSceneCache scenes;
+};
+
+namespace {
+
+shared::FrameData frameData(const ResolvedFrame& frame) {
+  const CameraView& view = frame.view;
+  const Vec3& ambient = frame.spec.ambient.color;
+  const double intensity = frame.spec.ambient.intensity;
+  shared::FrameData data{};
+  data.clipFromRelative = glm::mat4(clipFromView(view) * viewFromRelative(view));
+  data.forward = glm::vec4(view.forward, view.perspective ? 1.0 : 0.0);
+  data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
+  data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
+  return data;
+}
+
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, int maxTextureSize) {
+  PlanInput input;
+  input.view = frame.view;
+  input.receivers = survey.receivers;
+  input.sceneBounds = scene.bounds;
+  input.atlas = frame.spec.atlas;
+  input.maxTextureSize = maxTextureSize;
+  input.frameWidth = frame.spec.width;
+  input.frameHeight = frame.spec.height;
+  for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
+    const Light& light = (*frame.spec.lights)[i];
+    if (light.type != LightType::directional || !light.shadow->enabled) continue;
+    input.casters.push_back({static_cast<int>(i), directionOf(light), *light.shadow});
+  }
+  return input;
+}
+
+Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<ShadedView>& shaded,
+                                         const ShadowAtlas& atlas) {
+  const bool encoded = frame.spec.output.format == ImageFormat::png;
+  const bool opaque = frame.spec.background.alpha >= 1;
+  std::vector<ViewImage> images;
+  for (std::size_t i = 0; i < shaded.size(); ++i) {
+    const View view = frame.spec.views[i];
+    images.push_back(
+        {view, view == View::atlas ? readAtlas(atlas, encoded) : readView(shaded[i], view, encoded, opaque)});
+  }
+  return images;
+}
+
+} // namespace
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create(const RendererOptions& options) {
+  auto context = gl::createContext(options.backend);
+  if (!context) return context.problems();
+  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*context), {}, GpuSceneCache(options.gpuSceneBytes)}));
+}
+
+const RendererInfo& Renderer::info() const {
+  return impl_->context->info();
+}
+
+Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
+  auto resolved = resolveFrame(*scene, spec);
+  if (!resolved) return resolved.problems();
+  const FrameSpec& effective = resolved->spec;
+  const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
+  gl::StageClock clock;
+
+  const GpuScene& gpu = impl_->scenes.get(scene);
+  const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
+  const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
+  shared::FrameData data = frameData(*resolved);
+  gl::Buffer frameBuffer(sizeof(data), "frame");
+  frameBuffer.update(0, gl::bytesOfValue(data));
+  const PassInputs inputs{
+      *scene,          view, gpu, geometry, resolved->view, frameBuffer, instances, impl_->programs, effective.width,
+      effective.height};
+  clock.finish("upload");
+
+  const int samples = effective.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+  const auto survey = surveyScene(inputs, samples);
+  if (!survey) return survey.problems();
+  clock.finish("survey");
+
+  const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
+  const gl::Buffer lights(gl::bytesOf(lightData(*effective.lights, plan, resolved->view.eye)), "lights");
+  const gl::Buffer tiles(gl::bytesOf(tileData(plan)), "tiles");
+  if (!survey->receivers.range.empty()) {
+    data.depthRange.x = survey->receivers.range.nearest;
+    data.depthRange.y = survey->receivers.range.farthest;
+    frameBuffer.update(0, gl::bytesOfValue(data));
+  }
+  clock.finish("plan");
+
+  const auto atlas = castShadows(inputs, plan);
+  if (!atlas) return atlas.problems();
+  clock.finish("shadow");
+
+  const ShadeInputs shade{*survey, *atlas, lights, tiles, effective, samples};
+  std::vector<ShadedView> shaded;
+  for (const View wanted : effective.views) {
+    if (wanted == View::atlas) {
+      if (plan.atlasWidth == 0) {
+        return Problem{ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "",
+                       "atlas"};
+      }
+      shaded.emplace_back();
+      continue;
+    }
+    auto made = shadeView(inputs, shade, wanted);
+    if (!made) return made.problems();
+    shaded.push_back(std::move(*made));
+  }
+  clock.finish("shade");
+
+  auto images = readViews(*resolved, shaded, *atlas);
+  if (!images) return images.problems();
+  clock.finish("readback");
+  if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
+
+  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, shaded, clock.take()), std::move(*images)};
+}
+
+} // namespace gnomon

@@ -1,0 +1,120 @@
+#include "renderer/resolve_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace gnomon {
+namespace {
+
+glm::dvec3 vec(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+Vec3 array(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// The smallest sphere around the box, which holds the scene. A scene without surfaces is a metre wide.
+struct Sphere {
+  glm::dvec3 center{0};
+  double radius = 1;
+};
+
+Sphere sphereAround(const Aabb& bounds) {
+  if (bounds.empty()) return {};
+  const double radius = glm::length(bounds.halfExtent());
+  return {bounds.center(), radius > 0 ? radius : 1.0};
+}
+
+/// How far from its centre a camera sees the whole sphere.
+double framingDistance(const Sphere& sphere, const Camera& camera, double aspect) {
+  const double margin = 1.05;
+  if (camera.orthographic) return 2 * sphere.radius * margin;
+  const double halfY = glm::radians(camera.perspective.value_or(Perspective{}).fovYDegrees) / 2;
+  const double halfX = std::atan(std::tan(halfY) * aspect);
+  return sphere.radius * margin / std::sin(std::min(halfX, halfY));
+}
+
+EyeTarget placeOrbit(const Orbit& orbit, const Camera& camera, const Sphere& sphere, double aspect) {
+  const double azimuth = glm::radians(orbit.azimuthDegrees);
+  const double elevation = glm::radians(orbit.elevationDegrees);
+  const glm::dvec3 outward(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                           -std::cos(azimuth) * std::cos(elevation));
+  // Straight above and below, the picture's upper edge points where the horizon in front would be.
+  const glm::dvec3 up = std::abs(outward.y) > 0.999999
+                            ? glm::dvec3(-std::sin(azimuth), 0, std::cos(azimuth)) * (outward.y > 0 ? 1.0 : -1.0)
+                            : glm::dvec3(0, 1, 0);
+  const glm::dvec3 target = orbit.target ? vec(*orbit.target) : sphere.center;
+  const double distance = orbit.distance.value_or(framingDistance(sphere, camera, aspect));
+  return {array(target + outward * distance), array(target), array(up)};
+}
+
+Result<const SceneCamera*> findCamera(const std::variant<int, std::string>& node, const SceneView& scene) {
+  std::string known;
+  for (const SceneCamera& camera : scene.cameras) {
+    const bool found = std::holds_alternative<int>(node) ? std::get<int>(node) == camera.node
+                                                         : std::get<std::string>(node) == camera.name;
+    if (found) return &camera;
+    known += (known.empty() ? "" : ", ") + std::to_string(camera.node);
+    if (!camera.name.empty()) known += " (" + camera.name + ")";
+  }
+  const std::string asked =
+      std::holds_alternative<int>(node) ? std::to_string(std::get<int>(node)) : std::get<std::string>(node);
+  return Problem{ProblemCode::invalidValue, "/camera/node", "no node of this scene by that index or name has a camera",
+                 known.empty() ? "the scene has no cameras" : "one of " + known, asked};
+}
+
+/// Orthonormal axes; `up` is bent to stand on the view direction.
+void orient(CameraView& view, const EyeTarget& place) {
+  view.eye = vec(place.eye);
+  view.forward = glm::normalize(vec(place.target) - view.eye);
+  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(vec(place.up))));
+  view.up = glm::cross(view.right, view.forward);
+}
+
+} // namespace
+
+Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, double aspect) {
+  ResolvedCamera resolved;
+  Camera& out = resolved.camera;
+  out.perspective = camera.perspective;
+  out.orthographic = camera.orthographic;
+  const Sphere sphere = sphereAround(scene.bounds);
+
+  if (camera.lookAt) {
+    out.lookAt = camera.lookAt;
+  } else if (camera.node) {
+    const auto found = findCamera(*camera.node, scene);
+    if (!found) return found.problems();
+    const SceneCamera& node = **found;
+    // A target as far as the scene is large keeps the direction's digits.
+    out.lookAt = EyeTarget{array(node.eye), array(node.eye + node.forward * sphere.radius), array(node.up)};
+    if (!out.perspective && !out.orthographic) {
+      out.perspective = node.perspective;
+      out.orthographic = node.orthographic;
+    }
+  } else {
+    out.lookAt = placeOrbit(camera.orbit.value_or(Orbit{}), out, sphere, aspect);
+  }
+
+  CameraView& view = resolved.view;
+  orient(view, *out.lookAt);
+  if (out.orthographic) {
+    view.perspective = false;
+    view.halfSize = {out.orthographic->height / 2 * aspect, out.orthographic->height / 2};
+    view.near = out.orthographic->near;
+    view.far = out.orthographic->far;
+    return resolved;
+  }
+  if (!out.perspective) out.perspective = Perspective{};
+  Perspective& lens = *out.perspective;
+  // Reversed float depth keeps its relative precision however small near is, so it only has to be out of the way.
+  if (!lens.near) lens.near = std::min(sphere.radius * 1e-4, lens.far.value_or(HUGE_VAL) * 1e-3);
+  view.halfSize.y = std::tan(glm::radians(lens.fovYDegrees) / 2);
+  view.halfSize.x = view.halfSize.y * aspect;
+  view.near = *lens.near;
+  if (lens.far) view.far = *lens.far;
+  return resolved;
+}
+
+} // namespace gnomon

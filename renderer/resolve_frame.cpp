@@ -1,0 +1,51 @@
+#include "renderer/resolve_frame.h"
+
+#include "protocol/limits.h"
+#include "renderer/resolve_camera.h"
+
+namespace gnomon {
+namespace {
+
+/// The request's lights, else the scene's own, else one sun.
+std::vector<Light> chooseLights(const FrameSpec& spec, const SceneView& scene, std::vector<std::string>& warnings) {
+  if (spec.lights) return *spec.lights;
+  std::vector<Light> lights;
+  for (const SceneLight& light : scene.lights) lights.push_back(light.light);
+  const auto most = static_cast<std::size_t>(kLimits.maxLights);
+  if (lights.size() > most) {
+    warnings.push_back("the scene has " + std::to_string(lights.size()) + " lights; only the first " +
+                       std::to_string(most) + " light this frame");
+    lights.resize(most);
+  }
+  if (lights.empty()) {
+    Light sun;
+    sun.sun = Sun{};
+    lights.push_back(sun);
+  }
+  return lights;
+}
+
+} // namespace
+
+Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
+  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}};
+  const int count = static_cast<int>(scene.scenes.size());
+  if (frame.scene < 0 || frame.scene >= count) {
+    return Problem{ProblemCode::invalidValue, "/scene", "the file has no scene of that index",
+                   "0.." + std::to_string(count - 1), std::to_string(frame.scene)};
+  }
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
+  auto camera = resolveCamera(spec.camera, view, static_cast<double>(spec.width) / spec.height);
+  if (!camera) return camera.problems();
+  frame.spec.scene = frame.scene;
+  frame.spec.camera = camera->camera;
+  frame.view = camera->view;
+
+  frame.spec.lights = chooseLights(spec, view, frame.warnings);
+  for (Light& light : *frame.spec.lights) {
+    if (light.type == LightType::directional && !light.shadow) light.shadow = spec.shadow;
+  }
+  return frame;
+}
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/frame_spec.h"
+#include "protocol/result.h"
+#include "renderer/core/camera_view.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// A spec settled on a scene.
+struct ResolvedFrame {
+  FrameSpec spec; ///< effective: every default resolved
+  CameraView view;
+  int scene = 0; ///< index into Scene::scenes
+  std::vector<std::string> warnings;
+};
+
+/// Fills in what only the scene can tell. The spec has passed protocol/validate.
+Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec);
+
+} // namespace gnomon
