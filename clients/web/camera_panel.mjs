@@ -1,0 +1,39 @@
+// Orbit by hand, or a camera of the scene.
+
+import { element, short } from './dom.mjs';
+
+// `fit()` gives the orbit of the whole scene.
+export function createCameraPanel(store, fit) {
+  const list = element('select', { id: 'camera-node', 'aria-label': 'Camera' });
+  const button = element('button', { type: 'button', class: 'quiet', onclick: fit, title: 'Show the whole scene (F)' }, 'Fit');
+  const readout = element('p', { class: 'readout' });
+  list.addEventListener('change', () => {
+    if (list.value === '') fit();
+    else store.setSpec('camera', { node: Number(list.value) });
+  });
+  const node = element(
+    'div',
+    { class: 'field', 'data-pointer': '/camera' },
+    element('div', { class: 'pair' }, list, button),
+    readout,
+    element('p', { class: 'problem', role: 'alert', hidden: true }),
+  );
+
+  let shown;
+  store.subscribe(({ spec, summary }) => {
+    if (summary !== shown) {
+      shown = summary;
+      const cameras = (summary?.cameras ?? []).map((camera) => element('option', { value: camera.node }, camera.name || `Camera at node ${camera.node}`));
+      list.replaceChildren(element('option', { value: '' }, 'Orbit by hand'), ...cameras);
+    }
+    list.value = spec.camera?.node ?? '';
+    readout.textContent = readoutOf(spec.camera?.orbit);
+  });
+  return node;
+}
+
+function readoutOf(orbit) {
+  if (!orbit) return '';
+  const { azimuthDegrees, elevationDegrees, distance, target } = orbit;
+  return `${azimuthDegrees.toFixed(1)}° · ${elevationDegrees.toFixed(1)}° · ${short(distance)} m from ${target.map((v) => short(v)).join(' ')}`;
+}

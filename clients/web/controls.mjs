@@ -1,0 +1,109 @@
+// One control of the panel for each field of fields.mjs: it shows what is in force, and what is set by hand can be
+// given back to the default.
+
+import { element } from './dom.mjs';
+import { pointerOf } from './paths.mjs';
+
+let serial = 0;
+
+export function createControl(field, store) {
+  const id = `field-${(serial += 1)}`;
+  const { node, show } = inputOf(field, store, id);
+  const reset = element(
+    'button',
+    { class: 'reset', type: 'button', title: 'Back to the default', 'aria-label': `${field.label}: back to the default`, onclick: () => clear(field, store) },
+    '↺',
+  );
+  const isGroup = Boolean(field.choices);
+  const label = element(isGroup ? 'span' : 'label', { class: 'label', id: `${id}-label`, for: isGroup ? null : id }, field.label);
+  if (field.unit) label.append(element('span', { class: 'unit' }, ` ${field.unit}`));
+  const row = element(
+    'div',
+    { class: `field ${kindOf(field)}`, 'data-pointer': pointerOf(field.path), title: field.says },
+    element('div', { class: 'caption' }, label, reset),
+    node,
+    element('p', { class: 'problem', role: 'alert', hidden: true }),
+  );
+  store.subscribe(() => {
+    row.hidden = field.needs ? !field.needs(store) : false;
+    row.classList.toggle('set', isSet(field, store));
+    show(store.effective(field.path));
+  });
+  return row;
+}
+
+const kindOf = ({ toggle, slider }) => (toggle ? 'toggle' : slider ? 'slider' : 'choice');
+
+const isSet = ({ sizes, path }, store) => (sizes ? store.isSet('width') : store.isSet(path));
+
+function clear({ sizes, choices: list, choose, path }, store) {
+  if (choose) return choose(list[0][0], store);
+  if (!sizes) return store.clearSpec(path);
+  store.clearSpec('width');
+  store.clearSpec('height');
+}
+
+function inputOf(field, store, id) {
+  if (field.toggle) return toggle(field, store, id);
+  if (field.slider) return slider(field, store, id);
+  if (field.choices) return choices(field, store, id);
+  if (field.sizes) return sizes(field, store, id);
+  return number(field, store, id);
+}
+
+function toggle({ path }, store, id) {
+  const node = element('input', { type: 'checkbox', role: 'switch', id, onchange: () => store.setSpec(path, node.checked) });
+  return { node, show: (value) => (node.checked = value ?? false) };
+}
+
+function numberInput(id, label, onvalue) {
+  const node = element('input', { type: 'number', step: 'any', id, 'aria-label': label, inputmode: 'decimal' });
+  node.addEventListener('input', () => Number.isFinite(node.valueAsNumber) && onvalue(node.valueAsNumber));
+  const show = (value) => {
+    if (document.activeElement !== node && value !== undefined) node.value = Number(Number(value).toPrecision(6));
+  };
+  return { node, show };
+}
+
+export function slider({ path, label, slider: [min, max, step] }, store, id) {
+  const set = (value) => store.setSpec(path, value);
+  const range = element('input', { type: 'range', min, max, step, id, oninput: () => set(range.valueAsNumber) });
+  const exact = numberInput(null, `${label}, exact`, set);
+  const show = (value) => {
+    if (value === undefined) return;
+    range.value = value;
+    range.style.setProperty('--share', `${((Math.min(max, Math.max(min, value)) - min) / (max - min)) * 100}%`);
+    exact.show(value);
+  };
+  return { node: element('div', { class: 'pair' }, range, exact.node), show };
+}
+
+const number = ({ path, label }, store, id) => numberInput(id, label, (value) => store.setSpec(path, value));
+
+export function choices({ path, label, choices: list, choose }, store, id) {
+  const pick = (value) => (choose ? choose(value, store) : store.setSpec(path, value));
+  const radios = list.map(([value]) => element('input', { type: 'radio', name: id, onchange: () => pick(value) }));
+  const parts = list.map(([, text, says], i) => element('label', { title: says }, radios[i], element('span', {}, text)));
+  const node = element('div', { class: 'segments', role: 'radiogroup', 'aria-label': label }, ...parts);
+  const show = (value) => radios.forEach((radio, i) => (radio.checked = list[i][0] === value));
+  return { node, show };
+}
+
+function sizes({ sizes: list }, store, id) {
+  const options = list.map(([w, h]) => element('option', { value: `${w}x${h}` }, `${w} × ${h}`));
+  const node = element('select', { id }, element('option', { value: '' }, 'As large as the window'), ...options);
+  node.addEventListener('change', () => {
+    const [width, height] = node.value.split('x').map(Number);
+    const spec = { ...store.state.spec, width, height };
+    if (!node.value) {
+      delete spec.width;
+      delete spec.height;
+    }
+    store.update({ spec });
+  });
+  const show = () => {
+    const { width, height } = store.state.spec;
+    node.value = width ? `${width}x${height}` : '';
+  };
+  return { node, show };
+}

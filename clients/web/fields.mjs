@@ -1,0 +1,78 @@
+// The controls of the panel, as data. `path` is the field's place in the FrameSpec; `slider` is the comfortable range:
+// the number beside it takes any value, and the server says what it refuses.
+
+const shadowed = (store) => store.effective('shadow.enabled') !== false;
+const one = (path, value) => (store) => store.effective(path) === value;
+
+// A manual range needs both its ends, an automatic one takes none.
+function chooseDepthRange(mode, store) {
+  if (mode === 'automatic') return store.clearSpec('shadow.depthRange');
+  const far = store.state.report?.depthRange[1] || 50;
+  store.setSpec('shadow.depthRange', { mode, min: 0, max: Number(far.toPrecision(3)) });
+}
+
+export const kSections = [
+  {
+    title: 'Light',
+    fields: [
+      { path: 'lights.0.intensity', label: 'Sun strength', unit: 'lux', slider: [0, 20, 0.1], needs: (store) => store.isSet('lights') },
+      { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Even light from everywhere' },
+      { path: 'exposure', label: 'Exposure', unit: 'stops', slider: [-6, 6, 0.1] },
+      { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
+    ],
+  },
+  {
+    title: 'Shadows',
+    fields: [
+      { path: 'shadow.enabled', label: 'Shadows', toggle: true },
+      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4']], needs: shadowed },
+      { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], needs: shadowed },
+      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF']], needs: shadowed },
+      { path: 'shadow.filter.size', label: 'Filter width', unit: 'texels', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => shadowed(store) && one('shadow.filter.type', 'pcf')(store) },
+      { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },
+    ],
+  },
+  {
+    title: 'Cascade planning',
+    closed: true,
+    fields: [
+      { path: 'shadow.partition.mode', label: 'Partition', choices: [['logarithmic', 'Log'], ['uniform', 'Uniform']], says: 'Manual splits are offered by the API' },
+      { path: 'shadow.partition.pssmFactor', label: 'PSSM factor', slider: [0, 1, 0.01], says: '0 = logarithmic, 1 = uniform', needs: one('shadow.partition.mode', 'logarithmic') },
+      { path: 'shadow.depthRange.mode', label: 'Depth range', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = the surfaces of this very frame', choose: chooseDepthRange },
+      { path: 'shadow.depthRange.min', label: 'From', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
+      { path: 'shadow.depthRange.max', label: 'To', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
+      { path: 'shadow.stabilization', label: 'Stabilise', choices: [['none', 'None'], ['projectionSnapping', 'Projection'], ['viewSnapping', 'View']] },
+      { path: 'shadow.blendCascades', label: 'Blend cascades', toggle: true },
+      { path: 'atlas.baseSize', label: 'Base tile', unit: 'texels', choices: [[512, '512'], [1024, '1024'], [2048, '2048']] },
+    ],
+  },
+  {
+    title: 'Picture',
+    fields: [
+      { path: 'size', label: 'Size', sizes: [[640, 360], [1280, 720], [1920, 1080]] },
+      { path: 'antialiasing', label: 'Antialiasing', choices: [['none', 'None'], ['msaa4x', 'MSAA 4×']] },
+    ],
+  },
+];
+
+export const kViews = [
+  ['color', 'Colour', 'The shaded scene'],
+  ['cascades', 'Cascades', 'Tinted by cascade: green, blue, purple, red'],
+  ['shadow', 'Shadow', 'Share of the light that arrives'],
+  ['depth', 'Depth', 'Distance along the view axis'],
+  ['normal', 'Normal', 'World-space shading normal'],
+  ['atlas', 'Atlas', 'The shadow atlas, depth as grey'],
+];
+
+// One hue a stage, in the order of the work.
+export const kStageColors = {
+  queue: '#5b6577',
+  load: '#8d7bd6',
+  upload: '#b06fc4',
+  survey: '#3fa7c9',
+  plan: '#36c2ae',
+  shadow: '#f6b73c',
+  shade: '#6aa5ff',
+  readback: '#8fa3bf',
+  encode: '#d97c6c',
+};

@@ -1,0 +1,33 @@
+// What the frame's report says about each light's cascades, and its warnings.
+
+import { count, element, short } from './dom.mjs';
+
+const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b']; // as the cascades view tints them
+
+export function showReport(node, report) {
+  node.replaceChildren(...report.lights.map(lightOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
+}
+
+function lightOf(light) {
+  const rows = light.cascades.map((cascade, i) => {
+    const dot = element('i', { 'aria-hidden': 'true' });
+    dot.style.background = kTints[i % kTints.length];
+    return element(
+      'tr',
+      {},
+      element('th', { scope: 'row' }, dot, String(i)),
+      element('td', {}, `${short(cascade.near)} – ${short(cascade.far)}`),
+      element('td', {}, `${cascade.tile[2]}²`),
+      element('td', {}, short(Math.max(...cascade.texelSize) * 1000)),
+      element('td', { title: `${count(cascade.culledTriangles)} culled` }, count(cascade.casterTriangles)),
+    );
+  });
+  const head = [['', ''], ['metres', 'View depth'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
+  const table = element(
+    'table',
+    {},
+    element('thead', {}, element('tr', {}, ...head.map(([text, says]) => element('th', { scope: 'col', title: says }, text)))),
+    element('tbody', {}, ...rows),
+  );
+  return element('div', { class: 'light-report' }, light.note && element('p', { class: 'note' }, light.note), rows.length ? table : null);
+}

@@ -1,0 +1,38 @@
+// Taking the picture along: files, a curl command, a link.
+
+import { renderFile } from './api.mjs';
+import { curlCommand, withFormat } from './spec.mjs';
+
+export async function download(sceneId, spec, format) {
+  const contentType = format === 'exr' ? 'image/x-exr' : 'image/png';
+  const file = await renderFile(sceneId, withFormat(spec, format), contentType);
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(file);
+  link.download = `gnomon-${spec.views[0]}.${format}`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+export function copyCurl(sceneId, spec) {
+  const origin = new URL('.', location.href).href.replace(/\/$/, '');
+  return copyText(curlCommand(origin, sceneId, spec, 'png'));
+}
+
+export const copyLink = () => copyText(location.href);
+
+// The clipboard proper needs a secure page; a selected text area does without.
+async function copyText(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const area = document.createElement('textarea');
+    area.value = text;
+    area.className = 'offstage';
+    document.body.append(area);
+    area.select();
+    const copied = document.execCommand('copy');
+    area.remove();
+    return copied;
+  }
+}

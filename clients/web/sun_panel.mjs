@@ -1,0 +1,51 @@
+// Where the light comes from: the dome and two exact angles for the sun, or the scene's own lights.
+
+import { choices, slider } from './controls.mjs';
+import { element } from './dom.mjs';
+import { createSkyDome } from './sky_dome.mjs';
+
+const kFirstSun = { azimuthDegrees: 135, elevationDegrees: 40 };
+const kAzimuth = { path: 'lights.0.sun.azimuthDegrees', label: 'Azimuth', slider: [0, 360, 0.5] };
+const kElevation = { path: 'lights.0.sun.elevationDegrees', label: 'Elevation', slider: [0, 90, 0.5] };
+
+export function createSunPanel(store) {
+  const sunOf = () => ({ ...kFirstSun, ...store.state.spec.lights?.[0]?.sun });
+  const setSun = (sun) => store.setSpec('lights.0.sun', { ...sunOf(), ...sun });
+  const dome = createSkyDome(setSun);
+  const source = choices(
+    {
+      label: 'Light from',
+      choices: [[true, 'Sun'], [false, 'The scene’s lights']],
+      choose: (sun) => (sun ? setSun({}) : store.clearSpec('lights')),
+    },
+    store,
+    'light-source',
+  );
+  const angles = [angle(kAzimuth, 'azimuthDegrees'), angle(kElevation, 'elevationDegrees')];
+  const node = element(
+    'div',
+    { class: 'sun-panel' },
+    element('div', { class: 'field', 'data-pointer': '/lights' }, source.node, problemSlot()),
+    element('div', { class: 'sun' }, dome.node, element('div', { class: 'angles' }, ...angles.map((control) => control.row))),
+  );
+
+  store.subscribe(({ spec, summary }) => {
+    const bySun = Boolean(spec.lights);
+    source.show(bySun);
+    source.node.hidden = !summary?.lights.length && bySun;
+    dome.show(sunOf(), { dimmed: !bySun, headingDegrees: spec.camera?.orbit ? spec.camera.orbit.azimuthDegrees + 180 : null });
+    for (const control of angles) control.show();
+  });
+  return node;
+
+  // Not through the store's path: the first touch must set the whole sun.
+  function angle(field, key) {
+    const proxy = { setSpec: (_, value) => setSun({ [key]: value }) };
+    const input = slider(field, proxy, `sun-${key}`);
+    const label = element('label', { class: 'label', for: `sun-${key}` }, field.label, element('span', { class: 'unit' }, ' °'));
+    const row = element('div', { class: 'field slider', 'data-pointer': `/lights/0/sun/${key}` }, element('div', { class: 'caption' }, label), input.node, problemSlot());
+    return { row, show: () => input.show(sunOf()[key]) };
+  }
+}
+
+const problemSlot = () => element('p', { class: 'problem', role: 'alert', hidden: true });
