@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "protocol/limits.h"
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+
+namespace gnomon {
+
+enum class ComponentType { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
+
+std::size_t bytesOf(ComponentType type);
+
+/// A little-endian unsigned integer; `type` must be one of the unsigned types.
+std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type);
+
+/// Reads the elements of an accessor whose ranges have been checked: every element below `count` lies in its buffer.
+/// Sparse values are found by binary search, so nothing is copied.
+struct AccessorView {
+  const std::uint8_t* data = nullptr; ///< of the first element; nullptr = all zero
+  std::size_t count = 0;
+  std::size_t stride = 0; ///< bytes
+  int components = 1;     ///< 1..4; 0 for matrices, which are never read
+  ComponentType componentType = ComponentType::float32;
+  bool normalized = false;
+
+  std::size_t sparseCount = 0;
+  const std::uint8_t* sparseIndices = nullptr; ///< packed, strictly increasing
+  ComponentType sparseIndexType = ComponentType::uint32;
+  const std::uint8_t* sparseValues = nullptr; ///< packed
+
+  /// REQUIRES: element < count, components > 0. Components that the accessor does not have stay as in `missing`.
+  glm::dvec4 read(std::size_t element, glm::dvec4 missing = glm::dvec4(0)) const;
+
+  /// REQUIRES: element < count, one unsigned component.
+  std::uint32_t readIndex(std::size_t element) const;
+
+ private:
+  const std::uint8_t* bytesOfElement(std::size_t element) const;
+};
+
+/// A view of each accessor. Accessors that break a rule are told in the findings, and their views are empty.
+std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings);
+
+} // namespace gnomon

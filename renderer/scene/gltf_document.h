@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <tiny_gltf.h>
+#include <vector>
+
+#include "protocol/limits.h"
+#include "protocol/result.h"
+#include "renderer/scene/findings.h"
+#include "renderer/scene/resource_bytes.h"
+#include "renderer/scene/scene_bundle.h"
+
+namespace gnomon {
+
+/// A glTF whose schema, indices and byte ranges hold. The bundle that it was read from must outlive it.
+struct GltfDocument {
+  tinygltf::Model model; ///< without buffers, images, skins, animations and extras
+  nlohmann::json json;   ///< everything that the file says
+  std::vector<ResourceBytes> buffers;
+  std::vector<ResourceBytes> images;                      ///< encoded
+  std::vector<std::span<const std::uint8_t>> bufferViews; ///< bytes of each, inside its buffer
+};
+
+/// Reads the model and every file that it names; `findings` gets the warnings.
+Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, Findings& findings);
+
+} // namespace gnomon

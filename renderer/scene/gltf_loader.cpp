@@ -1,0 +1,60 @@
+#include "renderer/scene/gltf_loader.h"
+
+#include <exception>
+#include <new>
+
+#include "renderer/scene/accessor_view.h"
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/image_loading.h"
+#include "renderer/scene/materials.h"
+#include "renderer/scene/mesh_build.h"
+#include "renderer/scene/mesh_source.h"
+#include "renderer/scene/scene_views.h"
+#include "renderer/scene/summary.h"
+
+namespace gnomon {
+
+namespace {
+
+Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits) {
+  Findings findings;
+  auto document = readGltf(bundle, limits, findings);
+  if (!document) return std::move(document).problems();
+
+  const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+  const auto sources = gatherMeshes(*document, views, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+
+  auto scene = std::make_shared<Scene>();
+  scene->materials = readMaterials(*document, findings);
+  const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
+  const std::vector<BuiltMesh> meshes = buildMeshes(sources, defaultMaterial, *scene, findings);
+  checkSkins(*document, meshes, findings);
+  if (findings.refused()) return findings.takeProblems();
+  scene->scenes = flattenScenes(*document, meshes, scene->primitives, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+  scene->images = loadImages(*document, limits, scene->materials, findings);
+  if (findings.refused()) return findings.takeProblems();
+
+  scene->defaultScene = document->model.defaultScene < 0 ? 0 : document->model.defaultScene;
+  scene->summary = summarize(*document, bundle, *scene);
+  if (scene->summary.animations > 0) findings.warn("The file has animations: it is drawn in its rest pose.");
+  scene->summary.warnings = findings.takeWarnings();
+  return std::shared_ptr<const Scene>(std::move(scene));
+}
+
+} // namespace
+
+Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits) {
+  try {
+    return load(bundle, limits);
+  } catch (const std::bad_alloc&) {
+    return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene.", {}, {}};
+  } catch (const std::exception&) {
+    return Problem{ProblemCode::internal, {}, "The scene could not be loaded.", {}, {}};
+  }
+}
+
+} // namespace gnomon

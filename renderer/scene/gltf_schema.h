@@ -1,0 +1,14 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/scene/findings.h"
+
+namespace gnomon {
+
+/// Checks every member of the glTF that Gnomon reads: its presence, type and range, and that each index names
+/// something that exists. Integral numbers written as 3.0 become 3. Members that are not read are left alone.
+/// What needs the buffers or several members at once is checked elsewhere.
+void checkSchema(nlohmann::json& document, Findings& findings);
+
+} // namespace gnomon

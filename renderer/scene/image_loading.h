@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/limits.h"
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// Decodes the images that the materials use, after the sizes of all of them have been held against the limits,
+/// and points the materials' textures at them. A texture in a format that is not supported is left out with a warning.
+std::vector<Image> loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
+                              Findings& findings);
+
+} // namespace gnomon

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// The file's materials, and after them the default material. Their textures name the file's images by its own
+/// indices; loadImages() makes them name the scene's.
+std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings);
+
+/// Every place in a material where a texture may stand.
+inline std::array<std::optional<TextureUse>*, 5> texturesOf(Material& material) {
+  return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive};
+}
+
+} // namespace gnomon

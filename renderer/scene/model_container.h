@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "protocol/result.h"
+#include "renderer/image/image.h"
+
+namespace gnomon {
+
+/// The two parts of a model file; both look into the file's bytes.
+struct ModelContainer {
+  std::string_view json;
+  std::optional<std::span<const std::uint8_t>> binary; ///< the GLB's BIN chunk
+};
+
+/// Tells a GLB from glTF JSON by its first bytes and checks every length of a GLB.
+Result<ModelContainer> openContainer(const Bytes& model);
+
+} // namespace gnomon

@@ -1,0 +1,52 @@
+#include "renderer/scene/node_transform.h"
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+namespace gnomon {
+
+namespace {
+
+NodeTransform readMatrix(const std::vector<double>& m, const std::string& pointer, Findings& findings) {
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+    findings.invalid(pointer + "/matrix", "The matrix is not affine: its last row is not 0 0 0 1.");
+    return {};
+  }
+  glm::dmat4 matrix;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) matrix[column][row] = m[static_cast<std::size_t>(4 * column + row)];
+  }
+  return {matrix, matrix};
+}
+
+} // namespace
+
+NodeTransform readTransform(const tinygltf::Node& node, const std::string& pointer, Findings& findings) {
+  if (!node.matrix.empty()) {
+    if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
+      findings.invalid(pointer + "/matrix", "A node has either a matrix or translation, rotation and scale.");
+      return {};
+    }
+    return readMatrix(node.matrix, pointer, findings);
+  }
+  glm::dmat4 rigid(1);
+  if (!node.rotation.empty()) {
+    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    const double length = glm::length(rotation);
+    if (!(length > 0) || !std::isfinite(length)) {
+      findings.invalid(pointer + "/rotation", "The rotation is not a quaternion of length 1.");
+      return {};
+    }
+    rigid = glm::mat4_cast(rotation / length);
+  }
+  if (!node.translation.empty()) {
+    rigid[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
+  }
+  glm::dmat4 scaled = rigid;
+  if (!node.scale.empty()) {
+    for (int axis = 0; axis < 3; ++axis) scaled[axis] *= node.scale[static_cast<std::size_t>(axis)];
+  }
+  return {scaled, rigid};
+}
+
+} // namespace gnomon

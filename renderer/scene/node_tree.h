@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+
+namespace gnomon {
+
+/// Where every node stands, whichever scene it belongs to.
+struct NodeTree {
+  std::vector<int> parents; ///< -1 for a root
+  std::vector<glm::dmat4> worldFromNode;
+  std::vector<glm::dmat4> worldFromUnscaled; ///< without the node's own scale: what cameras and lights go by
+};
+
+/// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.
+/// With a problem in the findings, the result is not to be used.
+NodeTree buildNodeTree(const GltfDocument& document, Findings& findings);
+
+/// The axes of a node, orthonormal whatever scales it; false where the matrix leaves none.
+struct NodeFrame {
+  glm::dvec3 position{0};
+  glm::dvec3 right{1, 0, 0};
+  glm::dvec3 up{0, 1, 0};
+  glm::dvec3 forward{0, 0, -1}; ///< the node's -Z
+};
+bool frameOf(const glm::dmat4& worldFromUnscaled, NodeFrame& frame);
+
+} // namespace gnomon

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/limits.h"
+#include "renderer/scene/findings.h"
+#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/mesh_build.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// Refuses skins that the joints of their meshes reach past.
+void checkSkins(const GltfDocument& document, const std::vector<BuiltMesh>& meshes, Findings& findings);
+
+/// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all its roots.
+std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<BuiltMesh>& meshes,
+                                     const std::vector<Primitive>& primitives, const Limits& limits,
+                                     Findings& findings);
+
+} // namespace gnomon

@@ -1,0 +1,113 @@
+#include "renderer/scene/summary.h"
+
+#include <set>
+
+namespace gnomon {
+
+namespace {
+
+std::uint64_t bundleBytes(const SceneBundle& bundle) {
+  std::uint64_t bytes = bundle.model.size();
+  for (const auto& [name, file] : bundle.files) bytes += file.size();
+  return bytes;
+}
+
+template <class T>
+std::uint64_t bytesIn(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+std::uint64_t memoryBytes(const Scene& scene) {
+  std::uint64_t bytes = bytesIn(scene.positions) + bytesIn(scene.attributes) + bytesIn(scene.indices) +
+                        bytesIn(scene.clusters) + bytesIn(scene.primitives) + bytesIn(scene.materials);
+  for (const Image& image : scene.images) {
+    bytes += std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  }
+  for (const SceneView& view : scene.scenes) {
+    bytes += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
+  }
+  return bytes;
+}
+
+/// Nodes reachable from the scene's roots; the nodes are trees by now.
+std::uint64_t nodesOf(const tinygltf::Model& model, int scene) {
+  if (model.scenes.empty()) return model.nodes.size();
+  std::vector<int> nodes = model.scenes[static_cast<std::size_t>(scene)].nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& children = model.nodes[static_cast<std::size_t>(nodes[i])].children;
+    nodes.insert(nodes.end(), children.begin(), children.end());
+  }
+  return nodes.size();
+}
+
+const char* nameOf(LightType type) {
+  switch (type) {
+    case LightType::spot:
+      return "spot";
+    case LightType::point:
+      return "point";
+    case LightType::directional:
+      break;
+  }
+  return "directional";
+}
+
+/// Counts what the scene places, each once.
+void countContents(const GltfDocument& document, const Scene& scene, const SceneView& view, SceneSummary& summary) {
+  std::set<int> primitives;
+  std::set<int> meshes;
+  for (const Instance& instance : view.instances) {
+    primitives.insert(instance.primitive);
+    meshes.insert(document.model.nodes[static_cast<std::size_t>(instance.node)].mesh);
+  }
+  std::set<int> materials;
+  std::set<int> images;
+  for (const int index : primitives) {
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(index)];
+    summary.vertices += primitive.vertexCount;
+    materials.insert(primitive.material);
+  }
+  for (const int index : materials) {
+    const Material& material = scene.materials[static_cast<std::size_t>(index)];
+    for (const auto* texture : {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
+                                &material.emissive}) {
+      if (*texture) images.insert((*texture)->image);
+    }
+  }
+  summary.meshes = meshes.size();
+  summary.materials = materials.size();
+  summary.images = images.size();
+}
+
+} // namespace
+
+SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, const Scene& scene) {
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(scene.defaultScene)];
+  SceneSummary summary;
+  summary.bytes = bundleBytes(bundle);
+  summary.memoryBytes = memoryBytes(scene);
+  summary.scenes = static_cast<int>(scene.scenes.size());
+  summary.defaultScene = scene.defaultScene;
+  summary.nodes = nodesOf(document.model, scene.defaultScene);
+  summary.triangles = view.triangles;
+  countContents(document, scene, view, summary);
+  if (const auto animations = document.json.find("animations"); animations != document.json.end()) {
+    summary.animations = animations->size();
+  }
+  if (!view.bounds.empty()) {
+    summary.boundsMin = {view.bounds.min.x, view.bounds.min.y, view.bounds.min.z};
+    summary.boundsMax = {view.bounds.max.x, view.bounds.max.y, view.bounds.max.z};
+  }
+  for (const SceneCamera& camera : view.cameras) {
+    summary.cameras.push_back({camera.node, camera.name, camera.perspective ? "perspective" : "orthographic"});
+  }
+  for (const SceneLight& light : view.lights) {
+    summary.lights.push_back({light.node, light.name, nameOf(light.light.type)});
+  }
+  if (const auto used = document.json.find("extensionsUsed"); used != document.json.end()) {
+    summary.extensionsUsed = used->get<std::vector<std::string>>();
+  }
+  return summary;
+}
+
+} // namespace gnomon

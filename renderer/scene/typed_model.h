@@ -1,0 +1,14 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+
+#include "protocol/result.h"
+
+namespace gnomon {
+
+/// The typed model of a document that has passed checkSchema(). tinygltf is given only what is drawn: no buffers,
+/// images or extras, so that it has no file to open, nothing to decode and no depth to recurse into.
+Result<tinygltf::Model> typedModel(const nlohmann::json& document);
+
+} // namespace gnomon
