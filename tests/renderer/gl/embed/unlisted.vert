@@ -1,0 +1,3 @@
+#include "snippet.glsl"
+#include "elsewhere.glsl"
+void main() {}
