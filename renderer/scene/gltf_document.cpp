@@ -7,6 +7,7 @@
 #include "renderer/scene/json_text.h"
 #include "renderer/scene/lights.h"
 #include "renderer/scene/model_container.h"
+#include "renderer/scene/node_transform.h"
 #include "renderer/scene/typed_model.h"
 
 namespace gnomon {
@@ -44,6 +45,7 @@ Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, F
   if (findings.refused()) return findings.takeProblems();
   checkCameras(*json, findings);
   checkLights(*json, findings);
+  checkTransforms(*json, findings);
 
   GltfDocument document;
   document.json = *std::move(json);

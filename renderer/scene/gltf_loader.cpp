@@ -11,6 +11,7 @@
 #include "renderer/scene/mesh_build.h"
 #include "renderer/scene/mesh_source.h"
 #include "renderer/scene/scene_views.h"
+#include "renderer/scene/skins.h"
 #include "renderer/scene/summary.h"
 
 namespace gnomon {
@@ -24,6 +25,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
 
   const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
+  checkSkins(*document, views, limits, findings);
   const auto sources = gatherMeshes(*document, views, limits, findings);
   if (findings.refused()) return findings.takeProblems();
 
@@ -31,7 +33,6 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   scene->materials = readMaterials(*document, findings);
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
   const std::vector<BuiltMesh> meshes = buildMeshes(sources, defaultMaterial, *scene, findings);
-  checkSkins(*document, meshes, findings);
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = flattenScenes(*document, meshes, scene->primitives, limits, findings);
   if (findings.refused()) return findings.takeProblems();

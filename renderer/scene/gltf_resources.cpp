@@ -63,6 +63,11 @@ std::vector<BytesView> readBufferViews(const json& document, const std::vector<R
     const std::uint64_t buffer = unsignedAt(views[i], "buffer");
     const std::uint64_t offset = unsignedAt(views[i], "byteOffset");
     const std::uint64_t length = unsignedAt(views[i], "byteLength");
+    const std::uint64_t stride = unsignedAt(views[i], "byteStride");
+    if (stride % 4 != 0) {
+      findings.invalid(pointerTo("/bufferViews", i) + "/byteStride", "The stride is not a multiple of 4.", {},
+                       std::to_string(stride));
+    }
     const std::uint64_t whole = unsignedAt(bufferObjects[buffer], "byteLength");
     if (length > whole || offset > whole - length) {
       findings.invalid(pointerTo("/bufferViews", i), "The buffer view reaches past the end of its buffer.",

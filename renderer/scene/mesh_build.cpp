@@ -1,7 +1,5 @@
 #include "renderer/scene/mesh_build.h"
 
-#include <algorithm>
-
 #include "renderer/scene/clusters.h"
 #include "renderer/scene/vertex_build.h"
 
@@ -39,7 +37,6 @@ std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     for (const PrimitiveSource& source : meshes[m]) {
       TriangleMesh mesh = buildVertices(source, findings);
-      built[m].maxJoint = std::max(built[m].maxJoint, mesh.maxJoint);
       if (mesh.indices.empty()) continue;
       Primitive primitive = append(std::move(mesh), scene);
       primitive.material = source.material >= 0 ? source.material : defaultMaterial;

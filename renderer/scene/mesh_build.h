@@ -11,7 +11,6 @@ namespace gnomon {
 struct BuiltMesh {
   std::vector<int> primitives; ///< into Scene::primitives
   std::uint64_t triangles = 0; ///< of one placement
-  int maxJoint = -1;           ///< the greatest joint that a vertex names
 };
 
 /// Fills the scene's vertices, indices, clusters and primitives. Primitives without triangles are left out.

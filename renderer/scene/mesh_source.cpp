@@ -23,10 +23,6 @@ class PrimitiveGathering {
     source_.tangents = attribute("TANGENT", {4});
     source_.texCoords = {attribute("TEXCOORD_0", {2}), attribute("TEXCOORD_1", {2})};
     source_.colors = attribute("COLOR_0", {3, 4});
-    for (int set = 0; primitive_.attributes.count("JOINTS_" + std::to_string(set)) != 0; ++set) {
-      const AccessorView* joints = attribute("JOINTS_" + std::to_string(set), {4});
-      if (joints) source_.joints.push_back(joints);
-    }
     if (primitive_.indices >= 0) gatherIndices();
     return std::move(source_);
   }

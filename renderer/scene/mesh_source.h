@@ -20,7 +20,6 @@ struct PrimitiveSource {
   const AccessorView* tangents = nullptr;
   std::array<const AccessorView*, 2> texCoords{};
   const AccessorView* colors = nullptr;
-  std::vector<const AccessorView*> joints;
   const AccessorView* indices = nullptr;
 
   std::size_t corners() const { return indices ? indices->count : positions->count; }

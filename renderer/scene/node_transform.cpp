@@ -21,12 +21,21 @@ NodeTransform readMatrix(const std::vector<double>& m, const std::string& pointe
 
 } // namespace
 
+void checkTransforms(const nlohmann::json& document, Findings& findings) {
+  const auto nodes = document.find("nodes");
+  if (nodes == document.end()) return;
+  for (std::size_t i = 0; i < nodes->size(); ++i) {
+    const nlohmann::json& node = (*nodes)[i];
+    if (!node.contains("matrix")) continue;
+    if (node.contains("translation") || node.contains("rotation") || node.contains("scale")) {
+      findings.invalid(pointerTo("/nodes", i) + "/matrix",
+                       "A node has either a matrix or translation, rotation and scale.");
+    }
+  }
+}
+
 NodeTransform readTransform(const tinygltf::Node& node, const std::string& pointer, Findings& findings) {
   if (!node.matrix.empty()) {
-    if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
-      findings.invalid(pointer + "/matrix", "A node has either a matrix or translation, rotation and scale.");
-      return {};
-    }
     return readMatrix(node.matrix, pointer, findings);
   }
   glm::dmat4 rigid(1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tiny_gltf.h>
 
@@ -14,7 +15,10 @@ struct NodeTransform {
   glm::dmat4 parentFromUnscaled{1}; ///< without its scale; a node with a `matrix` keeps it
 };
 
-/// Refuses matrices that are not affine, rotations of length zero, and a matrix beside translation, rotation or scale.
+/// Refuses nodes that have a matrix beside a translation, rotation or scale.
+void checkTransforms(const nlohmann::json& document, Findings& findings);
+
+/// Refuses matrices that are not affine and rotations of length zero.
 NodeTransform readTransform(const tinygltf::Node& node, const std::string& pointer, Findings& findings);
 
 } // namespace gnomon

@@ -131,20 +131,6 @@ class Flattening {
 
 } // namespace
 
-void checkSkins(const GltfDocument& document, const std::vector<BuiltMesh>& meshes, Findings& findings) {
-  for (std::size_t node = 0; node < document.model.nodes.size(); ++node) {
-    const tinygltf::Node& source = document.model.nodes[node];
-    if (source.skin < 0) continue;
-    findings.warn("The file has skins: skinned meshes are drawn in their rest pose.");
-    if (source.mesh < 0) continue;
-    const std::size_t joints = document.json["skins"][static_cast<std::size_t>(source.skin)]["joints"].size();
-    const int greatest = meshes[static_cast<std::size_t>(source.mesh)].maxJoint;
-    if (greatest < 0 || static_cast<std::size_t>(greatest) < joints) continue;
-    findings.invalid(pointerTo("/nodes", node) + "/skin", "The mesh names a joint that the skin does not have.",
-                     "below " + std::to_string(joints), std::to_string(greatest));
-  }
-}
-
 std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<BuiltMesh>& meshes,
                                      const std::vector<Primitive>& primitives, const Limits& limits,
                                      Findings& findings) {

@@ -10,9 +10,6 @@
 
 namespace gnomon {
 
-/// Refuses skins that the joints of their meshes reach past.
-void checkSkins(const GltfDocument& document, const std::vector<BuiltMesh>& meshes, Findings& findings);
-
 /// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all its roots.
 std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<BuiltMesh>& meshes,
                                      const std::vector<Primitive>& primitives, const Limits& limits,

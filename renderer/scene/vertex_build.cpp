@@ -96,17 +96,6 @@ VertexAttributes attributesAt(const PrimitiveSource& source, std::uint32_t verte
   return attributes;
 }
 
-int greatestJoint(const PrimitiveSource& source, const std::vector<std::uint32_t>& vertices) {
-  double greatest = -1;
-  for (const AccessorView* joints : source.joints) {
-    for (const std::uint32_t vertex : vertices) {
-      const glm::dvec4 value = joints->read(vertex);
-      greatest = std::max({greatest, value.x, value.y, value.z, value.w});
-    }
-  }
-  return static_cast<int>(std::min(greatest, 1e9));
-}
-
 } // namespace
 
 TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
@@ -128,7 +117,6 @@ TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
     mesh.positions.emplace_back(source.positions->read(vertex));
     mesh.attributes.push_back(attributesAt(source, vertex));
   }
-  mesh.maxJoint = greatestJoint(source, vertices);
 
   if (!source.normals) {
     setFlatNormals(mesh);

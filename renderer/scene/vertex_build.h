@@ -15,7 +15,6 @@ struct TriangleMesh {
   std::vector<VertexAttributes> attributes; ///< parallel to positions
   std::vector<std::uint32_t> indices;       ///< three a triangle
   bool hasTangents = false;
-  int maxJoint = -1; ///< the greatest joint that a vertex names; -1 = none
 };
 
 /// Reads a primitive. Without normals it gets flat ones; normals and tangents that have no direction are replaced.
