@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""Writes test scenes as NAME.glb, always the same bytes.
+
+usage: make_scenes.py FOLDER NAME...      (README.md says what there is)
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "server", "demo"))
+
+import basic_scenes  # noqa: E402
+import city  # noqa: E402
+
+SCENES = {scene.__name__: scene for scene in (
+    basic_scenes.box_on_plane, basic_scenes.tilted_planes, basic_scenes.mask_leaf, basic_scenes.mirrored_node,
+    basic_scenes.caster_behind_camera, basic_scenes.long_row, basic_scenes.thin_slats, basic_scenes.vertex_colors,
+    basic_scenes.double_sided, basic_scenes.normal_mapped, basic_scenes.multi_scene, basic_scenes.cameras,
+    basic_scenes.lights, basic_scenes.empty, city.city)}
+
+
+def main(folder, *names):
+    os.makedirs(folder, exist_ok=True)
+    for name in names:
+        if name not in SCENES:
+            sys.exit(f"no scene is called {name}; there are: {' '.join(SCENES)}")
+        SCENES[name]().write(os.path.join(folder, name + ".glb"))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
