@@ -22,6 +22,9 @@ inline Json encodeValue(bool value) {
 inline Json encodeValue(int value) {
   return value;
 }
+inline Json encodeValue(std::int64_t value) {
+  return value;
+}
 inline Json encodeValue(std::uint64_t value) {
   return value;
 }

@@ -88,15 +88,22 @@ struct Rows {
   std::string_view says; ///< one sentence
   std::tuple<Field<Owner, Members>...> fields;
   std::array<Alternatives, 2> alternatives{};
+  bool reply = false; ///< only ever written by the server: what is not optional is always there
 
   constexpr Rows withAlternatives(Alternatives first, Alternatives second = {}) const {
-    return {name, says, fields, {first, second}};
+    return {name, says, fields, {first, second}, reply};
   }
 };
 
 template <class Owner, class... Members>
 constexpr Rows<Owner, Members...> rows(std::string_view name, std::string_view says, Field<Owner, Members>... fields) {
-  return {name, says, {fields...}, {}};
+  return {name, says, {fields...}, {}, false};
+}
+
+template <class Owner, class... Members>
+constexpr Rows<Owner, Members...> replyRows(std::string_view name, std::string_view says,
+                                            Field<Owner, Members>... fields) {
+  return {name, says, {fields...}, {}, true};
 }
 
 /// A described struct has a specialisation of this.

@@ -36,5 +36,14 @@ Json toJson(const SceneSummary& summary) {
 Json toJson(const RendererInfo& info) {
   return encodeValue(info);
 }
+Json toJson(const FrameReply& reply) {
+  return encodeValue(reply);
+}
+Json toJson(const SceneList& list) {
+  return encodeValue(list);
+}
+Json toJson(const Capabilities& capabilities) {
+  return encodeValue(capabilities);
+}
 
 } // namespace gnomon

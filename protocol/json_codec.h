@@ -9,6 +9,7 @@
 #include "protocol/capabilities.h"
 #include "protocol/frame_report.h"
 #include "protocol/frame_spec.h"
+#include "protocol/replies.h"
 #include "protocol/result.h"
 #include "protocol/scene_summary.h"
 
@@ -28,5 +29,8 @@ Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives 
 Json toJson(const FrameReport& report);
 Json toJson(const SceneSummary& summary);
 Json toJson(const RendererInfo& info);
+Json toJson(const FrameReply& reply);
+Json toJson(const SceneList& list);
+Json toJson(const Capabilities& capabilities);
 
 } // namespace gnomon

@@ -4,6 +4,8 @@
 #include "protocol/field_rows.h"
 #include "protocol/fields.h"
 #include "protocol/frame_report.h"
+#include "protocol/limits.h"
+#include "protocol/replies.h"
 #include "protocol/scene_summary.h"
 
 /// One row for each member of the structs that replies are made of; see field_rows.h. StageTime has none: the stages
@@ -11,42 +13,42 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<CascadeReport> =
-    rows("CascadeReport", "One cascade as it was drawn.",
-         field("near", &CascadeReport::near, {.says = "View depth where it begins.", .unit = "metres"}),
-         field("far", &CascadeReport::far, {.says = "View depth where it ends.", .unit = "metres"}),
-         field("tile", &CascadeReport::tile,
-               {.says = "x, y, width and height in the atlas, border included.", .unit = "texels"}),
-         field("texelSize", &CascadeReport::texelSize, {.says = "Size of a texel across and along.", .unit = "metres"}),
-         field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
-         field("culledTriangles", &CascadeReport::culledTriangles,
-               {.says = "Triangles not drawn, because they can't shadow anything that this cascade serves."}));
+inline constexpr auto kRows<CascadeReport> = replyRows(
+    "CascadeReport", "One cascade as it was drawn.",
+    field("near", &CascadeReport::near, {.says = "View depth where it begins.", .unit = "metres"}),
+    field("far", &CascadeReport::far, {.says = "View depth where it ends.", .unit = "metres"}),
+    field("tile", &CascadeReport::tile,
+          {.says = "x, y, width and height in the atlas, border included.", .unit = "texels"}),
+    field("texelSize", &CascadeReport::texelSize, {.says = "Size of a texel across and along.", .unit = "metres"}),
+    field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
+    field("culledTriangles", &CascadeReport::culledTriangles,
+          {.says = "Triangles not drawn, because they can't shadow anything that this cascade serves."}));
 static_assert(kRowsAreComplete<CascadeReport>);
 
 template <>
 inline constexpr auto kRows<LightReport> =
-    rows("LightReport", "What was decided for one light.",
-         field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
-         field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
-         field("askedTileSize", &LightReport::askedTileSize,
-               {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
-         field("grantedTileSize", &LightReport::grantedTileSize,
-               {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
-         field("note", &LightReport::note,
-               {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
-         field("cascades", &LightReport::cascades, {.says = "Its cascades, nearest first."}));
+    replyRows("LightReport", "What was decided for one light.",
+              field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
+              field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
+              field("askedTileSize", &LightReport::askedTileSize,
+                    {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
+              field("grantedTileSize", &LightReport::grantedTileSize,
+                    {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
+              field("note", &LightReport::note,
+                    {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
+              field("cascades", &LightReport::cascades, {.says = "Its cascades, nearest first."}));
 static_assert(kRowsAreComplete<LightReport>);
 
 template <>
 inline constexpr auto kRows<FrameCounts> =
-    rows("FrameCounts", "How much was drawn.",
-         field("sceneTriangles", &FrameCounts::sceneTriangles, {.says = "Triangles in the chosen glTF scene."}),
-         field("surveyedTriangles", &FrameCounts::surveyedTriangles,
-               {.says = "Triangles drawn by the survey: those inside the view."}),
-         field("shadedTriangles", &FrameCounts::shadedTriangles,
-               {.says = "Triangles drawn by one shading pass: in clusters that the survey saw."}),
-         field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
-         field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
+    replyRows("FrameCounts", "How much was drawn.",
+              field("sceneTriangles", &FrameCounts::sceneTriangles, {.says = "Triangles in the chosen glTF scene."}),
+              field("surveyedTriangles", &FrameCounts::surveyedTriangles,
+                    {.says = "Triangles drawn by the survey: those inside the view."}),
+              field("shadedTriangles", &FrameCounts::shadedTriangles,
+                    {.says = "Triangles drawn by one shading pass: in clusters that the survey saw."}),
+              field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
+              field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
 static_assert(kRowsAreComplete<FrameCounts>);
 
 template <>
@@ -68,41 +70,41 @@ static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
 inline constexpr auto kRows<CameraSummary> =
-    rows("CameraSummary", "A camera of the scene.",
-         field("node", &CameraSummary::node, {.says = "Index of its node, usable as camera.node."}),
-         field("name", &CameraSummary::name, {.says = "Its node's name, or its own."}),
-         field("type", &CameraSummary::type, {.says = "perspective or orthographic."}));
+    replyRows("CameraSummary", "A camera of the scene.",
+              field("node", &CameraSummary::node, {.says = "Index of its node, usable as camera.node."}),
+              field("name", &CameraSummary::name, {.says = "Its node's name, or its own."}),
+              field("type", &CameraSummary::type, {.says = "perspective or orthographic."}));
 static_assert(kRowsAreComplete<CameraSummary>);
 
 template <>
-inline constexpr auto kRows<LightSummary> =
-    rows("LightSummary", "A light of the scene.", field("node", &LightSummary::node, {.says = "Index of its node."}),
-         field("name", &LightSummary::name, {.says = "Its node's name, or its own."}),
-         field("type", &LightSummary::type, {.says = "directional, spot or point."}));
+inline constexpr auto kRows<LightSummary> = replyRows(
+    "LightSummary", "A light of the scene.", field("node", &LightSummary::node, {.says = "Index of its node."}),
+    field("name", &LightSummary::name, {.says = "Its node's name, or its own."}),
+    field("type", &LightSummary::type, {.says = "directional, spot or point."}));
 static_assert(kRowsAreComplete<LightSummary>);
 
 template <>
-inline constexpr auto kRows<SceneSummary> =
-    rows("SceneSummary", "What an uploaded scene holds; counts are of its default glTF scene.",
-         field("id", &SceneSummary::id, {.says = "SHA-256 of the upload, 64 lower-case hexadecimal digits."}),
-         field("bytes", &SceneSummary::bytes, {.says = "Size of the upload.", .unit = "bytes"}),
-         field("memoryBytes", &SceneSummary::memoryBytes, {.says = "Size of the loaded scene.", .unit = "bytes"}),
-         field("scenes", &SceneSummary::scenes, {.says = "Scenes in the file."}),
-         field("defaultScene", &SceneSummary::defaultScene, {.says = "Index of the scene that is drawn by default."}),
-         field("nodes", &SceneSummary::nodes, {.says = "Nodes."}),
-         field("meshes", &SceneSummary::meshes, {.says = "Meshes."}),
-         field("materials", &SceneSummary::materials, {.says = "Materials."}),
-         field("images", &SceneSummary::images, {.says = "Images."}),
-         field("triangles", &SceneSummary::triangles, {.says = "Triangles, those of reused meshes counted each time."}),
-         field("vertices", &SceneSummary::vertices, {.says = "Vertices."}),
-         field("animations", &SceneSummary::animations, {.says = "Animations."}),
-         field("boundsMin", &SceneSummary::boundsMin, {.says = "Lower corner of the scene's box.", .unit = "metres"}),
-         field("boundsMax", &SceneSummary::boundsMax, {.says = "Upper corner of the scene's box.", .unit = "metres"}),
-         field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
-         field("lights", &SceneSummary::lights, {.says = "Its lights."}),
-         field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),
-         field("warnings", &SceneSummary::warnings,
-               {.says = "What the file holds that is drawn without, or drawn differently."}));
+inline constexpr auto kRows<SceneSummary> = replyRows(
+    "SceneSummary", "What an uploaded scene holds; counts are of its default glTF scene.",
+    field("id", &SceneSummary::id, {.says = "SHA-256 of the upload, 64 lower-case hexadecimal digits."}),
+    field("bytes", &SceneSummary::bytes, {.says = "Size of the upload.", .unit = "bytes"}),
+    field("memoryBytes", &SceneSummary::memoryBytes, {.says = "Size of the loaded scene.", .unit = "bytes"}),
+    field("scenes", &SceneSummary::scenes, {.says = "Scenes in the file."}),
+    field("defaultScene", &SceneSummary::defaultScene, {.says = "Index of the scene that is drawn by default."}),
+    field("nodes", &SceneSummary::nodes, {.says = "Nodes."}),
+    field("meshes", &SceneSummary::meshes, {.says = "Meshes."}),
+    field("materials", &SceneSummary::materials, {.says = "Materials."}),
+    field("images", &SceneSummary::images, {.says = "Images."}),
+    field("triangles", &SceneSummary::triangles, {.says = "Triangles, those of reused meshes counted each time."}),
+    field("vertices", &SceneSummary::vertices, {.says = "Vertices."}),
+    field("animations", &SceneSummary::animations, {.says = "Animations."}),
+    field("boundsMin", &SceneSummary::boundsMin, {.says = "Lower corner of the scene's box.", .unit = "metres"}),
+    field("boundsMax", &SceneSummary::boundsMax, {.says = "Upper corner of the scene's box.", .unit = "metres"}),
+    field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
+    field("lights", &SceneSummary::lights, {.says = "Its lights."}),
+    field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),
+    field("warnings", &SceneSummary::warnings,
+          {.says = "What the file holds that is drawn without, or drawn differently."}));
 static_assert(kRowsAreComplete<SceneSummary>);
 
 template <>
@@ -119,5 +121,58 @@ inline constexpr auto kRows<RendererInfo> = rows(
     field("fingerprint", &RendererInfo::fingerprint,
           {.says = "Changes whenever the same request could give other bytes."}));
 static_assert(kRowsAreComplete<RendererInfo>);
+
+template <>
+inline constexpr auto kRows<Limits> = replyRows(
+    "Limits", "Every bound that a request or a scene meets.",
+    field("maxFrameSide", &Limits::maxFrameSide, {.says = "Width or height of a frame.", .unit = "pixels"}),
+    field("maxFramePixels", &Limits::maxFramePixels, {.says = "Width times height of a frame.", .unit = "pixels"}),
+    field("maxAtlasSide", &Limits::maxAtlasSide,
+          {.says = "Side of the shadow atlas; the device may allow less.", .unit = "texels"}),
+    field("maxLights", &Limits::maxLights, {.says = "Lights in one frame."}),
+    field("maxCascades", &Limits::maxCascades, {.says = "Cascades of one light."}),
+    field("maxSpecBytes", &Limits::maxSpecBytes, {.says = "A frame's specification.", .unit = "bytes"}),
+    field("maxSceneBytes", &Limits::maxSceneBytes,
+          {.says = "An upload: the model and every file that it names.", .unit = "bytes"}),
+    field("maxBundleFiles", &Limits::maxBundleFiles, {.says = "Files in one upload."}),
+    field("maxJsonDepth", &Limits::maxJsonDepth, {.says = "Nested objects and arrays."}),
+    field("maxJsonValues", &Limits::maxJsonValues, {.says = "Values in a glTF's JSON."}),
+    field("maxNodes", &Limits::maxNodes, {.says = "Nodes of a scene."}),
+    field("maxInstances", &Limits::maxInstances, {.says = "Nodes and primitives placed, over all scenes of a file."}),
+    field("maxTriangles", &Limits::maxTriangles, {.says = "Triangles of a scene, reused meshes counted each time."}),
+    field("maxVertices", &Limits::maxVertices, {.says = "Vertices over all meshes."}),
+    field("maxMaterials", &Limits::maxMaterials, {.says = "Materials of a scene."}),
+    field("maxImages", &Limits::maxImages, {.says = "Images of a scene."}),
+    field("maxImageSide", &Limits::maxImageSide, {.says = "Width or height of an image.", .unit = "pixels"}),
+    field("maxImagePixels", &Limits::maxImagePixels, {.says = "Pixels of all images together.", .unit = "pixels"}));
+static_assert(kRowsAreComplete<Limits>);
+
+template <>
+inline constexpr auto kRows<ImageReply> = replyRows(
+    "ImageReply", "A picture within a JSON reply.",
+    field("view", &ImageReply::view, {.says = "What it shows; of an EXR, which holds every view, the first."}),
+    field("contentType", &ImageReply::contentType, {.says = "image/png or image/x-exr."}),
+    field("data", &ImageReply::data, {.says = "The file in base64 (RFC 4648 section 4)."}));
+static_assert(kRowsAreComplete<ImageReply>);
+
+template <>
+inline constexpr auto kRows<FrameReply> =
+    replyRows("FrameReply", "A frame as JSON.",
+              field("report", &FrameReply::report, {.says = "What the rendering gave besides its pictures."}),
+              field("images", &FrameReply::images, {.says = "A PNG for each view, or one EXR of them all."}));
+static_assert(kRowsAreComplete<FrameReply>);
+
+template <>
+inline constexpr auto kRows<SceneList> = replyRows("SceneList", "The scenes that the server has.",
+                                                   field("scenes", &SceneList::scenes, {.says = "One summary each."}));
+static_assert(kRowsAreComplete<SceneList>);
+
+template <>
+inline constexpr auto kRows<Capabilities> =
+    replyRows("Capabilities", "What this server can do.",
+              field("version", &Capabilities::version, {.says = "Gnomon's own version."}),
+              field("renderer", &Capabilities::renderer, {.says = "What the graphics context is and can do."}),
+              field("limits", &Capabilities::limits, {.says = "Every bound that a request or a scene meets."}));
+static_assert(kRowsAreComplete<Capabilities>);
 
 } // namespace gnomon
