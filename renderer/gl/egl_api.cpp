@@ -16,7 +16,6 @@ Result<EglApi> openEgl() {
   library.load(egl.getProcAddress, "eglGetProcAddress");
   library.load(egl.queryString, "eglQueryString");
   library.load(egl.initialize, "eglInitialize");
-  library.load(egl.terminate, "eglTerminate");
   library.load(egl.bindApi, "eglBindAPI");
   library.load(egl.chooseConfig, "eglChooseConfig");
   library.load(egl.createContext, "eglCreateContext");
@@ -24,9 +23,8 @@ Result<EglApi> openEgl() {
   library.load(egl.makeCurrent, "eglMakeCurrent");
   library.load(egl.getError, "eglGetError");
   library.load(egl.releaseThread, "eglReleaseThread");
-  if (!egl.getProcAddress || !egl.queryString || !egl.initialize || !egl.terminate || !egl.bindApi ||
-      !egl.chooseConfig || !egl.createContext || !egl.destroyContext || !egl.makeCurrent || !egl.getError ||
-      !egl.releaseThread) {
+  if (!egl.getProcAddress || !egl.queryString || !egl.initialize || !egl.bindApi || !egl.chooseConfig ||
+      !egl.createContext || !egl.destroyContext || !egl.makeCurrent || !egl.getError || !egl.releaseThread) {
     return backendProblem(std::string(kName) + " lacks functions of EGL 1.4");
   }
   const auto extension = [&]<class Function>(Function& function, const char* name) {

@@ -21,21 +21,21 @@ class EglContext final : public Context {
   ~EglContext() override;
 
  private:
-  EglContext(const EglApi& egl, EglDisplay display) : egl_(egl), display_(std::move(display)) {}
+  EglContext(const EglApi& egl, EGLDisplay display) : egl_(egl), display_(display) {}
   /// Empty = done.
   std::string makeCurrent();
 
   const EglApi& egl_;
-  EglDisplay display_;
+  EGLDisplay display_;
   EGLContext context_ = EGL_NO_CONTEXT;
   std::optional<FunctionTable> table_;
   std::thread::id thread_ = std::this_thread::get_id();
 };
 
 Result<std::unique_ptr<Context>> EglContext::create(const EglApi& egl, const EglPlace& place) {
-  Result<EglDisplay> display = EglDisplay::open(egl, place);
-  if (!display) return std::move(display).problems();
-  std::unique_ptr<EglContext> context(new EglContext(egl, *std::move(display)));
+  const Result<EGLDisplay> display = openDisplay(egl, place);
+  if (!display) return display.problems();
+  std::unique_ptr<EglContext> context(new EglContext(egl, *display));
   if (const std::string failure = context->makeCurrent(); !failure.empty()) return backendProblem(failure);
   Result<FunctionTable> table = FunctionTable::load("egl", reinterpret_cast<GLADloadfunc>(egl.getProcAddress));
   if (!table) return std::move(table).problems();
@@ -46,23 +46,23 @@ Result<std::unique_ptr<Context>> EglContext::create(const EglApi& egl, const Egl
 }
 
 std::string EglContext::makeCurrent() {
-  const char* extensions = egl_.queryString(display_.get(), EGL_EXTENSIONS);
+  const char* extensions = egl_.queryString(display_, EGL_EXTENSIONS);
   if (!hasExtension(extensions, "EGL_KHR_surfaceless_context")) return "no EGL_KHR_surfaceless_context";
   if (!egl_.bindApi(EGL_OPENGL_API)) return "no desktop OpenGL (" + eglErrorName(egl_) + ")";
   EGLConfig config = EGL_NO_CONFIG_KHR;
   if (!hasExtension(extensions, "EGL_KHR_no_config_context")) {
     constexpr std::array<EGLint, 5> kWanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLint count = 0;
-    if (!egl_.chooseConfig(display_.get(), kWanted.data(), &config, 1, &count) || count == 0) {
+    if (!egl_.chooseConfig(display_, kWanted.data(), &config, 1, &count) || count == 0) {
       return "no configuration for desktop OpenGL (" + eglErrorName(egl_) + ")";
     }
   }
   constexpr std::array<EGLint, 7> kAttributes{
       EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  context_ = egl_.createContext(display_.get(), config, EGL_NO_CONTEXT, kAttributes.data());
+  context_ = egl_.createContext(display_, config, EGL_NO_CONTEXT, kAttributes.data());
   if (context_ == EGL_NO_CONTEXT) return "no OpenGL 4.5 core context (" + eglErrorName(egl_) + ")";
-  if (!egl_.makeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+  if (!egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
     return "eglMakeCurrent failed (" + eglErrorName(egl_) + ")";
   }
   return {};
@@ -71,8 +71,8 @@ std::string EglContext::makeCurrent() {
 EglContext::~EglContext() {
   assert(std::this_thread::get_id() == thread_);
   if (context_ != EGL_NO_CONTEXT) {
-    egl_.makeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    egl_.destroyContext(display_.get(), context_);
+    egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_.destroyContext(display_, context_);
   }
   egl_.releaseThread();
 }

@@ -1,17 +1,11 @@
 #include "renderer/gl/egl_display.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
-#include <utility>
 
 #include "renderer/gl/backend_problem.h"
 
 namespace gnomon::gl {
 namespace {
-
-std::mutex displayMutex;
-std::map<EGLDisplay, int> displayUsers;
 
 bool isSoftwareDevice(const EglApi& egl, EGLDeviceEXT device) {
   return egl.queryDeviceString &&
@@ -50,28 +44,13 @@ std::vector<EglPlace> eglPlaces(const EglApi& egl) {
   return places;
 }
 
-Result<EglDisplay> EglDisplay::open(const EglApi& egl, const EglPlace& place) {
-  const std::lock_guard lock(displayMutex);
+Result<EGLDisplay> openDisplay(const EglApi& egl, const EglPlace& place) {
   const EGLDisplay display = egl.getPlatformDisplay(place.kind, place.native, nullptr);
-  if (display == EGL_NO_DISPLAY) {
-    return backendProblem("no display (" + eglErrorName(egl) + ")");
-  }
+  if (display == EGL_NO_DISPLAY) return backendProblem("no display (" + eglErrorName(egl) + ")");
   if (!egl.initialize(display, nullptr, nullptr)) {
     return backendProblem("eglInitialize failed (" + eglErrorName(egl) + ")");
   }
-  ++displayUsers[display];
-  return EglDisplay(egl, display);
-}
-
-EglDisplay::EglDisplay(EglDisplay&& other) noexcept
-    : egl_(other.egl_), display_(std::exchange(other.display_, EGL_NO_DISPLAY)) {}
-
-EglDisplay::~EglDisplay() {
-  if (display_ == EGL_NO_DISPLAY) return;
-  const std::lock_guard lock(displayMutex);
-  if (--displayUsers[display_] > 0) return;
-  displayUsers.erase(display_);
-  egl_->terminate(display_);
+  return display;
 }
 
 } // namespace gnomon::gl

@@ -19,22 +19,8 @@ struct EglPlace {
 /// the default display, which may be X or Wayland. Empty when EGL knows neither platform.
 std::vector<EglPlace> eglPlaces(const EglApi& egl);
 
-/// An initialized display. EGL gives one display for a place, however often it is asked: it is terminated with its
-/// last user in the process.
-class EglDisplay {
- public:
-  static Result<EglDisplay> open(const EglApi& egl, const EglPlace& place);
-  EglDisplay(EglDisplay&& other) noexcept;
-  EglDisplay& operator=(EglDisplay&&) = delete;
-  ~EglDisplay();
-
-  EGLDisplay get() const { return display_; }
-
- private:
-  EglDisplay(const EglApi& egl, EGLDisplay display) : egl_(&egl), display_(display) {}
-
-  const EglApi* egl_;
-  EGLDisplay display_;
-};
+/// An initialized display. EGL has one display for a place, however often it is asked, and contexts on other threads
+/// may use it: it is never terminated.
+Result<EGLDisplay> openDisplay(const EglApi& egl, const EglPlace& place);
 
 } // namespace gnomon::gl
