@@ -25,6 +25,7 @@ struct HttpReply {
   int status = 0;
   std::string contentType;
   std::string body;
+  int retryAfterSeconds = 0; ///< 0 = the server named none
 };
 
 /// One call to `server` ("http://host:port" or "https://…", with or without a path in front). A reply of any status is

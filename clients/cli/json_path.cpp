@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/json_source.h"
 #include "protocol/limits.h"
 
 namespace gnomon::cli {
@@ -63,9 +64,13 @@ Status setAtPath(Json& root, std::string_view dottedPath, Json value) {
   return Done{};
 }
 
-Json valueOf(std::string_view text) {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(std::string(text)) : value;
+Result<Json> valueOf(std::string_view text) {
+  const bool isWord = text == "true" || text == "false" || text == "null";
+  const bool isJson = isWord || (!text.empty() && std::string_view("{[\"-0123456789").find(text[0]) != text.npos);
+  if (!isJson) return Json(std::string(text));
+  ProblemList problems;
+  if (!readJson(text, problems) || !problems.empty()) return std::move(problems).take();
+  return Json::parse(text);
 }
 
 } // namespace gnomon::cli

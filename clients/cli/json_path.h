@@ -14,7 +14,8 @@ std::string pointerOf(std::string_view dottedPath);
 /// place may be named too. Problems carry the pointer of the step that can't be taken.
 Status setAtPath(Json& root, std::string_view dottedPath, Json value);
 
-/// JSON when it is JSON, else a bare word: 3, true, [1,2,3], Large.
-Json valueOf(std::string_view text);
+/// As in a query string: JSON where the text begins like JSON or is one of its words, else a bare word: 3, true,
+/// [1,2,3], Large. JSON that is broken, too deep or has a key twice is a problem.
+Result<Json> valueOf(std::string_view text);
 
 } // namespace gnomon::cli

@@ -87,8 +87,12 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   }
   Problems problems;
   for (const auto& [path, text] : flags.sets) {
-    const auto done = setAtPath(spec, path, valueOf(text));
-    if (!done) problems.insert(problems.end(), done.problems().begin(), done.problems().end());
+    const auto value = valueOf(text);
+    const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
+    for (Problem problem : done ? Problems() : done.problems()) {
+      if (!value) problem.pointer = pointerOf(path) + problem.pointer;
+      problems.push_back(std::move(problem));
+    }
     origins[pointerOf(path)] = "--set " + path;
   }
   if (!problems.empty()) return problems;

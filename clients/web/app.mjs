@@ -47,7 +47,6 @@ async function show({ report, images, roundTripMs }, draft) {
   problems.clear();
   await picture.show(images[0]);
   stage.classList.toggle('draft', draft);
-  byId('timings').hidden = false;
   showTimings(report, roundTripMs);
   if (draft) return;
   showReport(byId('report'), report);
@@ -66,7 +65,14 @@ store.subscribe((state, before) => {
   loop.changed({ settled: state.summary !== before.summary || state.view !== before.view });
   if (state.summary) history.replaceState(null, '', toHash(state));
 });
-new ResizeObserver(() => store.state.summary && !store.isSet('width') && loop.changed()).observe(stage);
+
+let askedSize = JSON.stringify(stageSize());
+new ResizeObserver(() => {
+  const size = JSON.stringify(stageSize());
+  if (size === askedSize || store.isSet('width')) return;
+  askedSize = size;
+  loop.changed();
+}).observe(stage);
 
 // ---- camera
 

@@ -13,7 +13,7 @@ export function createCameraPanel(store, fit) {
   });
   const node = element(
     'div',
-    { class: 'field', 'data-pointer': '/camera' },
+    { class: 'field whole', 'data-pointer': '/camera' },
     element('div', { class: 'pair' }, list, button),
     readout,
     element('p', { class: 'problem', role: 'alert', hidden: true }),

@@ -72,7 +72,10 @@ export function slider({ path, label, slider: [min, max, step] }, store, id) {
   const show = (value) => {
     if (value === undefined) return;
     range.value = value;
-    range.style.setProperty('--share', `${((Math.min(max, Math.max(min, value)) - min) / (max - min)) * 100}%`);
+    const share = (at) => ((Math.min(max, Math.max(min, at)) - min) / (max - min)) * 100;
+    const ends = [share(0), share(value)].sort((a, b) => a - b); // filled from zero, wherever that is
+    range.style.setProperty('--from', `${ends[0]}%`);
+    range.style.setProperty('--to', `${ends[1]}%`);
     exact.show(value);
   };
   return { node: element('div', { class: 'pair' }, range, exact.node), show };

@@ -15,9 +15,9 @@ export const kSections = [
   {
     title: 'Light',
     fields: [
-      { path: 'lights.0.intensity', label: 'Sun strength', unit: 'lux', slider: [0, 20, 0.1], needs: (store) => store.isSet('lights') },
+      { path: 'lights.0.intensity', label: 'Sun strength', says: 'Lux', slider: [0, 20, 0.1], needs: (store) => store.isSet('lights') },
       { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Even light from everywhere' },
-      { path: 'exposure', label: 'Exposure', unit: 'stops', slider: [-6, 6, 0.1] },
+      { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
       { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
     ],
   },
@@ -28,7 +28,7 @@ export const kSections = [
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4']], needs: shadowed },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], needs: shadowed },
       { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF']], needs: shadowed },
-      { path: 'shadow.filter.size', label: 'Filter width', unit: 'texels', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => shadowed(store) && one('shadow.filter.type', 'pcf')(store) },
+      { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => shadowed(store) && one('shadow.filter.type', 'pcf')(store) },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },
     ],
   },
@@ -41,9 +41,9 @@ export const kSections = [
       { path: 'shadow.depthRange.mode', label: 'Depth range', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = the surfaces of this very frame', choose: chooseDepthRange },
       { path: 'shadow.depthRange.min', label: 'From', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
       { path: 'shadow.depthRange.max', label: 'To', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
-      { path: 'shadow.stabilization', label: 'Stabilise', choices: [['none', 'None'], ['projectionSnapping', 'Projection'], ['viewSnapping', 'View']] },
+      { path: 'shadow.stabilization', label: 'Stabilise', choices: [['none', 'None'], ['projectionSnapping', 'Proj.', 'Projection snapping'], ['viewSnapping', 'View', 'View snapping']] },
       { path: 'shadow.blendCascades', label: 'Blend cascades', toggle: true },
-      { path: 'atlas.baseSize', label: 'Base tile', unit: 'texels', choices: [[512, '512'], [1024, '1024'], [2048, '2048']] },
+      { path: 'atlas.baseSize', label: 'Base tile', says: 'Texels along a side of a Large tile', choices: [[512, '512'], [1024, '1024'], [2048, '2048']] },
     ],
   },
   {

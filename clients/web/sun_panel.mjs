@@ -25,7 +25,7 @@ export function createSunPanel(store) {
   const node = element(
     'div',
     { class: 'sun-panel' },
-    element('div', { class: 'field', 'data-pointer': '/lights' }, source.node, problemSlot()),
+    element('div', { class: 'field whole', 'data-pointer': '/lights' }, source.node, problemSlot()),
     element('div', { class: 'sun' }, dome.node, element('div', { class: 'angles' }, ...angles.map((control) => control.row))),
   );
 

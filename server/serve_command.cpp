@@ -1,0 +1,102 @@
+#include "server/serve_command.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+
+#include "clients/web/web_files.h"
+#include "server/serve.h"
+
+namespace gnomon {
+namespace {
+
+constexpr int kDay = 86'400; // seconds
+
+void addWhere(CLI::App& serve, ServeOptions& options) {
+  serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
+      ->envname("GNOMON_BIND")
+      ->type_name("ADDRESS")
+      ->group("Where");
+  // Not GNOMON_PORT: Kubernetes sets that one to an address when a service is called gnomon.
+  serve.add_option("--port", options.port, "Port to listen on; 0 is any free one, which is printed")
+      ->envname("GNOMON_LISTEN_PORT")
+      ->check(CLI::Range(0, 65535))
+      ->group("Where");
+  serve.add_option("--store", options.storeDirectory, "Directory that keeps scenes over a restart; without it, memory")
+      ->envname("GNOMON_STORE")
+      ->type_name("DIR")
+      ->group("Where");
+}
+
+void addWhatDraws(CLI::App& serve, ServeOptions& options) {
+  const std::map<std::string, Backend> backends{
+      {"auto", Backend::automatic}, {"egl", Backend::egl}, {"osmesa", Backend::osmesa}};
+  serve.add_option("--backend", options.backend.backend, "Graphics context: auto (EGL, then OSMesa), egl or osmesa")
+      ->envname("GNOMON_BACKEND")
+      ->transform(CLI::CheckedTransformer(backends).description(""))
+      ->type_name("NAME")
+      ->default_str("auto")
+      ->group("What draws");
+  serve.add_flag("--require-gpu", options.backend.requireGpu, "Refuse to start where only software could draw")
+      ->envname("GNOMON_REQUIRE_GPU")
+      ->group("What draws");
+}
+
+/// Bytes, with a unit if that is handier: 512MB, 2GB (powers of 1024).
+void addBytes(CLI::App& serve, const char* flag, const char* variable, std::size_t& bytes, const char* says) {
+  serve.add_option(flag, bytes, says)
+      ->envname(variable)
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("BYTES")
+      ->group("How much");
+}
+
+void addHowMuch(CLI::App& serve, ServeOptions& options) {
+  addBytes(serve, "--gpu-scene-bytes", "GNOMON_GPU_SCENE_BYTES", options.gpuSceneBytes,
+           "Uploaded scenes that the renderer keeps; units are taken: 512MB, 2GB");
+  addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
+           "Loaded scenes kept in memory, the least used dropped first");
+  addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes, "The largest upload");
+  addBytes(serve, "--upload-memory-bytes", "GNOMON_UPLOAD_MEMORY_BYTES", options.uploadMemoryBytes,
+           "Bodies of all requests that are under way together");
+  serve.add_option("--queue-limit", options.queueLimit, "Frames that may wait; one more is told to come again (429)")
+      ->envname("GNOMON_QUEUE_LIMIT")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
+      ->group("How much");
+  serve
+      .add_option("--http-threads", options.httpThreads, "Connections served at once; probes have a lane of their own")
+      ->envname("GNOMON_HTTP_THREADS")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{4'096}))
+      ->group("How much");
+}
+
+void addHowLong(CLI::App& serve, ServeOptions& options) {
+  const auto add = [&](const char* flag, const char* variable, int& seconds, int least, const char* says) {
+    serve.add_option(flag, seconds, says)
+        ->envname(variable)
+        ->check(CLI::Range(least, kDay))
+        ->type_name("SECONDS")
+        ->group("How long");
+  };
+  add("--request-timeout", "GNOMON_REQUEST_TIMEOUT", options.requestTimeoutSeconds, 1,
+      "From a request's arrival to its frame, else 504");
+  add("--drain", "GNOMON_DRAIN", options.drainSeconds, 0,
+      "After SIGTERM, answer on with a failing /readyz, so that balancers turn away first");
+  add("--grace", "GNOMON_GRACE", options.graceSeconds, 0, "Then, for what runs and waits; what is left gets a 503");
+}
+
+} // namespace
+
+cli::Subcommand addServeCommand(CLI::App& app) {
+  auto options = std::make_shared<ServeOptions>();
+  for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
+  auto* serve = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
+  serve->option_defaults()->always_capture_default();
+  addWhere(*serve, *options);
+  addWhatDraws(*serve, *options);
+  addHowMuch(*serve, *options);
+  addHowLong(*serve, *options);
+  return {[serve] { return serve->parsed(); }, [options] { return gnomon::serve(*options); }};
+}
+
+} // namespace gnomon
