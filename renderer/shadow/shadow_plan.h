@@ -54,14 +54,14 @@ struct ShadowTile {
   double near = 0;      ///< view depth from which pixels use it (the blend zone included)
   double far = 0;       ///< view depth up to which pixels use it
   double blendNear = 0; ///< where blending to the next cascade (or fading out) begins; = far where there is none
-  Rect rect;            ///< in the atlas, border included
+  Rect rect;            ///< in the atlas, border included; width 0 = no surface in view lies in it, not drawn
   int border = 0;       ///< texels kept on each side, so that no filter leaves the rectangle
   /// Light clip space from eye-relative world space: x y in -1..1 over the whole rectangle, border included;
   /// z 0 nearest the light, 1 farthest. Affine.
   glm::dmat4 clipFromRelative{1};
   glm::dvec2 texelSize{0}; ///< metres across and along
   double depthExtent = 0;  ///< metres from z 0 to z 1
-  /// Metres to move a receiver along its normal, times the sine of the angle between normal and light (H4).
+  /// Metres to move a receiver along its normal, times the sine of the angle between normal and light (see bias.h).
   double normalOffset = 0;
   /// Added towards the light in z units: covers the depth quantum.
   double depthBias = 0;
@@ -70,10 +70,12 @@ struct ShadowTile {
 struct PlannedLight {
   int light = 0;
   int firstTile = 0; ///< into ShadowPlan::tiles
-  int tileCount = 0; ///< 0 = no shadow is drawn; `note` says why
+  int tileCount = 0; ///< cascades, drawn or not; 0 = no shadow is drawn; `note` says why
   int askedTileSize = 0;
   int grantedTileSize = 0;
-  bool fadeOut = false; ///< the last tile fades to lit over its blend zone (manual depth range)
+  /// The last tile fades to lit over its blend zone: surfaces may lie beyond it (manual depth range, or manual splits
+  /// that end before the range does).
+  bool fadeOut = false;
   std::string note;
 };
 

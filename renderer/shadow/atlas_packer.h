@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/core/rect.h"
+
+namespace gnomon {
+
+/// Tiles of one light: all of them or none get into the atlas.
+struct TileRequest {
+  int light = 0; ///< stable name of the light; a lower one is kept in preference to a higher
+  int tileCount = 0;
+  int size = 0; ///< texels along a side, a power of two
+};
+
+/// The size that each request gets so that all fit into a square of `atlasSide` texels (a power of two); 0 = refused.
+/// While they don't fit, the request with the largest tiles is halved; of equals, the one with the highest light.
+/// Where even tiles of kSmallestTile don't fit, the highest light is refused and the others start anew.
+std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlasSide);
+
+/// One square to place.
+struct TileSquare {
+  int light = 0;
+  int cascade = 0;
+  int size = 0; ///< texels, a power of two
+};
+
+struct AtlasLayout {
+  int width = 0; ///< texels, powers of two: the least area that holds the squares; 0 without any
+  int height = 0;
+  std::vector<Rect> rects; ///< in the order of the squares
+};
+
+/// Places squares whose sides are powers of two, without waste: sorted by size, light and cascade, along a Z-order
+/// curve (Morton, 1966), on which a square of s x s texels is any aligned run of s^2. The order of `squares` changes
+/// nothing.
+AtlasLayout packSquares(std::span<const TileSquare> squares);
+
+} // namespace gnomon

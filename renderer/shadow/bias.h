@@ -1,0 +1,49 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "protocol/shadow_options.h"
+
+namespace gnomon {
+
+/// What a filter reads around the point that it is asked for.
+struct FilterKernel {
+  /// Texels along an axis to the farthest texel centre that gets a weight. A comparison is bilinear: it weighs centres
+  /// up to 1 away. hard is one of them; pcf is `size` of them a texel apart, the outermost (size - 1) / 2 away. So it
+  /// is the row's r + 0.5 with the bilinear kernel's r = size / 2: 1 (hard), 2, 3, 4 (pcf 3, 5, 7).
+  double reach = 1;
+  /// Texels that a tile keeps on each side, so that a lookup at the edge of what it serves stays inside: the reach, the
+  /// half texel between a centre and its edge, and the rest of a texel for the rounding of coordinates.
+  int border = 2;
+};
+
+FilterKernel kernelOf(const Filter& filter);
+
+/// The kernel's reach as the bias must cover it: a texel's depth belongs to its centre only to within the rasterizer's
+/// grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a float position finds its texel to within kTexelNoise.
+double biasReach(const FilterKernel& kernel);
+
+/// Texels of error in a lookup's position, at most: see finestTexel.
+inline constexpr double kTexelNoise = 1.0 / 32.0;
+
+/// The smallest texel, metres, in which positions of this size (metres from the eye) can be found to within
+/// kTexelNoise: interpolation and transform lose a few 2^-24 of the position.
+double finestTexel(double magnitude);
+
+/// Metres to move a receiver along its normal, to be multiplied by sin(angle between normal and light).
+/// A plane inclined by that angle rises, towards the light, by up to tan(angle) * hypot(reach * texelSize) between a
+/// lookup and a texel that it weighs; moved by N sin(angle) along its normal, the receiver stands
+/// N sin(angle) / cos(angle) clear of the plane along the light, so N = reach * hypot(texelSize). With square texels
+/// that is w (r + 0.5) sqrt(2). (Holbert, "Saying Goodbye to Shadow Acne", GDC 2011, made exact.)
+double normalOffset(double reach, const glm::dvec2& texelSize);
+
+/// Metres along the light by which map and receiver may disagree about one surface through rounding alone.
+/// `magnitude` bounds the distance from the eye to what is drawn. z is a sum of three float products and an offset, and
+/// each of its inputs is rounded: 5 roundings of 2^-24 on magnitudes that add up to at most twice `magnitude`, once for
+/// the map and once for the receiver. (Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 3.1.)
+double depthRounding(double magnitude);
+
+/// The same in z units of a tile, with the quantum of a 32-bit float depth.
+double depthBias(double magnitude, double depthExtent);
+
+} // namespace gnomon

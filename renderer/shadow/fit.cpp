@@ -1,0 +1,83 @@
+#include "renderer/shadow/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+int innerTexels(const FitTarget& target) {
+  return target.tileSize - 2 * target.kernel.border;
+}
+
+/// Room for a receiver that is moved along its normal, for rounding, and for the quantum of the depth.
+double depthMargin(double depthLength, double normalOffset, double magnitude) {
+  return normalOffset + 2.0 * depthRounding(magnitude) + 0x1p-20 * depthLength;
+}
+
+/// The normal offset N of a box of `extent` metres on `inner` texels that must have room for N on every side:
+/// N = c hypot(extent.x + 2 N, extent.y + 2 N) with c = reach / inner, solved for N.
+double offsetWithRoom(const glm::dvec2& extent, double reach, int inner) {
+  const double c2 = reach * reach / (static_cast<double>(inner) * inner);
+  const double a = 1.0 - 8.0 * c2;
+  const double halfB = 2.0 * c2 * (extent.x + extent.y);
+  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y);
+  return (halfB + std::sqrt(halfB * halfB + a * squares)) / a;
+}
+
+} // namespace
+
+Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
+  const int inner = innerTexels(target);
+  const glm::dvec3 farthest = glm::max(glm::abs(receiversLs.min), glm::abs(receiversLs.max));
+  const double finest = finestTexel(std::max({farthest.x, farthest.y, farthest.z}));
+  const glm::dvec3 length = receiversLs.max - receiversLs.min;
+  const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finest * inner));
+
+  Fit fit;
+  const double room = offsetWithRoom(extent, biasReach(target.kernel), inner);
+  fit.texelSize = (extent + 2.0 * room) / static_cast<double>(inner);
+  fit.normalOffset = normalOffset(biasReach(target.kernel), fit.texelSize);
+  fit.lowest = glm::dvec2(receiversLs.center()) - fit.texelSize * (0.5 * target.tileSize);
+  const double margin = depthMargin(length.z, fit.normalOffset, target.magnitude);
+  fit.depthNear = receiversLs.min.z - margin;
+  fit.depthExtent = length.z + 2.0 * margin;
+  return fit;
+}
+
+Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
+              const FitTarget& target) {
+  const int inner = innerTexels(target);
+  const double reach = biasReach(target.kernel);
+  // inner * texel = 2 radius + 2 normal offsets + the step, of which rounding takes up to half on either side
+  const double texel = 2.0 * sphere.radius / (inner - snapTexels - 2.0 * std::sqrt(2.0) * reach);
+  const double step = snapTexels * texel;
+
+  const glm::dmat3 lightFromWorld = basis.lightFromWorld();
+  const glm::dvec3 eyeLs = lightFromWorld * eye;
+  const glm::dvec3 snapped = glm::round((eyeLs + lightFromWorld * sphere.center) / step) * step - eyeLs;
+
+  Fit fit;
+  fit.texelSize = glm::dvec2(texel);
+  fit.normalOffset = normalOffset(reach, fit.texelSize);
+  fit.lowest = glm::dvec2(snapped) - fit.texelSize * (0.5 * target.tileSize);
+  const double depthLength = 2.0 * sphere.radius + step;
+  const double margin = depthMargin(depthLength, fit.normalOffset, target.magnitude);
+  fit.depthNear = snapped.z - 0.5 * depthLength - margin;
+  fit.depthExtent = depthLength + 2.0 * margin;
+  return fit;
+}
+
+glm::dmat4 clipFromRelative(const LightBasis& basis, const Fit& fit, int tileSize) {
+  const glm::dvec2 size = fit.texelSize * static_cast<double>(tileSize);
+  const glm::dvec3 rowX = basis.right * (2.0 / size.x);
+  const glm::dvec3 rowY = basis.up * (2.0 / size.y);
+  const glm::dvec3 rowZ = basis.direction / fit.depthExtent;
+  glm::dmat4 matrix(1.0);
+  for (int axis = 0; axis < 3; ++axis) matrix[axis] = glm::dvec4(rowX[axis], rowY[axis], rowZ[axis], 0.0);
+  matrix[3] = glm::dvec4(-2.0 * fit.lowest.x / size.x - 1.0, -2.0 * fit.lowest.y / size.y - 1.0,
+                         -fit.depthNear / fit.depthExtent, 1.0);
+  return matrix;
+}
+
+} // namespace gnomon

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "renderer/core/aabb.h"
+#include "renderer/shadow/bias.h"
+#include "renderer/shadow/light_basis.h"
+#include "renderer/shadow/slice.h"
+
+namespace gnomon {
+
+/// Where a tile's square of texels lies in light space, relative to the eye.
+struct Fit {
+  glm::dvec2 lowest{0};    ///< corner of the whole rectangle, border included; metres
+  glm::dvec2 texelSize{0}; ///< metres; the axes may differ
+  double depthNear = 0;    ///< metres along the light where z is 0
+  double depthExtent = 0;  ///< metres from z 0 to z 1
+  double normalOffset = 0; ///< see bias.h
+};
+
+struct FitTarget {
+  int tileSize = 0; ///< texels along a side, border included; at least kSmallestTile (tile_size.h)
+  FilterKernel kernel;
+  double magnitude = 0; ///< metres from the eye to the farthest thing drawn, see depthRounding
+};
+
+/// The tight fit: the tile without its border is the box of the receivers and room for their normal offset, each axis
+/// with its own texel size. z runs from the receiver nearest the light to the farthest, and the normal offset and the
+/// rounding beyond each; casters before z 0 must be drawn with their depth clamped.
+Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
+
+/// The stable fit: the same square for every place and turn of the camera, moved over the world in steps of
+/// `snapTexels` whole texels. `eye` is the eye's place in the world; the steps are counted from the world's origin.
+Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
+              const FitTarget& target);
+
+/// ShadowTile::clipFromRelative of a fit.
+glm::dmat4 clipFromRelative(const LightBasis& basis, const Fit& fit, int tileSize);
+
+} // namespace gnomon
