@@ -1,5 +1,6 @@
 #include "renderer/gl/framebuffer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <string>
 
@@ -63,9 +64,8 @@ Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::str
 }
 
 void Framebuffer::drawToAll() const {
-  std::vector<GLenum> targets;
-  for (int i = 0; i < colors_; ++i) targets.push_back(colorAttachment(i));
-  if (targets.empty()) targets.push_back(GL_NONE);
+  std::vector<GLenum> targets(static_cast<std::size_t>(std::max(1, colors_)), GL_NONE);
+  for (int i = 0; i < colors_; ++i) targets[static_cast<std::size_t>(i)] = colorAttachment(i);
   glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(targets.size()), targets.data());
 }
 
