@@ -1,0 +1,101 @@
+#include "server/render_queue.h"
+
+#include <exception>
+
+#include "server/first_frame.h"
+#include "server/request_log.h"
+
+namespace gnomon {
+namespace {
+
+using Answer = Result<QueuedFrame>;
+
+Problem ownMistake() {
+  return {ProblemCode::internal, "", "The server made a mistake while it rendered.", "", ""};
+}
+
+} // namespace
+
+RenderQueue::RenderQueue(std::size_t limit)
+    : jobs_(limit, [this] { renderer_.reset(); }) {} // a context must be destroyed on the thread that made it
+
+Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& options, std::size_t limit) {
+  std::unique_ptr<RenderQueue> queue(new RenderQueue(limit));
+  std::promise<Status> started;
+  Job job;
+  job.deadline = Clock::time_point::max();
+  job.run = [&](double) {
+    try {
+      auto renderer = Renderer::create(options);
+      if (!renderer) {
+        started.set_value(std::move(renderer).problems());
+        return;
+      }
+      queue->renderer_ = *std::move(renderer);
+      queue->info_ = queue->renderer_->info();
+      started.set_value(drawFirstFrame(*queue->renderer_));
+    } catch (const std::exception& error) {
+      logEvent("renderer", error.what());
+      started.set_value(ownMistake());
+    }
+  };
+  job.drop = [&](const Problem& problem) { started.set_value(problem); };
+  queue->jobs_.submit(std::move(job));
+  auto status = started.get_future().get();
+  if (!status) {
+    return std::move(status).problems();
+  }
+  return queue;
+}
+
+std::variant<QueuedFrame, Problems, QueueFull> RenderQueue::render(FrameJob job) {
+  // Shared with the queue's thread: the caller may have left when the job's turn comes.
+  struct Slip {
+    std::mutex mutex;
+    bool abandoned = false;
+    std::promise<Answer> answer;
+  };
+  const auto slip = std::make_shared<Slip>();
+  auto answer = slip->answer.get_future();
+  const auto deadline = job.deadline;
+  Job queued;
+  queued.deadline = deadline;
+  queued.wanted = [slip, gone = std::move(job.clientGone)] {
+    const std::lock_guard lock(slip->mutex);
+    return !slip->abandoned && !(gone && gone());
+  };
+  queued.run = [this, slip, scene = std::move(job.scene), spec = std::move(job.spec)](double waitedMs) {
+    try {
+      auto frame = renderer_->render(scene, spec);
+      slip->answer.set_value(frame ? Answer(QueuedFrame{*std::move(frame), waitedMs})
+                                   : Answer(std::move(frame).problems()));
+    } catch (const std::exception& error) {
+      logEvent("renderer", error.what());
+      slip->answer.set_value(ownMistake());
+    }
+  };
+  queued.drop = [slip](const Problem& problem) { slip->answer.set_value(problem); };
+  if (auto full = jobs_.submit(std::move(queued))) {
+    return *full;
+  }
+  if (answer.wait_until(deadline) != std::future_status::ready) {
+    const std::lock_guard lock(slip->mutex);
+    slip->abandoned = true;
+    return Problems{{ProblemCode::deadlineExceeded, "", "The frame took longer than a request may.", "", ""}};
+  }
+  auto drawn = answer.get();
+  if (!drawn) {
+    return std::move(drawn).problems();
+  }
+  return *std::move(drawn);
+}
+
+bool RenderQueue::hasRoom() const {
+  return jobs_.waiting() * 4 < jobs_.limit() * 3;
+}
+
+void RenderQueue::close(Clock::time_point deadline) {
+  jobs_.close(deadline);
+}
+
+} // namespace gnomon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <future>
+#include <memory>
+
+#include "renderer/render.h"
+#include "server/job_queue.h"
+
+namespace gnomon {
+
+/// One frame that is wanted.
+struct FrameJob {
+  ScenePtr scene;
+  FrameSpec spec;
+  Clock::time_point deadline;
+  std::function<bool()> clientGone;
+};
+
+/// A frame and how long its job waited for its turn.
+struct QueuedFrame {
+  Frame frame;
+  double queueMs = 0;
+};
+
+/// A bounded queue in front of the thread that makes, owns and uses the renderer.
+class RenderQueue {
+ public:
+  /// Returns once the renderer has drawn a first small shadowed frame, or with why it could not.
+  static Result<std::unique_ptr<RenderQueue>> start(const RendererOptions& options, std::size_t limit);
+
+  const RendererInfo& info() const { return info_; }
+
+  /// The frame, once it is drawn or its deadline has passed.
+  std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
+
+  /// True while a new job would not wait long: the queue is less than three quarters full.
+  bool hasRoom() const;
+  std::size_t waiting() const { return jobs_.waiting(); }
+  std::size_t limit() const { return jobs_.limit(); }
+
+  /// Runs what waits until `deadline`, drops the rest and ends the renderer's thread.
+  void close(Clock::time_point deadline);
+
+ private:
+  explicit RenderQueue(std::size_t limit);
+
+  std::optional<Renderer> renderer_; ///< touched on the queue's thread only
+  RendererInfo info_;
+  JobQueue jobs_;
+};
+
+} // namespace gnomon

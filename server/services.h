@@ -1,0 +1,23 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+#include "server/render_queue.h"
+#include "server/scene_store.h"
+#include "server/static_file.h"
+
+namespace gnomon {
+
+/// What the handlers work with. Outlives them all; each part may be used by any thread.
+struct Services {
+  SceneStore& store;
+  RenderQueue& queue;
+  Limits limits;
+  std::chrono::milliseconds requestTimeout{60'000}; ///< from the handler's start to the frame
+  std::vector<StaticFile> page;
+  std::atomic<bool> draining = false; ///< true from the first signal on: readyz says so
+};
+
+} // namespace gnomon

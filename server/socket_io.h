@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+using Clock = std::chrono::steady_clock;
+
+/// Owns a file descriptor.
+class FileDescriptor {
+ public:
+  FileDescriptor() = default;
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.release()) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
+  ~FileDescriptor() { reset(); }
+  int get() const { return fd_; }
+  explicit operator bool() const { return fd_ >= 0; }
+  int release();
+  void reset();
+
+ private:
+  int fd_ = -1;
+};
+
+/// A switch that many threads can wait on beside their sockets: its descriptor is readable once it is thrown.
+class StopSignal {
+ public:
+  StopSignal();
+  void raise() noexcept;
+  bool raised() const;
+  int fd() const { return event_.get(); }
+
+ private:
+  FileDescriptor event_;
+};
+
+enum class SocketWait { ready, closed, timedOut, stopped };
+
+/// One client's bytes as they arrive. Never waits longer than it is told, and never holds more than it is asked for.
+class SocketReader {
+ public:
+  /// `fd` stays the caller's; `stopFd` (or -1) ends waits that ask for it.
+  SocketReader(int fd, int stopFd) : fd_(fd), stopFd_(stopFd) {}
+
+  /// Waits until something is buffered.
+  SocketWait await(Clock::time_point deadline, bool endOnStop);
+
+  /// Waits for more bytes than are buffered and appends at most `most` of them.
+  SocketWait receive(std::size_t most, Clock::time_point deadline, bool endOnStop = false);
+
+  std::string_view buffered() const { return std::string_view(buffer_).substr(begin_); }
+  void consume(std::size_t count);
+
+ private:
+  int fd_;
+  int stopFd_;
+  std::string buffer_;
+  std::size_t begin_ = 0; ///< bytes before it are consumed
+};
+
+/// Sends everything, or says that the client was gone or too slow.
+bool sendAll(int fd, std::string_view bytes, Clock::time_point deadline);
+
+/// Ends our side and reads what the client still sends, so that the last reply is not lost to a reset.
+void lingerAndClose(FileDescriptor socket, Clock::time_point deadline);
+
+/// True when the peer has closed or reset the connection.
+bool peerGone(int fd);
+
+} // namespace gnomon
