@@ -21,7 +21,7 @@ struct EyeTarget {
 /// Placement on a sphere around a target.
 struct Orbit {
   std::optional<Vec3> target;     ///< absent = the centre of the scene's bounds
-  double azimuthDegrees = 30;     ///< of the eye seen from the target, clockwise from north (-Z) seen from above
+  double azimuthDegrees = 210;    ///< of the eye seen from the target, clockwise from north (-Z) seen from above
   double elevationDegrees = 20;   ///< of the eye above the horizon, -90..90
   std::optional<double> distance; ///< metres; absent = far enough for the whole scene
 

@@ -13,7 +13,7 @@ namespace gnomon {
 /// Even light from everywhere.
 struct Ambient {
   Vec3 color{1, 1, 1};    ///< linear RGB, 0..1
-  double intensity = 0.4; ///< radiance of the surroundings, in the unit of the lights
+  double intensity = 0.3; ///< radiance of the surroundings, in the unit of the lights
 
   bool operator==(const Ambient&) const = default;
 };

@@ -118,8 +118,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("survey");
 
   const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
-  const gl::Buffer lights(gl::bytesOf(lightData(*effective.lights, plan, resolved->view.eye)), "lights");
-  const gl::Buffer tiles(gl::bytesOf(tileData(plan)), "tiles");
+  const auto lights = lightData(*effective.lights, plan, resolved->view.eye);
+  const auto tiles = tileData(plan);
   if (!survey->receivers.range.empty()) {
     data.depthRange.x = survey->receivers.range.nearest;
     data.depthRange.y = survey->receivers.range.farthest;

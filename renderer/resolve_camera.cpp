@@ -26,16 +26,35 @@ Sphere sphereAround(const Aabb& bounds) {
   return {bounds.center(), radius > 0 ? radius : 1.0};
 }
 
-/// How far from its centre a camera sees the whole sphere.
-double framingDistance(const Sphere& sphere, const Camera& camera, double aspect) {
-  const double margin = 1.05;
-  if (camera.orthographic) return 2 * sphere.radius * margin;
-  const double halfY = glm::radians(camera.perspective.value_or(Perspective{}).fovYDegrees) / 2;
-  const double halfX = std::atan(std::tan(halfY) * aspect);
-  return sphere.radius * margin / std::sin(std::min(halfX, halfY));
+/// Orthonormal axes; `up` is bent to stand on the view direction.
+void orient(CameraView& view, const EyeTarget& place) {
+  view.eye = vec(place.eye);
+  view.forward = glm::normalize(vec(place.target) - view.eye);
+  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(vec(place.up))));
+  view.up = glm::cross(view.right, view.forward);
 }
 
-EyeTarget placeOrbit(const Orbit& orbit, const Camera& camera, const Sphere& sphere, double aspect) {
+/// The least distance from `target` at which a camera that looks along `forward` sees all corners of the scene's box.
+double framingDistance(const Aabb& bounds, const EyeTarget& directions, const Camera& camera, double aspect) {
+  const double margin = 1.05;
+  const Sphere sphere = sphereAround(bounds);
+  if (bounds.empty() || camera.orthographic) return 2 * sphere.radius * margin;
+  CameraView view;
+  orient(view, directions);
+  const double tanY = std::tan(glm::radians(camera.perspective.value_or(Perspective{}).fovYDegrees) / 2) / margin;
+  const double tanX = tanY * aspect;
+  double distance = sphere.radius * 1e-3;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - vec(directions.target);
+    const double towards = -glm::dot(p, view.forward);
+    distance = std::max({distance, std::abs(glm::dot(p, view.right)) / tanX + towards,
+                         std::abs(glm::dot(p, view.up)) / tanY + towards});
+  }
+  return distance;
+}
+
+EyeTarget placeOrbit(const Orbit& orbit, const Camera& camera, const Aabb& bounds, double aspect) {
   const double azimuth = glm::radians(orbit.azimuthDegrees);
   const double elevation = glm::radians(orbit.elevationDegrees);
   const glm::dvec3 outward(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
@@ -44,8 +63,9 @@ EyeTarget placeOrbit(const Orbit& orbit, const Camera& camera, const Sphere& sph
   const glm::dvec3 up = std::abs(outward.y) > 0.999999
                             ? glm::dvec3(-std::sin(azimuth), 0, std::cos(azimuth)) * (outward.y > 0 ? 1.0 : -1.0)
                             : glm::dvec3(0, 1, 0);
-  const glm::dvec3 target = orbit.target ? vec(*orbit.target) : sphere.center;
-  const double distance = orbit.distance.value_or(framingDistance(sphere, camera, aspect));
+  const glm::dvec3 target = orbit.target ? vec(*orbit.target) : sphereAround(bounds).center;
+  const EyeTarget directions{array(target + outward), array(target), array(up)};
+  const double distance = orbit.distance ? *orbit.distance : framingDistance(bounds, directions, camera, aspect);
   return {array(target + outward * distance), array(target), array(up)};
 }
 
@@ -62,14 +82,6 @@ Result<const SceneCamera*> findCamera(const std::variant<int, std::string>& node
       std::holds_alternative<int>(node) ? std::to_string(std::get<int>(node)) : std::get<std::string>(node);
   return Problem{ProblemCode::invalidValue, "/camera/node", "no node of this scene by that index or name has a camera",
                  known.empty() ? "the scene has no cameras" : "one of " + known, asked};
-}
-
-/// Orthonormal axes; `up` is bent to stand on the view direction.
-void orient(CameraView& view, const EyeTarget& place) {
-  view.eye = vec(place.eye);
-  view.forward = glm::normalize(vec(place.target) - view.eye);
-  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(vec(place.up))));
-  view.up = glm::cross(view.right, view.forward);
 }
 
 } // namespace
@@ -94,7 +106,7 @@ Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scen
       out.orthographic = node.orthographic;
     }
   } else {
-    out.lookAt = placeOrbit(camera.orbit.value_or(Orbit{}), out, sphere, aspect);
+    out.lookAt = placeOrbit(camera.orbit.value_or(Orbit{}), out, scene.bounds, aspect);
   }
 
   CameraView& view = resolved.view;

@@ -44,10 +44,29 @@ Status drawView(const PassInputs& inputs, const DrawBatch& batch, ShadeVariant v
   return Done{};
 }
 
-void bindShading(const PassInputs& inputs, const ShadeInputs& shade, const gl::Sampler& compare) {
+/// A variant that holds no more than these lights need.
+ShadeVariant variantFor(const ShadeInputs& shade, View view, bool encoded, int samples) {
+  ShadeVariant variant{view, encoded, shade.spec.toneMapping, samples, false, false, std::nullopt};
+  for (const shared::LightData& light : shade.lights) {
+    variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
+    if (light.tiles.y == 0) continue;
+    const int size = static_cast<int>(light.tiles.z);
+    variant.filterSize = variant.filterSize.value_or(size) == size ? size : 0;
+  }
+  return variant;
+}
+
+/// Lights and tiles on the device.
+struct LightBuffers {
+  gl::Buffer lights;
+  gl::Buffer tiles;
+};
+
+void bindShading(const PassInputs& inputs, const ShadeInputs& shade, const LightBuffers& buffers,
+                 const gl::Sampler& compare) {
   bindInputs(inputs);
-  shade.lights.bindStorage(GNOMON_LIGHT_BUFFER);
-  shade.tiles.bindStorage(GNOMON_TILE_BUFFER);
+  buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
   if (shade.atlas.depth.id() == 0) return;
   shade.atlas.depth.bind(GNOMON_ATLAS_UNIT);
   compare.bind(GNOMON_ATLAS_UNIT);
@@ -84,8 +103,9 @@ Result<ShadedView> shadeView(const PassInputs& inputs, const ShadeInputs& shade,
 
   const gl::Sampler compare({GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE, GL_LEQUAL, {0, 0, 0, 0}},
                             "shadow compare");
-  bindShading(inputs, shade, compare);
-  const ShadeVariant variant{view, encoded, shade.spec.toneMapping, samples, false};
+  const LightBuffers buffers{{std::as_bytes(shade.lights), "lights"}, {std::as_bytes(shade.tiles), "tiles"}};
+  bindShading(inputs, shade, buffers, compare);
+  const ShadeVariant variant = variantFor(shade, view, encoded, samples);
   if (const Status drawn = drawView(inputs, batch, variant, state); !drawn) return drawn.problems();
 
   ShadedView shaded{{}, {}, batch.triangles, batch.drawCalls};

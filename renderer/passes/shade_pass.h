@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/gl/framebuffer.h"
@@ -20,10 +22,10 @@ struct ShadedView {
 struct ShadeInputs {
   const Survey& survey;
   const ShadowAtlas& atlas;
-  const gl::Buffer& lights; ///< shared::LightData
-  const gl::Buffer& tiles;  ///< shared::TileData
-  const FrameSpec& spec;    ///< effective
-  int samples = 1;          ///< of the survey
+  std::span<const shared::LightData> lights;
+  std::span<const shared::TileData> tiles;
+  const FrameSpec& spec; ///< effective
+  int samples = 1;       ///< of the survey
 };
 
 /// Shades any view but the atlas. Pictures (color, cascades) are antialiased as the spec asks; data (depth, normal,

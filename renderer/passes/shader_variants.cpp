@@ -69,6 +69,9 @@ gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& var
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
   if (masked) defines.emplace_back("ALPHA_MASK");
+  if (variant.punctual) defines.emplace_back("PUNCTUAL");
+  if (!variant.filterSize) defines.emplace_back("NO_SHADOWS");
+  if (variant.filterSize.value_or(0) > 0) defines.push_back("FILTER_SIZE " + std::to_string(*variant.filterSize));
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "protocol/output_options.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/scene.h"
@@ -16,6 +18,9 @@ struct ShadeVariant {
   ToneMapping toneMapping = ToneMapping::aces;
   int samples = 1;
   bool tangents = false; ///< the primitive brings its own
+  bool punctual = false; ///< some light is a spot or a point
+  /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
+  std::optional<int> filterSize;
 };
 
 gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant);

@@ -5,6 +5,7 @@
 #include "renderer/core/frustum.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/sampler.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
 
@@ -63,6 +64,9 @@ Result<std::vector<glm::vec2>> reduceBlocks(const PassInputs& inputs, const Targ
   state.framebuffer = target->id();
   state.viewport = {0, 0, grid.columns, grid.rows};
   gl::apply(state);
+  // Unfiltered: an integer texture behind a filtering sampler reads as zero.
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "survey texels");
+  for (const GLuint unit : {0u, 1u}) texels.bind(unit);
   targets.depth.bind(0);
   targets.cluster.bind(1);
   visible.bindStorage(GNOMON_VISIBLE_BUFFER);

@@ -90,16 +90,23 @@ CascadeChoice chooseCascade(LightData light, float viewDepth) {
 }
 
 float shadowVisibility(LightData light, Receiver receiver, vec3 toLight) {
+#ifdef NO_SHADOWS
+  return 1.0;
+#endif
   if (light.tiles.y == 0u) return 1.0;
   CascadeChoice choice = chooseCascade(light, receiver.viewDepth);
   if (!choice.covered) return 1.0;
   // A face turned away from the light shadows itself, wherever its map begins.
   if (dot(receiver.normal, toLight) <= 0.0) return 1.0 - light.cone.z * (1.0 - choice.fade);
+#ifdef FILTER_SIZE
+  const int size = FILTER_SIZE; // all lights have the same
+#else
   int size = int(light.tiles.z);
-  float visibility = 1.0;
-  if (choice.blend < 1.0) visibility = tileVisibility(light.tiles.x + choice.first, receiver, toLight, size);
-  if (choice.blend > 0.0) {
-    visibility = mix(visibility, tileVisibility(light.tiles.x + choice.second, receiver, toLight, size), choice.blend);
+#endif
+  float visibility = 0.0;
+  for (uint i = choice.first; i <= choice.second; ++i) {
+    float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
+    if (share > 0.0) visibility += share * tileVisibility(light.tiles.x + i, receiver, toLight, size);
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, light.cone.z);

@@ -26,6 +26,7 @@ vec3 irradiance(LightData light, vec3 relative, out vec3 toLight) {
     toLight = light.direction.xyz;
     return light.radiance.rgb;
   }
+#ifdef PUNCTUAL
   vec3 offset = light.position.xyz - relative;
   float squared = max(dot(offset, offset), 1e-8);
   toLight = offset * inversesqrt(squared);
@@ -39,6 +40,9 @@ vec3 irradiance(LightData light, vec3 relative, out vec3 toLight) {
     attenuation *= falloff * falloff;
   }
   return light.radiance.rgb * attenuation;
+#else
+  return vec3(0.0);
+#endif
 }
 
 vec3 radianceToEye(SurfacePoint s, Receiver receiver) {
@@ -76,7 +80,7 @@ void main() {
   vec3 shown = toneMapped(radianceToEye(s, receiver) * frame.depthRange.z);
 #ifdef VIEW_CASCADES
   int tinted = firstShadowed();
-  if (tinted >= 0) shown *= cascadeTint(lights[tinted], viewDepth);
+  if (tinted >= 0) shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(lights[tinted], viewDepth);
 #endif
   target = vec4(shown, 1.0);
 #elif defined(VIEW_DEPTH)

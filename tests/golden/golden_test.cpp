@@ -1,0 +1,78 @@
+// Every tests/golden/NAME.json is a case: a scene, a request that any client could send, and how far the picture may be
+// from NAME.png. To accept new pictures, run with GNOMON_GOLDEN_UPDATE=1 and look at what changed.
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "protocol/json_codec.h"
+#include "renderer/image/image_codec.h"
+#include "renderer/render.h"
+#include "tests/support/compare_images.h"
+#include "tests/support/files.h"
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kCases = GNOMON_GOLDEN_CASES;
+const fs::path kScenes = GNOMON_TEST_SCENES;
+const fs::path kResults = GNOMON_GOLDEN_RESULTS;
+
+std::vector<std::string> caseNames() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(kCases)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Bytes renderCase(const Json& golden) {
+  const auto spec = decodeFrameSpec(golden.at("request").dump());
+  EXPECT_TRUE(spec) << spec.problems().front().pointer << ' ' << spec.problems().front().detail;
+  const auto scene = loadScene({testing::readFile(kScenes / (golden.at("scene").get<std::string>() + ".glb")), {}});
+  EXPECT_TRUE(scene) << scene.problems().front().detail;
+  auto renderer = Renderer::create({});
+  EXPECT_TRUE(renderer) << renderer.problems().front().detail;
+  if (!spec || !scene || !renderer) return {};
+  const auto frame = renderer->render(*scene, *spec);
+  EXPECT_TRUE(frame) << frame.problems().front().detail;
+  return frame ? *encodePng(*frame, 0) : Bytes{};
+}
+
+Image decoded(const Bytes& png) {
+  return *decodeImage(png, 4096, 4096 * 4096);
+}
+
+class Golden : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, LooksAsItDid) {
+  const Json golden = Json::parse(std::ifstream(kCases / (GetParam() + ".json")));
+  const Bytes png = renderCase(golden);
+  ASSERT_FALSE(png.empty());
+  const fs::path reference = kCases / (GetParam() + ".png");
+  if (std::getenv("GNOMON_GOLDEN_UPDATE") != nullptr) testing::writeFile(reference, png);
+  ASSERT_TRUE(fs::exists(reference)) << "no reference picture; run with GNOMON_GOLDEN_UPDATE=1 and look at it";
+
+  const Image expected = decoded(testing::readFile(reference));
+  const Image actual = decoded(png);
+  const testing::ImageDifference difference = testing::compareImages(expected, actual);
+  ASSERT_TRUE(difference.sameSize);
+  const Json& tolerance = golden.at("tolerance");
+  const bool close =
+      difference.max <= tolerance.at("max").get<int>() && difference.mean <= tolerance.at("mean").get<double>();
+  if (!close) {
+    fs::create_directories(kResults);
+    testing::writeFile(kResults / (GetParam() + ".png"), png);
+    testing::writeFile(kResults / (GetParam() + "_difference.png"),
+                       *encodePng(testing::differenceMap(expected, actual), 2));
+  }
+  EXPECT_TRUE(close) << "max " << difference.max << " (" << tolerance.at("max") << "), mean " << difference.mean << " ("
+                     << tolerance.at("mean") << "), worst at " << difference.worstX << ',' << difference.worstY
+                     << "; the picture and a map of the difference are in " << kResults;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(caseNames()), [](const auto& c) { return c.param; });
+
+} // namespace
+} // namespace gnomon

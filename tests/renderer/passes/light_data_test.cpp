@@ -1,0 +1,78 @@
+#include "renderer/passes/light_data.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
+  EXPECT_LT(glm::length(a - b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+TEST(LightData, TheSunStandsWhereItsAnglesSay) {
+  Light light;
+  light.sun = Sun{90, 0};
+  expectNear(directionOf(light), {-1, 0, 0}); // from the east
+  light.sun = Sun{0, 0};
+  expectNear(directionOf(light), {0, 0, 1}); // from the north
+  light.sun = Sun{217, 90};
+  expectNear(directionOf(light), {0, -1, 0}); // from above
+}
+
+TEST(LightData, ADirectionOfAnyLengthIsMadeUnit) {
+  Light light;
+  light.direction = Vec3{0, -1e-200, 0};
+  expectNear(directionOf(light), {0, -1, 0});
+  light.direction = Vec3{1e200, 0, 0};
+  expectNear(directionOf(light), {1, 0, 0});
+}
+
+TEST(LightData, OnlyPlannedLightsHaveTiles) {
+  Light sun;
+  sun.shadow = Shadow{};
+  sun.shadow->strength = 0.5;
+  sun.shadow->filter = {FilterType::hard, 5};
+  Light lamp;
+  lamp.type = LightType::point;
+  lamp.position = Vec3{1, 2, 3};
+  ShadowPlan plan;
+  plan.lights.push_back({.light = 1, .firstTile = 2, .tileCount = 3, .fadeOut = true, .note = ""});
+  const std::vector<Light> lights{lamp, sun};
+  const auto data = lightData(lights, plan, {1, 1, 1});
+  ASSERT_EQ(data.size(), 2u);
+  EXPECT_EQ(data[0].tiles.y, 0u);
+  EXPECT_EQ(glm::vec3(data[0].position), glm::vec3(0, 1, 2));
+  EXPECT_EQ(data[0].position.w, 0.0f) << "no range is infinite";
+  EXPECT_EQ(data[1].tiles, glm::uvec4(2, 3, 1, 0));
+  EXPECT_EQ(data[1].cone.z, 0.5f);
+  EXPECT_EQ(data[1].cone.w, 1.0f);
+}
+
+TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
+  ShadowPlan plan;
+  plan.atlasWidth = 256;
+  plan.atlasHeight = 128;
+  ShadowTile tile;
+  tile.rect = {64, 32, 64, 32};
+  tile.clipFromRelative = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0.25, 0, 0), glm::dvec4(0, 0, 0.125, 0),
+                                     glm::dvec4(0.5, -0.5, 0.25, 1));
+  plan.tiles.push_back(tile);
+  const shared::TileData data = tileData(plan)[0];
+  const glm::vec4 p(1, 1, 2, 1);
+  const glm::dvec4 clip = tile.clipFromRelative * glm::dvec4(p);
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[0], p), static_cast<float>((64 + (clip.x * 0.5 + 0.5) * 64) / 256));
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[1], p), static_cast<float>((32 + (clip.y * 0.5 + 0.5) * 32) / 128));
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[2], p), static_cast<float>(clip.z));
+  EXPECT_EQ(data.bounds, glm::vec4(64.5f / 256, 32.5f / 128, 127.5f / 256, 63.5f / 128));
+}
+
+TEST(LightData, ATileWithoutTexelsHoldsNoLookup) {
+  ShadowPlan plan;
+  plan.atlasWidth = plan.atlasHeight = 64;
+  plan.tiles.push_back({});
+  const shared::TileData data = tileData(plan)[0];
+  EXPECT_GT(data.bounds.x, data.bounds.z);
+}
+
+} // namespace
+} // namespace gnomon
