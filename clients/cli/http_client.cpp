@@ -60,8 +60,8 @@ Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
       return Problem{ProblemCode::unavailable, server, "no reply: " + httplib::to_string(reply.error()), "", ""};
-    return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body,
-                     reply->get_header_value<std::uint64_t>("Retry-After")};
+    const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
+    return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};
   } catch (const std::exception& error) {
     return Problem{ProblemCode::internal, server, std::string("the call failed: ") + error.what(), "", ""};
   }
