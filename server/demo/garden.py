@@ -125,7 +125,7 @@ def cypress(height, seed):
     phases = [rng.uniform(0, 2 * math.pi) for _ in range(3)]
 
     def lumps(angle):
-        return 1 + 0.1 * math.sin(5 * angle + phases[0]) + 0.07 * math.sin(9 * angle + phases[1])
+        return 1 + 0.1 * math.sin(3 * angle + phases[0]) + 0.06 * math.sin(5 * angle + phases[1])
 
     profile = [(0.0, 0.35)]
     for step in range(1, 11):
@@ -138,6 +138,6 @@ def cypress(height, seed):
 
     def shade(_, y, __):
         t = 0.45 + 0.55 * min(1.0, y / height * 1.4)
-        return (0.055 * t, 0.11 * t, 0.045 * t) if y > 0.8 else (0.09, 0.06, 0.04)
+        return (0.11 * t, 0.21 * t, 0.075 * t) if y > 0.8 else (0.09, 0.06, 0.04)
 
     return mesh.paint(shade)

@@ -13,7 +13,7 @@ import textures
 from glb import Glb, look_along, sun_direction, turn
 from shapes import box
 
-SUN_AZIMUTH, SUN_ELEVATION = 248.0, 27.0
+SUN_AZIMUTH, SUN_ELEVATION = 84.0, 26.0
 
 
 def around(radius, degrees):
@@ -26,22 +26,23 @@ def add_materials(glb):
     """Name -> index."""
     slabs = glb.texture(textures.tiles(256, 4, (206, 192, 168), (118, 106, 90), 11), "slabs")
     sandstone = glb.texture(textures.mottled(128, (216, 200, 170), 0.14, 21), "sandstone")
-    grass = glb.texture(textures.mottled(256, (118, 138, 70), 0.42, 31, cells=4, octaves=6), "grass")
-    gravel = glb.texture(textures.mottled(128, (190, 176, 150), 0.3, 41, cells=32, octaves=2), "gravel")
+    grass = glb.texture(textures.mottled(256, (116, 138, 72), 0.3, 31, cells=16, octaves=4), "grass")
+    gravel = glb.texture(textures.mottled(128, (192, 178, 152), 0.15, 41, cells=24, octaves=3), "gravel")
     wood = glb.texture(textures.mottled(128, (150, 108, 70), 0.3, 51, cells=16, octaves=3, stretch=8), "wood")
     bark = glb.texture(textures.mottled(64, (104, 82, 62), 0.45, 61, cells=8, octaves=3, stretch=4), "bark")
+    needles = glb.texture(textures.mottled(128, (205, 215, 195), 0.55, 81, cells=32, octaves=3), "needles")
     leaf = glb.texture(textures.leaves(128, 48, (104, 148, 58), 71), "leaves")
     return {
         "slabs": glb.material("slabs", texture=slabs, roughness=0.8),
         "stone": glb.material("sandstone", texture=sandstone, roughness=0.85),
         "dark stone": glb.material("basalt", (0.09, 0.085, 0.08, 1), roughness=0.55),
-        "bronze": glb.material("bronze", (0.62, 0.36, 0.17, 1), metallic=0.75, roughness=0.38),
+        "bronze": glb.material("bronze", (0.55, 0.31, 0.14, 1), metallic=0.75, roughness=0.38),
         "grass": glb.material("grass", texture=grass, roughness=1.0),
         "gravel": glb.material("gravel", texture=gravel, roughness=1.0),
         "wood": glb.material("wood", texture=wood, roughness=0.75),
         "bark": glb.material("bark", texture=bark, roughness=0.95),
         "leaves": glb.material("leaves", texture=leaf, roughness=0.8, mask=0.5, double_sided=True),
-        "foliage": glb.material("foliage", roughness=1.0),
+        "foliage": glb.material("foliage", texture=needles, roughness=1.0),
         "painted": glb.material("painted", roughness=0.6),
     }
 
@@ -81,7 +82,7 @@ def add_spheres(glb, materials):
     nodes = []
     for i, (name, color, metallic, roughness) in enumerate(finishes):
         ball = glb.mesh(name, (shape, glb.material(name, color, metallic, roughness)))
-        degrees = 197 + 15.5 * i
+        degrees = 187 + 13 * i
         x, z = around(12.9, degrees)
         top = glb.node(name, mesh=ball, translation=[0.0, 1.44, 0.0])
         nodes.append(glb.node(f"pedestal {i + 1}", mesh=pedestal, translation=[x, 0.0, z], rotation=turn(-degrees),
@@ -117,12 +118,12 @@ def add_garden(glb, materials):
     for i in range(2):
         trees.append(glb.mesh(f"tree {i + 1}", (garden.trunk(3.4 + 0.5 * i, 5 + i), materials["bark"]),
                               (garden.crown(2.6, 2.2, 4.7 + 0.5 * i, 560, 9 + i), materials["leaves"])))
-    places = ((-17.5, -2.0, 1.0), (-20.5, 6.5, 1.15), (-16.0, 13.5, 0.9), (14.5, 15.5, 1.05), (23.0, 13.0, 1.2),
+    places = ((-17.5, -2.0, 1.0), (-20.5, 6.5, 1.15), (-29.0, 16.0, 0.9), (26.0, 22.0, 1.05), (23.0, 13.0, 1.2),
               (-25.0, -9.0, 1.25), (26.0, -8.0, 1.1), (-22.5, 20.0, 1.0), (-33.0, 12.0, 1.3), (34.0, -22.0, 1.3))
     for i, (x, z, size) in enumerate(places):
         nodes.append(glb.node(f"tree {i + 1}", mesh=trees[i % 2], translation=[x, garden.ground_height(x, z), z],
                               rotation=turn(67 * i), scale=[size] * 3))
-    cypresses = [glb.mesh(f"cypress {i + 1}", (garden.cypress(8.0 + i, 13 + i), materials["foliage"]))
+    cypresses = [glb.mesh(f"cypress {i + 1}", (garden.cypress(8.0 + i, 13 + i).scale_uvs(0.5), materials["foliage"]))
                  for i in range(2)]
     for i in range(13):
         for side in (-1, 1):
@@ -143,7 +144,7 @@ def add_surroundings(glb, materials):
     for x in (-3.0, 3.0):
         nodes.append(glb.node("obelisk", mesh=obelisk, translation=[x, 0.0, 19.5]))
     tower = glb.mesh("tower", (architecture.tower(15.0, 3.6).scale_uvs(0.25), materials["stone"]))
-    for x, z, size in ((-34.0, -58.0, 1.0), (41.0, -84.0, 1.25), (-62.0, -22.0, 0.9)):
+    for x, z, size in ((-26.0, -98.0, 0.85), (82.0, -60.0, 1.2), (-62.0, -22.0, 0.9)):
         nodes.append(glb.node("tower", mesh=tower, translation=[x, garden.ground_height(x, z) - 0.8, z],
                               scale=[size] * 3))
     return nodes
@@ -153,8 +154,8 @@ def add_sun_and_cameras(glb):
     sun = glb.light("directional", name="sun", color=[1.0, 0.9, 0.76], intensity=4.0)
     direction = sun_direction(SUN_AZIMUTH, SUN_ELEVATION)
     return [glb.node("sun", rotation=look_along(direction), extensions=sun),
-            glb.camera_node("overview", glb.perspective(40, 0.1, 400), (-12.5, 7.6, 21.5), (1.2, 1.1, -2.4)),
-            glb.camera_node("close", glb.perspective(46, 0.05, 400), (-5.6, 2.15, 7.4), (1.6, 1.5, -2.2)),
+            glb.camera_node("overview", glb.perspective(40, 0.1, 400), (12.0, 8.0, 19.2), (-1.7, 0.7, -2.2)),
+            glb.camera_node("close", glb.perspective(46, 0.05, 400), (5.2, 2.1, 7.4), (-0.9, 1.5, -2.8)),
             glb.camera_node("avenue", glb.perspective(50, 0.1, 400), (1.5, 2.3, -15.5), (-0.4, 2.6, -60.0))]
 
 

@@ -133,11 +133,11 @@ def city():
     ground = grid(220, 220, 176, 176, terrain_height).scale_uvs(0.4)
     nodes = [glb.node("ground", mesh=glb.mesh("ground", (ground, glb.material("paving", texture=paving))))]
     nodes += add_houses(glb, rng) + add_street_furniture(glb, rng)
-    eye_z = 88.0
+    eye_z = 97.0
     eye = (1.2, terrain_height(1.2, eye_z) + 1.7, eye_z)
     nodes.append(glb.camera_node("camera", glb.perspective(55, 0.1), eye, (-0.6, eye[1] + 1.4, 40.0)))
     nodes.append(glb.camera_node("aerial", glb.perspective(45, 0.5), (95, 75, 130), (0, 0, 0)))
     sun = glb.light("directional", name="sun", color=[1.0, 0.94, 0.85], intensity=3.5)
-    nodes.append(glb.node("sun", rotation=look_along(sun_direction(222, 42)), extensions=sun))
+    nodes.append(glb.node("sun", rotation=look_along(sun_direction(197, 38)), extensions=sun))
     glb.scene(nodes, "city")
     return glb
