@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// One stage's time. Names and order: queue load upload survey plan shadow shade readback encode.
 struct StageTime {
-  std::string stage;
+  std::string stage{};
   double milliseconds = 0;
 };
 
@@ -30,8 +30,8 @@ struct LightReport {
   bool shadowed = false;
   int askedTileSize = 0;   ///< texels; 0 = no shadow was asked for
   int grantedTileSize = 0; ///< texels; 0 = none
-  std::string note;        ///< why no shadow was drawn, or what was decided differently; empty = as asked
-  std::vector<CascadeReport> cascades;
+  std::string note{};      ///< why no shadow was drawn, or what was decided differently; empty = as asked
+  std::vector<CascadeReport> cascades{};
 };
 
 struct FrameCounts {
@@ -44,13 +44,13 @@ struct FrameCounts {
 
 /// What a frame's rendering gives besides its pictures.
 struct FrameReport {
-  FrameSpec spec;                     ///< effective: every default resolved, so that it can be asked for again
+  FrameSpec spec{};                   ///< effective: every default resolved, so that it can be asked for again
   std::array<double, 2> depthRange{}; ///< nearest and farthest surface in view, metres; 0 0 = nothing in view
   std::array<int, 2> atlasSize{};     ///< texels that the atlas really took; 0 0 = no atlas
-  std::vector<LightReport> lights;
-  FrameCounts counts;
-  std::vector<StageTime> stages;
-  std::vector<std::string> warnings;
+  std::vector<LightReport> lights{};
+  FrameCounts counts{};
+  std::vector<StageTime> stages{};
+  std::vector<std::string> warnings{};
 };
 
 } // namespace gnomon

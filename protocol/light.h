@@ -20,15 +20,15 @@ struct Sun {
 
 struct Light {
   LightType type = LightType::directional;
-  std::optional<Vec3> direction; ///< where the light travels; directional and spot. Not zero
-  std::optional<Sun> sun;        ///< directional only, instead of direction
-  std::optional<Vec3> position;  ///< metres; spot and point
-  std::optional<double> range;   ///< metres; spot and point; absent = infinite
-  double innerConeDegrees = 0;   ///< half angle; spot
-  double outerConeDegrees = 45;  ///< half angle; spot, > inner, < 90
-  Vec3 color{1, 1, 1};           ///< linear RGB, 0..1
-  double intensity = 3;          ///< lux (directional) or candela (spot, point)
-  std::optional<Shadow> shadow;  ///< absent = the frame's `shadow`; directional only
+  std::optional<Vec3> direction{}; ///< where the light travels; directional and spot. Not zero
+  std::optional<Sun> sun{};        ///< directional only, instead of direction
+  std::optional<Vec3> position{};  ///< metres; spot and point
+  std::optional<double> range{};   ///< metres; spot and point; absent = infinite
+  double innerConeDegrees = 0;     ///< half angle; spot
+  double outerConeDegrees = 45;    ///< half angle; spot, > inner, < 90
+  Vec3 color{1, 1, 1};             ///< linear RGB, 0..1
+  double intensity = 3;            ///< lux (directional) or candela (spot, point)
+  std::optional<Shadow> shadow{};  ///< absent = the frame's `shadow`; directional only
 
   bool operator==(const Light&) const = default;
 };

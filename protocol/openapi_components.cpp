@@ -15,7 +15,6 @@ struct Refusal {
 constexpr std::array kRefusals{
     Refusal{"400", "The request is malformed, or a value in it cannot be taken."},
     Refusal{"404", "There is no such scene or route."},
-    Refusal{"405", "The route has no such method; Allow names those that it has."},
     Refusal{"406", "None of the accepted forms can be given."},
     Refusal{"408", "The request came too slowly."},
     Refusal{"411", "The body needs a Content-Length."},

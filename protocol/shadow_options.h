@@ -14,8 +14,8 @@ enum class FilterType { hard, pcf };
 /// How the depth range is cut into cascades.
 struct Partition {
   PartitionMode mode = PartitionMode::logarithmic;
-  double pssmFactor = 0.5;    ///< logarithmic: 0 = logarithmic, 1 = uniform
-  std::vector<double> splits; ///< manual: far ends as fractions of the range, increasing, one per cascade, at most 1
+  double pssmFactor = 0.5;      ///< logarithmic: 0 = logarithmic, 1 = uniform
+  std::vector<double> splits{}; ///< manual: far ends as fractions of the range, increasing, one per cascade, at most 1
 
   bool operator==(const Partition&) const = default;
 };
@@ -23,8 +23,8 @@ struct Partition {
 /// The depths that the cascades cover.
 struct DepthRange {
   DepthRangeMode mode = DepthRangeMode::automatic; ///< automatic = the nearest and farthest surface in this frame
-  std::optional<double> min;                       ///< manual: metres from the camera's near plane, >= 0
-  std::optional<double> max;                       ///< manual: metres from the camera's near plane, > min
+  std::optional<double> min{};                     ///< manual: metres from the camera's near plane, >= 0
+  std::optional<double> max{};                     ///< manual: metres from the camera's near plane, > min
 
   bool operator==(const DepthRange&) const = default;
 };

@@ -1,0 +1,188 @@
+#include "tests/protocol/spec_generator.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "protocol/field_rows.h"
+#include "protocol/shadow_rules.h"
+
+namespace gnomon {
+namespace {
+
+bool flip() {
+  return *rc::gen::arbitrary<bool>();
+}
+
+int pick(int first, int last) {
+  return *rc::gen::inRange(first, last + 1);
+}
+
+/// A number of the range: its ends, whole numbers, and any bits between.
+double pickIn(const Range& range) {
+  constexpr std::int64_t kSteps = std::int64_t{1} << 53;
+  const double share = static_cast<double>(*rc::gen::inRange<std::int64_t>(0, kSteps + 1)) / double(kSteps);
+  const double between = range.min + (range.max - range.min) * share;
+  const double value = pick(0, 9) == 0 ? (flip() ? range.min : range.max) : flip() ? std::round(between) : between;
+  return range.contains(value) ? value : (range.min + range.max) / 2;
+}
+
+template <class T>
+struct Any;
+
+template <class T>
+T any(const Notes& notes) {
+  return Any<T>::make(notes);
+}
+
+template <>
+struct Any<bool> {
+  static bool make(const Notes& notes) { return notes.onlyTrue || flip(); }
+};
+template <>
+struct Any<int> {
+  static int make(const Notes& notes) {
+    if (notes.choices.count > 0) return notes.choices.values[pick(0, static_cast<int>(notes.choices.count) - 1)];
+    return pick(static_cast<int>(notes.range.min), static_cast<int>(notes.range.max));
+  }
+};
+template <>
+struct Any<double> {
+  static double make(const Notes& notes) { return pickIn(notes.range); }
+};
+template <>
+struct Any<std::string> {
+  static std::string make(const Notes&) {
+    const std::vector<std::string> words = {"a",        "Camera 1", "\"quoted\" \\ / ~", "\u00e9\u4e2d\U0001F600",
+                                            "\n\t\x01", "0"};
+    return *rc::gen::elementOf(words);
+  }
+};
+template <Spelled T>
+struct Any<T> {
+  static T make(const Notes&) { return static_cast<T>(pick(0, static_cast<int>(kSpellings<T>.size()) - 1)); }
+};
+template <class T>
+struct Any<std::optional<T>> {
+  static std::optional<T> make(const Notes& notes) { return flip() ? std::optional<T>(any<T>(notes)) : std::nullopt; }
+};
+template <>
+struct Any<std::variant<int, std::string>> {
+  static std::variant<int, std::string> make(const Notes& notes) {
+    if (flip()) return any<int>(notes);
+    return any<std::string>(notes);
+  }
+};
+template <>
+struct Any<Vec3> {
+  static Vec3 make(const Notes& notes) { return {pickIn(notes.range), pickIn(notes.range), pickIn(notes.range)}; }
+};
+template <class T>
+struct Any<std::vector<T>> {
+  static std::vector<T> make(const Notes& notes) {
+    std::vector<T> list;
+    const int count =
+        pick(static_cast<int>(notes.minCount), static_cast<int>(std::min<std::size_t>(notes.maxCount, 5)));
+    while (list.size() < static_cast<std::size_t>(count)) {
+      T element = any<T>(Notes{.says = "", .range = notes.range});
+      if (notes.distinct && std::find(list.begin(), list.end(), element) != list.end()) continue;
+      list.push_back(std::move(element));
+    }
+    return list;
+  }
+};
+template <Described T>
+struct Any<T> {
+  static T make(const Notes&) {
+    T value;
+    forEachField<T>([&]<class F>(const F& field) { value.*field.member = any<typename F::Member>(field.notes); });
+    return value;
+  }
+};
+
+// What follows makes rules across fields hold, by changing as little as they need.
+
+double lengthOf(const Vec3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+void keepOnly(int kept, auto&... alternatives) {
+  int index = 0;
+  (..., (index++ == kept ? void() : alternatives.reset()));
+}
+
+void order(double& lower, double& higher) {
+  if (lower > higher) std::swap(lower, higher);
+  if (lower == higher) (lower > 0 ? lower : higher) += lower > 0 ? -lower / 2 : 1;
+}
+
+void mend(Camera& camera) {
+  keepOnly(pick(0, 4), camera.lookAt, camera.orbit, camera.node, camera.fit);
+  keepOnly(pick(0, 2), camera.perspective, camera.orthographic);
+  if (camera.lookAt) {
+    EyeTarget& look = *camera.lookAt;
+    look.target = {look.eye[0] + (look.eye[0] > 0 ? -7.5 : 7.5), look.eye[1], look.eye[2]};
+    look.up[0] = 0;
+    if (lengthOf(look.up) < 1e-3) look.up = {0, 1, 0};
+  }
+  if (camera.perspective && camera.perspective->near && camera.perspective->far) {
+    order(*camera.perspective->near, *camera.perspective->far);
+  }
+  if (camera.orthographic) order(camera.orthographic->near, camera.orthographic->far);
+}
+
+void mend(Shadow& shadow, const Atlas& atlas) {
+  shadow.partition.splits.clear();
+  if (shadow.partition.mode == PartitionMode::manual) {
+    for (int i = 1; i <= shadow.cascadeCount; ++i) {
+      shadow.partition.splits.push_back((i - 0.5 * pickIn({0, 1})) / shadow.cascadeCount);
+    }
+  }
+  DepthRange& range = shadow.depthRange;
+  if (range.mode == DepthRangeMode::manual) {
+    range.min = range.min.value_or(0.25);
+    range.max = range.max.value_or(99);
+    if (*range.min >= *range.max) range.min = *range.max / 2;
+  } else {
+    range.min.reset();
+    range.max.reset();
+  }
+  while (tileSide(shadow.size, atlas) > atlas.size) shadow.size = static_cast<ShadowSize>(int(shadow.size) - 1);
+}
+
+void mend(Light& light, const Atlas& atlas) {
+  const Vec3 down{0.5, -1, 0.25};
+  if (light.direction && lengthOf(*light.direction) < 1e-3) light.direction = down;
+  if (light.type == LightType::directional) {
+    keepOnly(pick(0, 1), light.direction, light.sun);
+    if (!light.direction && !light.sun) light.sun.emplace();
+    light.position.reset();
+    light.range.reset();
+  } else {
+    light.sun.reset();
+    light.shadow.reset();
+    light.position = light.position.value_or(Vec3{1, 2, 3});
+    if (light.type == LightType::spot) light.direction = light.direction.value_or(down);
+    if (light.type == LightType::point) light.direction.reset();
+  }
+  if (light.innerConeDegrees >= light.outerConeDegrees) light.innerConeDegrees = light.outerConeDegrees / 2;
+  if (light.shadow) mend(*light.shadow, atlas);
+}
+
+} // namespace
+
+rc::Gen<FrameSpec> anySpec() {
+  return rc::gen::exec([] {
+    FrameSpec spec = any<FrameSpec>(Notes{});
+    if (std::int64_t{spec.width} * spec.height > kLimits.maxFramePixels) spec.height /= 4;
+    spec.height = std::max(spec.height, 1);
+    spec.atlas.baseSize = std::min(spec.atlas.baseSize, spec.atlas.size);
+    mend(spec.camera);
+    mend(spec.shadow, spec.atlas);
+    if (spec.lights) {
+      for (Light& light : *spec.lights) mend(light, spec.atlas);
+    }
+    return spec;
+  });
+}
+
+} // namespace gnomon
