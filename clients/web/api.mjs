@@ -82,7 +82,7 @@ async function json(reply) {
 function refusalOf(status, retryAfter, body) {
   try {
     const { title, detail, problems } = JSON.parse(body);
-    return new Refusal(status, detail ?? title, problems ?? [], Number(retryAfter) || 0);
+    return new Refusal(status, problems?.length ? title : (detail ?? title), problems ?? [], Number(retryAfter) || 0);
   } catch {
     return new Refusal(status, `The server answered ${status}.`, [], Number(retryAfter) || 0);
   }

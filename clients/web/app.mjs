@@ -7,7 +7,8 @@ import { fromHash, toHash } from './deep_link.mjs';
 import { element } from './dom.mjs';
 import { kSections, kViews } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
-import { fitOrbit } from './orbit_math.mjs';
+import { lightsWithSun } from './light_math.mjs';
+import { fitOrbit, kFovYDegrees, orbitInForce } from './orbit_math.mjs';
 import { createPicture } from './picture.mjs';
 import { createProblems } from './problems.mjs';
 import { showReport } from './report_panel.mjs';
@@ -76,25 +77,27 @@ new ResizeObserver(() => {
 
 // ---- camera
 
-const moveTo = (orbit) => store.setSpec('camera', { ...lens(), orbit });
-
+// The lens stays when the eye moves: the user's own, else that of the camera that is looked through.
 function lens() {
   const { perspective, orthographic } = store.state.spec.camera ?? {};
-  return { ...(perspective && { perspective }), ...(orthographic && { orthographic }) };
+  if (perspective || orthographic) return { ...(perspective && { perspective }), ...(orthographic && { orthographic }) };
+  const fovYDegrees = store.state.report?.spec.camera.perspective?.fovYDegrees;
+  return fovYDegrees && fovYDegrees !== kFovYDegrees ? { perspective: { fovYDegrees } } : {};
 }
+
+const moveTo = (orbit) => store.setSpec('camera', { ...lens(), orbit });
+const wholeScene = ({ boundsMin, boundsMax }) => fitOrbit(boundsMin, boundsMax, stage.clientWidth / stage.clientHeight);
 
 function fit() {
-  const { summary } = store.state;
-  if (summary) moveTo(fitOrbit(summary.boundsMin, summary.boundsMax, stage.clientWidth / stage.clientHeight));
+  if (store.state.summary) store.setSpec('camera', { orbit: wholeScene(store.state.summary) });
 }
 
-function presentOrbit() {
-  const { spec, summary } = store.state;
-  if (spec.camera?.orbit || !summary) return spec.camera?.orbit;
-  return fitOrbit(summary.boundsMin, summary.boundsMax, stage.clientWidth / stage.clientHeight);
-}
-
-attachOrbit(stage, { orbit: presentOrbit, move: moveTo, fit });
+attachOrbit(stage, {
+  orbit: () => orbitInForce(store.state.spec.camera, store.state.report),
+  fovY: () => store.effective('camera.perspective.fovYDegrees'),
+  move: moveTo,
+  fit,
+});
 byId('camera').append(createCameraPanel(store, fit));
 
 // ---- scene, light and the other fields
@@ -111,19 +114,17 @@ const scenePanel = createScenePanel({
 });
 byId('empty-upload').addEventListener('click', () => byId('files').click());
 
-// A link's camera and light stay with its scene; another scene starts with its own.
+// A link's camera and light stay with its scene; another scene starts with its own, where it has any.
 function showScene(summary) {
   problems.clear();
   const { sceneId, spec } = store.state;
   const same = sceneId === summary.id;
   const { camera, lights, ...rest } = spec;
-  const orbit = fitOrbit(summary.boundsMin, summary.boundsMax, stage.clientWidth / stage.clientHeight);
-  const sun = [{ type: 'directional', sun: { azimuthDegrees: 135, elevationDegrees: 40 } }];
-  const keptLights = same ? lights : undefined;
-  const ownLights = summary.lights.length > 0;
-  const next = { ...rest, camera: (same && camera) || { orbit } };
-  if (keptLights || !ownLights) next.lights = keptLights ?? sun;
-  store.update({ sceneId: summary.id, summary, spec: next });
+  const [eye] = summary.cameras;
+  const next = { ...rest, camera: (same && camera) || (eye ? { node: eye.node } : { orbit: wholeScene(summary) }) };
+  if (same && lights) next.lights = lights;
+  else if (!summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
+  store.update({ sceneId: summary.id, summary, spec: next, report: null });
 }
 
 byId('sun').append(createSunPanel(store));
@@ -189,6 +190,6 @@ addEventListener('hashchange', () => {
 scenePanel.load(store.state.sceneId).then(() => (byId('empty').hidden = Boolean(store.state.summary)));
 store.subscribe(({ summary }) => summary && (byId('empty').hidden = true));
 capabilities().then(
-  ({ renderer, software }) => (byId('device').textContent = `${renderer}${software ? ' · software, no GPU' : ''}`),
+  ({ renderer: { renderer, software } }) => (byId('device').textContent = `${renderer}${software ? ' · software, no GPU' : ''}`),
   () => {},
 );

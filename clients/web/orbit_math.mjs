@@ -14,6 +14,29 @@ export function fitOrbit(boundsMin, boundsMax, aspect = 16 / 9) {
   return { target, azimuthDegrees: 150, elevationDegrees: 22, distance };
 }
 
+// The orbit that looks the way that an eye and a target do. The target of a glTF camera is only a direction: what is
+// turned about then is a point at a depth between the nearest and the farthest surface in view.
+export function orbitFromView({ eye, target }, depthRange) {
+  const toEye = eye.map((at, i) => at - target[i]);
+  const length = Math.hypot(...toEye) || 1;
+  const [x, y, z] = toEye.map((part) => part / length);
+  const depth = depthRange && depthRange[1] > 0 ? Math.sqrt(Math.max(depthRange[0], 1e-3) * depthRange[1]) : length;
+  const orbit = {
+    target: eye.map((at, i) => at - [x, y, z][i] * depth),
+    azimuthDegrees: (Math.atan2(x, -z) / kRadians + 360) % 360,
+    elevationDegrees: Math.asin(y) / kRadians,
+    distance: depth,
+  };
+  return turned(orbit, 0, 0);
+}
+
+// The user's orbit, else the one that the last frame's camera amounts to; null before the first frame.
+export function orbitInForce(camera, report) {
+  if (camera?.orbit) return camera.orbit;
+  const shown = report?.spec.camera;
+  return shown?.eye ? orbitFromView(shown, report.depthRange) : null;
+}
+
 export function turned(orbit, azimuthBy, elevationBy) {
   const elevation = orbit.elevationDegrees + elevationBy;
   return {
@@ -25,11 +48,11 @@ export function turned(orbit, azimuthBy, elevationBy) {
 
 export const zoomed = (orbit, factor) => ({ ...orbit, distance: Math.min(1e7, Math.max(1e-4, orbit.distance * factor)) });
 
-// Moves the target so that what is under the pointer follows it: right and down in pixels of a picture `height` high.
-export function panned(orbit, rightPixels, downPixels, height) {
-  const metres = (2 * orbit.distance * Math.tan((kFovYDegrees / 2) * kRadians)) / height;
+// Moves the target so that what is under the pointer follows it: right and down as shares of the picture's height.
+export function panned(orbit, rightBy, downBy, fovYDegrees = kFovYDegrees) {
+  const metres = 2 * orbit.distance * Math.tan((fovYDegrees / 2) * kRadians); // of the picture's height at the target
   const { right, up } = basis(orbit);
-  const target = orbit.target.map((at, i) => at - right[i] * rightPixels * metres + up[i] * downPixels * metres);
+  const target = orbit.target.map((at, i) => at - right[i] * rightBy * metres + up[i] * downBy * metres);
   return { ...orbit, target };
 }
 

@@ -7,11 +7,18 @@ const kDegreesPerPixel = 0.35;
 const kKeyDegrees = 5;
 const kKeyPixels = 40;
 
-// `node` takes the pointer; `orbit()` gives the present orbit; `move(orbit)` is told the next; `fit()` starts over.
-export function attachOrbit(node, { orbit, move, fit }) {
+// `node` takes the pointer; `orbit()` gives the present orbit or null; `fovY()` the lens in degrees; `move(orbit)` is
+// told the next orbit; `fit()` starts over.
+export function attachOrbit(node, { orbit, fovY, move, fit }) {
   const pointers = new Map();
-  const change = (next) => orbit() && move(next(orbit()));
-  const height = () => node.clientHeight || 1;
+  const change = (next) => {
+    const now = orbit();
+    if (now) move(next(now));
+  };
+  const pan = (now, rightPixels, downPixels) => {
+    const height = node.clientHeight || 1;
+    return panned(now, rightPixels / height, downPixels / height, fovY());
+  };
 
   node.addEventListener('contextmenu', (event) => event.preventDefault());
   node.addEventListener('pointerdown', (event) => {
@@ -51,7 +58,7 @@ export function attachOrbit(node, { orbit, move, fit }) {
 
   function drag(from, to) {
     const [right, down] = [to.x - from.x, to.y - from.y];
-    if (from.pans) change((now) => panned(now, right, down, height()));
+    if (from.pans) change((now) => pan(now, right, down));
     else change((now) => turned(now, right * kDegreesPerPixel, down * kDegreesPerPixel));
   }
 
@@ -59,12 +66,12 @@ export function attachOrbit(node, { orbit, move, fit }) {
   function pinch(from, to, id) {
     const [other] = [...pointers].filter(([key]) => key !== id).map(([, pointer]) => pointer);
     const apart = (a) => Math.hypot(a.x - other.x, a.y - other.y) || 1;
-    change((now) => panned(zoomed(now, apart(from) / apart(to)), (to.x - from.x) / 2, (to.y - from.y) / 2, height()));
+    change((now) => pan(zoomed(now, apart(from) / apart(to)), (to.x - from.x) / 2, (to.y - from.y) / 2));
   }
 
   function keyed({ key, shiftKey }) {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
-    if (arrow && shiftKey) return () => change((now) => panned(now, -arrow[0] * kKeyPixels, -arrow[1] * kKeyPixels, height()));
+    if (arrow && shiftKey) return () => change((now) => pan(now, -arrow[0] * kKeyPixels, -arrow[1] * kKeyPixels));
     if (arrow) return () => change((now) => turned(now, -arrow[0] * kKeyDegrees, -arrow[1] * kKeyDegrees));
     if (key === '+' || key === '=') return () => change((now) => zoomed(now, 0.85));
     if (key === '-') return () => change((now) => zoomed(now, 1 / 0.85));

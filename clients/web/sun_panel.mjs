@@ -2,15 +2,15 @@
 
 import { choices, slider } from './controls.mjs';
 import { element } from './dom.mjs';
+import { lightsWithSun, sunInForce } from './light_math.mjs';
+import { orbitInForce } from './orbit_math.mjs';
 import { createSkyDome } from './sky_dome.mjs';
 
-const kFirstSun = { azimuthDegrees: 135, elevationDegrees: 40 };
 const kAzimuth = { path: 'lights.0.sun.azimuthDegrees', label: 'Azimuth', slider: [0, 360, 0.5] };
 const kElevation = { path: 'lights.0.sun.elevationDegrees', label: 'Elevation', slider: [0, 90, 0.5] };
 
 export function createSunPanel(store) {
-  const sunOf = () => ({ ...kFirstSun, ...store.state.spec.lights?.[0]?.sun });
-  const setSun = (sun) => store.setSpec('lights.0.sun', { ...sunOf(), ...sun });
+  const setSun = (sun) => store.setSpec('lights', lightsWithSun(store.state, sun));
   const dome = createSkyDome(setSun);
   const source = choices(
     {
@@ -29,12 +29,15 @@ export function createSunPanel(store) {
     element('div', { class: 'sun' }, dome.node, element('div', { class: 'angles' }, ...angles.map((control) => control.row))),
   );
 
-  store.subscribe(({ spec, summary }) => {
+  store.subscribe((state) => {
+    const { spec, summary, report } = state;
     const bySun = Boolean(spec.lights);
+    const sun = sunInForce(state);
+    const orbit = orbitInForce(spec.camera, report);
     source.show(bySun);
     source.node.hidden = !summary?.lights.length && bySun;
-    dome.show(sunOf(), { dimmed: !bySun, headingDegrees: spec.camera?.orbit ? spec.camera.orbit.azimuthDegrees + 180 : null });
-    for (const control of angles) control.show();
+    dome.show(sun, { dimmed: !bySun, headingDegrees: orbit ? orbit.azimuthDegrees + 180 : null });
+    for (const control of angles) control.show(sun);
   });
   return node;
 
@@ -44,7 +47,7 @@ export function createSunPanel(store) {
     const input = slider(field, proxy, `sun-${key}`);
     const label = element('label', { class: 'label', for: `sun-${key}` }, field.label, element('span', { class: 'unit' }, ' °'));
     const row = element('div', { class: 'field slider', 'data-pointer': `/lights/0/sun/${key}` }, element('div', { class: 'caption' }, label), input.node, problemSlot());
-    return { row, show: () => input.show(sunOf()[key]) };
+    return { row, show: (sun) => input.show(sun[key]) };
   }
 }
 

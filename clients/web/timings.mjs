@@ -12,10 +12,11 @@ export function createTimings(node) {
   node.append(bar, element('div', { class: 'timing-rows' }, legend, facts));
 
   return function show(report, roundTripMs) {
-    const total = report.stages.reduce((sum, { milliseconds }) => sum + milliseconds, 0);
+    const stages = Object.entries(report.stages).map(([stage, milliseconds]) => ({ stage, milliseconds }));
+    const total = stages.reduce((sum, { milliseconds }) => sum + milliseconds, 0);
     bar.setAttribute('aria-label', `Server time ${short(total)} milliseconds`);
-    bar.replaceChildren(...report.stages.filter((stage) => stage.milliseconds > total * kLeastShare).map((stage) => segment(stage, total)));
-    legend.replaceChildren(...report.stages.map(entry), element('li', { class: 'total' }, element('b', {}, `${short(total)} ms`), ' server'));
+    bar.replaceChildren(...stages.filter((stage) => stage.milliseconds > total * kLeastShare).map((stage) => segment(stage, total)));
+    legend.replaceChildren(...stages.map(entry), element('li', { class: 'total' }, element('b', {}, `${short(total)} ms`), ' server'));
     facts.replaceChildren(...factsOf(report, roundTripMs).map(([name, value, says]) => element('li', { title: says }, `${name} `, element('b', {}, value))));
   };
 }
