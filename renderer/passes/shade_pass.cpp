@@ -45,8 +45,8 @@ Status drawView(const PassInputs& inputs, const DrawBatch& batch, ShadeVariant v
 }
 
 /// A variant that holds no more than these lights need.
-ShadeVariant variantFor(const ShadeInputs& shade, View view, bool encoded, int samples) {
-  ShadeVariant variant{view, encoded, shade.spec.toneMapping, samples, false, false, std::nullopt};
+ShadeVariant variantFor(const ShadeInputs& shade, View view, bool encoded) {
+  ShadeVariant variant{view, encoded, shade.spec.toneMapping, false, false, std::nullopt};
   for (const shared::LightData& light : shade.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
     if (light.tiles.y == 0) continue;
@@ -105,7 +105,7 @@ Result<ShadedView> shadeView(const PassInputs& inputs, const ShadeInputs& shade,
                             "shadow compare");
   const LightBuffers buffers{{std::as_bytes(shade.lights), "lights"}, {std::as_bytes(shade.tiles), "tiles"}};
   bindShading(inputs, shade, buffers, compare);
-  const ShadeVariant variant = variantFor(shade, view, encoded, samples);
+  const ShadeVariant variant = variantFor(shade, view, encoded);
   if (const Status drawn = drawView(inputs, batch, variant, state); !drawn) return drawn.problems();
 
   ShadedView shaded{{}, {}, batch.triangles, batch.drawCalls};

@@ -41,7 +41,7 @@ std::vector<std::string> maskDefines(const Material* material) {
 }
 
 gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant) {
-  std::vector<std::string> defines{viewDefine(variant.view), "SAMPLES " + std::to_string(variant.samples)};
+  std::vector<std::string> defines{viewDefine(variant.view)};
   const bool shaded = variant.view == View::color || variant.view == View::cascades;
   const bool masked = material.alphaMode == AlphaMode::mask;
 

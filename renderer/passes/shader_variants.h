@@ -16,7 +16,6 @@ struct ShadeVariant {
   View view = View::color;
   bool encoded = true; ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
   ToneMapping toneMapping = ToneMapping::aces;
-  int samples = 1;
   bool tangents = false; ///< the primitive brings its own
   bool punctual = false; ///< some light is a spot or a point
   /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.

@@ -96,8 +96,8 @@ float shadowVisibility(LightData light, Receiver receiver, vec3 toLight) {
   if (light.tiles.y == 0u) return 1.0;
   CascadeChoice choice = chooseCascade(light, receiver.viewDepth);
   if (!choice.covered) return 1.0;
-  // A face turned away from the light shadows itself, wherever its map begins.
-  if (dot(receiver.normal, toLight) <= 0.0) return 1.0 - light.cone.z * (1.0 - choice.fade);
+  // A face turned away from the light, or along it to within rounding, shadows itself.
+  if (dot(receiver.normal, toLight) <= 1e-4) return 1.0 - light.cone.z * (1.0 - choice.fade);
 #ifdef FILTER_SIZE
   const int size = FILTER_SIZE; // all lights have the same
 #else

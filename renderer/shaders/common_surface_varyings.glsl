@@ -6,9 +6,6 @@
 
 STAGE_IO Surface {
   vec3 relative;
-#if SAMPLES > 1
-  centroid vec3 coveredRelative; // a point that the surface really covers
-#endif
   vec3 normal;
 #ifdef TANGENTS
   vec4 tangent;

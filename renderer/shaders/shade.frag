@@ -10,14 +10,6 @@ layout(std430, binding = GNOMON_FRAME_BUFFER) readonly buffer FrameBuffer { Fram
 layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
 layout(location = 0) out vec4 target;
 
-vec3 coveredPoint() {
-#if SAMPLES > 1
-  return surface.coveredRelative;
-#else
-  return surface.relative;
-#endif
-}
-
 // Irradiance on a surface that faces the light, and where the light is.
 // Range and cone as in KHR_lights_punctual.
 vec3 irradiance(LightData light, vec3 relative, out vec3 toLight) {
@@ -64,7 +56,9 @@ int firstShadowed() {
 }
 
 void main() {
-  vec3 relative = coveredPoint();
+  // The pixel's centre: at an edge it may lie just off the surface, in its plane. (A centroid would lie on it, but
+  // llvmpipe divides a centroid's varyings by the centre's w, which is centimetres off.)
+  vec3 relative = surface.relative;
   float viewDepth = dot(relative, frame.forward.xyz);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(relative) : -frame.forward.xyz;
   MaterialData material = materials[surface.material];

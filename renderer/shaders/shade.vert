@@ -19,9 +19,6 @@ void main() {
   vec3 relative = relativeFromLocal(position);
   gl_Position = frame.clipFromRelative * vec4(relative, 1.0);
   surface.relative = relative;
-#if SAMPLES > 1
-  surface.coveredRelative = relative;
-#endif
   surface.normal = turned(normal);
 #ifdef TANGENTS
   surface.tangent = vec4(relativeFromLocal(position + tangent.xyz) - relative, tangent.w);
