@@ -93,7 +93,7 @@ function fit() {
 }
 
 attachOrbit(stage, {
-  orbit: () => orbitInForce(store.state.spec.camera, store.state.report),
+  orbit: () => orbitInForce(store.state),
   fovY: () => store.effective('camera.perspective.fovYDegrees'),
   move: moveTo,
   fit,
@@ -140,6 +140,7 @@ byId('views').append(views.node);
 store.subscribe(({ view, summary }) => {
   views.show(view);
   document.body.classList.toggle('no-scene', !summary);
+  for (const part of document.querySelectorAll('.panel > :not(.scene)')) part.inert = !summary;
 });
 addEventListener('keydown', (event) => {
   if (event.target.closest('input, select, textarea') || event.ctrlKey || event.metaKey || event.altKey) return;

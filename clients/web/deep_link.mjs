@@ -6,7 +6,7 @@ export function toHash({ sceneId, view, spec }) {
   const words = [];
   if (sceneId) words.push(['scene', sceneId]);
   if (view !== 'color') words.push(['view', view]);
-  for (const [path, value] of flatten(spec)) words.push([path, rounded(value)]);
+  for (const [path, value] of flatten(spec).sort(([a], [b]) => (a < b ? -1 : 1))) words.push([path, rounded(value)]);
   const query = new URLSearchParams(words.map(([key, value]) => [key, text(value)]));
   return `#${query.toString().replaceAll('%2C', ',').replaceAll('%5B', '[').replaceAll('%5D', ']')}`;
 }

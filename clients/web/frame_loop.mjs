@@ -3,8 +3,8 @@
 // abandoned; a draft is let finish, so that there is something to see under a hand that never rests.
 
 const kStillMs = 180;
-const kDraftGoalMs = 110; // a draft's size is steered towards this
-const kScales = [0.2, 0.25, 0.33, 0.4, 0.5, 0.67];
+const kDraftGoalMs = 150; // a draft's size is steered towards this
+const kScales = [0.25, 0.33, 0.4, 0.5, 0.67, 0.8];
 
 // `render(draft: bool, scale, signal)` -> frame, or null where there is nothing to render.
 // `show(frame, draft)`, `fail(error)`, `busy(bool)`.

@@ -15,27 +15,31 @@ export function fitOrbit(boundsMin, boundsMax, aspect = 16 / 9) {
 }
 
 // The orbit that looks the way that an eye and a target do. The target of a glTF camera is only a direction: what is
-// turned about then is a point at a depth between the nearest and the farthest surface in view.
-export function orbitFromView({ eye, target }, depthRange) {
+// turned about is the point of the line of sight that is abreast of `centre`, where that lies among the surfaces in view.
+export function orbitFromView({ eye, target }, depthRange, centre) {
   const toEye = eye.map((at, i) => at - target[i]);
   const length = Math.hypot(...toEye) || 1;
-  const [x, y, z] = toEye.map((part) => part / length);
-  const depth = depthRange && depthRange[1] > 0 ? Math.sqrt(Math.max(depthRange[0], 1e-3) * depthRange[1]) : length;
+  const away = toEye.map((part) => part / length);
+  const [near, far] = depthRange[1] > 0 ? depthRange : [length, length];
+  const abreast = eye.reduce((sum, at, i) => sum + (at - centre[i]) * away[i], 0);
+  const distance = abreast > near && abreast < far ? abreast : Math.sqrt(Math.max(near, 1e-3) * far);
   const orbit = {
-    target: eye.map((at, i) => at - [x, y, z][i] * depth),
-    azimuthDegrees: (Math.atan2(x, -z) / kRadians + 360) % 360,
-    elevationDegrees: Math.asin(y) / kRadians,
-    distance: depth,
+    target: eye.map((at, i) => at - away[i] * distance),
+    azimuthDegrees: Math.atan2(away[0], -away[2]) / kRadians,
+    elevationDegrees: Math.asin(away[1]) / kRadians,
+    distance,
   };
   return turned(orbit, 0, 0);
 }
 
 // The user's orbit, else the one that the last frame's camera amounts to; null before the first frame.
-export function orbitInForce(camera, report) {
-  if (camera?.orbit) return camera.orbit;
+export function orbitInForce({ spec, report, summary }) {
+  if (spec.camera?.orbit) return spec.camera.orbit;
   const shown = report?.spec.camera;
-  return shown?.eye ? orbitFromView(shown, report.depthRange) : null;
+  return shown?.eye && summary ? orbitFromView(shown, report.depthRange, centreOf(summary)) : null;
 }
+
+const centreOf = ({ boundsMin, boundsMax }) => boundsMin.map((low, i) => (low + boundsMax[i]) / 2);
 
 export function turned(orbit, azimuthBy, elevationBy) {
   const elevation = orbit.elevationDegrees + elevationBy;

@@ -30,6 +30,7 @@ export function createProblems(root, banner) {
     field.classList.add('refused');
     slot.textContent = sentence(problem);
     slot.hidden = false;
+    field.scrollIntoView({ block: 'nearest' });
     return true;
   }
 

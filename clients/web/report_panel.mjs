@@ -17,8 +17,8 @@ function lightOf(light) {
       {},
       element('th', { scope: 'row' }, dot, String(i)),
       element('td', {}, `${short(cascade.near)} – ${short(cascade.far)}`),
-      element('td', {}, `${cascade.tile[2]}²`),
-      element('td', {}, short(Math.max(...cascade.texelSize) * 1000)),
+      element('td', {}, cascade.tile[2] ? `${cascade.tile[2]}²` : '–'),
+      element('td', {}, cascade.tile[2] ? short(Math.max(...cascade.texelSize) * 1000) : '–'),
       element('td', { title: `${count(cascade.culledTriangles)} culled` }, count(cascade.casterTriangles)),
     );
   });

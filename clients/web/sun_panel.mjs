@@ -15,7 +15,7 @@ export function createSunPanel(store) {
   const source = choices(
     {
       label: 'Light from',
-      choices: [[true, 'Sun'], [false, 'The scene’s lights']],
+      choices: [[true, 'Set by hand'], [false, 'The scene’s own']],
       choose: (sun) => (sun ? setSun({}) : store.clearSpec('lights')),
     },
     store,
@@ -30,10 +30,10 @@ export function createSunPanel(store) {
   );
 
   store.subscribe((state) => {
-    const { spec, summary, report } = state;
+    const { spec, summary } = state;
     const bySun = Boolean(spec.lights);
     const sun = sunInForce(state);
-    const orbit = orbitInForce(spec.camera, report);
+    const orbit = orbitInForce(state);
     source.show(bySun);
     source.node.hidden = !summary?.lights.length && bySun;
     dome.show(sun, { dimmed: !bySun, headingDegrees: orbit ? orbit.azimuthDegrees + 180 : null });
