@@ -45,15 +45,22 @@ Json textPart(const char* description) {
   return {{"type", "string"}, {"description", description}};
 }
 
+/// The parts of an upload: the model, and the files that it names under their own file names.
+Json uploadParts() {
+  const Json files = {{"type", "array"},
+                      {"items", {{"type", "string"}}},
+                      {"description", "A file that the model names, with its name as the part's file name."}};
+  return {{"scene", textPart("The model, glTF or GLB.")}, {"file", files}};
+}
+
 /// A scene as the whole body, or as a form with the files that it names.
 Json sceneBody() {
-  const Json form = {
-      {"schema",
-       {{"type", "object"},
-        {"description", "The model and every file that it names; such a file is a part with the file's name."},
-        {"required", {"scene"}},
-        {"properties", {{"scene", textPart("The model, glTF or GLB.")}}},
-        {"additionalProperties", textPart("A file that the model names.")}}}};
+  const Json form = {{"schema",
+                      {{"type", "object"},
+                       {"description", "The model and every file that it names."},
+                       {"required", {"scene"}},
+                       {"properties", uploadParts()},
+                       {"additionalProperties", textPart("A file that the model names, under its name.")}}}};
   return {
       {"required", true},
       {"content",
@@ -67,13 +74,15 @@ Json specBody() {
 }
 
 Json renderBody() {
-  const Json form = {
-      {"schema",
-       {{"type", "object"},
-        {"required", {"scene"}},
-        {"properties", {{"scene", textPart("The model, glTF or GLB.")}, {"spec", reference("schemas/FrameSpec")}}},
-        {"additionalProperties", textPart("A file that the model names.")}}},
-      {"encoding", {{"spec", {{"contentType", "application/json"}}}}}};
+  Json parts = uploadParts();
+  parts["spec"] = reference("schemas/FrameSpec");
+  const Json form = {{"schema",
+                      {{"type", "object"},
+                       {"description", "The model, every file that it names, and what to show of it."},
+                       {"required", {"scene"}},
+                       {"properties", parts},
+                       {"additionalProperties", textPart("A file that the model names, under its name.")}}},
+                     {"encoding", {{"spec", {{"contentType", "application/json"}}}}}};
   return {{"required", true}, {"content", {{"multipart/form-data", form}}}};
 }
 
@@ -157,9 +166,9 @@ Json scenesRoute() {
 }
 
 Json framesRoute() {
-  Json post =
-      operation("renderFrame", "Render a frame",
-                frameReplies({"304", "400", "404", "406", "408", "413", "415", "422", "429", "500", "503", "504"}));
+  Json post = operation(
+      "renderFrame", "Render a frame",
+      frameReplies({"304", "400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
   post["parameters"] = Json::array({reference("parameters/sceneId"), reference("parameters/ifNoneMatch")});
   return {{"post", withBody(std::move(post), specBody())}};
 }
