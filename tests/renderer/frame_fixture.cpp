@@ -1,0 +1,67 @@
+#include "tests/renderer/frame_fixture.h"
+
+#include "protocol/json_codec.h"
+#include "tests/support/files.h"
+
+namespace gnomon::testing {
+namespace {
+
+std::string told(const Problems& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += problem.pointer + ": " + problem.detail + "\n";
+  return text;
+}
+
+} // namespace
+
+Renderer& sharedRenderer() {
+  static Renderer renderer = [] {
+    auto made = Renderer::create({});
+    if (!made) throw std::runtime_error(told(made.problems()));
+    return std::move(*made);
+  }();
+  return renderer;
+}
+
+ScenePtr sceneOf(const GlbBuilder& builder) {
+  auto scene = loadScene(builder.bundle());
+  EXPECT_TRUE(scene) << told(scene.problems());
+  return scene ? *scene : nullptr;
+}
+
+ScenePtr generatedScene(const std::string& name) {
+  auto scene = loadScene({readFile(std::string(GNOMON_TEST_SCENES "/") + name + ".glb"), {}});
+  EXPECT_TRUE(scene) << told(scene.problems());
+  return scene ? *scene : nullptr;
+}
+
+Frame renderJson(const ScenePtr& scene, const std::string& json) {
+  const auto spec = decodeFrameSpec(json);
+  EXPECT_TRUE(spec) << told(spec.problems());
+  if (!spec) return {};
+  auto frame = sharedRenderer().render(scene, *spec);
+  EXPECT_TRUE(frame) << told(frame.problems());
+  return frame ? std::move(*frame) : Frame{};
+}
+
+Problems refusedJson(const ScenePtr& scene, const std::string& json) {
+  const auto spec = decodeFrameSpec(json);
+  EXPECT_TRUE(spec) << told(spec.problems());
+  if (!spec) return {};
+  const auto frame = sharedRenderer().render(scene, *spec);
+  EXPECT_FALSE(frame) << "was rendered";
+  return frame ? Problems{} : frame.problems();
+}
+
+const std::vector<float>& floatsOf(const Frame& frame, std::size_t view) {
+  return std::get<std::vector<float>>(frame.images.at(view).image.pixels);
+}
+
+float valueAt(const Frame& frame, double x, double y, std::size_t view) {
+  const Image& image = frame.images.at(view).image;
+  const auto column = static_cast<std::size_t>(x * image.width);
+  const auto row = static_cast<std::size_t>(y * image.height);
+  return floatsOf(frame, view).at((row * static_cast<std::size_t>(image.width) + column) * image.channels.size());
+}
+
+} // namespace gnomon::testing

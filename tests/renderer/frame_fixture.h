@@ -1,0 +1,29 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <string>
+
+#include "renderer/render.h"
+#include "tests/support/glb_builder.h"
+
+namespace gnomon::testing {
+
+/// One renderer for all cases of a program: a context is made once.
+Renderer& sharedRenderer();
+
+ScenePtr sceneOf(const GlbBuilder& builder);
+ScenePtr generatedScene(const std::string& name); ///< of tests/scenes
+
+/// Renders a FrameSpec given as JSON; a failed expectation and an empty frame when it is refused.
+Frame renderJson(const ScenePtr& scene, const std::string& spec);
+
+/// Renders what must be refused; the problems.
+Problems refusedJson(const ScenePtr& scene, const std::string& spec);
+
+/// The floats of a view of an EXR frame.
+const std::vector<float>& floatsOf(const Frame& frame, std::size_t view = 0);
+
+/// A value of a one-channel view at a place given as shares of the picture, from its upper left corner.
+float valueAt(const Frame& frame, double x, double y, std::size_t view = 0);
+
+} // namespace gnomon::testing

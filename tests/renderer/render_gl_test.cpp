@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include "protocol/json_codec.h"
+#include "renderer/render.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+using testing::floatsOf;
+using testing::renderJson;
+using testing::valueAt;
+
+const std::string kBox = R"({"width":160,"height":90,"camera":{"node":"camera"},
+    "lights":[{"type":"directional","sun":{"azimuthDegrees":240,"elevationDegrees":35}}]})";
+
+Bytes pngOf(const Frame& frame) {
+  return *encodePng(frame, 0);
+}
+
+TEST(Render, H5_TheSameRequestGivesTheSameBytesWhateverCameBetween) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const Bytes first = pngOf(renderJson(box, kBox));
+  renderJson(testing::generatedScene("lights"), R"({"width":33,"height":77,"antialiasing":"none"})");
+  EXPECT_EQ(first, pngOf(renderJson(box, kBox)));
+  EXPECT_EQ(first, pngOf(renderJson(testing::generatedScene("box_on_plane"), kBox))) << "loaded anew";
+}
+
+TEST(Render, TheEffectiveSpecAsksForTheSamePictureAgain) {
+  for (const char* name : {"box_on_plane", "lights", "cameras"}) {
+    const ScenePtr scene = testing::generatedScene(name);
+    for (const char* spec : {R"({"width":96,"height":64})", R"({"width":96,"height":64,"camera":{"node":"camera"}})",
+                             R"({"width":64,"height":64,"camera":{"orbit":{"elevationDegrees":90}}})"}) {
+      const Frame frame = renderJson(scene, spec);
+      const std::string effective = toJson(frame.report.spec).dump();
+      const Frame again = renderJson(scene, effective);
+      EXPECT_EQ(pngOf(frame), pngOf(again)) << name << ' ' << spec;
+      EXPECT_EQ(effective, toJson(again.report.spec).dump());
+    }
+  }
+}
+
+TEST(Render, ViewsComeOutTheSameInAnyOrder) {
+  const ScenePtr scene = testing::generatedScene("long_row");
+  const auto views = [&](const std::string& list) {
+    return renderJson(scene, R"({"width":96,"height":64,"camera":{"node":"camera"},"views":)" + list + "}");
+  };
+  const Frame forth = views(R"(["color","depth","normal","cascades","shadow","atlas"])");
+  const Frame back = views(R"(["atlas","shadow","cascades","normal","depth","color"])");
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(*encodePng(forth, i), *encodePng(back, 5 - i)) << i;
+}
+
+TEST(Render, DepthIsMetresAlongTheViewAxis) {
+  testing::GlbBuilder plane = testing::plane();
+  plane.json["nodes"][0]["scale"] = {100, 1, 100};
+  const Frame frame = renderJson(testing::sceneOf(plane),
+                                 R"({"width":32,"height":32,"camera":{"eye":[0,7,0],"target":[0,0,0],"up":[0,0,-1]},
+      "views":["depth","normal"],"output":{"format":"exr","exrPixelType":"float"}})");
+  EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 7.0f, 1e-5f);
+  EXPECT_NEAR(valueAt(frame, 0.05, 0.05), 7.0f, 1e-5f) << "not the distance to the eye";
+  EXPECT_NEAR(floatsOf(frame, 1)[1], 1.0f, 1e-6f) << "the normal points up";
+}
+
+TEST(Render, WhereNothingIsDepthIsInfinite) {
+  const Frame frame = renderJson(testing::generatedScene("empty"),
+                                 R"({"width":8,"height":8,"views":["depth","color"],"output":{"format":"exr"},
+      "background":{"color":[0.25,0.5,1],"alpha":0.5}})");
+  EXPECT_TRUE(std::isinf(valueAt(frame, 0.5, 0.5)));
+  const auto& color = floatsOf(frame, 1);
+  EXPECT_EQ((std::vector<float>{color[0], color[1], color[2], color[3]}), (std::vector<float>{0.25f, 0.5f, 1, 0.5f}));
+}
+
+TEST(Render, BackgroundIsWrittenInSrgb) {
+  const Frame frame =
+      renderJson(testing::generatedScene("empty"), R"({"width":8,"height":8,"background":{"color":[0,0.2140411,1]}})");
+  const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
+  EXPECT_EQ(pixels[0], 0);
+  EXPECT_NEAR(pixels[1], 127.5, 1);
+  EXPECT_EQ(pixels[2], 255);
+}
+
+TEST(Render, LambertReflectsTheShareOfTheLightThatItShould) {
+  testing::GlbBuilder plane = testing::plane();
+  plane.json["materials"] = {
+      {{"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}}};
+  plane.json["meshes"][0]["primitives"][0]["material"] = 0;
+  plane.json["nodes"][0]["scale"] = {10, 1, 10};
+  const Frame frame = renderJson(testing::sceneOf(plane),
+                                 R"({"width":16,"height":16,"camera":{"eye":[0,8,0],"target":[0,0,0],"up":[0,0,-1]},
+      "ambient":{"intensity":0},"lights":[{"type":"directional","direction":[1,-1,0],"intensity":3.14159265}],
+      "toneMapping":"none","output":{"format":"exr","exrPixelType":"float"}})");
+  // Albedo 0.5 * cos 45 of a light of pi lux: 0.354, and a few hundredths of rough dielectric reflection.
+  EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 0.5 * std::sqrt(0.5), 0.03);
+}
+
+TEST(Render, ACameraThatIsNotThereIsNamed) {
+  const Problems problems =
+      testing::refusedJson(testing::generatedScene("box_on_plane"), R"({"camera":{"node":"no such"}})");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/camera/node");
+  EXPECT_NE(problems[0].limit.find("camera"), std::string::npos);
+}
+
+TEST(Render, ASceneThatIsNotThereIsNamed) {
+  const Problems problems = testing::refusedJson(testing::generatedScene("multi_scene"), R"({"scene":2})");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/scene");
+  EXPECT_EQ(problems[0].limit, "0..1");
+}
+
+TEST(Render, AnAtlasThatNobodyNeedsCannotBeShown) {
+  const Problems problems = testing::refusedJson(testing::generatedScene("box_on_plane"),
+                                                 R"({"views":["atlas"],"shadow":{"enabled":false}})");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/views");
+}
+
+TEST(Render, OddAndTinyFramesWork) {
+  const ScenePtr scene = testing::generatedScene("box_on_plane");
+  for (const char* size : {R"({"width":1,"height":1})", R"({"width":1,"height":257})", R"({"width":513,"height":3})"}) {
+    EXPECT_FALSE(renderJson(scene, size).images.empty());
+  }
+}
+
+TEST(Render, EveryStageIsTimed) {
+  const Frame frame = renderJson(testing::generatedScene("box_on_plane"), kBox);
+  std::vector<std::string> names;
+  for (const StageTime& stage : frame.report.stages) {
+    names.push_back(stage.stage);
+    EXPECT_GE(stage.milliseconds, 0);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"upload", "survey", "plan", "shadow", "shade", "readback"}));
+}
+
+} // namespace
+} // namespace gnomon
