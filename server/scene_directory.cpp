@@ -86,7 +86,7 @@ std::string SceneDirectory::pathOf(const std::string& id, const char* ending) co
   return path_ + "/" + id + ending;
 }
 
-Result<SceneDirectory> SceneDirectory::open(const std::string& path) {
+Result<SceneDirectory> SceneDirectory::open(const std::string& path, std::size_t maxSceneBytes) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error) || ::access(path.c_str(), R_OK | W_OK | X_OK) != 0) {
@@ -99,7 +99,7 @@ Result<SceneDirectory> SceneDirectory::open(const std::string& path) {
       fs::remove(entry.path(), ignored);
     }
   }
-  return SceneDirectory(path);
+  return SceneDirectory(path, maxSceneBytes);
 }
 
 std::vector<std::string> SceneDirectory::ids() const {
@@ -144,7 +144,7 @@ Status SceneDirectory::write(const std::string& id, const SceneBundle& bundle, c
 
 Result<SceneBundle> SceneDirectory::read(const std::string& id) const {
   constexpr std::size_t kFraming = 1 << 20; // names and lengths around the files
-  auto bytes = readWhole(pathOf(id, kBundle), kLimits.maxSceneBytes + kFraming);
+  auto bytes = readWhole(pathOf(id, kBundle), maxSceneBytes_ + kFraming);
   if (!bytes) {
     if (!contains(id)) {
       return Problem{ProblemCode::notFound, "", "No scene with this id is stored.", "", id};

@@ -14,7 +14,8 @@ namespace gnomon {
 class SceneDirectory {
  public:
   /// Makes the directory if need be, and removes what an interrupted write left.
-  static Result<SceneDirectory> open(const std::string& path);
+  /// `maxSceneBytes` is the largest bundle that read() takes.
+  static Result<SceneDirectory> open(const std::string& path, std::size_t maxSceneBytes);
 
   std::vector<std::string> ids() const; ///< ascending
   bool contains(const std::string& id) const;
@@ -33,10 +34,11 @@ class SceneDirectory {
   bool remove(const std::string& id) const;
 
  private:
-  explicit SceneDirectory(std::string path) : path_(std::move(path)) {}
+  SceneDirectory(std::string path, std::size_t maxSceneBytes) : path_(std::move(path)), maxSceneBytes_(maxSceneBytes) {}
   std::string pathOf(const std::string& id, const char* ending) const;
 
   std::string path_;
+  std::size_t maxSceneBytes_;
 };
 
 } // namespace gnomon

@@ -40,7 +40,7 @@ SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDire
 Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& options) {
   std::optional<SceneDirectory> directory;
   if (!options.directory.empty()) {
-    auto opened = SceneDirectory::open(options.directory);
+    auto opened = SceneDirectory::open(options.directory, options.limits.maxSceneBytes);
     if (!opened) {
       return std::move(opened).problems();
     }

@@ -1,0 +1,155 @@
+"""The shipped binary as a test meets it: started on a free port, spoken to over HTTP, ended by a signal."""
+
+import http.client
+import json
+import os
+import signal
+import socket
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+BINARY = os.environ["GNOMON_BINARY"]
+SCENES = Path(os.environ["GNOMON_TEST_SCENES"])
+SLOW = int(os.environ.get("GNOMON_SLOWNESS", "1"))  # sanitizers: how many times longer everything may take
+TIMEOUT = 60 * SLOW  # seconds
+
+
+class Reply:
+    def __init__(self, status, headers, body):
+        self.status = status
+        self.headers = headers  # email.message.Message: names in any case
+        self.body = body
+
+    def json(self):
+        return json.loads(self.body)
+
+    def pointers(self):
+        return [problem["pointer"] for problem in self.json()["problems"]]
+
+
+class Server:
+    """`gnomon serve` with further flags, on any free port unless one is given. Use it in a `with` statement."""
+
+    def __init__(self, *flags, port=0):
+        self.log = tempfile.TemporaryFile(mode="w+")
+        self.process = subprocess.Popen(
+            [BINARY, "serve", "--port", str(port), *flags], stdout=subprocess.PIPE, stderr=self.log, text=True
+        )
+        line = self.process.stdout.readline()  # printed once requests are taken
+        if not line.startswith("listening on http://"):
+            self.process.wait(TIMEOUT)
+            log = self.log_text()
+            self.__exit__()
+            raise AssertionError(f"the server did not start: {line!r}\n{log}")
+        host, port = line.removeprefix("listening on http://").strip().rsplit(":", 1)
+        self.address = (host, int(port))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait(TIMEOUT)
+        self.process.stdout.close()
+        self.log.close()
+
+    def end(self, number=signal.SIGTERM):
+        """The exit status after a signal."""
+        self.process.send_signal(number)
+        return self.process.wait(TIMEOUT)
+
+    def log_text(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def log_lines(self):
+        return [json.loads(line) for line in self.log_text().splitlines() if line.startswith("{")]
+
+    def resident_bytes(self):
+        for line in Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return int(line.split()[1]) * 1024
+        raise AssertionError("the server is gone")
+
+    def connect(self):
+        """A connection for several requests."""
+        return http.client.HTTPConnection(*self.address, timeout=TIMEOUT)
+
+    def socket(self):
+        """A bare connection, for what no HTTP client would send."""
+        return socket.create_connection(self.address, timeout=TIMEOUT)
+
+    def ask(self, method, path, body=None, headers=None, connection=None):
+        own = connection or self.connect()
+        try:
+            own.request(method, path, body, headers or {})
+            reply = own.getresponse()
+            return Reply(reply.status, reply.headers, reply.read())
+        finally:
+            if connection is None:
+                own.close()
+
+    def get(self, path, **headers):
+        return self.ask("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
+
+    def upload(self, name):
+        """The id of a scene of tests/scenes."""
+        body = (SCENES / f"{name}.glb").read_bytes()
+        reply = self.ask("POST", "/v1/scenes", body, {"Content-Type": "model/gltf-binary"})
+        assert reply.status in (200, 201), reply.body
+        return reply.json()["id"]
+
+    def frame(self, scene, spec, accept="*/*", **headers):
+        headers = {name.replace("_", "-"): value for name, value in headers.items()}
+        headers.update({"Content-Type": "application/json", "Accept": accept})
+        return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers)
+
+
+class ServerTest(unittest.TestCase):
+    """A server for all tests of the class; it must still live after each of them."""
+
+    flags = ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(*cls.flags)
+        cls.addClassCleanup(cls.server.__exit__)
+
+    def tearDown(self):
+        self.assertIsNone(self.server.process.poll(), "the server ended:\n" + self.server.log_text())
+
+    def assert_problem(self, reply, status, pointer=None):
+        self.assertEqual(reply.status, status, reply.body[:500])
+        self.assertEqual(reply.headers["Content-Type"], "application/problem+json")
+        self.assertEqual(reply.headers["Cache-Control"], "no-store")
+        problem = reply.json()
+        self.assertEqual(problem["status"], status)
+        self.assertEqual(problem["instance"], reply.headers["X-Request-ID"])
+        self.assertTrue(problem["problems"])
+        if pointer is not None:
+            self.assertIn(pointer, reply.pointers())
+
+
+def form(parts):
+    """(body, Content-Type) of multipart/form-data; parts are (name, file name or None, bytes)."""
+    boundary = "a-boundary-of-the-tests"
+    body = b""
+    for name, file_name, content in parts:
+        body += f'--{boundary}\r\nContent-Disposition: form-data; name="{name}"'.encode()
+        if file_name is not None:
+            body += f'; filename="{file_name}"'.encode()
+        body += b"\r\n\r\n" + content + b"\r\n"
+    return body + f"--{boundary}--\r\n".encode(), f"multipart/form-data; boundary={boundary}"
+
+
+def png_size(data):
+    """(width, height) of a PNG."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n" and data[12:16] == b"IHDR", data[:16]
+    return int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
+
+
+EXR_MAGIC = b"\x76\x2f\x31\x01"
+SMALL = {"width": 64, "height": 48}
