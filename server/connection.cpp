@@ -15,7 +15,9 @@ namespace {
 enum class After { keep, close, linger };
 
 HttpReply wireReply(int status, Problem problem, const std::string& id) {
-  return problemReply(Problems{std::move(problem)}, id, status);
+  constexpr int kRetryAfterSeconds = 1;
+  return status == 429 ? busyReply({std::move(problem)}, id, kRetryAfterSeconds)
+                       : problemReply({std::move(problem)}, id, status);
 }
 
 class Connection {

@@ -3,6 +3,7 @@
 #include "server/ascii.h"
 #include "server/bundle_format.h"
 #include "server/etag.h"
+#include "server/frame_cost.h"
 #include "server/frame_reply.h"
 #include "server/problem_reply.h"
 #include "server/upload.h"
@@ -31,6 +32,17 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
                const std::string& etag) {
   const std::string& requestId = call.request.id;
   const auto start = Clock::now();
+  const std::size_t bytes = frameBytes(frame.spec);
+  if (bytes > services.frameMemoryBytes) {
+    return problemReply({{ProblemCode::tooLarge, "/views", "The views of this frame are too large together.",
+                          std::to_string(services.frameMemoryBytes) + " bytes", std::to_string(bytes) + " bytes"}},
+                        requestId);
+  }
+  ByteLease lease(services.frameBytes);
+  if (!lease.grow(bytes)) {
+    return busyReply({{ProblemCode::busy, "", "Frames that are under way fill the memory set aside for them.", "", ""}},
+                     requestId, 1);
+  }
   auto loaded = frame.load();
   if (!loaded) {
     return problemReply(loaded.problems(), requestId);

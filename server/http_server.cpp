@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <httplib.h>
+#include <system_error>
 
 #include "server/overflow_lane.h"
 #include "server/worker_pool.h"
@@ -17,7 +18,7 @@ thread_local bool overflowing = false;
 /// Runs a connection on a worker, or at once, marked as overflowing.
 class ConnectionQueue : public httplib::TaskQueue {
  public:
-  explicit ConnectionQueue(std::size_t threads) : pool_(threads) {}
+  explicit ConnectionQueue(WorkerPool& pool) : pool_(pool) {}
 
   void enqueue(std::function<void()> connection) override {
     if (!pool_.tryRun(connection)) {
@@ -30,7 +31,7 @@ class ConnectionQueue : public httplib::TaskQueue {
   void shutdown() override { pool_.shutdown(); }
 
  private:
-  WorkerPool pool_;
+  WorkerPool& pool_;
 };
 
 /// The library binds, accepts and dispatches. What it would do with a connection is replaced whole: its parser buffers
@@ -38,8 +39,8 @@ class ConnectionQueue : public httplib::TaskQueue {
 /// waits for slow clients for ever.
 class Listener : public httplib::Server {
  public:
-  Listener(ConnectionContext& context, std::size_t threads) : context_(context), overflow_(context) {
-    new_task_queue = [threads] { return new ConnectionQueue(threads); };
+  Listener(ConnectionContext& context, std::size_t threads) : context_(context), overflow_(context), pool_(threads) {
+    new_task_queue = [this] { return new ConnectionQueue(pool_); };
     set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes,
@@ -77,6 +78,7 @@ class Listener : public httplib::Server {
 
   ConnectionContext& context_;
   OverflowLane overflow_;
+  WorkerPool pool_;
 };
 
 } // namespace
@@ -94,11 +96,17 @@ HttpServer::HttpServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HttpServer::~HttpServer() = default;
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& options, ConnectionContext& context) {
-  auto impl = std::make_unique<Impl>(context, options.threads);
+  std::unique_ptr<Impl> impl;
+  try {
+    impl = std::make_unique<Impl>(context, options.threads);
+  } catch (const std::system_error&) {
+    return Problem{ProblemCode::unavailable, "", "The system does not let this process have so many threads.", "",
+                   std::to_string(options.threads)};
+  }
   const bool bound = options.port == 0 ? impl->listener.bind_to_any_port(options.bind) > 0
                                        : impl->listener.bind_to_port(options.bind, options.port);
   if (!bound || !impl->listener.deepenBacklog()) {
-    return Problem{ProblemCode::unavailable, "/port", "The address can't be listened on: it is taken or not ours.", "",
+    return Problem{ProblemCode::unavailable, "", "The address can't be listened on: it is taken or not ours.", "",
                    options.bind + ":" + std::to_string(options.port)};
   }
   impl->port = impl->listener.boundPort();

@@ -21,7 +21,7 @@ struct BodyRule {
 struct Pace {
   std::chrono::milliseconds stall{5'000}; ///< the longest wait for the next byte
   std::chrono::milliseconds grace{10'000};
-  std::size_t bytesPerSecond = 64 * 1024;
+  std::size_t bytesPerSecond = 16 * 1024;
 
   Clock::time_point deadline(Clock::time_point start, std::size_t bytes) const {
     return start + grace + std::chrono::milliseconds(bytes * 1000 / bytesPerSecond);

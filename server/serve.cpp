@@ -1,5 +1,6 @@
 #include "server/serve.h"
 
+#include <csignal>
 #include <cstdio>
 #include <sys/resource.h>
 #include <thread>
@@ -84,6 +85,7 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
 int serve(const ServeOptions& options) {
   ShutdownSignals signals;
   raiseDescriptorLimit();
+  std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
   std::thread warming(warmEncoders);
   struct Joiner {
     std::thread& thread;
@@ -103,7 +105,13 @@ int serve(const ServeOptions& options) {
   const RendererInfo& info = (*queue)->info();
   logEvent("renderer", info.backend + " " + info.platform + ": " + info.renderer + ", " + info.version);
 
-  Services services{**store, **queue, limits, std::chrono::seconds(options.requestTimeoutSeconds), options.page};
+  Services services{**store,
+                    **queue,
+                    limits,
+                    std::chrono::seconds(options.requestTimeoutSeconds),
+                    options.frameMemoryBytes,
+                    ByteBudget(options.frameMemoryBytes),
+                    options.page};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

@@ -26,6 +26,8 @@ struct ServeOptions {
   std::size_t sceneMemoryBytes = 2ull << 30; ///< loaded scenes kept in memory, the least used dropped first
   std::size_t maxSceneBytes = kLimits.maxSceneBytes; ///< one upload
   std::size_t uploadMemoryBytes = 1ull << 30;        ///< bodies of all requests that are under way together
+  std::size_t frameMemoryBytes =
+      4ull << 30;                ///< pictures that are drawn or encoded at once (429), or in one frame (413)
   std::size_t httpThreads = 128; ///< >= 1; connections served at once; probes have a lane of their own
 
   // How long

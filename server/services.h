@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "server/byte_budget.h"
 #include "server/render_queue.h"
 #include "server/scene_store.h"
 #include "server/static_file.h"
@@ -16,6 +17,8 @@ struct Services {
   RenderQueue& queue;
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000}; ///< from the handler's start to the frame
+  std::size_t frameMemoryBytes = 4ull << 30;        ///< the whole of `frameBytes`
+  ByteBudget frameBytes;                            ///< left for pictures that are drawn or encoded at once
   std::vector<StaticFile> page;
   std::atomic<bool> draining = false; ///< true from the first signal on: readyz says so
 };
