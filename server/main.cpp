@@ -1,11 +1,24 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <memory>
 
 #include "clients/cli/commands.h"
-#include "server/serve_command.h"
+#include "clients/web/web_files.h"
+#include "server/serve.h"
+#include "server/serve_flags.h"
 
-int main(int argc, char** argv) {
-  using namespace gnomon;
+namespace gnomon {
+namespace {
+
+cli::Subcommand addServeCommand(CLI::App& app) {
+  auto options = std::make_shared<ServeOptions>();
+  for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
+  auto* command = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
+  addServeFlags(*command, *options);
+  return {[command] { return command->parsed(); }, [options] { return serve(*options); }};
+}
+
+int run(int argc, char** argv) {
   CLI::App app("Gnomon renders glTF scenes with shadows, without a display.", "gnomon");
   app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
   app.require_subcommand(1);
@@ -23,4 +36,11 @@ int main(int argc, char** argv) {
     if (command.chosen()) return command.run();
   }
   return cli::kExitUsage;
+}
+
+} // namespace
+} // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::run(argc, argv);
 }

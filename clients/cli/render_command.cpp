@@ -153,10 +153,15 @@ Subcommand addRenderCommand(CLI::App& app) {
   command->add_option("--spec", options->spec, "A frame spec as JSON, - is standard input; the flags go over it");
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
   addPictureFlags(*command, options->arguments);
-  auto* backend = command->add_option("--backend", options->backend.backend, "The graphics context to use")
-                      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
-                          {"auto", Backend::automatic}, {"egl", Backend::egl}, {"osmesa", Backend::osmesa}}))
-                      ->group("Where");
+  auto* backend = command->add_option_function<std::string>(
+      "--backend",
+      [options](const std::string& name) {
+        options->backend.backend = name == "egl"      ? Backend::egl
+                                   : name == "osmesa" ? Backend::osmesa
+                                                      : Backend::automatic;
+      },
+      "Graphics context; auto is EGL, then OSMesa");
+  backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");
   auto* gpu =
       command->add_flag("--require-gpu", options->backend.requireGpu, "Refuse to render in software")->group("Where");
   command->add_option("--server", options->server, "Render on this server instead of in this process")

@@ -105,7 +105,8 @@ ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& argum
   // First by itself: a duplicate key, say, would be gone once the flags are laid over it.
   auto given = decodeFrameSpec(specJson);
   if (!given) return {given.problems(), {}};
-  Json spec = Json::parse(specJson);
+  Json spec = Json::parse(specJson, nullptr, false);
+  if (!spec.is_object()) spec = Json::object(); // an empty text is a spec, too
   FlagOrigins origins;
   if (auto applied = applyFlags(spec, arguments, origins); !applied) return {applied.problems(), origins};
   return {decodeFrameSpec(spec.dump()), origins};

@@ -1,11 +1,6 @@
-#include "server/serve_command.h"
+#include "server/serve_flags.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
-#include <memory>
-
-#include "clients/web/web_files.h"
-#include "server/serve.h"
 
 namespace gnomon {
 namespace {
@@ -29,12 +24,18 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
 }
 
 void addWhatDraws(CLI::App& serve, ServeOptions& options) {
-  const std::map<std::string, Backend> backends{
-      {"auto", Backend::automatic}, {"egl", Backend::egl}, {"osmesa", Backend::osmesa}};
-  serve.add_option("--backend", options.backend.backend, "Graphics context: auto (EGL, then OSMesa), egl or osmesa")
+  serve
+      .add_option_function<std::string>(
+          "--backend",
+          [&options](const std::string& name) {
+            options.backend.backend = name == "egl"      ? Backend::egl
+                                      : name == "osmesa" ? Backend::osmesa
+                                                         : Backend::automatic;
+          },
+          "Graphics context; auto is EGL, then OSMesa")
       ->envname("GNOMON_BACKEND")
-      ->transform(CLI::CheckedTransformer(backends).description(""))
-      ->type_name("NAME")
+      ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
+      ->type_name("")
       ->default_str("auto")
       ->group("What draws");
   serve.add_flag("--require-gpu", options.backend.requireGpu, "Refuse to start where only software could draw")
@@ -87,16 +88,12 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
 
 } // namespace
 
-cli::Subcommand addServeCommand(CLI::App& app) {
-  auto options = std::make_shared<ServeOptions>();
-  for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
-  auto* serve = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
-  serve->option_defaults()->always_capture_default();
-  addWhere(*serve, *options);
-  addWhatDraws(*serve, *options);
-  addHowMuch(*serve, *options);
-  addHowLong(*serve, *options);
-  return {[serve] { return serve->parsed(); }, [options] { return gnomon::serve(*options); }};
+void addServeFlags(CLI::App& command, ServeOptions& options) {
+  command.option_defaults()->always_capture_default();
+  addWhere(command, options);
+  addWhatDraws(command, options);
+  addHowMuch(command, options);
+  addHowLong(command, options);
 }
 
 } // namespace gnomon

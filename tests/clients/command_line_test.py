@@ -1,0 +1,243 @@
+"""The command line through the shipped binary: exit codes, problems, files, and the same picture here and there."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from shipped_server import BINARY, EXR_MAGIC, SCENES, TIMEOUT, Server, png_size
+
+BOX = str(SCENES / "box_on_plane.glb")
+SMALL = ["--size", "64x48"]
+OK, PROBLEM, USAGE = 0, 1, 2
+
+
+def gnomon(*arguments, stdin=b"", cwd=None, **environment):
+    """A run of the binary; further keywords are environment variables."""
+    return subprocess.run(
+        [BINARY, *arguments], input=stdin, capture_output=True, timeout=TIMEOUT, cwd=cwd, env=os.environ | environment
+    )
+
+
+def split_glb(glb, folder):
+    """The GLB as scene.gltf and "parts/buffer 0.bin", written to a folder; gives the .gltf's path."""
+    length = int.from_bytes(glb[12:16], "little")
+    document = json.loads(glb[20 : 20 + length])
+    (folder / "parts").mkdir()
+    (folder / "parts" / "buffer 0.bin").write_bytes(glb[28 + length :])
+    document["buffers"][0]["uri"] = "parts/buffer%200.bin"
+    (folder / "scene.gltf").write_text(json.dumps(document))
+    return str(folder / "scene.gltf")
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.output = self.folder / "frame.png"
+
+    def assert_ends(self, run, status, *said):
+        self.assertEqual(run.returncode, status, run.stderr.decode())
+        for text in said:
+            self.assertIn(text, run.stderr.decode())
+
+    def render(self, *arguments, scene=BOX, **options):
+        run = gnomon("render", scene, "-o", str(self.output), *SMALL, *arguments, **options)
+        self.assert_ends(run, OK)
+        return run
+
+
+class Usage(CommandLine):
+    def test_help_and_version_are_no_failure(self):
+        for arguments in (["--help"], ["render", "--help"], ["serve", "--help"], ["--version"]):
+            run = gnomon(*arguments)
+            self.assert_ends(run, OK)
+            self.assertTrue(run.stdout)
+
+    def test_a_wrong_command_line_is_two(self):
+        for arguments in (
+            [],
+            ["paint"],
+            ["render"],
+            ["render", BOX],
+            ["render", BOX, "-o", "a.jpg"],
+            ["render", BOX, "-o", "a.png", "--sun", "135"],
+            ["render", BOX, "-o", "a.png", "--size", "64"],
+            ["render", BOX, "-o", "a.png", "--size", "64x48", "--width", "3"],
+            ["render", BOX, "-o", "a.png", "--set", "width"],
+            ["render", BOX, "-o", "a.png", "--backend", "vulkan"],
+            ["render", BOX, "-o", "a.png", "--server", "http://127.0.0.1:1", "--require-gpu"],
+            ["serve", "--port", "65536"],
+            ["serve", "--nonsense"],
+        ):
+            self.assert_ends(gnomon(*arguments, cwd=str(self.folder)), USAGE)
+
+    def test_every_flag_of_serve_has_its_variable(self):
+        flags = [line for line in gnomon("serve", "--help").stdout.decode().splitlines() if line.startswith("  --")]
+        self.assertGreater(len(flags), 10)
+        for line in flags:
+            self.assertIn("(Env:GNOMON_", line)
+        self.assert_ends(gnomon("serve", GNOMON_LISTEN_PORT="tcp://10.0.0.1:80"), USAGE)
+        self.assert_ends(gnomon("serve", GNOMON_QUEUE_LIMIT="0"), USAGE)
+
+
+class Problems(CommandLine):
+    def refused(self, *arguments, said, **options):
+        self.assert_ends(gnomon("render", *arguments, "-o", str(self.output), **options), PROBLEM, *said)
+        self.assertEqual(list(self.folder.glob("frame*")), [])
+
+    def test_a_problem_names_the_flag_the_place_the_limit_and_the_value(self):
+        self.refused(BOX, "--sun", "10,100", said=["--sun (/lights/0/sun/elevationDegrees)", "90", "100"])
+        self.refused(BOX, "--size", "0x48", said=["--width (/width)"])
+        self.refused(BOX, "--set", "shadow.filter.sise=7", said=["--set shadow.filter.sise (/shadow/filter/sise)"])
+
+    def test_every_problem_has_its_line(self):
+        run = gnomon("render", BOX, "-o", str(self.output), "--width", "0", "--height", "-1", "--view", "smell")
+        self.assert_ends(run, PROBLEM)
+        self.assertEqual(len(run.stderr.splitlines()), 3, run.stderr.decode())
+
+    def test_scenes_that_are_not(self):
+        self.refused(str(self.folder / "none.glb"), said=["no such file"])
+        self.refused(str(self.folder), said=["is not a file"])
+        (self.folder / "bad.glb").write_bytes(Path(BOX).read_bytes()[:100])
+        self.refused(str(self.folder / "bad.glb"), said=["gnomon: "])
+        (self.folder / "up.gltf").write_text('{"asset": {"version": "2.0"}, "buffers": [{"uri": "../x", "byteLength": 1}]}')
+        self.refused(str(self.folder / "up.gltf"), said=["isn't inside its folder", "../x"])
+
+    def test_specs_that_are_not(self):
+        for text in (b"{", b'{"width": 64, "width": 64}', b"[" * 20000, b'{"wide": 1}'):
+            self.refused(BOX, "--spec", "-", stdin=text, said=["gnomon: "])
+
+    def test_a_camera_that_the_scene_lacks(self):
+        self.refused(BOX, "--camera", "nobody", said=["--camera (/camera/node)"])
+
+    def test_a_server_that_is_not(self):
+        self.refused(BOX, "--server", "http://127.0.0.1:1", said=["http://127.0.0.1:1: no reply"])
+        self.refused(BOX, "--server", "127.0.0.1:8080", said=["is not a server's address"])
+
+    def test_what_was_there_stays_when_the_frame_fails(self):
+        self.output.write_bytes(b"old")
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--width", "0"), PROBLEM)
+        self.assertEqual(self.output.read_bytes(), b"old")
+
+
+class Render(CommandLine):
+    def test_a_frame_is_a_file_and_nothing_is_said(self):
+        run = self.render("--sun", "135,40")
+        self.assertEqual(png_size(self.output.read_bytes()), (64, 48))
+        self.assertEqual((run.stdout, run.stderr), (b"", b""))
+        self.assertEqual(os.listdir(self.folder), ["frame.png"])
+
+    def test_the_suffix_is_the_format(self):
+        self.output = self.folder / "frame.exr"
+        self.render("--view", "color", "--view", "depth")
+        self.assertEqual(self.output.read_bytes()[:4], EXR_MAGIC)
+
+    def test_several_views_are_several_files(self):
+        run = self.render("--view", "color", "--view", "shadow")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["frame.color.png", "frame.shadow.png"])
+        self.assertEqual(run.stdout.decode().splitlines(), [str(self.folder / "frame.color.png"), str(self.folder / "frame.shadow.png")])
+
+    def test_standard_input_and_output(self):
+        spec = json.dumps({"width": 64, "height": 48, "views": ["normal"]}).encode()
+        run = gnomon("render", BOX, "--spec", "-", "-o", "-", stdin=spec)
+        self.assert_ends(run, OK)
+        self.render("--view", "normal")
+        self.assertEqual(run.stdout, self.output.read_bytes())
+
+    def test_the_report_can_be_asked_for_again(self):
+        report = self.folder / "report.json"
+        self.render("--orbit", "200,30", "--set", "shadow.cascadeCount=2", "--report", str(report))
+        first = self.output.read_bytes()
+        told = json.loads(report.read_text())
+        self.assertEqual(told["spec"]["shadow"]["cascadeCount"], 2)
+        self.assertIn("load", told["stages"])
+        self.assertIn("encode", told["stages"])
+        spec = self.folder / "spec.json"
+        spec.write_text(json.dumps(told["spec"]))
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--spec", str(spec)), OK)
+        self.assertEqual(self.output.read_bytes(), first)
+
+    def test_a_gltf_finds_the_files_beside_it(self):
+        gltf = split_glb(Path(BOX).read_bytes(), self.folder)
+        self.render()
+        expected = self.output.read_bytes()
+        self.render(scene=gltf)
+        self.assertEqual(self.output.read_bytes(), expected)
+
+
+class WithServer(CommandLine):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server()
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.url = "http://{}:{}".format(*cls.server.address)
+
+    def both(self, *arguments, scene=BOX):
+        """The files that a render gives here, and there."""
+        files = []
+        for where in ([], ["--server", self.url]):
+            self.render(*arguments, *where, scene=scene)
+            written = sorted(self.folder.glob("frame*"))
+            files.append([(path.name, path.read_bytes()) for path in written])
+            for path in written:
+                path.unlink()
+        return files
+
+    def test_the_same_bytes_here_and_there(self):
+        for arguments in (
+            ["--sun", "135,40"],
+            ["--orbit", "30,50,8", "--view", "color", "--view", "cascades", "--view", "depth"],
+            ["--set", "lights.0.sun.azimuthDegrees=0.1", "--set", "shadow.filter.type=hard"],
+        ):
+            here, there = self.both(*arguments)
+            self.assertEqual(here, there)
+
+    def test_the_same_exr_here_and_there(self):
+        self.output = self.folder / "frame.exr"
+        here, there = self.both("--view", "color", "--view", "depth")
+        self.assertEqual(here, there)
+
+    def test_files_are_uploaded_with_their_model(self):
+        here, there = self.both(scene=split_glb(Path(BOX).read_bytes(), self.folder))
+        self.assertEqual(here, there)
+
+    def test_a_known_scene_is_not_uploaded_again(self):
+        self.render("--server", self.url)
+        self.render("--server", self.url)
+        uploads = [line for line in self.server.log_lines() if line.get("method") == "POST" and line.get("target") == "/v1/scenes"]
+        heads = [line for line in self.server.log_lines() if line.get("method") == "HEAD" and line.get("status") == 200]
+        self.assertTrue(heads)
+        self.assertLessEqual(len([line for line in uploads if line["status"] == 201]), 2)  # the GLB; the .gltf
+
+    def test_what_the_server_refuses_names_the_flag(self):
+        run = gnomon("render", BOX, "-o", str(self.output), "--camera", "nobody", "--server", self.url)
+        self.assert_ends(run, PROBLEM, "--camera (/camera/node)")
+
+    def test_inspect_says_what_the_server_says(self):
+        run = gnomon("inspect", BOX, "--json")
+        self.assert_ends(run, OK)
+        here = json.loads(run.stdout)
+        there = self.server.ask("GET", f"/v1/scenes/{self.server.upload('box_on_plane')}").json()
+        self.assertEqual({key: here[key] for key in here if key not in ("id", "bytes")},
+                         {key: there[key] for key in there if key not in ("id", "bytes")})
+        self.assertIn("triangles", gnomon("inspect", BOX).stdout.decode())
+
+    def test_health(self):
+        self.assert_ends(gnomon("health", "--url", self.url), OK)
+        self.assert_ends(gnomon("health", GNOMON_URL=self.url), OK)
+        self.assert_ends(gnomon("health", "--url", self.url + "/nowhere"), PROBLEM, "is not ready")
+        self.assert_ends(gnomon("health", "--url", "http://127.0.0.1:1"), PROBLEM, "no reply")
+
+    def test_health_loads_neither_the_image_library_nor_gl(self):
+        loaded = gnomon("health", LD_TRACE_LOADED_OBJECTS="1").stdout.decode().lower()
+        self.assertIn("libc.so", loaded)
+        for name in ("openimageio", "libegl", "libgl.", "osmesa"):
+            self.assertNotIn(name, loaded)
+
+
+if __name__ == "__main__":
+    unittest.main()

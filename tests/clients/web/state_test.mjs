@@ -1,0 +1,78 @@
+// The page's pure modules: paths, links, specs.
+
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { fromHash, toHash } from '../../../clients/web/deep_link.mjs';
+import { flatten, getPath, pointerOf, removePath, setPath } from '../../../clients/web/paths.mjs';
+import { curlCommand, draftSpec, fullSpec } from '../../../clients/web/spec.mjs';
+import { createStore } from '../../../clients/web/store.mjs';
+
+test('a path is set without touching what it is set in', () => {
+  const before = { shadow: { size: 'Large', filter: { type: 'pcf' } } };
+  const after = setPath(before, 'shadow.filter.size', 7);
+  assert.deepEqual(after, { shadow: { size: 'Large', filter: { type: 'pcf', size: 7 } } });
+  assert.deepEqual(before, { shadow: { size: 'Large', filter: { type: 'pcf' } } });
+  assert.deepEqual(setPath({}, 'lights.0.sun.azimuthDegrees', 9), { lights: [{ sun: { azimuthDegrees: 9 } }] });
+  assert.equal(getPath(after, 'shadow.filter.size'), 7);
+  assert.equal(getPath(after, 'atlas.size'), undefined);
+  assert.equal(pointerOf('shadow.filter.size'), '/shadow/filter/size');
+});
+
+test('a leaf takes its empty objects with it', () => {
+  assert.deepEqual(removePath({ a: { b: { c: 1 } }, d: 2 }, 'a.b.c'), { d: 2 });
+  assert.deepEqual(removePath({ a: { b: 1, c: 2 } }, 'a.b'), { a: { c: 2 } });
+  assert.deepEqual(removePath({ a: 1 }, 'x.y'), { a: 1 });
+});
+
+test('a list of numbers is a leaf, a list of objects is not', () => {
+  assert.deepEqual(flatten({ eye: [1, 2], lights: [{ type: 'point' }] }), [['eye', [1, 2]], ['lights.0.type', 'point']]);
+});
+
+test('a link brings the state back', () => {
+  const state = {
+    sceneId: 'ab12',
+    view: 'shadow',
+    spec: {
+      camera: { orbit: { target: [1, -2.5, 3], azimuthDegrees: 30.25 } },
+      lights: [{ type: 'directional', sun: { azimuthDegrees: 135, elevationDegrees: 40 } }],
+      shadow: { enabled: false, size: 'XLarge' },
+    },
+  };
+  assert.deepEqual(fromHash(toHash(state)), state);
+  assert.equal(toHash(fromHash(toHash(state))), toHash(state));
+  assert.deepEqual(fromHash(''), { sceneId: null, view: 'color', spec: {} });
+});
+
+test('a link can not reach beyond the spec', () => {
+  const { spec } = fromHash('#__proto__.polluted=1&constructor.prototype.polluted=1&a.__proto__.polluted=1&1x=2');
+  assert.equal({}.polluted, undefined);
+  assert.equal(Object.getPrototypeOf(spec), Object.prototype);
+});
+
+test('the window gives the size unless one is chosen', () => {
+  const state = { view: 'depth', spec: { exposure: 1 } };
+  assert.deepEqual(fullSpec(state, { width: 800, height: 600 }), { width: 800, height: 600, exposure: 1, views: ['depth'] });
+  state.spec = { width: 640, height: 360 };
+  assert.deepEqual(fullSpec(state, { width: 800, height: 600 }), { width: 640, height: 360, views: ['depth'] });
+});
+
+test('a draft is smaller, even and never nothing', () => {
+  const draft = draftSpec({ view: 'color', spec: { antialiasing: 'msaa4x' } }, { width: 802, height: 20 }, 0.5);
+  assert.deepEqual([draft.width, draft.height, draft.antialiasing], [402, 16, 'none']);
+});
+
+test('the curl command survives a shell', () => {
+  const command = curlCommand('http://host', 'ab', { camera: { node: "it's" } }, 'exr');
+  assert.match(command, /'\{"camera":\{"node":"it'\\''s"\},"output":\{"format":"exr"\}\}'/);
+  assert.match(command, /Accept: image\/x-exr/);
+});
+
+test('what is in force is the choice, else what the server resolved', () => {
+  const store = createStore({ spec: {}, report: { spec: { exposure: 0.5 } } });
+  assert.equal(store.effective('exposure'), 0.5);
+  store.setSpec('exposure', 0);
+  assert.equal(store.effective('exposure'), 0);
+  store.clearSpec('exposure');
+  assert.equal(store.effective('exposure'), 0.5);
+});
