@@ -2,10 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "protocol/fields.h"
+
 namespace gnomon {
 namespace {
 
 constexpr int kDay = 86'400; // seconds
+
+// A choice more needs a flag more, below. The page is no choice; `backend` has two flags.
+static_assert(memberCount<ServeOptions>() == 15);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
@@ -60,6 +65,8 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
   addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes, "The largest upload");
   addBytes(serve, "--upload-memory-bytes", "GNOMON_UPLOAD_MEMORY_BYTES", options.uploadMemoryBytes,
            "Bodies of all requests that are under way together");
+  addBytes(serve, "--frame-memory-bytes", "GNOMON_FRAME_MEMORY_BYTES", options.frameMemoryBytes,
+           "Pictures that are drawn or encoded at once (429), or in one frame (413)");
   serve.add_option("--queue-limit", options.queueLimit, "Frames that may wait; one more is told to come again (429)")
       ->envname("GNOMON_QUEUE_LIMIT")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
