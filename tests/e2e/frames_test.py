@@ -179,5 +179,14 @@ class FullQueue(ServerTest):
         self.assertEqual(self.server.frame(scene, spec).status, 200)
 
 
+class LittleMemory(ServerTest):
+    flags = ("--frame-memory-bytes", "1MB")
+
+    def test_a_frame_that_does_not_fit_is_refused_before_it_is_drawn(self):
+        scene = self.server.upload("box_on_plane")
+        self.assert_problem(self.server.frame(scene, {"width": 1280, "height": 720}), 413, "/views")
+        self.assertEqual(self.server.frame(scene, SMALL).status, 200)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -73,8 +73,9 @@ TEST(Multipart, SurvivesAnything) {
   }));
 }
 
-Result<SceneBundle> bundled(const std::string& body) {
-  const auto parts = parseMultipart(body + "--B--", "B", 300);
+Result<SceneBundle> bundled(const std::string& opened) {
+  const std::string body = opened + "--B--";
+  const auto parts = parseMultipart(body, "B", 300);
   EXPECT_TRUE(parts);
   return bundleFromParts(*parts, {"spec"});
 }
