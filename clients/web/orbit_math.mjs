@@ -10,7 +10,7 @@ export function fitOrbit(boundsMin, boundsMax, aspect = 16 / 9) {
   const target = boundsMin.map((low, i) => (low + boundsMax[i]) / 2);
   const radius = Math.hypot(...boundsMin.map((low, i) => (boundsMax[i] - low) / 2)) || 1;
   const halfAngle = Math.min(kFovYDegrees / 2, Math.atan(Math.tan((kFovYDegrees / 2) * kRadians) * aspect) / kRadians);
-  const distance = (radius / Math.sin(halfAngle * kRadians)) * 0.92;
+  const distance = radius / Math.sin(halfAngle * kRadians);
   return { target, azimuthDegrees: 150, elevationDegrees: 22, distance };
 }
 

@@ -91,7 +91,7 @@ function factsOf({ triangles, nodes, materials, images, boundsMin, boundsMax, wa
   const size = boundsMax.map((high, i) => short(high - boundsMin[i])).join(' × ');
   const facts = [
     [`${count(triangles)}`, 'triangles'],
-    [`${count(nodes)}`, 'nodes'],
+    [`${count(nodes)}`, nodes === 1 ? 'node' : 'nodes'],
     [`${count(materials)}`, materials === 1 ? 'material' : 'materials'],
     [`${count(images)}`, images === 1 ? 'image' : 'images'],
     [size, 'm'],
