@@ -69,7 +69,9 @@ std::optional<std::string> decodePercent(std::string_view text) {
 }
 
 std::optional<Bytes> decodeBase64(std::string_view text) {
-  for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
+  if (text.size() % 4 == 0) {
+    for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
+  }
   if (text.size() % 4 == 1) return std::nullopt;
   Bytes decoded;
   decoded.reserve(text.size() / 4 * 3 + 2);

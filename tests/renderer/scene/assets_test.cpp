@@ -1,0 +1,88 @@
+// Files gathered from public repositories, sound and broken. They are no part of the repository: the folder with
+// their manifest.json is named by GNOMON_TEST_ASSETS, and without it these tests are skipped.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/renderer/scene/load.h"
+#include "tests/support/files.h"
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path assetFolder() {
+  const char* named = std::getenv("GNOMON_TEST_ASSETS");
+  return named ? fs::path(named) : fs::path(GNOMON_TEST_ASSETS_DEFAULT);
+}
+
+json manifest() {
+  std::ifstream file(assetFolder() / "manifest.json");
+  return file ? json::parse(file) : json();
+}
+
+/// The model and the files that the manifest lists with it, named as the model names them.
+SceneBundle bundleOfEntry(const json& entry) {
+  const fs::path model = assetFolder() / entry["path"].get<std::string>();
+  SceneBundle bundle{testing::readFile(model), {}};
+  for (const json& name : entry["files"]) {
+    const fs::path file = assetFolder() / name.get<std::string>();
+    if (file == model) continue;
+    bundle.files[file.lexically_relative(model.parent_path()).generic_string()] = testing::readFile(file);
+  }
+  return bundle;
+}
+
+std::string textOf(const Problems& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += problem.pointer + ": " + problem.detail + "\n";
+  return text;
+}
+
+TEST(Assets, BrokenFilesAreToldApart) {
+  const json list = manifest();
+  if (list.is_null()) GTEST_SKIP() << "no manifest.json in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
+  for (const json& entry : list["bad"]) {
+    SCOPED_TRACE(entry["path"].get<std::string>());
+    auto result = loadGltf(bundleOfEntry(entry));
+    if (result) {
+      EXPECT_NE(entry["expect_hint"], "reject");
+      continue;
+    }
+    ASSERT_FALSE(result.problems().empty());
+    for (const Problem& problem : result.problems()) {
+      EXPECT_FALSE(problem.detail.empty());
+      EXPECT_NE(problem.code, ProblemCode::internal);
+    }
+  }
+}
+
+TEST(Assets, SoundFilesLoadOrNameTheExtensionThatTheyNeed) {
+  const json list = manifest();
+  if (list.is_null()) GTEST_SKIP() << "no manifest.json in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
+  for (const json& entry : list["models"]) {
+    SCOPED_TRACE(entry["path"].get<std::string>());
+    auto result = loadGltf(bundleOfEntry(entry));
+    if (result) {
+      EXPECT_LE((*result)->summary.triangles, entry["triangles_default_scene"].get<std::uint64_t>());
+      EXPECT_GT((*result)->summary.triangles, 0u);
+      continue;
+    }
+    ASSERT_EQ(result.problems().front().code, ProblemCode::unsupportedFeature) << textOf(result.problems());
+    for (const Problem& problem : result.problems()) {
+      const std::string prefix = "/extensionsRequired/";
+      ASSERT_EQ(problem.pointer.substr(0, prefix.size()), prefix) << problem.detail;
+      bool named = false;
+      for (const json& name : entry["extensions_required"]) {
+        named = named || problem.detail.find('"' + name.get<std::string>() + '"') != std::string::npos;
+      }
+      EXPECT_TRUE(named) << problem.detail;
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+
+#include "renderer/scene/gltf_loader.h"
+#include "tests/support/glb_builder.h"
+
+namespace gnomon {
+
+/// The problem's code and place.
+MATCHER_P2(ProblemAt, code, pointer, "") {
+  return arg.code == code && arg.pointer == pointer && !arg.detail.empty();
+}
+
+inline Problems problemsOf(const SceneBundle& bundle, const Limits& limits = kLimits) {
+  auto result = loadGltf(bundle, limits);
+  return result ? Problems{} : result.problems();
+}
+
+inline Problems problemsOf(const testing::GlbBuilder& builder, const Limits& limits = kLimits) {
+  return problemsOf(builder.bundle(), limits);
+}
+
+/// The scene, or an empty one with a failure that names the problem.
+inline Scene load(const SceneBundle& bundle, const Limits& limits = kLimits) {
+  auto result = loadGltf(bundle, limits);
+  if (result) return **result;
+  const Problem& problem = result.problems().front();
+  ADD_FAILURE() << problem.pointer << ": " << problem.detail;
+  Scene empty;
+  empty.scenes.resize(1);
+  return empty;
+}
+
+inline Scene load(const testing::GlbBuilder& builder, const Limits& limits = kLimits) {
+  return load(builder.bundle(), limits);
+}
+
+inline SceneBundle bundleOf(const std::string& json) {
+  return {Bytes(json.begin(), json.end()), {}};
+}
+
+} // namespace gnomon
