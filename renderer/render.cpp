@@ -7,6 +7,7 @@
 #include "renderer/gl/stage_clock.h"
 #include "renderer/gpu_scene_cache.h"
 #include "renderer/make_report.h"
+#include "renderer/passes/draw_batch.h"
 #include "renderer/passes/light_data.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/read_back.h"
@@ -104,11 +105,12 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   const GpuScene& gpu = impl_->scenes.get(scene);
   const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
   const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
+  const gl::VertexArray vertices = vertexArray(gpu, instances);
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
   const PassInputs inputs{
-      *scene,          view, gpu, geometry, resolved->view, frameBuffer, instances, impl_->programs, effective.width,
+      *scene,          view, gpu, geometry, resolved->view, frameBuffer, vertices, impl_->programs, effective.width,
       effective.height};
   clock.finish("upload");
 

@@ -7,22 +7,24 @@
 
 namespace gnomon {
 
-/// A draw list on the device, with the vertex array that feeds it.
+/// Feeds a scene's vertices and its instances (shared::InstanceData) to every pass of a frame. Both outlive it.
+gl::VertexArray vertexArray(const GpuScene& scene, const gl::Buffer& instances);
+
+/// A draw list on the device.
 struct DrawBatch {
   gl::Buffer commands;
-  gl::Buffer draws;
-  gl::VertexArray vertices;
   std::vector<DrawGroup> groups;
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
 };
 
-DrawBatch uploadDraws(const DrawList& list, const GpuScene& scene);
+DrawBatch uploadDraws(const DrawList& list);
 
-/// Draws one group with a program whose state has been applied. The material's textures must have been bound.
-void drawGroup(const DrawBatch& batch, const DrawGroup& group, const gl::Program& program);
+/// Draws one group with a program whose state has been applied.
+void drawGroup(const DrawBatch& batch, const DrawGroup& group, const gl::VertexArray& vertices,
+               const gl::Program& program);
 
-/// Binds the textures that a material has to their units.
-void bindMaterial(const GpuScene& scene, int material);
+/// Binds the textures that a material has to their units, and tells the program which material it is.
+void bindMaterial(const GpuScene& scene, int material, const gl::Program& program);
 
 } // namespace gnomon

@@ -75,10 +75,7 @@ DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeo
     }
     ++list.groups.back().commandCount;
     list.commands.push_back({indexCount, 1, primitive.firstIndex + firstIndex,
-                             static_cast<std::int32_t>(primitive.baseVertex),
-                             static_cast<std::uint32_t>(list.draws.size())});
-    list.draws.emplace_back(run.instance, geometry.firstSlot[run.instance] + run.firstCluster,
-                            static_cast<std::uint32_t>(primitive.material), 0u);
+                             static_cast<std::int32_t>(primitive.baseVertex), run.instance});
     list.triangles += indexCount / 3;
   }
   return list;

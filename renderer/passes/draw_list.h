@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -20,7 +19,7 @@ enum class DrawUse {
 
 /// Commands that share state and material.
 struct DrawGroup {
-  int material = -1; ///< -1 = any opaque one
+  int material = -1; ///< -1 = any opaque one: textures don't matter
   gl::Cull cull = gl::Cull::none;
   gl::FrontFace frontFace = gl::FrontFace::counterClockwise;
   bool tangents = false;
@@ -28,9 +27,9 @@ struct DrawGroup {
   std::size_t commandCount = 0;
 };
 
+/// Each command's baseInstance is its instance.
 struct DrawList {
   std::vector<gl::DrawCommand> commands;
-  std::vector<glm::uvec4> draws; ///< one a command: instance, first slot, material
   std::vector<DrawGroup> groups;
   std::uint64_t triangles = 0;
 };

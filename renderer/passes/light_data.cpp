@@ -36,6 +36,29 @@ unsigned filterTexels(const Filter& filter) {
   return filter.type == FilterType::pcf ? static_cast<unsigned>(filter.size) : 1u;
 }
 
+shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
+  shared::TileData out{};
+  const glm::dvec2 corner(tile.rect.x, tile.rect.y);
+  const glm::dvec2 size(tile.rect.width, tile.rect.height);
+  const auto row = [&](int r) {
+    const glm::dmat4& m = tile.clipFromRelative;
+    return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]);
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    glm::dvec4 uv = row(axis) * (0.5 * size[axis] / atlas[axis]);
+    uv.w += (corner[axis] + 0.5 * size[axis]) / atlas[axis];
+    out.atlasFromRelative[axis] = glm::vec4(uv);
+  }
+  out.atlasFromRelative[2] = glm::vec4(row(2));
+  // A filter reaches no farther than the border's width less one texel. A tile without texels has lowest above highest:
+  // every lookup falls outside and is lit.
+  const double inset = std::max(tile.border - 1, 1);
+  out.bounds = glm::vec4((corner + inset) / atlas, (corner + size - inset) / atlas);
+  out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.normalOffset);
+  out.bias = glm::vec4(tile.depthBias, 0, 0, 0);
+  return out;
+}
+
 } // namespace
 
 glm::dvec3 directionOf(const Light& light) {
@@ -64,10 +87,11 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
     data.push_back(out);
   }
+  data.resize(GNOMON_MAX_LIGHTS);
   for (const PlannedLight& planned : plan.lights) {
     shared::LightData& out = data[static_cast<std::size_t>(planned.light)];
     const Shadow& shadow = *lights[static_cast<std::size_t>(planned.light)].shadow;
-    out.tiles = {planned.firstTile, planned.tileCount, filterTexels(shadow.filter), 0};
+    out.tiles = {planned.tileCount, filterTexels(shadow.filter), 0, 0};
     out.cone.z = static_cast<float>(shadow.strength);
     out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
   }
@@ -75,27 +99,12 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
 }
 
 std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
-  std::vector<shared::TileData> data;
-  for (const ShadowTile& tile : plan.tiles) {
-    shared::TileData out{};
-    const glm::dvec2 atlas(plan.atlasWidth, plan.atlasHeight);
-    const glm::dvec2 corner(tile.rect.x, tile.rect.y);
-    const glm::dvec2 size(tile.rect.width, tile.rect.height);
-    const auto row = [&](int r) {
-      const glm::dmat4& m = tile.clipFromRelative;
-      return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]);
-    };
-    for (int axis = 0; axis < 2; ++axis) {
-      glm::dvec4 uv = row(axis) * (0.5 * size[axis] / atlas[axis]);
-      uv.w += (corner[axis] + 0.5 * size[axis]) / atlas[axis];
-      out.atlasFromRelative[axis] = glm::vec4(uv);
-    }
-    out.atlasFromRelative[2] = glm::vec4(row(2));
-    // A tile without texels has lowest above highest: every lookup falls outside and is lit.
-    out.bounds = glm::vec4((corner + 0.5) / atlas, (corner + size - 0.5) / atlas);
-    out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.normalOffset);
-    out.bias = glm::vec4(tile.depthBias, 0, 0, 0);
-    data.push_back(out);
+  std::vector<shared::TileData> data(std::size_t{GNOMON_MAX_LIGHTS} * GNOMON_LIGHT_TILES);
+  const glm::dvec2 atlas(plan.atlasWidth, plan.atlasHeight);
+  for (const PlannedLight& light : plan.lights) {
+    const auto from = plan.tiles.begin() + light.firstTile;
+    std::transform(from, from + light.tileCount, data.begin() + std::ptrdiff_t{light.light} * GNOMON_LIGHT_TILES,
+                   [&](const ShadowTile& tile) { return tileData(tile, atlas); });
   }
   return data;
 }

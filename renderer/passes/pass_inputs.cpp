@@ -3,8 +3,7 @@
 namespace gnomon {
 
 void bindInputs(const PassInputs& inputs) {
-  inputs.frame.bindStorage(GNOMON_FRAME_BUFFER);
-  inputs.instances.bindStorage(GNOMON_INSTANCE_BUFFER);
+  inputs.frame.bindUniform(GNOMON_FRAME_BUFFER);
   inputs.gpu.materialData.bindStorage(GNOMON_MATERIAL_BUFFER);
 }
 

@@ -2,6 +2,7 @@
 
 #include "renderer/core/camera_view.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/vertex_array.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/program_cache.h"
@@ -15,14 +16,14 @@ struct PassInputs {
   const GpuScene& gpu;
   const FrameGeometry& geometry;
   const CameraView& camera;
-  const gl::Buffer& frame;     ///< shared::FrameData
-  const gl::Buffer& instances; ///< shared::InstanceData, one an instance
+  const gl::Buffer& frame;         ///< shared::FrameData
+  const gl::VertexArray& vertices; ///< of the scene and of geometry's instances
   ProgramCache& programs;
   int width = 0; ///< of the frame, pixels
   int height = 0;
 };
 
-/// Binds the storage buffers that every vertex shader reads.
+/// Binds the buffers that every pass reads.
 void bindInputs(const PassInputs& inputs);
 
 } // namespace gnomon

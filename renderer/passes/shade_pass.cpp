@@ -35,22 +35,23 @@ Status drawView(const PassInputs& inputs, const DrawBatch& batch, ShadeVariant v
     variant.tangents = group.tangents;
     const auto program = inputs.programs.get(shadeProgram(material, variant));
     if (!program) return program.problems();
-    bindMaterial(inputs.gpu, group.material);
+    bindMaterial(inputs.gpu, group.material, **program);
     state.cull = group.cull;
     state.frontFace = group.frontFace;
     gl::apply(state);
-    drawGroup(batch, group, **program);
+    drawGroup(batch, group, inputs.vertices, **program);
   }
   return Done{};
 }
 
 /// A variant that holds no more than these lights need.
 ShadeVariant variantFor(const ShadeInputs& shade, View view, bool encoded) {
-  ShadeVariant variant{view, encoded, shade.spec.toneMapping, false, false, std::nullopt};
-  for (const shared::LightData& light : shade.lights) {
+  ShadeVariant variant{view, encoded, shade.spec.toneMapping, false, 0, false, std::nullopt};
+  variant.lights = static_cast<int>(shade.spec.lights->size());
+  for (const shared::LightData& light : shade.lights.first(shade.spec.lights->size())) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
-    if (light.tiles.y == 0) continue;
-    const int size = static_cast<int>(light.tiles.z);
+    if (light.tiles.x == 0) continue;
+    const int size = static_cast<int>(light.tiles.y);
     variant.filterSize = variant.filterSize.value_or(size) == size ? size : 0;
   }
   return variant;
@@ -65,8 +66,8 @@ struct LightBuffers {
 void bindShading(const PassInputs& inputs, const ShadeInputs& shade, const LightBuffers& buffers,
                  const gl::Sampler& compare) {
   bindInputs(inputs);
-  buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
-  buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
+  buffers.lights.bindUniform(GNOMON_LIGHT_BUFFER);
+  buffers.tiles.bindUniform(GNOMON_TILE_BUFFER);
   if (shade.atlas.depth.id() == 0) return;
   shade.atlas.depth.bind(GNOMON_ATLAS_UNIT);
   compare.bind(GNOMON_ATLAS_UNIT);
@@ -80,8 +81,7 @@ Result<ShadedView> shadeView(const PassInputs& inputs, const ShadeInputs& shade,
   // With the survey's own samples its depth and its visible clusters are exact; else the view finds its own.
   const bool reuse = samples == shade.samples;
   const DrawBatch batch = uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::shade,
-                                                    reuse ? shade.survey.visible : shade.survey.drawn),
-                                      inputs.gpu);
+                                                    reuse ? shade.survey.visible : shade.survey.drawn));
 
   const int stored = samples > 1 ? samples : 0;
   const gl::TextureShape shape{formatOf(view, encoded), inputs.width, inputs.height, 1, stored};

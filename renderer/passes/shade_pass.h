@@ -22,10 +22,10 @@ struct ShadedView {
 struct ShadeInputs {
   const Survey& survey;
   const ShadowAtlas& atlas;
-  std::span<const shared::LightData> lights;
-  std::span<const shared::TileData> tiles;
-  const FrameSpec& spec; ///< effective
-  int samples = 1;       ///< of the survey
+  std::span<const shared::LightData> lights; ///< GNOMON_MAX_LIGHTS; those past the spec's are not read
+  std::span<const shared::TileData> tiles;   ///< GNOMON_LIGHT_TILES for each
+  const FrameSpec& spec;                     ///< effective
+  int samples = 1;                           ///< of the survey
 };
 
 /// Shades any view but the atlas. Pictures (color, cascades) are antialiased as the spec asks; data (depth, normal,

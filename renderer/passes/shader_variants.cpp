@@ -69,6 +69,7 @@ gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& var
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
   if (masked) defines.emplace_back("ALPHA_MASK");
+  defines.push_back("LIGHT_COUNT " + std::to_string(variant.lights));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   if (!variant.filterSize) defines.emplace_back("NO_SHADOWS");
   if (variant.filterSize.value_or(0) > 0) defines.push_back("FILTER_SIZE " + std::to_string(*variant.filterSize));

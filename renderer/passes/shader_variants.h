@@ -17,6 +17,7 @@ struct ShadeVariant {
   bool encoded = true; ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
   ToneMapping toneMapping = ToneMapping::aces;
   bool tangents = false; ///< the primitive brings its own
+  int lights = 0;
   bool punctual = false; ///< some light is a spot or a point
   /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
   std::optional<int> filterSize;

@@ -28,12 +28,12 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   for (const DrawGroup& group : batch.groups) {
     const Material* masked =
         group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
-    const auto program =
-        inputs.programs.get({"shadow_cast.vert", masked != nullptr ? "shadow_cast.frag" : "", "", maskDefines(masked)});
+    const auto program = inputs.programs.get(
+        {"shadow_cast.vert", masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)});
     if (!program) return program.problems();
-    if (masked != nullptr) bindMaterial(inputs.gpu, group.material);
-    (*program)->set(0, glm::mat4(tile.clipFromRelative));
-    drawGroup(batch, group, **program);
+    if (masked != nullptr) bindMaterial(inputs.gpu, group.material, **program);
+    (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
+    drawGroup(batch, group, inputs.vertices, **program);
   }
   return Done{};
 }
@@ -60,8 +60,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width == 0) continue;
     const DrawBatch batch = uploadDraws(
-        buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::cast, castersOf(tile, inputs.geometry)),
-        inputs.gpu);
+        buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::cast, castersOf(tile, inputs.geometry)));
     if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
     atlas.drawCalls += batch.drawCalls;

@@ -11,13 +11,13 @@ namespace gnomon {
 struct Survey {
   ReceiverDepths receivers;
   std::vector<std::uint8_t> drawn;   ///< one a slot: inside the view
-  std::vector<std::uint8_t> visible; ///< one a slot: at least one sample shows it
+  std::vector<std::uint8_t> visible; ///< one a slot: not surely hidden behind others
   gl::Texture depth;                 ///< D32F, reversed; as many samples as the frame has
   std::uint64_t triangles = 0;       ///< drawn
   std::size_t drawCalls = 0;
 };
 
-/// Draws depth and cluster of everything in view, and reduces both. `samples`: 1 or 4.
+/// Draws the depth of everything in view, and reduces it. `samples`: 1 or 4.
 Result<Survey> surveyScene(const PassInputs& inputs, int samples);
 
 /// The view depth in metres of a reversed depth value.

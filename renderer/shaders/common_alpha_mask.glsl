@@ -2,14 +2,14 @@
 #ifdef ALPHA_MASK
 layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };
 layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;
+layout(location = GNOMON_MATERIAL) uniform int materialIndex;
 in MaskVertex {
   vec2 uv;
   float alpha;
-  flat uint material;
 } mask;
 
 void discardMasked() {
-  MaterialData material = materials[mask.material];
+  MaterialData material = materials[materialIndex];
   float alpha = material.baseColorFactor.a * mask.alpha;
 #ifdef BASE_COLOR_TEXTURE
   alpha *= texture(baseColorTexture, mask.uv).a;

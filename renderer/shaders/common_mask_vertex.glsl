@@ -5,7 +5,6 @@ layout(location = GNOMON_COLOR) in vec4 color;
 out MaskVertex {
   vec2 uv;
   float alpha;
-  flat uint material;
 } mask;
 
 void passMask() {
@@ -19,7 +18,6 @@ void passMask() {
 #else
   mask.alpha = 1.0;
 #endif
-  mask.material = draw.z;
 }
 #else
 void passMask() {}

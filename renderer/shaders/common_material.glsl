@@ -1,4 +1,5 @@
 layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };
+layout(location = GNOMON_MATERIAL) uniform int materialIndex;
 
 #ifdef BASE_COLOR_TEXTURE
 layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;

@@ -1,5 +1,8 @@
 // Visibility of a light through its tiles in the shadow atlas.
-layout(std430, binding = GNOMON_TILE_BUFFER) readonly buffer TileBuffer { TileData tiles[]; };
+layout(std140, binding = GNOMON_LIGHT_BUFFER) uniform LightBuffer { LightData lights[GNOMON_MAX_LIGHTS]; };
+layout(std140, binding = GNOMON_TILE_BUFFER) uniform TileBuffer {
+  TileData tiles[GNOMON_MAX_LIGHTS * GNOMON_LIGHT_TILES];
+};
 layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DShadow atlas;
 
 struct Receiver {
@@ -7,10 +10,6 @@ struct Receiver {
   vec3 normal;     // of the surface itself, not of its shading; unit length
   float viewDepth; // metres
 };
-
-float compared(TileData tile, vec3 coordinate) {
-  return texture(atlas, vec3(clamp(coordinate.xy, tile.bounds.xy, tile.bounds.zw), coordinate.z));
-}
 
 // Kernels of 3, 5 and 7 bilinear comparisons a side, merged into (size + 1) / 2 lookups a side: the kernel, convolved
 // with the bilinear weights, gives size + 1 texel weights; neighbours share a lookup placed at their centre of mass.
@@ -27,8 +26,8 @@ void lookups(int size, float fraction, out vec4 offsets, out vec4 weights) {
   }
 }
 
-float filtered(TileData tile, vec3 coordinate, int size) {
-  if (size <= 1) return compared(tile, coordinate);
+float filtered(vec3 coordinate, int size) {
+  if (size <= 1) return texture(atlas, coordinate);
   vec2 atlasSize = vec2(textureSize(atlas, 0));
   vec2 texel = coordinate.xy * atlasSize;
   vec2 base = floor(texel - 0.5);
@@ -44,79 +43,89 @@ float filtered(TileData tile, vec3 coordinate, int size) {
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
       float w = weightsX[x] * weightsY[y];
-      sum += w * compared(tile, vec3((first + vec2(offsetsX[x], offsetsY[y])) / atlasSize, coordinate.z));
+      sum += w * texture(atlas, vec3((first + vec2(offsetsX[x], offsetsY[y])) / atlasSize, coordinate.z));
       weight += w;
     }
   }
   return sum / weight;
 }
 
-// Share of the light that one tile lets through; 1 outside of what the tile covers.
+// Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
+// no lookup of it leaves the tile.
 // The receiver is moved along its normal by reach * sin(angle) (see renderer/shadow/bias.h).
-float tileVisibility(uint index, Receiver receiver, vec3 toLight, int filterSize) {
-  TileData tile = tiles[index];
+float tileVisibility(TileData tile, Receiver receiver, vec3 toLight, int filterSize) {
   float cosine = clamp(dot(receiver.normal, toLight), 0.0, 1.0);
   float sine = sqrt(1.0 - cosine * cosine);
   vec4 p = vec4(receiver.relative + receiver.normal * (tile.interval.w * sine), 1.0);
   vec3 coordinate = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p),
                          dot(tile.atlasFromRelative[2], p) - tile.bias.x);
   if (any(lessThan(coordinate.xy, tile.bounds.xy)) || any(greaterThan(coordinate.xy, tile.bounds.zw))) return 1.0;
-  return filtered(tile, vec3(coordinate.xy, clamp(coordinate.z, 0.0, 1.0)), filterSize);
+  return filtered(vec3(coordinate.xy, clamp(coordinate.z, 0.0, 1.0)), filterSize);
+}
+
+// A light's tile by its place among them, chosen among constant places: a computed one would be fetched lane by lane.
+TileData tileOf(int light, int cascade) {
+  TileData tile = tiles[light * GNOMON_LIGHT_TILES];
+  for (int i = 1; i < GNOMON_LIGHT_TILES; ++i) {
+    if (cascade == i) tile = tiles[light * GNOMON_LIGHT_TILES + i];
+  }
+  return tile;
 }
 
 struct CascadeChoice {
-  uint first;  // offset into the light's tiles
-  uint second; // blended in; = first where there is none
+  int first;   // among the light's tiles
+  int second;  // blended in; = first where there is none
   float blend; // share of the second
   float fade;  // share of "lit" at the far end of a manual range
   bool covered;
 };
 
-CascadeChoice chooseCascade(LightData light, float viewDepth) {
-  uint last = light.tiles.y - 1u;
-  uint index = last;
-  for (uint i = 0u; i < last; ++i) {
-    if (viewDepth <= tiles[light.tiles.x + i].interval.z) {
+// The first cascade that reaches as far as the view depth.
+CascadeChoice chooseCascade(int light, float viewDepth) {
+  int last = int(lights[light].tiles.x) - 1;
+  int index = 0;
+  vec3 interval = tiles[light * GNOMON_LIGHT_TILES].interval.xyz;
+  for (int i = 1; i < GNOMON_LIGHT_TILES; ++i) {
+    if (i <= last && viewDepth > interval.z) {
       index = i;
-      break;
+      interval = tiles[light * GNOMON_LIGHT_TILES + i].interval.xyz;
     }
   }
-  vec3 interval = tiles[light.tiles.x + index].interval.xyz;
   float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
-  bool fades = light.cone.w > 0.0;
-  bool covered = index < last || !fades || viewDepth <= interval.z;
-  if (index == last) return CascadeChoice(index, index, 0.0, fades ? zone : 0.0, covered);
-  return CascadeChoice(index, index + 1u, zone, 0.0, covered);
+  bool fades = lights[light].cone.w > 0.0;
+  if (index < last) return CascadeChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, true);
+  return CascadeChoice(index, index, 0.0, fades ? zone : 0.0, !fades || viewDepth <= interval.z);
 }
 
-float shadowVisibility(LightData light, Receiver receiver, vec3 toLight) {
+// `needed` false spares the lookups where no light arrives anyway.
+float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
 #ifdef NO_SHADOWS
   return 1.0;
 #endif
-  if (light.tiles.y == 0u) return 1.0;
+  if (lights[light].tiles.x == 0u) return 1.0;
   CascadeChoice choice = chooseCascade(light, receiver.viewDepth);
   if (!choice.covered) return 1.0;
-  // A face turned away from the light, or along it to within rounding, shadows itself.
-  if (dot(receiver.normal, toLight) <= 1e-4) return 1.0 - light.cone.z * (1.0 - choice.fade);
+  float strength = lights[light].cone.z;
 #ifdef FILTER_SIZE
   const int size = FILTER_SIZE; // all lights have the same
 #else
-  int size = int(light.tiles.z);
+  int size = int(lights[light].tiles.y);
 #endif
+  // A face turned away from the light, or along it to within rounding, shadows itself.
+  bool turnedAway = dot(receiver.normal, toLight) <= 1e-4;
   float visibility = 0.0;
-  for (uint i = choice.first; i <= choice.second; ++i) {
+  for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
-    if (share > 0.0) visibility += share * tileVisibility(light.tiles.x + i, receiver, toLight, size);
+    visibility += share * tileVisibility(tileOf(light, i), receiver, toLight, size);
   }
   visibility = mix(visibility, 1.0, choice.fade);
-  return mix(1.0, visibility, light.cone.z);
+  return mix(1.0, visibility, strength);
 }
 
 // Green, blue, purple, red: the cascades from near to far; white beyond.
-vec3 cascadeTint(LightData light, float viewDepth) {
+vec3 cascadeTint(int light, float viewDepth) {
   const vec3 tints[4] = vec3[4](vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3));
-  if (light.tiles.y == 0u) return vec3(1.0);
   CascadeChoice choice = chooseCascade(light, viewDepth);
   if (!choice.covered) return vec3(1.0);
-  return mix(mix(tints[min(choice.first, 3u)], tints[min(choice.second, 3u)], choice.blend), vec3(1.0), choice.fade);
+  return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0), choice.fade);
 }

@@ -19,5 +19,4 @@ STAGE_IO Surface {
 #ifdef VERTEX_COLORS
   vec4 color;
 #endif
-  flat uint material;
 } surface;

@@ -1,12 +1,9 @@
-layout(std430, binding = GNOMON_FRAME_BUFFER) readonly buffer FrameBuffer { FrameData frame; };
-layout(std430, binding = GNOMON_INSTANCE_BUFFER) readonly buffer InstanceBuffer { InstanceData instances[]; };
+layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
 
-// Draw data: instance, first cluster slot, material.
 layout(location = GNOMON_POSITION) in vec3 position;
-layout(location = GNOMON_DRAW) in uvec4 draw;
+layout(location = GNOMON_INSTANCE_ROWS) in vec4 instanceRows[3];
 
 vec3 relativeFromLocal(vec3 local) {
   vec4 p = vec4(local, 1.0);
-  return vec3(dot(instances[draw.x].relativeFromLocal[0], p), dot(instances[draw.x].relativeFromLocal[1], p),
-              dot(instances[draw.x].relativeFromLocal[2], p));
+  return vec3(dot(instanceRows[0], p), dot(instanceRows[1], p), dot(instanceRows[2], p));
 }

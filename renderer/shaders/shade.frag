@@ -6,8 +6,7 @@
 #include "common_shadow.glsl"
 #include "common_tone.glsl"
 
-layout(std430, binding = GNOMON_FRAME_BUFFER) readonly buffer FrameBuffer { FrameData frame; };
-layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
+layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
 layout(location = 0) out vec4 target;
 
 // Irradiance on a surface that faces the light, and where the light is.
@@ -39,18 +38,18 @@ vec3 irradiance(LightData light, vec3 relative, out vec3 toLight) {
 
 vec3 radianceToEye(SurfacePoint s, Receiver receiver) {
   vec3 sum = s.emission + frame.ambient.rgb * ambientReflectance(s) * s.occlusion;
-  for (int i = 0; i < lights.length(); ++i) {
+  for (int i = 0; i < LIGHT_COUNT; ++i) {
     vec3 toLight;
     vec3 arriving = irradiance(lights[i], receiver.relative, toLight);
     vec3 reflected = reflectedRadiance(s, toLight) * arriving;
-    if (reflected != vec3(0.0)) sum += reflected * shadowVisibility(lights[i], receiver, toLight);
+    sum += reflected * shadowVisibility(i, receiver, toLight, reflected != vec3(0.0));
   }
   return sum;
 }
 
 int firstShadowed() {
-  for (int i = 0; i < lights.length(); ++i) {
-    if (lights[i].tiles.y > 0u) return i;
+  for (int i = 0; i < LIGHT_COUNT; ++i) {
+    if (lights[i].tiles.x > 0u) return i;
   }
   return -1;
 }
@@ -61,7 +60,7 @@ void main() {
   vec3 relative = surface.relative;
   float viewDepth = dot(relative, frame.forward.xyz);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(relative) : -frame.forward.xyz;
-  MaterialData material = materials[surface.material];
+  MaterialData material = materials[materialIndex];
   vec3 face = faceNormal(toEye);
   vec4 color = baseColor(material);
 #ifdef ALPHA_MASK
@@ -74,7 +73,7 @@ void main() {
   vec3 shown = toneMapped(radianceToEye(s, receiver) * frame.depthRange.z);
 #ifdef VIEW_CASCADES
   int tinted = firstShadowed();
-  if (tinted >= 0) shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(lights[tinted], viewDepth);
+  if (tinted >= 0) shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(tinted, viewDepth);
 #endif
   target = vec4(shown, 1.0);
 #elif defined(VIEW_DEPTH)
@@ -96,7 +95,7 @@ void main() {
   if (shadowed >= 0) {
     vec3 toLight;
     irradiance(lights[shadowed], relative, toLight);
-    visibility = shadowVisibility(lights[shadowed], receiver, toLight);
+    visibility = shadowVisibility(shadowed, receiver, toLight, true);
   }
   target = vec4(vec3(visibility), 1.0);
 #endif

@@ -10,10 +10,9 @@ layout(location = GNOMON_COLOR) in vec4 color;
 invariant gl_Position;
 #include "common_surface_varyings.glsl"
 
-vec3 turned(vec3 v) {
-  return vec3(dot(instances[draw.x].normalFromLocal[0].xyz, v), dot(instances[draw.x].normalFromLocal[1].xyz, v),
-              dot(instances[draw.x].normalFromLocal[2].xyz, v));
-}
+layout(location = GNOMON_NORMAL_ROWS) in vec4 normalRows[3];
+
+vec3 turned(vec3 v) { return vec3(dot(normalRows[0].xyz, v), dot(normalRows[1].xyz, v), dot(normalRows[2].xyz, v)); }
 
 void main() {
   vec3 relative = relativeFromLocal(position);
@@ -32,5 +31,4 @@ void main() {
 #ifdef VERTEX_COLORS
   surface.color = color;
 #endif
-  surface.material = draw.z;
 }

@@ -2,7 +2,7 @@
 #include "common_transform.glsl"
 #include "common_mask_vertex.glsl"
 
-layout(location = 0) uniform mat4 clipFromRelative;
+layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromRelative;
 
 void main() {
   gl_Position = clipFromRelative * vec4(relativeFromLocal(position), 1.0);

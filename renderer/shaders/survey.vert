@@ -3,10 +3,8 @@
 #include "common_mask_vertex.glsl"
 
 invariant gl_Position;
-flat out uint firstSlot;
 
 void main() {
   gl_Position = frame.clipFromRelative * vec4(relativeFromLocal(position), 1.0);
-  firstSlot = draw.y;
   passMask();
 }

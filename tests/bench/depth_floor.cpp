@@ -26,6 +26,7 @@ struct DepthFloor::Prepared {
   ProgramCache programs;
   gl::Buffer frame{sizeof(shared::FrameData), "frame"};
   gl::Buffer instances;
+  gl::VertexArray vertices;
   DrawBatch batch;
   gl::Texture depth;
   gl::Framebuffer target;
@@ -41,14 +42,15 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   p.gpu = uploadScene(scene);
   const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye);
   p.instances = gl::Buffer(gl::bytesOf(geometry.instances), "instances");
+  p.vertices = vertexArray(p.gpu, p.instances);
   shared::FrameData data{};
   const glm::mat4 clipFromRelative(clipFromView(frame.view) * viewFromRelative(frame.view));
   data.clipFromRelative = clipFromRelative;
   p.frame.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{scene,   view,        p.gpu,      geometry,   frame.view,
-                          p.frame, p.instances, p.programs, spec.width, spec.height};
+  const PassInputs inputs{scene,   view,       p.gpu,      geometry,   frame.view,
+                          p.frame, p.vertices, p.programs, spec.width, spec.height};
   const Survey survey = valueOf(surveyScene(inputs, samples));
-  p.batch = uploadDraws(buildDrawList(scene, view, geometry, DrawUse::cast, survey.visible), p.gpu);
+  p.batch = uploadDraws(buildDrawList(scene, view, geometry, DrawUse::survey, survey.drawn));
   p.depth = gl::Texture({GL_DEPTH_COMPONENT32F, spec.width, spec.height, 1, samples > 1 ? samples : 0}, "floor depth");
   p.target = valueOf(gl::Framebuffer::create({{}, {&p.depth}}, "floor"));
   p.state.framebuffer = p.target.id();
@@ -57,7 +59,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   p.state.multisample = samples > 1;
   // The shadow caster's vertex shader is the barest there is: one matrix, no output but the position.
   p.program = valueOf(p.programs.get({"shadow_cast.vert", "", "", {}}));
-  p.program->set(0, clipFromRelative);
+  p.program->set(GNOMON_LIGHT_CLIP, clipFromRelative);
 }
 
 DepthFloor::~DepthFloor() = default;
@@ -68,9 +70,13 @@ double DepthFloor::draw() {
   const auto begin = std::chrono::steady_clock::now();
   gl::apply(p.state);
   p.target.clearDepth(0.0f);
-  p.frame.bindStorage(GNOMON_FRAME_BUFFER);
-  p.instances.bindStorage(GNOMON_INSTANCE_BUFFER);
-  for (const DrawGroup& group : p.batch.groups) drawGroup(p.batch, group, *p.program);
+  p.frame.bindUniform(GNOMON_FRAME_BUFFER);
+  for (const DrawGroup& group : p.batch.groups) {
+    p.state.cull = group.cull;
+    p.state.frontFace = group.frontFace;
+    gl::apply(p.state);
+    drawGroup(p.batch, group, p.vertices, *p.program);
+  }
   glFinish();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }

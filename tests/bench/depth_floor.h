@@ -4,8 +4,8 @@
 
 namespace gnomon::bench {
 
-/// The bare depth-only draw of the triangles that a frame's survey found visible: the least that any renderer has to do
-/// for the picture. Ratios are taken to it.
+/// The bare depth-only draw of the triangles in view (those of clusters that meet the view's frustum), in one call,
+/// without textures: what any rasterizer has to do at least for the picture. Ratios are taken to it.
 class DepthFloor {
  public:
   /// Prepares buffers, target and program, so that `draw` does nothing but draw. Uses the current context.

@@ -11,6 +11,9 @@ using glm::vec4;
 #ifndef SAMPLES
 #define SAMPLES 1
 #endif
+#ifndef LIGHT_COUNT
+#define LIGHT_COUNT 1
+#endif
 #endif
 
 // Attribute locations.
@@ -20,15 +23,21 @@ using glm::vec4;
 #define GNOMON_UV0 3
 #define GNOMON_UV1 4
 #define GNOMON_COLOR 5
-#define GNOMON_DRAW 6
+#define GNOMON_INSTANCE_ROWS 6 // three: InstanceData::relativeFromLocal
+#define GNOMON_NORMAL_ROWS 9   // three: InstanceData::normalFromLocal
+
+// Uniform buffer bindings.
+#define GNOMON_FRAME_BUFFER 0
+#define GNOMON_LIGHT_BUFFER 1
+#define GNOMON_TILE_BUFFER 2
 
 // Storage buffer bindings.
-#define GNOMON_FRAME_BUFFER 0
-#define GNOMON_INSTANCE_BUFFER 1
-#define GNOMON_MATERIAL_BUFFER 2
-#define GNOMON_LIGHT_BUFFER 3
-#define GNOMON_TILE_BUFFER 4
-#define GNOMON_VISIBLE_BUFFER 5
+#define GNOMON_MATERIAL_BUFFER 0
+
+// Uniform locations.
+#define GNOMON_MATERIAL 0
+#define GNOMON_LIGHT_CLIP 1
+#define GNOMON_FRAME_SIZE 1
 
 // Texture units.
 #define GNOMON_BASE_COLOR_UNIT 0
@@ -38,9 +47,12 @@ using glm::vec4;
 #define GNOMON_EMISSIVE_UNIT 4
 #define GNOMON_ATLAS_UNIT 5
 
-// Triangles in a cluster (scene.h), pixels along a side of a survey block (shadow_plan.h).
-#define GNOMON_CLUSTER_TRIANGLES 1024
+// Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
+
+// Lights of a frame and tiles of a light, at most; light i has the tiles from i * GNOMON_LIGHT_TILES on.
+#define GNOMON_MAX_LIGHTS 16
+#define GNOMON_LIGHT_TILES 4
 
 // LightData.type
 #define GNOMON_DIRECTIONAL 0
@@ -54,6 +66,7 @@ struct FrameData {
   vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure
 };
 
+// Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.
 struct InstanceData {
   vec4 relativeFromLocal[3]; // rows of the affine matrix
   vec4 normalFromLocal[3];   // rows; xyz
@@ -70,12 +83,12 @@ struct LightData {
   vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
   vec4 radiance;  // rgb: colour times intensity
   vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
-  uvec4 tiles;    // first tile, tile count, filter size in texels
+  uvec4 tiles;    // tile count, filter size in texels
 };
 
 struct TileData {
   vec4 atlasFromRelative[3]; // rows: to atlas u, v (0..1 over the atlas) and depth
-  vec4 bounds;               // atlas u v of the lowest and highest texel centres that a lookup may touch
+  vec4 bounds;               // atlas u v of the lowest and highest point that may be looked up
   vec4 interval;             // near, blendNear, far (view depth, metres); w: normal offset in metres
   vec4 bias;                 // x: depth bias
 };

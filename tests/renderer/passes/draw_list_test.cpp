@@ -60,7 +60,6 @@ TEST(DrawList, HoldsExactlyTheTrianglesOfTheSlotsThatAreKept) {
     for (const DrawUse use : {DrawUse::survey, DrawUse::cast, DrawUse::shade}) {
       const DrawList list = buildDrawList(placed.scene, placed.view, geometry, use, keep);
       RC_ASSERT(list.triangles == expected);
-      RC_ASSERT(list.commands.size() == list.draws.size());
       std::size_t grouped = 0;
       std::uint64_t drawn = 0;
       for (const DrawGroup& group : list.groups) {

@@ -39,11 +39,11 @@ TEST(LightData, OnlyPlannedLightsHaveTiles) {
   plan.lights.push_back({.light = 1, .firstTile = 2, .tileCount = 3, .fadeOut = true, .note = ""});
   const std::vector<Light> lights{lamp, sun};
   const auto data = lightData(lights, plan, {1, 1, 1});
-  ASSERT_EQ(data.size(), 2u);
-  EXPECT_EQ(data[0].tiles.y, 0u);
+  ASSERT_EQ(data.size(), std::size_t{GNOMON_MAX_LIGHTS});
+  EXPECT_EQ(data[0].tiles.x, 0u);
   EXPECT_EQ(glm::vec3(data[0].position), glm::vec3(0, 1, 2));
   EXPECT_EQ(data[0].position.w, 0.0f) << "no range is infinite";
-  EXPECT_EQ(data[1].tiles, glm::uvec4(2, 3, 1, 0));
+  EXPECT_EQ(data[1].tiles, glm::uvec4(3, 1, 0, 0));
   EXPECT_EQ(data[1].cone.z, 0.5f);
   EXPECT_EQ(data[1].cone.w, 1.0f);
 }
@@ -54,22 +54,25 @@ TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
   plan.atlasHeight = 128;
   ShadowTile tile;
   tile.rect = {64, 32, 64, 32};
+  tile.border = 4;
   tile.clipFromRelative = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0.25, 0, 0), glm::dvec4(0, 0, 0.125, 0),
                                      glm::dvec4(0.5, -0.5, 0.25, 1));
   plan.tiles.push_back(tile);
-  const shared::TileData data = tileData(plan)[0];
+  plan.lights.push_back({.light = 2, .firstTile = 0, .tileCount = 1, .note = ""});
+  const shared::TileData data = tileData(plan)[2 * GNOMON_LIGHT_TILES];
   const glm::vec4 p(1, 1, 2, 1);
   const glm::dvec4 clip = tile.clipFromRelative * glm::dvec4(p);
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[0], p), static_cast<float>((64 + (clip.x * 0.5 + 0.5) * 64) / 256));
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[1], p), static_cast<float>((32 + (clip.y * 0.5 + 0.5) * 32) / 128));
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[2], p), static_cast<float>(clip.z));
-  EXPECT_EQ(data.bounds, glm::vec4(64.5f / 256, 32.5f / 128, 127.5f / 256, 63.5f / 128));
+  EXPECT_EQ(data.bounds, glm::vec4(67.0f / 256, 35.0f / 128, 125.0f / 256, 61.0f / 128)) << "room for the filter";
 }
 
 TEST(LightData, ATileWithoutTexelsHoldsNoLookup) {
   ShadowPlan plan;
   plan.atlasWidth = plan.atlasHeight = 64;
   plan.tiles.push_back({});
+  plan.lights.push_back({.light = 0, .firstTile = 0, .tileCount = 1, .note = ""});
   const shared::TileData data = tileData(plan)[0];
   EXPECT_GT(data.bounds.x, data.bounds.z);
 }
