@@ -20,7 +20,7 @@ struct ShadeVariant {
   int lights = 0;
   bool punctual = false; ///< some light is a spot or a point
   /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
-  std::optional<int> filterSize;
+  std::optional<int> filterSize{};
 };
 
 gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant);
