@@ -29,10 +29,8 @@ double offsetWithRoom(const glm::dvec2& extent, double reach, int inner) {
 
 Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   const int inner = innerTexels(target);
-  const glm::dvec3 farthest = glm::max(glm::abs(receiversLs.min), glm::abs(receiversLs.max));
-  const double finest = finestTexel(std::max({farthest.x, farthest.y, farthest.z}));
   const glm::dvec3 length = receiversLs.max - receiversLs.min;
-  const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finest * inner));
+  const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finestTexel(target.reach) * inner));
 
   Fit fit;
   const double room = offsetWithRoom(extent, biasReach(target.kernel), inner);
@@ -49,8 +47,9 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
               const FitTarget& target) {
   const int inner = innerTexels(target);
   const double reach = biasReach(target.kernel);
-  // inner * texel = 2 radius + 2 normal offsets + the step, of which rounding takes up to half on either side
-  const double texel = 2.0 * sphere.radius / (inner - snapTexels - 2.0 * std::sqrt(2.0) * reach);
+  // inner * texel >= 2 radius + 2 normal offsets + the step, of which rounding takes up to half on either side
+  const double texel =
+      std::max(2.0 * sphere.radius / (inner - snapTexels - 2.0 * std::sqrt(2.0) * reach), finestTexel(target.reach));
   const double step = snapTexels * texel;
 
   const glm::dmat3 lightFromWorld = basis.lightFromWorld();

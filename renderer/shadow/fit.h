@@ -21,6 +21,7 @@ struct Fit {
 struct FitTarget {
   int tileSize = 0; ///< texels along a side, border included; at least kSmallestTile (tile_size.h)
   FilterKernel kernel;
+  double reach = 0;     ///< metres from the eye to the farthest receiver
   double magnitude = 0; ///< metres from the eye to the farthest thing drawn, see depthRounding
 };
 

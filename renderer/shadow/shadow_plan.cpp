@@ -10,9 +10,10 @@
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/fit.h"
 #include "renderer/shadow/light_basis.h"
-#include "renderer/shadow/receiver_boxes.h"
+#include "renderer/shadow/receiver_box.h"
 #include "renderer/shadow/slice.h"
 #include "renderer/shadow/splits.h"
+#include "renderer/shadow/tight_roll.h"
 #include "renderer/shadow/tile_size.h"
 
 namespace gnomon {
@@ -20,9 +21,10 @@ namespace {
 
 /// What is decided about a light before the atlas is shared out.
 struct LightDraft {
-  LightBasis basis;
+  bool stable = false;
   std::vector<CascadeInterval> cascades; ///< empty = no shadow is drawn
-  std::vector<Aabb> receiversLs;         ///< by cascade; empty where no surface is in view
+  std::vector<LightBasis> bases;         ///< by cascade
+  std::vector<Aabb> receiversLs;         ///< by cascade, in its basis; empty where no surface is in view
   PlannedLight planned;
 };
 
@@ -80,9 +82,13 @@ LightDraft draftLight(const DirectionalCaster& caster, const PlanInput& input) {
   const std::vector<double> splits = splitDistances(shadow.partition, shadow.cascadeCount, range);
   draft.planned.fadeOut = manual || splits.back() < range.far;
   draft.cascades = cascadeIntervals(splits, shadow.blendCascades, draft.planned.fadeOut);
-  draft.basis = lightBasis(caster.direction);
-  draft.receiversLs = receiverBoxes(input.view, input.receivers, draft.basis, draft.cascades);
-  if (shadow.stabilization != Stabilization::none && !manual) {
+  draft.stable = manual && shadow.stabilization != Stabilization::none;
+  const LightBasis basis = lightBasis(caster.direction);
+  for (const CascadeInterval& cascade : draft.cascades) {
+    draft.bases.push_back(draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascade));
+    draft.receiversLs.push_back(receiverBox(input.view, input.receivers, draft.bases.back(), cascade));
+  }
+  if (shadow.stabilization != Stabilization::none && !draft.stable) {
     addNote(draft.planned, "stabilization is ignored: the depth range is automatic");
   }
   noteEmptyCascades(draft);
@@ -137,18 +143,18 @@ ShadowTile planTile(const LightDraft& draft, std::size_t cascade, const Directio
   FitTarget target;
   target.tileSize = draft.planned.grantedTileSize;
   target.kernel = kernelOf(caster.shadow.filter);
-  // No term of it moves with the camera, so that a stable fit keeps its depth extent.
-  target.magnitude = sliceReach(input.view, depths) + glm::length(input.sceneBounds.max - input.sceneBounds.min);
+  // No term of these moves with the camera, so that a stable fit keeps its extents.
+  target.reach = sliceReach(input.view, depths);
+  target.magnitude = target.reach + glm::length(input.sceneBounds.max - input.sceneBounds.min);
 
-  const bool stable =
-      caster.shadow.stabilization != Stabilization::none && caster.shadow.depthRange.mode == DepthRangeMode::manual;
   const int snapTexels = caster.shadow.stabilization == Stabilization::viewSnapping ? 4 : 1;
-  const Fit fit = stable ? stableFit(sliceSphere(input.view, depths), draft.basis, input.view.eye, snapTexels, target)
-                         : tightFit(draft.receiversLs[cascade], target);
+  const LightBasis& basis = draft.bases[cascade];
+  const Fit fit = draft.stable ? stableFit(sliceSphere(input.view, depths), basis, input.view.eye, snapTexels, target)
+                               : tightFit(draft.receiversLs[cascade], target);
 
   tile.rect.width = tile.rect.height = target.tileSize;
   tile.border = target.kernel.border;
-  tile.clipFromRelative = clipFromRelative(draft.basis, fit, target.tileSize);
+  tile.clipFromRelative = clipFromRelative(basis, fit, target.tileSize);
   tile.texelSize = fit.texelSize;
   tile.depthExtent = fit.depthExtent;
   tile.normalOffset = fit.normalOffset;

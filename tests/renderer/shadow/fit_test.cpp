@@ -106,7 +106,7 @@ TEST(TightFit, M16_M18_FillsTheTileOnBothAxes) {
   Aabb box;
   box.add(glm::dvec3(-3, 2, 10));
   box.add(glm::dvec3(5, 3, 40));
-  FitTarget target{1024, kernelOf({FilterType::pcf, 5}), 100};
+  const FitTarget target{1024, kernelOf({FilterType::pcf, 5}), 60, 100};
   const Fit fit = tightFit(box, target);
   const double inner = 1024 - 2 * target.kernel.border;
   EXPECT_NEAR(fit.texelSize.x * inner, 8 + 2 * fit.normalOffset, 1e-12);
@@ -120,7 +120,7 @@ TEST(TightFit, IsNeverFinerThanFloatsCanTell) {
   Aabb box;
   box.add(glm::dvec3(1000, 0, 0));
   box.add(glm::dvec3(1000 + 1e-9, 1e-9, 0));
-  const Fit fit = tightFit(box, {1024, kernelOf({}), 2000});
+  const Fit fit = tightFit(box, {1024, kernelOf({}), 1000, 2000});
   EXPECT_GT(fit.texelSize.x, 1000 * 0x1p-24);
   EXPECT_LT(fit.texelSize.x, 1000 * 0x1p-15);
 }
@@ -130,7 +130,7 @@ TEST(TightFit, X4_TheSmallestTileHoldsEveryKernelAndStep) {
   box.add(glm::dvec3(-1));
   box.add(glm::dvec3(1));
   for (const int size : {3, 5, 7}) {
-    const FitTarget target{kSmallestTile, kernelOf({FilterType::pcf, size}), 10};
+    const FitTarget target{kSmallestTile, kernelOf({FilterType::pcf, size}), 5, 10};
     const Fit tight = tightFit(box, target);
     EXPECT_GT(tight.texelSize.x, 0);
     EXPECT_LT(tight.texelSize.x, 0.2);

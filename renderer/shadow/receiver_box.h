@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/shadow/light_basis.h"
@@ -10,10 +8,10 @@
 
 namespace gnomon {
 
-/// The surfaces that the camera sees in each cascade, as a box in light space relative to the eye; empty where it sees
+/// The surfaces that the camera sees in a cascade, as a box in light space relative to the eye; empty where it sees
 /// none there. Conservative: it holds the whole piece of view behind each survey block, half a pixel wider on every
 /// side, between the block's nearest and farthest depth, cut to the cascade, each end depthSlack farther.
-std::vector<Aabb> receiverBoxes(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
-                                const std::vector<CascadeInterval>& cascades);
+Aabb receiverBox(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
+                 const CascadeInterval& cascade);
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-#include "renderer/shadow/receiver_boxes.h"
+#include "renderer/shadow/receiver_box.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,14 @@
 namespace gnomon {
 namespace {
 
-TEST(ReceiverBoxes, X18_HoldTheReceiversOfEveryCascadeAndLittleElse) {
+TEST(ReceiverBox, X18_HoldsTheReceiversAndLittleElse) {
   EXPECT_TRUE(rc::check([](const RandomPlan& random) {
     const PlanInput& input = random.input;
     RC_PRE(!input.receivers.range.empty());
     const LightBasis basis = lightBasis(input.casters[0].direction);
     const double nearest = input.receivers.range.nearest;
     const double farthest = input.receivers.range.farthest;
-    const std::vector<CascadeInterval> whole{{nearest, farthest, farthest}};
-    const Aabb box = receiverBoxes(input.view, input.receivers, basis, whole)[0];
+    const Aabb box = receiverBox(input.view, input.receivers, basis, {nearest, farthest, farthest});
 
     Aabb corners; // the corners of every block's piece of view, two pixels wider
     const ReceiverDepths& r = input.receivers;
@@ -44,16 +43,18 @@ TEST(ReceiverBoxes, X18_HoldTheReceiversOfEveryCascadeAndLittleElse) {
   }));
 }
 
-TEST(ReceiverBoxes, X18_ACascadeWithoutSurfacesIsEmpty) {
+TEST(ReceiverBox, X18_ACascadeWithoutSurfacesIsEmpty) {
   const PlanInput input = simplePlan(10, 20);
-  const auto boxes = receiverBoxes(input.view, input.receivers, LightBasis{}, {{1, 5, 5}, {5, 15, 15}, {30, 40, 40}});
-  EXPECT_TRUE(boxes[0].empty());
-  EXPECT_FALSE(boxes[1].empty());
-  EXPECT_TRUE(boxes[2].empty());
+  const auto box = [&](const CascadeInterval& cascade) {
+    return receiverBox(input.view, input.receivers, LightBasis{}, cascade);
+  };
+  EXPECT_TRUE(box({1, 5, 5}).empty());
+  EXPECT_TRUE(box({30, 40, 40}).empty());
+  const Aabb middle = box({5, 15, 15});
   // A basis that looks along -Z: light space x and y are the view's, and z is the depth.
-  EXPECT_NEAR(boxes[1].min.z, 10, 1e-3);
-  EXPECT_NEAR(boxes[1].max.z, 15, 1e-3);
-  EXPECT_NEAR(boxes[1].max.x, 15, 0.05);
+  EXPECT_NEAR(middle.min.z, 10, 1e-3);
+  EXPECT_NEAR(middle.max.z, 15, 1e-3);
+  EXPECT_NEAR(middle.max.x, 15, 0.05);
 }
 
 } // namespace
