@@ -19,7 +19,7 @@ struct Limits {
   std::size_t maxSceneBytes = 256u << 20; ///< a bundle: the model and every file that it names
   std::size_t maxBundleFiles = 256;       ///< files in a multipart upload
   int maxJsonDepth = 64;                  ///< nested objects and arrays
-  std::size_t maxJsonValues = 4'000'000;  ///< values in a glTF's JSON
+  std::size_t maxJsonValues = 2'000'000;  ///< values in a glTF's JSON
 
   // Scenes
   std::size_t maxNodes = 100'000;

@@ -59,7 +59,7 @@ std::optional<SceneCamera> cameraOf(const GltfDocument& document, const NodeTree
   const tinygltf::Camera& camera = document.model.cameras[static_cast<std::size_t>(source.camera)];
   SceneCamera placed;
   placed.node = static_cast<int>(node);
-  placed.name = source.name.empty() ? camera.name : source.name;
+  placed.name = keptName(source.name.empty() ? camera.name : source.name, findings);
   placed.eye = frame.position;
   placed.forward = frame.forward;
   placed.up = frame.up;

@@ -9,6 +9,13 @@ namespace {
 constexpr std::size_t kMaxProblems = 32;
 constexpr std::size_t kMaxWarnings = 64;
 constexpr std::size_t kMaxQuotedBytes = 80;
+constexpr std::size_t kMaxNameBytes = 256;
+
+/// The first bytes of a longer text, ending between two characters of its UTF-8.
+std::string_view cut(std::string_view text, std::size_t bytes) {
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
+  return text.substr(0, bytes);
+}
 
 } // namespace
 
@@ -51,9 +58,13 @@ std::vector<std::string> Findings::takeWarnings() {
 
 std::string inQuotes(std::string_view text) {
   if (text.size() <= kMaxQuotedBytes) return '"' + std::string(text) + '"';
-  std::size_t end = kMaxQuotedBytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end; // not inside a UTF-8 sequence
-  return '"' + std::string(text.substr(0, end)) + "...\"";
+  return '"' + std::string(cut(text, kMaxQuotedBytes)) + "...\"";
+}
+
+std::string keptName(std::string_view name, Findings& findings) {
+  if (name.size() <= kMaxNameBytes) return std::string(name);
+  findings.warn("The name " + inQuotes(name) + " is cut to " + std::to_string(kMaxNameBytes) + " bytes.");
+  return std::string(cut(name, kMaxNameBytes));
 }
 
 std::string pointerTo(const std::string& parent, std::string_view key) {

@@ -33,6 +33,9 @@ class Findings {
 /// A user's text in quotes, shortened to something that fits a sentence.
 std::string inQuotes(std::string_view text);
 
+/// A name as it is kept: many nodes may share a camera with a very long name, so that it is cut, with a warning.
+std::string keptName(std::string_view name, Findings& findings);
+
 /// `parent` + "/" + `key`, escaped as RFC 6901 asks.
 std::string pointerTo(const std::string& parent, std::string_view key);
 std::string pointerTo(const std::string& parent, std::size_t index);

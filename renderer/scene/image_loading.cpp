@@ -57,7 +57,9 @@ std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material
 Problems located(Problems problems, const std::string& pointer) {
   for (Problem& problem : problems) {
     problem.pointer = pointer;
-    if (problem.code != ProblemCode::tooLarge) problem.code = ProblemCode::invalidScene;
+    if (problem.code == ProblemCode::malformed || problem.code == ProblemCode::invalidValue) {
+      problem.code = ProblemCode::invalidScene;
+    }
   }
   return problems;
 }

@@ -64,7 +64,7 @@ std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& 
   }
   SceneLight placed;
   placed.node = static_cast<int>(node);
-  placed.name = holder.name.empty() ? source.name : holder.name;
+  placed.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
   Light& light = placed.light;
   light.type = source.type == "point"  ? LightType::point
                : source.type == "spot" ? LightType::spot

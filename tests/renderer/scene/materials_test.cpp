@@ -169,7 +169,8 @@ TEST(Materials, HoldsImagesAgainstTheLimitsBeforeDecoding) {
 }
 
 TEST(Materials, RefusesBrokenImages) {
-  for (const Bytes& image : {Bytes(20, 7), pngHeader(4, 4), pngHeader(0, 4), Bytes{0x89, 'P', 'N', 'G'}}) {
+  EXPECT_THAT(problemsOf(textured(Bytes(20, 7))), ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/images/0")));
+  for (const Bytes& image : {pngHeader(4, 4), pngHeader(0, 4), Bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}}) {
     EXPECT_THAT(problemsOf(textured(image)), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/0")));
   }
   testing::GlbBuilder builder = textured(png(2, 2, 0));

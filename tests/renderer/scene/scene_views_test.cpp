@@ -1,30 +1,15 @@
 #include "renderer/scene/scene_views.h"
 
-#include <cmath>
-#include <numbers>
-
+#include "tests/renderer/scene/geometry.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {
 namespace {
 
 using nlohmann::json;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr double kHalf = std::numbers::sqrt2 / 2;
-const json kQuarterAroundY = {0, kHalf, 0, kHalf}; ///< +Z to +X, so -Z to -X
-
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
-  EXPECT_LT(glm::length(actual - expected), tolerance) << actual.x << " " << actual.y << " " << actual.z << " is not "
-                                                       << expected.x << " " << expected.y << " " << expected.z;
-}
-
-glm::dvec3 toDvec3(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
 
 TEST(SceneViews, ComposesTransformsInDoublePrecision) {
   testing::GlbBuilder builder = testing::cube();
@@ -166,163 +151,6 @@ TEST(SceneViews, ReuseIsHeldAgainstTheLimits) {
   for (int i = 0; i < 30; ++i) builder.add("scenes", {{"nodes", {0}}});
   limits.maxInstances = 60;
   EXPECT_FALSE(problemsOf(builder, limits).empty()) << "over all scenes";
-}
-
-json perspective() {
-  return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.5}, {"zfar", 20.0}}}};
-}
-
-TEST(Cameras, StandWhereTheirNodeStands) {
-  testing::GlbBuilder builder = testing::cube();
-  builder.add("cameras", perspective());
-  builder.addRoot({{"camera", 0}, {"name", "Eye"}, {"translation", {1, 2, 3}}, {"rotation", kQuarterAroundY}});
-  const Scene scene = load(builder);
-  ASSERT_EQ(scene.scenes[0].cameras.size(), 1u);
-  const SceneCamera& camera = scene.scenes[0].cameras[0];
-  EXPECT_EQ(camera.node, 1);
-  EXPECT_EQ(camera.name, "Eye");
-  expectNear(camera.eye, {1, 2, 3});
-  expectNear(camera.forward, {-1, 0, 0});
-  expectNear(camera.up, {0, 1, 0});
-  ASSERT_TRUE(camera.perspective && !camera.orthographic);
-  EXPECT_NEAR(camera.perspective->fovYDegrees, 180 / std::numbers::pi, 1e-12);
-  EXPECT_EQ(camera.perspective->near, 0.5);
-  EXPECT_EQ(camera.perspective->far, 20.0);
-}
-
-TEST(Cameras, ScaleDoesNotMatter) {
-  for (const json& scale : {json{3, 3, 3}, json{1, 5, 0.1}, json{-1, 1, 1}, json{1, 1, -1}, json{-2, -2, -2}}) {
-    testing::GlbBuilder builder = testing::cube();
-    builder.add("cameras", perspective());
-    builder.addRoot({{"camera", 0}, {"scale", scale}, {"rotation", kQuarterAroundY}});
-    const SceneCamera camera = load(builder).scenes[0].cameras.at(0);
-    expectNear(camera.forward, {-1, 0, 0});
-    expectNear(camera.up, {0, 1, 0});
-  }
-}
-
-TEST(Cameras, AxesStayOrthonormalUnderAShear) {
-  testing::GlbBuilder builder = testing::cube();
-  builder.add("cameras", perspective());
-  const double s = std::sin(0.3);
-  const double c = std::cos(0.3);
-  builder.addRoot({{"children", {2}}, {"scale", {1, 10, 1}}});
-  builder.add("nodes", {{"camera", 0}, {"rotation", {s, 0, 0, c}}});
-  const SceneCamera camera = load(builder).scenes[0].cameras.at(0);
-  EXPECT_NEAR(glm::length(camera.forward), 1, 1e-12);
-  EXPECT_NEAR(glm::length(camera.up), 1, 1e-12);
-  EXPECT_NEAR(glm::dot(camera.forward, camera.up), 0, 1e-12);
-}
-
-TEST(Cameras, ReadsOrthographicLenses) {
-  testing::GlbBuilder builder;
-  builder.add("cameras",
-              {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
-  builder.addRoot({{"camera", 0}});
-  const Scene scene = load(builder);
-  const SceneCamera& camera = scene.scenes[0].cameras.at(0);
-  ASSERT_TRUE(camera.orthographic && !camera.perspective);
-  EXPECT_EQ(camera.orthographic->height, 6);
-  EXPECT_EQ(camera.orthographic->near, 0);
-  EXPECT_EQ(camera.orthographic->far, 9);
-  ASSERT_EQ(scene.summary.cameras.size(), 1u);
-  EXPECT_EQ(scene.summary.cameras[0].type, "orthographic");
-}
-
-TEST(Cameras, RefusesBrokenLenses) {
-  const auto problems = [](const json& camera) {
-    testing::GlbBuilder builder;
-    builder.add("cameras", camera);
-    return problemsOf(builder);
-  };
-  json camera = perspective();
-  camera["perspective"]["zfar"] = 0.5;
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/zfar")));
-  camera["perspective"] = {{"yfov", 4}, {"znear", 1}};
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/yfov")));
-  camera.erase("perspective");
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective")));
-}
-
-TEST(Cameras, ScaledToNothingAreLeftOut) {
-  testing::GlbBuilder builder;
-  builder.add("cameras", perspective());
-  builder.addRoot({{"children", {1}}, {"scale", {0, 0, 0}}});
-  builder.add("nodes", {{"camera", 0}});
-  const Scene scene = load(builder);
-  EXPECT_THAT(scene.scenes[0].cameras, IsEmpty());
-  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("camera at node 1")));
-}
-
-/// A file with one light on a node that is turned a quarter around Y and scaled.
-testing::GlbBuilder lit(const json& light) {
-  testing::GlbBuilder builder;
-  builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
-  builder.addRoot({{"translation", {1, 2, 3}},
-                   {"rotation", kQuarterAroundY},
-                   {"scale", {2, 0.5, -3}},
-                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  return builder;
-}
-
-TEST(Lights, ReadsDirectionalLights) {
-  const Scene scene = load(lit({{"type", "directional"}, {"intensity", 5}, {"color", {1, 0.5, 0}}, {"name", "Sun"}}));
-  const SceneLight& placed = scene.scenes[0].lights.at(0);
-  EXPECT_EQ(placed.name, "Sun");
-  EXPECT_EQ(placed.light.type, LightType::directional);
-  ASSERT_TRUE(placed.light.direction);
-  expectNear(toDvec3(*placed.light.direction), {-1, 0, 0});
-  EXPECT_FALSE(placed.light.position);
-  EXPECT_EQ(placed.light.intensity, 5);
-  EXPECT_EQ(placed.light.color, (Vec3{1, 0.5, 0}));
-  EXPECT_EQ(scene.summary.lights.at(0).type, "directional");
-}
-
-TEST(Lights, ReadsSpotLights) {
-  const Light light =
-      load(lit({{"type", "spot"}, {"range", 7}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}))
-          .scenes[0]
-          .lights.at(0)
-          .light;
-  EXPECT_EQ(light.type, LightType::spot);
-  expectNear(toDvec3(light.direction.value()), {-1, 0, 0});
-  expectNear(toDvec3(light.position.value()), {1, 2, 3});
-  EXPECT_EQ(light.range, 7.0);
-  EXPECT_NEAR(light.innerConeDegrees, 0.25 * 180 / std::numbers::pi, 1e-12);
-  EXPECT_NEAR(light.outerConeDegrees, 0.5 * 180 / std::numbers::pi, 1e-12);
-  EXPECT_EQ(light.intensity, 1);
-}
-
-TEST(Lights, ReadsPointLights) {
-  const Light light = load(lit({{"type", "point"}})).scenes[0].lights.at(0).light;
-  EXPECT_EQ(light.type, LightType::point);
-  EXPECT_FALSE(light.direction);
-  EXPECT_FALSE(light.range) << "absent = infinite";
-  expectNear(toDvec3(light.position.value()), {1, 2, 3});
-}
-
-TEST(Lights, ColorsBeyondOneBecomeIntensity) {
-  const Light light =
-      load(lit({{"type", "point"}, {"color", {4, 2, 0}}, {"intensity", 3}})).scenes[0].lights.at(0).light;
-  EXPECT_EQ(light.color, (Vec3{1, 0.5, 0}));
-  EXPECT_EQ(light.intensity, 12);
-}
-
-TEST(Lights, HalfSphereConesAreNarrowedWithAWarning) {
-  const Scene scene = load(lit({{"type", "spot"}, {"spot", {{"outerConeAngle", std::numbers::pi / 2}}}}));
-  EXPECT_EQ(scene.scenes[0].lights.at(0).light.outerConeDegrees, 89.9);
-  EXPECT_THAT(scene.summary.warnings, Contains(HasSubstr("90 degrees")));
-}
-
-TEST(Lights, RefusesBrokenLights) {
-  const std::string lights = "/extensions/KHR_lights_punctual/lights/0";
-  EXPECT_THAT(problemsOf(lit({{"type", "spot"}})), ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/spot")));
-  EXPECT_THAT(problemsOf(lit({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.8}}}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/spot/innerConeAngle")));
-  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"range", 0}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/range")));
-  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"intensity", -1}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/intensity")));
 }
 
 } // namespace
