@@ -1,0 +1,59 @@
+// Every gathered model loads and shows something, or is refused by the name of the extension that it requires.
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/renderer/frame_fixture.h"
+#include "tests/support/files.h"
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kAssets = GNOMON_TEST_ASSETS;
+
+/// The model and, under the names that it uses, the files beside it.
+SceneBundle bundleOf(const nlohmann::json& model) {
+  const fs::path path = kAssets / model.at("path").get<std::string>();
+  SceneBundle bundle{testing::readFile(path), {}};
+  for (const auto& file : model.at("files")) {
+    const fs::path other = kAssets / file.get<std::string>();
+    if (other != path)
+      bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
+  }
+  return bundle;
+}
+
+std::size_t colorsIn(const Frame& frame) {
+  const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
+  const std::size_t channels = frame.images[0].image.channels.size();
+  std::set<std::vector<std::uint8_t>> colors;
+  for (std::size_t i = 0; i + channels <= pixels.size(); i += channels) {
+    colors.emplace(pixels.begin() + static_cast<std::ptrdiff_t>(i),
+                   pixels.begin() + static_cast<std::ptrdiff_t>(i + channels));
+  }
+  return colors.size();
+}
+
+TEST(Models, EveryOneIsShownOrRefusedByName) {
+  if (!fs::exists(kAssets / "manifest.json")) GTEST_SKIP() << "no gathered models at " << kAssets;
+  const auto manifest = nlohmann::json::parse(std::ifstream(kAssets / "manifest.json"));
+  int shown = 0;
+  for (const auto& model : manifest.at("models")) {
+    SCOPED_TRACE(model.at("id").get<std::string>());
+    const auto scene = loadScene(bundleOf(model));
+    if (!scene) {
+      EXPECT_EQ(scene.problems()[0].code, ProblemCode::unsupportedFeature) << scene.problems()[0].detail;
+      EXPECT_EQ(scene.problems()[0].pointer.rfind("/extensionsRequired/", 0), 0u) << scene.problems()[0].pointer;
+      EXPECT_FALSE(model.at("extensions_required").empty());
+      continue;
+    }
+    const Frame frame = testing::renderJson(*scene, R"({"width":64,"height":64,"antialiasing":"none"})");
+    ASSERT_FALSE(frame.images.empty());
+    EXPECT_GT(colorsIn(frame), 1u) << "blank";
+    ++shown;
+  }
+  EXPECT_GE(shown, 40);
+}
+
+} // namespace
+} // namespace gnomon
