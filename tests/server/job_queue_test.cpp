@@ -107,10 +107,14 @@ TEST(JobQueue, FinishesWithinTheGrace) {
 TEST(JobQueue, DropsTheRestAfterTheGrace) {
   std::list<Watched> others; // outlive the queue, which may hold some of them
   Watched first, second;
-  std::promise<void> closed;
+  std::promise<void> running, closed;
   JobQueue queue(4);
-  EXPECT_FALSE(queue.submit(first.job([&] { closed.get_future().wait(); })));
+  EXPECT_FALSE(queue.submit(first.job([&] {
+    running.set_value();
+    closed.get_future().wait();
+  })));
   EXPECT_FALSE(queue.submit(second.job()));
+  running.get_future().wait();
   std::thread closing([&] { queue.close(Clock::now()); });
   // The first job runs on until the queue is known to be closed: a further one is dropped at the door.
   do {
