@@ -2,9 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/gtc/constants.hpp>
 
+#include "protocol/limits.h"
+
 namespace gnomon {
+
+// The shader's arrays are as large as a request may ask.
+static_assert(kLimits.maxLights == GNOMON_MAX_LIGHTS);
+static_assert(kLimits.maxCascades == GNOMON_LIGHT_TILES);
+// As std140 lays them out: whole vec4s, one after the other.
+static_assert(sizeof(shared::LightData) == 5 * 16 && offsetof(shared::LightData, tiles) == 4 * 16);
+static_assert(sizeof(shared::TileData) == 6 * 16 && offsetof(shared::TileData, bias) == 5 * 16);
+static_assert(sizeof(shared::FrameData) == 7 * 16 && offsetof(shared::FrameData, depthRange) == 6 * 16);
+static_assert(sizeof(shared::MaterialData) == 3 * 16);
+
 namespace {
 
 glm::dvec3 vec(const Vec3& v) {

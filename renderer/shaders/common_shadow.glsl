@@ -63,15 +63,6 @@ float tileVisibility(TileData tile, Receiver receiver, vec3 toLight, int filterS
   return filtered(vec3(coordinate.xy, clamp(coordinate.z, 0.0, 1.0)), filterSize);
 }
 
-// A light's tile by its place among them, chosen among constant places: a computed one would be fetched lane by lane.
-TileData tileOf(int light, int cascade) {
-  TileData tile = tiles[light * GNOMON_LIGHT_TILES];
-  for (int i = 1; i < GNOMON_LIGHT_TILES; ++i) {
-    if (cascade == i) tile = tiles[light * GNOMON_LIGHT_TILES + i];
-  }
-  return tile;
-}
-
 struct CascadeChoice {
   int first;   // among the light's tiles
   int second;  // blended in; = first where there is none
@@ -116,7 +107,7 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   float visibility = 0.0;
   for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
-    visibility += share * tileVisibility(tileOf(light, i), receiver, toLight, size);
+    visibility += share * tileVisibility(tiles[light * GNOMON_LIGHT_TILES + i], receiver, toLight, size);
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, strength);

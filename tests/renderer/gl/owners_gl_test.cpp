@@ -6,7 +6,6 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/query.h"
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/vertex_array.h"
@@ -57,7 +56,6 @@ TEST_F(Owners, move) {
   expectMoves(Buffer(bytesOf(values), "a"), Buffer(8, "b"), glIsBuffer);
   expectMoves(Texture({}, "a"), Texture({.samples = 4}, "b"), glIsTexture);
   expectMoves(Sampler({}, "a"), Sampler({}, "b"), glIsSampler);
-  expectMoves(Query(GL_SAMPLES_PASSED, "a"), Query(GL_SAMPLES_PASSED, "b"), glIsQuery);
   expectMoves(VertexArray({}, {}, nullptr, "a"), VertexArray({}, {}, nullptr, "b"), glIsVertexArray);
   const Texture color({}, "color");
   Attachments attachments;
