@@ -10,6 +10,9 @@
 namespace gnomon::codec {
 namespace {
 
+/// libpng's PNG_FILTER_PAETH. Trying every filter on every row, its default, takes a third longer for the same size.
+constexpr int kPaethFilter = 0x80;
+
 /// The library writes the time of day where none is given; pinned, equal pictures have equal bytes.
 constexpr const char* kDateTime = "2000:01:01 00:00:00";
 constexpr const char* kSoftware = "Gnomon";
@@ -60,6 +63,7 @@ bool encodePng(const BytePicture& picture, int level, const Sink& encoded, const
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("png:compressionLevel", level);
+    spec.attribute("png:filter", kPaethFilter);
     const auto output = OIIO::ImageOutput::create("png");
     if (!output) return fail(message, OIIO::geterror());
     std::vector<unsigned char> bytes;
