@@ -55,8 +55,8 @@ int firstShadowed() {
 }
 
 void main() {
-  // The pixel's centre: at an edge it may lie just off the surface, in its plane. (A centroid would lie on it, but
-  // llvmpipe divides a centroid's varyings by the centre's w, which is centimetres off.)
+  // The pixel's centre: at an edge it may lie just off the surface, in its plane. (A centroid would lie on it, but on
+  // llvmpipe centroid positions were found to be far enough off the plane for a dark line along every edge.)
   vec3 relative = surface.relative;
   float viewDepth = dot(relative, frame.forward.xyz);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(relative) : -frame.forward.xyz;
