@@ -4,15 +4,10 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/core/vec3.h"
+
 namespace gnomon {
 namespace {
-
-glm::dvec3 vec(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
-Vec3 array(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 /// The smallest sphere around the box, which holds the scene. A scene without surfaces is a metre wide.
 struct Sphere {
@@ -28,9 +23,9 @@ Sphere sphereAround(const Aabb& bounds) {
 
 /// Orthonormal axes; `up` is bent to stand on the view direction.
 void orient(CameraView& view, const EyeTarget& place) {
-  view.eye = vec(place.eye);
-  view.forward = glm::normalize(vec(place.target) - view.eye);
-  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(vec(place.up))));
+  view.eye = toVector(place.eye);
+  view.forward = glm::normalize(toVector(place.target) - view.eye);
+  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(toVector(place.up))));
   view.up = glm::cross(view.right, view.forward);
 }
 
@@ -46,7 +41,7 @@ double framingDistance(const Aabb& bounds, const EyeTarget& directions, const Ca
   double distance = sphere.radius * 1e-3;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-    const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - vec(directions.target);
+    const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - toVector(directions.target);
     const double towards = -glm::dot(p, view.forward);
     distance = std::max({distance, std::abs(glm::dot(p, view.right)) / tanX + towards,
                          std::abs(glm::dot(p, view.up)) / tanY + towards});
@@ -63,10 +58,10 @@ EyeTarget placeOrbit(const Orbit& orbit, const Camera& camera, const Aabb& bound
   const glm::dvec3 up = std::abs(outward.y) > 0.999999
                             ? glm::dvec3(-std::sin(azimuth), 0, std::cos(azimuth)) * (outward.y > 0 ? 1.0 : -1.0)
                             : glm::dvec3(0, 1, 0);
-  const glm::dvec3 target = orbit.target ? vec(*orbit.target) : sphereAround(bounds).center;
-  const EyeTarget directions{array(target + outward), array(target), array(up)};
+  const glm::dvec3 target = orbit.target ? toVector(*orbit.target) : sphereAround(bounds).center;
+  const EyeTarget directions{toTriple(target + outward), toTriple(target), toTriple(up)};
   const double distance = orbit.distance ? *orbit.distance : framingDistance(bounds, directions, camera, aspect);
-  return {array(target + outward * distance), array(target), array(up)};
+  return {toTriple(target + outward * distance), toTriple(target), toTriple(up)};
 }
 
 Result<const SceneCamera*> findCamera(const std::variant<int, std::string>& node, const SceneView& scene) {
@@ -100,7 +95,7 @@ Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scen
     if (!found) return found.problems();
     const SceneCamera& node = **found;
     // A target as far as the scene is large keeps the direction's digits.
-    out.lookAt = EyeTarget{array(node.eye), array(node.eye + node.forward * sphere.radius), array(node.up)};
+    out.lookAt = EyeTarget{toTriple(node.eye), toTriple(node.eye + node.forward * sphere.radius), toTriple(node.up)};
     if (!out.perspective && !out.orthographic) {
       out.perspective = node.perspective;
       out.orthographic = node.orthographic;

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/limits.h"
+#include "renderer/core/vec3.h"
 
 namespace gnomon {
 
@@ -19,10 +20,6 @@ static_assert(sizeof(shared::FrameData) == 7 * 16 && offsetof(shared::FrameData,
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
 
 namespace {
-
-glm::dvec3 vec(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
 
 float typeOf(LightType type) {
   switch (type) {
@@ -82,7 +79,7 @@ glm::dvec3 directionOf(const Light& light) {
                        -std::cos(azimuth) * std::cos(elevation));
   }
   if (light.direction) {
-    const glm::dvec3 direction = vec(*light.direction);
+    const glm::dvec3 direction = toVector(*light.direction);
     const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
     return glm::normalize(direction / largest);
   }
@@ -95,8 +92,8 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     shared::LightData out{};
     const glm::dvec3 direction = directionOf(light);
     out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
-    if (light.position) out.position = glm::vec4(vec(*light.position) - eye, light.range.value_or(0.0));
-    out.radiance = glm::vec4(vec(light.color) * light.intensity, 0.0);
+    if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
+    out.radiance = glm::vec4(toVector(light.color) * light.intensity, 0.0);
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
     data.push_back(out);
   }

@@ -12,7 +12,6 @@ class ProgramCache {
  public:
   /// The program; valid as long as the cache. A backend problem where the driver refuses it.
   Result<const gl::Program*> get(const gl::ProgramSource& source);
-  std::size_t size() const { return programs_.size(); }
 
  private:
   std::map<std::string, gl::Program> programs_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "renderer/core/vec3.h"
+
+
 namespace gnomon {
 
 namespace {
@@ -15,10 +18,6 @@ constexpr double kWidestConeDegrees = 89.9;                // a cone of 90 has n
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
-}
-
-Vec3 toVec3(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
 }
 
 void placeCone(const tinygltf::Light& source, Light& light, const std::string& name, Findings& findings) {
@@ -69,9 +68,9 @@ std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& 
   light.type = source.type == "point"  ? LightType::point
                : source.type == "spot" ? LightType::spot
                                        : LightType::directional;
-  if (light.type != LightType::point) light.direction = toVec3(frame.forward);
+  if (light.type != LightType::point) light.direction = toTriple(frame.forward);
   if (light.type != LightType::directional) {
-    light.position = toVec3(frame.position);
+    light.position = toTriple(frame.position);
     if (source.range > 0) light.range = source.range;
   }
   if (light.type == LightType::spot) placeCone(source, light, name, findings);
