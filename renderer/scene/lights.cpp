@@ -5,7 +5,6 @@
 
 #include "renderer/core/vec3.h"
 
-
 namespace gnomon {
 
 namespace {
