@@ -37,7 +37,7 @@ struct LightReport {
 struct FrameCounts {
   std::uint64_t sceneTriangles = 0;    ///< in the chosen glTF scene
   std::uint64_t surveyedTriangles = 0; ///< drawn by the survey: inside the view
-  std::uint64_t shadedTriangles = 0;   ///< drawn by one shading pass: in clusters that the survey saw
+  std::uint64_t shadedTriangles = 0;   ///< drawn for the surfaces to light: in clusters that the survey saw
   std::uint64_t casterTriangles = 0;   ///< drawn into all tiles
   std::uint64_t drawCalls = 0;
 };

@@ -46,7 +46,7 @@ inline constexpr auto kRows<FrameCounts> =
               field("surveyedTriangles", &FrameCounts::surveyedTriangles,
                     {.says = "Triangles drawn by the survey: those inside the view."}),
               field("shadedTriangles", &FrameCounts::shadedTriangles,
-                    {.says = "Triangles drawn by one shading pass: in clusters that the survey saw."}),
+                    {.says = "Triangles drawn for the surfaces to light: in clusters that the survey saw."}),
               field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
               field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
 static_assert(kRowsAreComplete<FrameCounts>);

@@ -39,7 +39,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
 } // namespace
 
 FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, const ShadowPlan& plan,
-                       const ShadowAtlas& atlas, const std::vector<ShadedView>& shaded, std::vector<StageTime> stages) {
+                       const ShadowAtlas& atlas, const DrawnViews& drawn, std::vector<StageTime> stages) {
   FrameReport report;
   report.spec = frame.spec;
   if (!survey.receivers.range.empty()) {
@@ -51,10 +51,11 @@ FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const
   report.counts.surveyedTriangles = survey.triangles;
   report.counts.drawCalls = survey.drawCalls + atlas.drawCalls;
   for (const TileCounts& tile : atlas.tiles) report.counts.casterTriangles += tile.casterTriangles;
-  for (const ShadedView& view : shaded) {
-    report.counts.shadedTriangles += view.triangles;
-    report.counts.drawCalls += view.drawCalls;
+  for (const auto& [samples, surfaces] : drawn.surfaces) {
+    report.counts.shadedTriangles += surfaces.triangles;
+    report.counts.drawCalls += surfaces.drawCalls;
   }
+  report.counts.drawCalls += drawn.views.size();
   report.stages = std::move(stages);
   report.warnings = frame.warnings;
   return report;

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "protocol/frame_report.h"
-#include "renderer/passes/shade_pass.h"
+#include "renderer/draw_views.h"
 #include "renderer/resolve_frame.h"
 
 namespace gnomon {
 
 /// What happened, told from what the stages returned.
 FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, const ShadowPlan& plan,
-                       const ShadowAtlas& atlas, const std::vector<ShadedView>& shaded, std::vector<StageTime> stages);
+                       const ShadowAtlas& atlas, const DrawnViews& drawn, std::vector<StageTime> stages);
 
 } // namespace gnomon

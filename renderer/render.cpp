@@ -1,7 +1,10 @@
 #include "renderer/render.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "renderer/core/vec3.h"
+#include "renderer/draw_views.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/gl/stage_clock.h"
@@ -11,7 +14,6 @@
 #include "renderer/passes/light_data.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/read_back.h"
-#include "renderer/passes/shade_pass.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/survey_pass.h"
 #include "renderer/resolve_frame.h"
@@ -42,7 +44,13 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   const double intensity = frame.spec.ambient.intensity;
   shared::FrameData data{};
   data.clipFromRelative = glm::mat4(clipFromView(view) * viewFromRelative(view));
+  const glm::dmat4 clip = clipFromView(view);
+  const Background& background = frame.spec.background;
   data.forward = glm::vec4(view.forward, view.perspective ? 1.0 : 0.0);
+  data.right = glm::vec4(view.right * view.halfSize.x, 0.0);
+  data.up = glm::vec4(view.up * view.halfSize.y, 2.0 * view.halfSize.y / frame.spec.height);
+  data.lens = glm::vec4(clip[2][2], clip[3][2], 2.0 / frame.spec.width, 2.0 / frame.spec.height);
+  data.background = glm::vec4(toVector(background.color), background.alpha);
   data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
   data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
   return data;
@@ -65,15 +73,15 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
   return input;
 }
 
-Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<ShadedView>& shaded,
+Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
                                          const ShadowAtlas& atlas) {
   const bool encoded = frame.spec.output.format == ImageFormat::png;
   const bool opaque = frame.spec.background.alpha >= 1;
   std::vector<ViewImage> images;
-  for (std::size_t i = 0; i < shaded.size(); ++i) {
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
     const View view = frame.spec.views[i];
     images.push_back(
-        {view, view == View::atlas ? readAtlas(atlas, encoded) : readView(shaded[i], view, encoded, opaque)});
+        {view, view == View::atlas ? readAtlas(atlas, encoded) : readView(drawn[i], view, encoded, opaque)});
   }
   return images;
 }
@@ -127,35 +135,27 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
     data.depthRange.y = survey->receivers.range.farthest;
     frameBuffer.update(0, gl::bytesOfValue(data));
   }
+  if (plan.atlasWidth == 0 &&
+      std::find(effective.views.begin(), effective.views.end(), View::atlas) != effective.views.end()) {
+    return Problem{ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "",
+                   "atlas"};
+  }
   clock.finish("plan");
 
   const auto atlas = castShadows(inputs, plan);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 
-  const ShadeInputs shade{*survey, *atlas, lights, tiles, effective, samples};
-  std::vector<ShadedView> shaded;
-  for (const View wanted : effective.views) {
-    if (wanted == View::atlas) {
-      if (plan.atlasWidth == 0) {
-        return Problem{ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "",
-                       "atlas"};
-      }
-      shaded.emplace_back();
-      continue;
-    }
-    auto made = shadeView(inputs, shade, wanted);
-    if (!made) return made.problems();
-    shaded.push_back(std::move(*made));
-  }
+  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, effective});
+  if (!drawn) return drawn.problems();
   clock.finish("shade");
 
-  auto images = readViews(*resolved, shaded, *atlas);
+  auto images = readViews(*resolved, drawn->views, *atlas);
   if (!images) return images.problems();
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
-  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, shaded, clock.take()), std::move(*images)};
+  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, *drawn, clock.take()), std::move(*images)};
 }
 
 } // namespace gnomon

@@ -39,7 +39,7 @@ function factsOf({ counts, atlasSize, depthRange, lights, spec }, roundTripMs) {
   const facts = [
     ['frame', `${spec.width} × ${spec.height}`, 'Pixels of this picture'],
     ['round trip', `${short(roundTripMs)} ms`, 'From the request to the decoded reply, as the browser sees it'],
-    ['shaded', `${count(counts.shadedTriangles)} of ${count(counts.sceneTriangles)} triangles`, 'Drawn by the shading pass, of those in the scene'],
+    ['shaded', `${count(counts.shadedTriangles)} of ${count(counts.sceneTriangles)} triangles`, 'Drawn for the surfaces to light, of those in the scene'],
     ['cast', `${count(counts.casterTriangles)}`, 'Triangles drawn into all shadow tiles'],
     ['draws', count(counts.drawCalls), 'Draw calls'],
   ];

@@ -100,6 +100,13 @@ void Framebuffer::readDepth(const Rect& rect, std::span<float> depths) const {
                 static_cast<GLsizei>(depths.size_bytes()), depths.data());
 }
 
+glm::vec2 Framebuffer::samplePosition(int sample) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, id());
+  glm::vec2 position(0.0f);
+  glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(sample), &position.x);
+  return position;
+}
+
 void copyColor(const Framebuffer& from, int fromAttachment, const Framebuffer& to, int toAttachment, const Rect& rect) {
   glNamedFramebufferReadBuffer(from.id(), colorAttachment(fromAttachment));
   glNamedFramebufferDrawBuffer(to.id(), colorAttachment(toAttachment)); // a copy goes to every one that is drawn to

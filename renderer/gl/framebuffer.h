@@ -46,6 +46,9 @@ class Framebuffer {
   void readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
   void readDepth(const Rect& rect, std::span<float> depths) const;
 
+  /// Where a sample lies in its pixel, 0..1 from the lower left corner. REQUIRES: multisampled attachments.
+  glm::vec2 samplePosition(int sample) const;
+
  private:
   struct Delete {
     void operator()(GLuint id) const { glDeleteFramebuffers(1, &id); }

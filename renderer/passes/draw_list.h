@@ -14,7 +14,7 @@ namespace gnomon {
 enum class DrawUse {
   survey, ///< culled by facing; textures only for masked materials
   cast,   ///< both faces cast; textures only for masked materials
-  shade   ///< culled by facing; a group for each material
+  surface ///< culled by facing; a group for each material
 };
 
 /// Commands that share state and material.

@@ -16,7 +16,7 @@ static_assert(kLimits.maxCascades == GNOMON_LIGHT_TILES);
 // As std140 lays them out: whole vec4s, one after the other.
 static_assert(sizeof(shared::LightData) == 5 * 16 && offsetof(shared::LightData, tiles) == 4 * 16);
 static_assert(sizeof(shared::TileData) == 6 * 16 && offsetof(shared::TileData, bias) == 5 * 16);
-static_assert(sizeof(shared::FrameData) == 7 * 16 && offsetof(shared::FrameData, depthRange) == 6 * 16);
+static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
 
 namespace {

@@ -37,24 +37,24 @@ std::vector<T> picked(const std::vector<T>& rgba, std::size_t width, std::size_t
 }
 
 template <class T>
-std::vector<T> readPicked(const ShadedView& shaded, GLenum type, std::size_t channels) {
-  const gl::TextureShape& shape = shaded.color.shape();
+std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t channels) {
+  const gl::TextureShape& shape = drawn.color.shape();
   const auto width = static_cast<std::size_t>(shape.width);
   const auto height = static_cast<std::size_t>(shape.height);
   std::vector<T> rgba(width * height * 4);
-  shaded.framebuffer.readColor(0, {0, 0, shape.width, shape.height}, {GL_RGBA, type},
-                               std::as_writable_bytes(std::span(rgba)));
+  drawn.framebuffer.readColor(0, {0, 0, shape.width, shape.height}, {GL_RGBA, type},
+                              std::as_writable_bytes(std::span(rgba)));
   return picked(rgba, width, height, channels);
 }
 
 } // namespace
 
-Image readView(const ShadedView& shaded, View view, bool encoded, bool opaque) {
-  Image image{shaded.color.width(), shaded.color.height(), channelsOf(view, encoded, opaque), {}};
+Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
+  Image image{drawn.color.width(), drawn.color.height(), channelsOf(view, encoded, opaque), {}};
   if (encoded) {
-    image.pixels = readPicked<std::uint8_t>(shaded, GL_UNSIGNED_BYTE, image.channels.size());
+    image.pixels = readPicked<std::uint8_t>(drawn, GL_UNSIGNED_BYTE, image.channels.size());
   } else {
-    image.pixels = readPicked<float>(shaded, GL_FLOAT, image.channels.size());
+    image.pixels = readPicked<float>(drawn, GL_FLOAT, image.channels.size());
   }
   return image;
 }

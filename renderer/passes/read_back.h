@@ -2,13 +2,13 @@
 
 #include "protocol/output_options.h"
 #include "renderer/image/image.h"
-#include "renderer/passes/shade_pass.h"
+#include "renderer/passes/view_pass.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
 
 /// A shaded view as an image, first row on top. `opaque` leaves the alpha channel out of a picture.
-Image readView(const ShadedView& shaded, View view, bool encoded, bool opaque);
+Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque);
 
 /// The whole atlas: grey (near = dark) when encoded, else the depths as they are.
 Image readAtlas(const ShadowAtlas& atlas, bool encoded);

@@ -40,24 +40,20 @@ std::vector<std::string> maskDefines(const Material* material) {
   return defines;
 }
 
-gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant) {
-  std::vector<std::string> defines{viewDefine(variant.view)};
-  const bool shaded = variant.view == View::color || variant.view == View::cascades;
-  const bool masked = material.alphaMode == AlphaMode::mask;
-
+gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant) {
   struct Slot {
     const std::optional<TextureUse>* use;
     const char* name;
-    bool needed;
   };
-  const std::array<Slot, 5> slots{{{&material.baseColor, "BASE_COLOR", shaded || masked},
-                                   {&material.metallicRoughness, "METALLIC_ROUGHNESS", shaded},
-                                   {&material.normal, "NORMAL", shaded || variant.view == View::normal},
-                                   {&material.occlusion, "OCCLUSION", shaded},
-                                   {&material.emissive, "EMISSIVE", shaded}}};
+  const std::array<Slot, 5> slots{{{&material.baseColor, "BASE_COLOR"},
+                                   {&material.metallicRoughness, "METALLIC_ROUGHNESS"},
+                                   {&material.normal, "NORMAL"},
+                                   {&material.occlusion, "OCCLUSION"},
+                                   {&material.emissive, "EMISSIVE"}}};
+  std::vector<std::string> defines;
   std::array<bool, 2> uvs{};
   for (const Slot& slot : slots) {
-    if (!slot.needed || !*slot.use) continue;
+    if (!*slot.use) continue;
     const TextureUse& use = **slot.use;
     defines.push_back(std::string(slot.name) + "_TEXTURE");
     defines.push_back(std::string(slot.name) + "_UV " + uvName(use));
@@ -65,19 +61,27 @@ gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& var
   }
   if (uvs[0]) defines.emplace_back("UV0");
   if (uvs[1]) defines.emplace_back("UV1");
-  if (material.hasVertexColors && (shaded || masked)) defines.emplace_back("VERTEX_COLORS");
+  if (material.hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
-  if (masked) defines.emplace_back("ALPHA_MASK");
+  if (material.alphaMode == AlphaMode::mask) defines.emplace_back("ALPHA_MASK");
+  if (variant.emission) defines.emplace_back("EMISSION");
+  return {"surface.vert", "surface.frag", "", std::move(defines)};
+}
+
+gl::ProgramSource viewProgram(const ViewVariant& variant) {
+  std::vector<std::string> defines{viewDefine(variant.view)};
+  defines.push_back("SAMPLES " + std::to_string(variant.samples));
   defines.push_back("LIGHT_COUNT " + std::to_string(variant.lights));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   if (!variant.filterSize) defines.emplace_back("NO_SHADOWS");
   if (variant.filterSize.value_or(0) > 0) defines.push_back("FILTER_SIZE " + std::to_string(*variant.filterSize));
+  if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");
   }
-  return {"shade.vert", "shade.frag", "", std::move(defines)};
+  return {"fullscreen.vert", "view.frag", "", std::move(defines)};
 }
 
 } // namespace gnomon

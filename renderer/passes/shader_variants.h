@@ -11,18 +11,28 @@ namespace gnomon {
 /// The #defines that a masked material needs where only its outline matters; none for an opaque one (null).
 std::vector<std::string> maskDefines(const Material* material);
 
-/// What a shading program is made for.
-struct ShadeVariant {
+struct SurfaceVariant {
+  bool tangents = false; ///< the primitive brings its own
+  bool emission = false; ///< something in the scene glows: every program writes what it gives off
+};
+
+/// Draws a material's surface.
+gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant);
+
+/// What lighting the surfaces needs, and no more.
+struct ViewVariant {
   View view = View::color;
   bool encoded = true; ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
   ToneMapping toneMapping = ToneMapping::aces;
-  bool tangents = false; ///< the primitive brings its own
+  int samples = 1;       ///< a pixel
+  bool emission = false; ///< as in SurfaceVariant
   int lights = 0;
   bool punctual = false; ///< some light is a spot or a point
   /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
   std::optional<int> filterSize{};
 };
 
-gl::ProgramSource shadeProgram(const Material& material, const ShadeVariant& variant);
+/// Makes a view from the surfaces.
+gl::ProgramSource viewProgram(const ViewVariant& variant);
 
 } // namespace gnomon

@@ -111,6 +111,7 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   survey.drawn = slotsInView(inputs);
   const DrawBatch batch =
       uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, survey.drawn));
+  survey.samples = samples;
   survey.triangles = batch.triangles;
   survey.drawCalls = batch.drawCalls;
 

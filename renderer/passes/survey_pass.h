@@ -12,7 +12,8 @@ struct Survey {
   ReceiverDepths receivers;
   std::vector<std::uint8_t> drawn;   ///< one a slot: inside the view
   std::vector<std::uint8_t> visible; ///< one a slot: not surely hidden behind others
-  gl::Texture depth;                 ///< D32F, reversed; as many samples as the frame has
+  gl::Texture depth;                 ///< D32F, reversed
+  int samples = 1;                   ///< a pixel
   std::uint64_t triangles = 0;       ///< drawn
   std::size_t drawCalls = 0;
 };

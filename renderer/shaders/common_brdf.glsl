@@ -6,9 +6,13 @@ struct SurfacePoint {
   float alpha;     // roughness squared
   vec3 normal;     // shading normal
   vec3 toEye;
-  float occlusion; // of the surroundings, 1 = open
-  vec3 emission;
 };
+
+SurfacePoint surfacePoint(Surface surface, vec3 toEye) {
+  float alpha = max(surface.roughness * surface.roughness, 0.002);
+  return SurfacePoint(surface.baseColor * (1.0 - surface.metallic), mix(vec3(0.04), surface.baseColor, surface.metallic),
+                      alpha, surface.normal, toEye);
+}
 
 // Lambert and GGX with height-correlated Smith visibility (Walter et al. 2007; Heitz, JCGT 2014) and Schlick's Fresnel
 // term (1994), times the cosine: radiance out for a unit of irradiance facing the light.

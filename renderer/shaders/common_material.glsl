@@ -71,27 +71,26 @@ vec3 shadingNormal(MaterialData material, vec3 face) {
   return n;
 }
 
-SurfacePoint surfacePoint(MaterialData material, vec4 color, vec3 face, vec3 toEye) {
-  float metallic = material.surface.x;
-  float roughness = material.surface.y;
+vec2 metallicRoughnessOf(MaterialData material) {
+  vec2 value = material.surface.xy;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-  vec4 texel = texture(metallicRoughnessTexture, METALLIC_ROUGHNESS_UV);
-  metallic *= texel.b;
-  roughness *= texel.g;
+  value *= texture(metallicRoughnessTexture, METALLIC_ROUGHNESS_UV).bg;
 #endif
-  SurfacePoint s;
-  s.albedo = color.rgb * (1.0 - metallic);
-  s.f0 = mix(vec3(0.04), color.rgb, metallic);
-  s.alpha = max(roughness * roughness, 0.002);
-  s.normal = shadingNormal(material, face);
-  s.toEye = toEye;
-  s.occlusion = 1.0;
+  return value;
+}
+
+float occlusionOf(MaterialData material) {
 #ifdef OCCLUSION_TEXTURE
-  s.occlusion = mix(1.0, texture(occlusionTexture, OCCLUSION_UV).r, material.surface.w);
+  return mix(1.0, texture(occlusionTexture, OCCLUSION_UV).r, material.surface.w);
+#else
+  return 1.0;
 #endif
-  s.emission = material.emissiveFactor.rgb;
+}
+
+vec3 emissionOf(MaterialData material) {
+  vec3 emission = material.emissiveFactor.rgb;
 #ifdef EMISSIVE_TEXTURE
-  s.emission *= texture(emissiveTexture, EMISSIVE_UV).rgb;
+  emission *= texture(emissiveTexture, EMISSIVE_UV).rgb;
 #endif
-  return s;
+  return emission;
 }

@@ -27,7 +27,7 @@ void lookups(int size, float fraction, out vec4 offsets, out vec4 weights) {
 }
 
 float filtered(vec3 coordinate, int size) {
-  if (size <= 1) return texture(atlas, coordinate);
+  if (size <= 1) return textureLod(atlas, coordinate, 0.0);
   vec2 atlasSize = vec2(textureSize(atlas, 0));
   vec2 texel = coordinate.xy * atlasSize;
   vec2 base = floor(texel - 0.5);
@@ -43,7 +43,7 @@ float filtered(vec3 coordinate, int size) {
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
       float w = weightsX[x] * weightsY[y];
-      sum += w * texture(atlas, vec3((first + vec2(offsetsX[x], offsetsY[y])) / atlasSize, coordinate.z));
+      sum += w * textureLod(atlas, vec3((first + vec2(offsetsX[x], offsetsY[y])) / atlasSize, coordinate.z), 0.0);
       weight += w;
     }
   }

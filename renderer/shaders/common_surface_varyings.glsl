@@ -4,7 +4,7 @@
 #define STAGE_IO out
 #endif
 
-STAGE_IO Surface {
+STAGE_IO SurfaceVaryings {
   vec3 relative;
   vec3 normal;
 #ifdef TANGENTS

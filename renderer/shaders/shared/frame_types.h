@@ -38,6 +38,7 @@ using glm::vec4;
 #define GNOMON_MATERIAL 0
 #define GNOMON_LIGHT_CLIP 1
 #define GNOMON_FRAME_SIZE 1
+#define GNOMON_SAMPLE_POSITIONS 1 // as many as there are samples
 
 // Texture units.
 #define GNOMON_BASE_COLOR_UNIT 0
@@ -46,6 +47,9 @@ using glm::vec4;
 #define GNOMON_OCCLUSION_UNIT 3
 #define GNOMON_EMISSIVE_UNIT 4
 #define GNOMON_ATLAS_UNIT 5
+#define GNOMON_DEPTH_UNIT 6
+#define GNOMON_SURFACE_UNIT 7
+#define GNOMON_EMISSION_UNIT 8
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
@@ -62,6 +66,10 @@ using glm::vec4;
 struct FrameData {
   mat4 clipFromRelative;
   vec4 forward;    // xyz: the view axis; w: 1 perspective, 0 orthographic
+  vec4 right;      // xyz: from the picture's middle to its right edge, at 1 m (perspective) or at any depth
+  vec4 up;         // xyz: the same to its upper edge; w: a pixel's height there, metres
+  vec4 lens;       // xy: terms 2 2 and 3 2 of the projection; zw: 2 / width, 2 / height
+  vec4 background; // where there is no surface, as it shows
   vec4 ambient;    // rgb: radiance of the surroundings
   vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure
 };

@@ -57,7 +57,7 @@ TEST(DrawList, HoldsExactlyTheTrianglesOfTheSlotsThatAreKept) {
         if (keep[geometry.firstSlot[i] + c] != 0) expected += last ? 1 : kClusterTriangles;
       }
     }
-    for (const DrawUse use : {DrawUse::survey, DrawUse::cast, DrawUse::shade}) {
+    for (const DrawUse use : {DrawUse::survey, DrawUse::cast, DrawUse::surface}) {
       const DrawList list = buildDrawList(placed.scene, placed.view, geometry, use, keep);
       RC_ASSERT(list.triangles == expected);
       std::size_t grouped = 0;
@@ -103,7 +103,7 @@ TEST(DrawList, G4_AMirroredNodeTurnsItsFrontFace) {
   const Placed placed = threePrimitives();
   const FrameGeometry geometry = frameGeometry(placed.scene, placed.view, glm::dvec3(0));
   const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-  const DrawList list = buildDrawList(placed.scene, placed.view, geometry, DrawUse::shade, all);
+  const DrawList list = buildDrawList(placed.scene, placed.view, geometry, DrawUse::surface, all);
   ASSERT_EQ(list.groups.size(), 3u);
   EXPECT_EQ(list.groups[0].frontFace, gl::FrontFace::counterClockwise);
   EXPECT_EQ(list.groups[1].frontFace, gl::FrontFace::clockwise);

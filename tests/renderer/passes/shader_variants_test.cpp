@@ -9,48 +9,49 @@ using ::testing::Contains;
 using ::testing::Not;
 
 TEST(ShaderVariants, APlainMaterialAsksForNoTexture) {
-  for (const std::string& define : shadeProgram(Material{}, {.lights = 1, .filterSize = 5}).defines) {
+  for (const std::string& define : surfaceProgram(Material{}, {}).defines) {
     EXPECT_EQ(define.find("TEXTURE"), std::string::npos) << define;
   }
 }
 
-TEST(ShaderVariants, DataViewsLeaveOutWhatTheyDoNotShow) {
+TEST(ShaderVariants, OnlyTheCoordinatesThatATextureReadsAreInterpolated) {
   Material material;
-  material.baseColor = TextureUse{0};
   material.normal = TextureUse{1, 1};
-  const auto depth = shadeProgram(material, {.view = View::depth}).defines;
-  EXPECT_THAT(depth, Not(Contains("BASE_COLOR_TEXTURE")));
-  EXPECT_THAT(depth, Not(Contains("NORMAL_TEXTURE")));
-  const auto normal = shadeProgram(material, {.view = View::normal}).defines;
-  EXPECT_THAT(normal, Contains("NORMAL_TEXTURE"));
-  EXPECT_THAT(normal, Contains("NORMAL_UV surface.uv1"));
-  EXPECT_THAT(normal, Contains("UV1"));
-  EXPECT_THAT(normal, Not(Contains("UV0")));
+  const auto defines = surfaceProgram(material, {}).defines;
+  EXPECT_THAT(defines, Contains("NORMAL_TEXTURE"));
+  EXPECT_THAT(defines, Contains("NORMAL_UV surface.uv1"));
+  EXPECT_THAT(defines, Contains("UV1"));
+  EXPECT_THAT(defines, Not(Contains("UV0")));
 }
 
-TEST(ShaderVariants, G2_AMaskIsCutInEveryView) {
+TEST(ShaderVariants, G2_AMaskIsCutForEyeAndLight) {
   Material material;
   material.alphaMode = AlphaMode::mask;
   material.baseColor = TextureUse{0};
-  for (const View view : {View::color, View::depth, View::normal, View::shadow, View::cascades}) {
-    const auto defines = shadeProgram(material, {.view = view}).defines;
+  for (const auto& defines : {surfaceProgram(material, {}).defines, maskDefines(&material)}) {
     EXPECT_THAT(defines, Contains("ALPHA_MASK"));
     EXPECT_THAT(defines, Contains("BASE_COLOR_TEXTURE"));
   }
-  EXPECT_THAT(maskDefines(&material), Contains("BASE_COLOR_TEXTURE"));
   EXPECT_TRUE(maskDefines(nullptr).empty());
 }
 
+TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
+  EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("EMISSION")));
+  EXPECT_THAT(surfaceProgram(Material{}, {.emission = true}).defines, Contains("EMISSION"));
+  EXPECT_THAT(viewProgram({}).defines, Not(Contains("EMISSION")));
+  EXPECT_THAT(viewProgram({.emission = true}).defines, Contains("EMISSION"));
+}
+
 TEST(ShaderVariants, LinearPicturesAreNotToneMapped) {
-  const auto linear = shadeProgram(Material{}, {.encoded = false}).defines;
+  const auto linear = viewProgram({.encoded = false}).defines;
   EXPECT_THAT(linear, Not(Contains("TONE_ACES")));
   EXPECT_THAT(linear, Not(Contains("ENCODED")));
 }
 
 TEST(ShaderVariants, FiltersThatDifferAreChosenInTheShader) {
-  EXPECT_THAT(shadeProgram(Material{}, {.filterSize = 7}).defines, Contains("FILTER_SIZE 7"));
-  EXPECT_THAT(shadeProgram(Material{}, {.filterSize = 0}).defines, Not(Contains("FILTER_SIZE 0")));
-  EXPECT_THAT(shadeProgram(Material{}, {}).defines, Contains("NO_SHADOWS"));
+  EXPECT_THAT(viewProgram({.filterSize = 7}).defines, Contains("FILTER_SIZE 7"));
+  EXPECT_THAT(viewProgram({.filterSize = 0}).defines, Not(Contains("FILTER_SIZE 0")));
+  EXPECT_THAT(viewProgram({}).defines, Contains("NO_SHADOWS"));
 }
 
 } // namespace

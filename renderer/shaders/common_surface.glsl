@@ -1,0 +1,43 @@
+// What a picture's light needs to know of a surface: written once a pixel, read by every view.
+struct Surface {
+  vec3 face;   // normal of the triangle itself, on the eye's side
+  vec3 normal; // for shading
+  vec3 baseColor;
+  float metallic;
+  float roughness; // perceptual
+  float occlusion; // of the surroundings, 1 = open
+};
+
+// Octahedral unit vectors (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
+// 2014), 16 bits an axis: within 7e-5 radians.
+vec2 octahedral(vec3 n) {
+  vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  return n.z >= 0.0 ? p : folded;
+}
+
+vec3 fromOctahedral(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  float fold = max(-n.z, 0.0);
+  n.x += n.x >= 0.0 ? -fold : fold;
+  n.y += n.y >= 0.0 ? -fold : fold;
+  return normalize(n);
+}
+
+// Base colors are kept as square roots, 11, 11 and 10 bits: finer than a quarter of an sRGB byte's step.
+const vec3 kColorSteps = vec3(2047.0, 2047.0, 1023.0);
+
+uvec4 packedSurface(Surface s) {
+  uvec3 color = uvec3(sqrt(clamp(s.baseColor, 0.0, 1.0)) * kColorSteps + 0.5);
+  return uvec4(packSnorm2x16(octahedral(s.face)), packSnorm2x16(octahedral(s.normal)),
+               color.r | (color.g << 11) | (color.b << 22), packUnorm4x8(vec4(s.metallic, s.roughness, s.occlusion, 0.0)));
+}
+
+vec3 rootColor(uint bits) { return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / kColorSteps; }
+
+Surface unpackedSurface(uvec4 bits) {
+  vec3 color = rootColor(bits.z);
+  vec3 rest = unpackUnorm4x8(bits.w).xyz;
+  return Surface(fromOctahedral(unpackSnorm2x16(bits.x)), fromOctahedral(unpackSnorm2x16(bits.y)), color * color, rest.x,
+                 rest.y, rest.z);
+}

@@ -1,0 +1,28 @@
+#define FRAGMENT_STAGE
+#include "shared/frame_types.h"
+#include "common_surface_varyings.glsl"
+#include "common_surface.glsl"
+#include "common_material.glsl"
+
+layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
+layout(location = 0) out uvec4 surfaceBits;
+#ifdef EMISSION
+layout(location = 1) out vec4 emitted;
+#endif
+
+void main() {
+  MaterialData material = materials[materialIndex];
+  vec4 color = baseColor(material);
+#ifdef ALPHA_MASK
+  if (color.a < material.emissiveFactor.w) discard;
+#endif
+  // The pixel's centre: at an edge it may lie just off the surface, in its plane.
+  vec3 toEye = frame.forward.w > 0.0 ? -surface.relative : -frame.forward.xyz;
+  vec3 face = faceNormal(toEye);
+  vec2 metallicRoughness = metallicRoughnessOf(material);
+  surfaceBits = packedSurface(Surface(face, shadingNormal(material, face), color.rgb, metallicRoughness.x, metallicRoughness.y,
+                               occlusionOf(material)));
+#ifdef EMISSION
+  emitted = vec4(emissionOf(material), 0.0);
+#endif
+}

@@ -1,0 +1,101 @@
+#include "shared/frame_types.h"
+#include "common_surface.glsl"
+#include "common_surface_read.glsl"
+#include "common_brdf.glsl"
+#include "common_shadow.glsl"
+#include "common_light.glsl"
+#include "common_tone.glsl"
+
+layout(location = 0) out vec4 target;
+
+vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlusion) {
+  vec3 sum = emission + frame.ambient.rgb * ambientReflectance(s) * occlusion;
+  for (int i = 0; i < LIGHT_COUNT; ++i) {
+    vec3 toLight;
+    vec3 arriving = irradiance(lights[i], receiver.relative, toLight);
+    vec3 reflected = reflectedRadiance(s, toLight) * arriving;
+    sum += reflected * shadowVisibility(i, receiver, toLight, reflected != vec3(0.0));
+  }
+  return sum;
+}
+
+int firstShadowed() {
+  for (int i = 0; i < LIGHT_COUNT; ++i) {
+    if (lights[i].tiles.x > 0u) return i;
+  }
+  return -1;
+}
+
+Receiver receiverOf(Sample seen, vec3 face) {
+  return Receiver(seen.relative, face, seen.viewDepth);
+}
+
+vec4 picture(Sample seen) {
+  if (!seen.hit) return frame.background;
+  Surface surface = unpackedSurface(seen.bits);
+  vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
+  SurfacePoint s = surfacePoint(surface, toEye);
+  vec3 radiance = radianceToEye(s, receiverOf(seen, surface.face), emissionAt(seen.index), surface.occlusion);
+  vec3 shown = toneMapped(radiance * frame.depthRange.z);
+#ifdef VIEW_CASCADES
+  int tinted = firstShadowed();
+  if (tinted >= 0) shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(tinted, seen.viewDepth);
+#endif
+  return vec4(shown, 1.0);
+}
+
+// The mean of the pixel's samples; those that show one surface are lit once. The loop turns once for each surface, so
+// that a pixel inside one costs no more than without antialiasing.
+vec4 antialiased() {
+  vec4 sum = vec4(0.0);
+  uint left = (1u << SAMPLES) - 1u;
+  while (left != 0u) {
+    uint same;
+    Sample seen = mergedSample(left, same);
+    left &= ~same;
+    sum += float(bitCount(same)) * picture(seen);
+  }
+  return sum / float(SAMPLES);
+}
+
+#if defined(VIEW_COLOR) || defined(VIEW_CASCADES)
+void main() { target = antialiased(); }
+#else
+vec4 background() {
+#if defined(VIEW_DEPTH) && !defined(ENCODED)
+  return vec4(uintBitsToFloat(0x7f800000u)); // infinity
+#elif defined(VIEW_SHADOW)
+  return vec4(1.0);
+#else
+  return vec4(0.0);
+#endif
+}
+
+vec4 data(Sample seen) {
+#if defined(VIEW_DEPTH)
+#ifdef ENCODED
+  float span = max(frame.depthRange.y - frame.depthRange.x, 1e-6);
+  return vec4(vec3(1.0 - 0.9 * clamp((seen.viewDepth - frame.depthRange.x) / span, 0.0, 1.0)), 1.0);
+#else
+  return vec4(seen.viewDepth);
+#endif
+#elif defined(VIEW_NORMAL)
+  vec3 n = unpackedSurface(seen.bits).normal;
+#ifdef ENCODED
+  n = n * 0.5 + 0.5;
+#endif
+  return vec4(n, 1.0);
+#else
+  int shadowed = firstShadowed();
+  if (shadowed < 0) return vec4(1.0);
+  vec3 toLight;
+  irradiance(lights[shadowed], seen.relative, toLight);
+  return vec4(vec3(shadowVisibility(shadowed, receiverOf(seen, unpackedSurface(seen.bits).face), toLight, true)), 1.0);
+#endif
+}
+
+void main() {
+  Sample seen = sampleAt(0);
+  target = seen.hit ? data(seen) : background();
+}
+#endif
