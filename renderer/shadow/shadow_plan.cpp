@@ -10,7 +10,8 @@
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/fit.h"
 #include "renderer/shadow/light_basis.h"
-#include "renderer/shadow/receiver_box.h"
+#include "renderer/shadow/receiver_mask.h"
+#include "renderer/shadow/receiver_pieces.h"
 #include "renderer/shadow/slice.h"
 #include "renderer/shadow/splits.h"
 #include "renderer/shadow/tight_roll.h"
@@ -24,7 +25,9 @@ struct LightDraft {
   bool stable = false;
   std::vector<CascadeInterval> cascades; ///< empty = no shadow is drawn
   std::vector<LightBasis> bases;         ///< by cascade
-  std::vector<Aabb> receiversLs;         ///< by cascade, in its basis; empty where no surface is in view
+  /// By cascade, in its basis: what is in view, as pieces and as the box around them; empty where nothing is.
+  std::vector<std::vector<Aabb>> pieces;
+  std::vector<Aabb> receiversLs;
   PlannedLight planned;
 };
 
@@ -86,7 +89,8 @@ LightDraft draftLight(const DirectionalCaster& caster, const PlanInput& input) {
   const LightBasis basis = lightBasis(caster.direction);
   for (const CascadeInterval& cascade : draft.cascades) {
     draft.bases.push_back(draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascade));
-    draft.receiversLs.push_back(receiverBox(input.view, input.receivers, draft.bases.back(), cascade));
+    draft.pieces.push_back(receiverPieces(input.view, input.receivers, draft.bases.back(), cascade));
+    draft.receiversLs.push_back(boxAround(draft.pieces.back()));
   }
   if (shadow.stabilization != Stabilization::none && !draft.stable) {
     addNote(draft.planned, "stabilization is ignored: the depth range is automatic");
@@ -129,6 +133,22 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
   }
 }
 
+/// What the filter reads around the receivers in each piece, once they are moved along their normals.
+ReceiverMask maskOf(const std::vector<Aabb>& pieces, const Fit& fit, const FitTarget& target) {
+  const glm::dvec3 lowest(fit.lowest, fit.depthNear);
+  const glm::dvec3 scale(2.0 / (fit.texelSize * static_cast<double>(target.tileSize)), 1.0 / fit.depthExtent);
+  const glm::dvec3 origin(-1.0, -1.0, 0.0);
+  std::vector<Aabb> clip;
+  clip.reserve(pieces.size());
+  for (const Aabb& piece : pieces) {
+    Aabb box{origin + (piece.min - lowest) * scale, origin + (piece.max - lowest) * scale};
+    box.max.z += 2.0 * depthBias(target.magnitude, fit.depthExtent);
+    clip.push_back(box);
+  }
+  const glm::dvec2 reach = fit.texelSize * static_cast<double>(target.kernel.border) + fit.normalOffset;
+  return receiverMask(clip, reach * glm::dvec2(scale));
+}
+
 ShadowTile planTile(const LightDraft& draft, std::size_t cascade, const DirectionalCaster& caster,
                     const PlanInput& input) {
   const CascadeInterval& interval = draft.cascades[cascade];
@@ -159,6 +179,7 @@ ShadowTile planTile(const LightDraft& draft, std::size_t cascade, const Directio
   tile.depthExtent = fit.depthExtent;
   tile.normalOffset = fit.normalOffset;
   tile.depthBias = depthBias(target.magnitude, fit.depthExtent);
+  tile.receivers = maskOf(draft.pieces[cascade], fit, target);
   return tile;
 }
 

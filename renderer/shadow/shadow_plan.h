@@ -9,6 +9,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
+#include "renderer/shadow/receiver_mask.h"
 
 namespace gnomon {
 
@@ -16,6 +17,7 @@ namespace gnomon {
 struct DepthSpan {
   float nearest = 0;
   float farthest = -1; ///< less than nearest = no surface
+  bool open = true;    ///< some sample shows no surface
   bool empty() const { return farthest < nearest; }
 };
 
@@ -65,6 +67,7 @@ struct ShadowTile {
   double normalOffset = 0;
   /// Added towards the light in z units: covers the depth quantum.
   double depthBias = 0;
+  ReceiverMask receivers; ///< what the tile serves
 };
 
 struct PlannedLight {
@@ -90,7 +93,7 @@ struct ShadowPlan {
 ShadowPlan planShadows(const PlanInput& input);
 
 /// True where something inside `casterBounds` (eye-relative) can throw a shadow onto what `tile` serves:
-/// it overlaps the tile seen along the light and is not entirely behind its farthest receiver.
+/// seen along the light it overlaps a part of the tile where receivers look, and does not lie behind all of them there.
 bool mayCastInto(const ShadowTile& tile, const Aabb& casterBounds);
 
 } // namespace gnomon

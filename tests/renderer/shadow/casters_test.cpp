@@ -36,6 +36,7 @@ TEST(Casters, M5_X26_WhateverStandsBetweenAReceiverAndTheLightMayCast) {
 TEST(Casters, M14_WhatLiesBesideOrBehindCannotCast) {
   EXPECT_TRUE(rc::check([](const RandomPlan& random) {
     const ShadowPlan plan = planShadows(random.input);
+    Dice dice(random.seed + 6);
     for (const PlannedLight& light : plan.lights) {
       for (int i = 0; i < light.tileCount; ++i) {
         const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(light.firstTile + i)];
@@ -46,9 +47,14 @@ TEST(Casters, M14_WhatLiesBesideOrBehindCannotCast) {
           point.add(glm::dvec3(relativeFromClip * glm::dvec4(x, y, z, 1)));
           return mayCastInto(tile, point);
         };
-        RC_ASSERT(mayCast(0, 0, 0.5));
-        RC_ASSERT(mayCast(0.99, -0.99, 0.99));
-        RC_ASSERT(mayCast(-0.99, 0.99, -100)); // before the tile: drawn with its depth clamped
+        // Over a cell where receivers look, whatever stands before them may; where none looks, nothing does.
+        const std::size_t cell = static_cast<std::size_t>(dice.below(static_cast<int>(tile.receivers.farthest.size())));
+        const float farthest = tile.receivers.farthest[cell];
+        const double x = (static_cast<double>(cell % ReceiverMask::kSide) + 0.5) * 2 / ReceiverMask::kSide - 1;
+        const double y = (static_cast<double>(cell / ReceiverMask::kSide) + 0.5) * 2 / ReceiverMask::kSide - 1;
+        RC_ASSERT(mayCast(x, y, -100) == (farthest >= 0)); // before the tile: drawn with its depth clamped
+        RC_ASSERT(mayCast(x, y, farthest - 1e-3) == (farthest >= 0));
+        RC_ASSERT(!mayCast(x, y, std::max(farthest, 0.0f) + 1e-3));
         RC_ASSERT(!mayCast(1.01, 0, 0.5));
         RC_ASSERT(!mayCast(-1.01, 0, 0.5));
         RC_ASSERT(!mayCast(0, 1.01, 0.5));

@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/receiver_box.h"
+#include "renderer/shadow/receiver_pieces.h"
 #include "tests/renderer/shadow/plan_lookup.h"
 
 namespace gnomon {
@@ -84,7 +84,7 @@ TEST(TightRoll, M16_AGroundTakesMuchLessAreaThanWithAnArbitraryRoll) {
     const double azimuth = i * 2 * glm::pi<double>() / suns;
     const LightBasis basis = lightBasis(glm::normalize(glm::dvec3(std::sin(azimuth), -0.6, std::cos(azimuth))));
     const auto area = [&](const LightBasis& b) {
-      const Aabb box = receiverBox(input.view, receivers, b, far);
+      const Aabb box = boxAround(receiverPieces(input.view, receivers, b, far));
       return (box.max.x - box.min.x) * (box.max.y - box.min.y);
     };
     product *= area(basis) / area(tightBasis(input.view, receivers, basis, far));

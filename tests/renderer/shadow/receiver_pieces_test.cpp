@@ -1,4 +1,4 @@
-#include "renderer/shadow/receiver_box.h"
+#include "renderer/shadow/receiver_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 namespace gnomon {
 namespace {
 
-TEST(ReceiverBox, X18_HoldsTheReceiversAndLittleElse) {
+TEST(ReceiverPieces, X18_HoldsTheReceiversAndLittleElse) {
   EXPECT_TRUE(rc::check([](const RandomPlan& random) {
     const PlanInput& input = random.input;
     RC_PRE(!input.receivers.range.empty());
     const LightBasis basis = lightBasis(input.casters[0].direction);
     const double nearest = input.receivers.range.nearest;
     const double farthest = input.receivers.range.farthest;
-    const Aabb box = receiverBox(input.view, input.receivers, basis, {nearest, farthest, farthest});
+    const Aabb box = boxAround(receiverPieces(input.view, input.receivers, basis, {nearest, farthest, farthest}));
 
     Aabb corners; // the corners of every block's piece of view, two pixels wider
     const ReceiverDepths& r = input.receivers;
@@ -43,10 +43,10 @@ TEST(ReceiverBox, X18_HoldsTheReceiversAndLittleElse) {
   }));
 }
 
-TEST(ReceiverBox, X18_ACascadeWithoutSurfacesIsEmpty) {
+TEST(ReceiverPieces, X18_ACascadeWithoutSurfacesIsEmpty) {
   const PlanInput input = simplePlan(10, 20);
   const auto box = [&](const CascadeInterval& cascade) {
-    return receiverBox(input.view, input.receivers, LightBasis{}, cascade);
+    return boxAround(receiverPieces(input.view, input.receivers, LightBasis{}, cascade));
   };
   EXPECT_TRUE(box({1, 5, 5}).empty());
   EXPECT_TRUE(box({30, 40, 40}).empty());

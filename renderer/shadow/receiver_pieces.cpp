@@ -1,6 +1,7 @@
-#include "renderer/shadow/receiver_box.h"
+#include "renderer/shadow/receiver_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "renderer/shadow/depth_range.h"
@@ -28,11 +29,19 @@ std::vector<Bounds> strips(int count, int blockSize, int pixels, const glm::dvec
   return result;
 }
 
+/// Into how many steps to cut a piece from `near` to `far`, so that its sides spread by no more than a few percent.
+int stepsBetween(const CameraView& view, double near, double far) {
+  constexpr double kSpread = 1.1;
+  constexpr int kMostSteps = 16;
+  if (!view.perspective || !(near > 0)) return 1;
+  return std::clamp(static_cast<int>(std::ceil(std::log(far / near) / std::log(kSpread))), 1, kMostSteps);
+}
+
 } // namespace
 
-Aabb receiverBox(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
-                 const CascadeInterval& cascade) {
-  Aabb box;
+std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
+                                 const CascadeInterval& cascade) {
+  std::vector<Aabb> pieces;
   const glm::dmat3 lightFromWorld = basis.lightFromWorld();
   const glm::dvec3 forward = lightFromWorld * view.forward;
   const glm::dvec3 right = lightFromWorld * view.right * view.halfSize.x;
@@ -52,16 +61,29 @@ Aabb receiverBox(const CameraView& view, const ReceiverDepths& receivers, const 
       if (!(near <= far)) continue;
       const glm::dvec3 low = column.low + row.low;
       const glm::dvec3 high = column.high + row.high;
-      // A coordinate of light space is linear in the depth, so its extremes are at the ends.
-      if (view.perspective) {
-        box.min = glm::min(box.min, glm::min((forward + low) * near, (forward + low) * far));
-        box.max = glm::max(box.max, glm::max((forward + high) * near, (forward + high) * far));
-      } else {
-        box.min = glm::min(box.min, low + glm::min(forward * near, forward * far));
-        box.max = glm::max(box.max, high + glm::max(forward * near, forward * far));
+      const int steps = stepsBetween(view, near, far);
+      for (int step = 0; step < steps; ++step) {
+        const double from = step == 0 ? near : near * std::pow(far / near, static_cast<double>(step) / steps);
+        const double to = step + 1 == steps ? far : near * std::pow(far / near, (step + 1.0) / steps);
+        // A coordinate of light space is linear in the depth, so its extremes are at the ends.
+        Aabb piece;
+        if (view.perspective) {
+          piece.min = glm::min((forward + low) * from, (forward + low) * to);
+          piece.max = glm::max((forward + high) * from, (forward + high) * to);
+        } else {
+          piece.min = low + glm::min(forward * from, forward * to);
+          piece.max = high + glm::max(forward * from, forward * to);
+        }
+        pieces.push_back(piece);
       }
     }
   }
+  return pieces;
+}
+
+Aabb boxAround(const std::vector<Aabb>& boxes) {
+  Aabb box;
+  for (const Aabb& each : boxes) box.add(each);
   return box;
 }
 
