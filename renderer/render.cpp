@@ -113,7 +113,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   const GpuScene& gpu = impl_->scenes.get(scene);
   const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
   const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
-  const gl::VertexArray vertices = vertexArray(gpu, instances);
+  const SceneVertices vertices = sceneVertices(gpu, instances);
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));

@@ -8,6 +8,10 @@ void drawFullscreen(const Program& program, const VertexArray& nothing) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void submit() {
+  glFlush();
+}
+
 void dispatch(const Program& program, std::uint32_t groupsX, std::uint32_t groupsY, std::uint32_t groupsZ) {
   program.use();
   glDispatchCompute(groupsX, groupsY, groupsZ);

@@ -11,6 +11,9 @@ namespace gnomon::gl {
 /// `nothing` is a vertex array without streams.
 void drawFullscreen(const Program& program, const VertexArray& nothing);
 
+/// Hands what was drawn so far to the device, without waiting for it.
+void submit();
+
 /// Runs a compute program and makes its writes visible to everything after it.
 void dispatch(const Program& program, std::uint32_t groupsX, std::uint32_t groupsY = 1, std::uint32_t groupsZ = 1);
 

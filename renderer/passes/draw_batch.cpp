@@ -5,34 +5,42 @@
 
 namespace gnomon {
 
-gl::VertexArray vertexArray(const GpuScene& scene, const gl::Buffer& instances) {
+SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) {
   const std::array<gl::VertexStream, 3> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
                                                  {&scene.attributes, sizeof(VertexAttributes), 0, 0},
                                                  {&instances, sizeof(shared::InstanceData), 0, 1}}};
-  std::vector<gl::VertexAttribute> attributes{
-      {GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0},
+  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0}};
+  for (GLuint row = 0; row < 3; ++row) {
+    const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
+    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
+  }
+  SceneVertices vertices;
+  vertices.positions = {streams, attributes, &scene.welded, "scene positions"};
+
+  const std::array<gl::VertexAttribute, 5> shaded{{
       {GNOMON_NORMAL, 1, 3, GL_FLOAT, false, false, offsetof(VertexAttributes, normal)},
       {GNOMON_TANGENT, 1, 4, GL_FLOAT, false, false, offsetof(VertexAttributes, tangent)},
       {GNOMON_UV0, 1, 2, GL_FLOAT, false, false, offsetof(VertexAttributes, uv0)},
       {GNOMON_UV1, 1, 2, GL_FLOAT, false, false, offsetof(VertexAttributes, uv1)},
       {GNOMON_COLOR, 1, 4, GL_UNSIGNED_SHORT, true, false, offsetof(VertexAttributes, color)},
-  };
+  }};
+  attributes.insert(attributes.end(), shaded.begin(), shaded.end());
   for (GLuint row = 0; row < 3; ++row) {
-    const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
-    const auto normalOffset = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + offset);
-    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
-    attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, false, normalOffset});
+    const auto offset = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + row * sizeof(glm::vec4));
+    attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
   }
-  return {streams, attributes, &scene.indices, "scene vertices"};
+  vertices.all = {streams, attributes, &scene.indices, "scene vertices"};
+  return vertices;
 }
 
 DrawBatch uploadDraws(const DrawList& list) {
   return {gl::Buffer(gl::bytesOf(list.commands), "draw commands"), list.groups, list.triangles, list.commands.size()};
 }
 
-void drawGroup(const DrawBatch& batch, const DrawGroup& group, const gl::VertexArray& vertices,
+void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertices& vertices,
                const gl::Program& program) {
-  gl::drawIndirect(program, vertices, batch.commands, group.firstCommand, group.commandCount);
+  gl::drawIndirect(program, group.material < 0 ? vertices.positions : vertices.all, batch.commands, group.firstCommand,
+                   group.commandCount);
 }
 
 void bindMaterial(const GpuScene& scene, int material, const gl::Program& program) {

@@ -8,7 +8,12 @@
 namespace gnomon {
 
 /// Feeds a scene's vertices and its instances (shared::InstanceData) to every pass of a frame. Both outlive it.
-gl::VertexArray vertexArray(const GpuScene& scene, const gl::Buffer& instances);
+struct SceneVertices {
+  gl::VertexArray all;       ///< every attribute
+  gl::VertexArray positions; ///< positions only, over welded indices: fewer vertices to run over
+};
+
+SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances);
 
 /// A draw list on the device.
 struct DrawBatch {
@@ -21,7 +26,7 @@ struct DrawBatch {
 DrawBatch uploadDraws(const DrawList& list);
 
 /// Draws one group with a program whose state has been applied.
-void drawGroup(const DrawBatch& batch, const DrawGroup& group, const gl::VertexArray& vertices,
+void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertices& vertices,
                const gl::Program& program);
 
 /// Binds the textures that a material has to their units, and tells the program which material it is.

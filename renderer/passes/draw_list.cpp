@@ -27,7 +27,8 @@ GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
   GroupKey key;
   if (use == DrawUse::surface || material.alphaMode == AlphaMode::mask) key.material = primitive.material;
-  if (use != DrawUse::cast && !material.doubleSided) {
+  const bool solid = primitive.solid && material.alphaMode == AlphaMode::opaque;
+  if (use == DrawUse::cast ? solid : !material.doubleSided) {
     key.cull = gl::Cull::back;
     if (glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0) key.frontFace = gl::FrontFace::clockwise;
   }

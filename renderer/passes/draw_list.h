@@ -13,13 +13,13 @@ namespace gnomon {
 /// What a draw list is for: it decides which state and which textures its groups need.
 enum class DrawUse {
   survey, ///< culled by facing; textures only for masked materials
-  cast,   ///< both faces cast; textures only for masked materials
+  cast,   ///< both faces cast, but of solids only the front ones; textures only for masked materials
   surface ///< culled by facing; a group for each material
 };
 
 /// Commands that share state and material.
 struct DrawGroup {
-  int material = -1; ///< -1 = any opaque one: textures don't matter
+  int material = -1; ///< -1 = any opaque one: nothing but positions matters
   gl::Cull cull = gl::Cull::none;
   gl::FrontFace frontFace = gl::FrontFace::counterClockwise;
   bool tangents = false;

@@ -83,7 +83,8 @@ GpuScene uploadScene(const Scene& scene) {
   gpu.positions = gl::Buffer(gl::bytesOf(scene.positions), "positions");
   gpu.attributes = gl::Buffer(gl::bytesOf(scene.attributes), "attributes");
   gpu.indices = gl::Buffer(gl::bytesOf(scene.indices), "indices");
-  gpu.bytes = gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes();
+  gpu.welded = gl::Buffer(gl::bytesOf(scene.welded), "welded indices");
+  gpu.bytes = gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();
 
   std::vector<shared::MaterialData> data;
   TextureUpload upload(scene, gpu);

@@ -27,6 +27,7 @@ struct GpuScene {
   gl::Buffer positions;  ///< vec3
   gl::Buffer attributes; ///< VertexAttributes
   gl::Buffer indices;
+  gl::Buffer welded;       ///< indices for draws that read positions only
   gl::Buffer materialData; ///< shared::MaterialData
   std::vector<GpuMaterial> materials;
   std::vector<gl::Texture> textures;

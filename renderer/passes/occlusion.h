@@ -16,4 +16,9 @@ namespace gnomon {
 std::vector<std::uint8_t> visibleBoxes(const CameraView& view, const ReceiverDepths& depths,
                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> drawn);
 
+/// The same for boxes that the depths do not hold yet: `wanted` marks them. A box is hidden where every block of pixels
+/// that it may touch is covered by surfaces nearer than the box.
+std::vector<std::uint8_t> unhiddenBoxes(const CameraView& view, const ReceiverDepths& depths,
+                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> wanted);
+
 } // namespace gnomon

@@ -2,7 +2,7 @@
 
 #include "renderer/core/camera_view.h"
 #include "renderer/gl/buffer.h"
-#include "renderer/gl/vertex_array.h"
+#include "renderer/passes/draw_batch.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/program_cache.h"
@@ -16,8 +16,8 @@ struct PassInputs {
   const GpuScene& gpu;
   const FrameGeometry& geometry;
   const CameraView& camera;
-  const gl::Buffer& frame;         ///< shared::FrameData
-  const gl::VertexArray& vertices; ///< of the scene and of geometry's instances
+  const gl::Buffer& frame;       ///< shared::FrameData
+  const SceneVertices& vertices; ///< of the scene and of geometry's instances
   ProgramCache& programs;
   int width = 0; ///< of the frame, pixels
   int height = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
@@ -24,7 +25,6 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.scissor = tile.rect;
   state.depth = {true, true, GL_LESS};
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
-  gl::apply(state);
   for (const DrawGroup& group : batch.groups) {
     const Material* masked =
         group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
@@ -33,6 +33,9 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
     if (!program) return program.problems();
     if (masked != nullptr) bindMaterial(inputs.gpu, group.material, **program);
     (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
+    state.cull = group.cull;
+    state.frontFace = group.frontFace;
+    gl::apply(state);
     drawGroup(batch, group, inputs.vertices, **program);
   }
   return Done{};
@@ -62,6 +65,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     const DrawBatch batch = uploadDraws(
         buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::cast, castersOf(tile, inputs.geometry)));
     if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
+    gl::submit(); // a software driver fills this tile while the next one is prepared
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
     atlas.drawCalls += batch.drawCalls;
   }

@@ -36,7 +36,7 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   const bool reuse = samples == survey.samples;
   const bool emission = anythingGlows(inputs.scene);
   const DrawBatch batch = uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
-                                                    reuse ? survey.visible : survey.drawn));
+                                                    reuse ? survey.visible : survey.inView));
 
   Surfaces surfaces;
   surfaces.triangles = batch.triangles;

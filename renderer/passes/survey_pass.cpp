@@ -1,11 +1,12 @@
 #include "renderer/passes/survey_pass.h"
 
 #include <algorithm>
+#include <functional>
+#include <tuple>
 
 #include "renderer/core/frustum.h"
-#include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/passes/depth_blocks.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/occlusion.h"
 #include "renderer/passes/shader_variants.h"
@@ -21,15 +22,17 @@ std::vector<std::uint8_t> slotsInView(const PassInputs& inputs) {
   return keep;
 }
 
-Status drawSurvey(const PassInputs& inputs, const DrawBatch& batch, gl::Framebuffer& target, int samples) {
+/// Adds the depth of the slots that `keep` marks.
+Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep, GLuint framebuffer, Survey& survey) {
+  const DrawBatch batch = uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, keep));
+  survey.triangles += batch.triangles;
+  survey.drawCalls += batch.drawCalls;
+
   gl::PipelineState state;
-  state.framebuffer = target.id();
+  state.framebuffer = framebuffer;
   state.viewport = {0, 0, inputs.width, inputs.height};
   state.depth = {true, true, GL_GREATER};
-  state.multisample = samples > 1;
-  gl::apply(state);
-  target.clearDepth(0.0f);
-
+  state.multisample = survey.samples > 1;
   bindInputs(inputs);
   for (const DrawGroup& group : batch.groups) {
     const Material* masked =
@@ -46,86 +49,85 @@ Status drawSurvey(const PassInputs& inputs, const DrawBatch& batch, gl::Framebuf
   return Done{};
 }
 
-/// Two depth values a block, from the top row down: the nearest and the farthest; 0 and 1 = nothing.
-Result<std::vector<glm::vec2>> reduceBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples,
-                                            const ReceiverDepths& grid) {
-  const auto program =
-      inputs.programs.get({"fullscreen.vert", "survey_reduce.frag", "", {"SAMPLES " + std::to_string(samples)}});
-  if (!program) return program.problems();
-  const gl::Texture blocks({GL_RG32F, grid.columns, grid.rows}, "survey blocks");
-  auto target = gl::Framebuffer::create({{{&blocks}}, {}}, "survey blocks");
-  if (!target) return target.problems();
+/// Below this, finding what is hidden takes longer than drawing it.
+constexpr std::uint64_t kTrianglesWorthHiding = 1u << 16;
+/// The share of the triangles in view, the nearest ones, that is drawn first to hide others.
+constexpr double kFirstShare = 0.25;
 
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, grid.columns, grid.rows};
-  gl::apply(state);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "survey texels");
-  texels.bind(0);
-  depth.bind(0);
-  (*program)->set(GNOMON_FRAME_SIZE, glm::ivec2(inputs.width, inputs.height));
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
-
-  std::vector<glm::vec2> depths(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-  target->readColor(0, {0, 0, grid.columns, grid.rows}, {GL_RG, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
-  return depths;
+std::uint64_t trianglesIn(const PassInputs& inputs, std::uint32_t slot, std::size_t instance) {
+  const Primitive& primitive =
+      inputs.scene.primitives[static_cast<std::size_t>(inputs.view.instances[instance].primitive)];
+  const std::uint32_t first = (slot - inputs.geometry.firstSlot[instance]) * kClusterTriangles;
+  return std::min(kClusterTriangles, primitive.indexCount / 3 - first);
 }
 
-ReceiverDepths emptyGrid(int width, int height) {
-  ReceiverDepths grid;
-  grid.blockSize = GNOMON_BLOCK_SIZE;
-  grid.width = width;
-  grid.height = height;
-  grid.columns = (width + grid.blockSize - 1) / grid.blockSize;
-  grid.rows = (height + grid.blockSize - 1) / grid.blockSize;
-  return grid;
-}
-
-void fillBlocks(ReceiverDepths& grid, const CameraView& camera, const std::vector<glm::vec2>& depths) {
-  grid.blocks.reserve(depths.size());
-  for (const glm::vec2& depth : depths) {
-    DepthSpan span;
-    if (depth.x > 0.0f) {
-      span.nearest = static_cast<float>(viewDepthOf(camera, depth.x));
-      span.farthest = static_cast<float>(viewDepthOf(camera, depth.y));
-      if (grid.range.empty()) grid.range = span;
-      grid.range.nearest = std::min(grid.range.nearest, span.nearest);
-      grid.range.farthest = std::max(grid.range.farthest, span.farthest);
+/// The nearest slots, with a share of all triangles in view; every one where there are few.
+std::vector<std::uint8_t> firstToDraw(const PassInputs& inputs, const std::vector<std::uint8_t>& inView) {
+  struct Seen {
+    double nearest;
+    std::uint32_t slot;
+    std::uint64_t triangles;
+  };
+  std::vector<Seen> seen;
+  std::uint64_t total = 0;
+  for (std::size_t instance = 0; instance < inputs.view.instances.size(); ++instance) {
+    for (std::uint32_t slot = inputs.geometry.firstSlot[instance]; slot < inputs.geometry.firstSlot[instance + 1];
+         ++slot) {
+      if (inView[slot] == 0) continue;
+      const Aabb& box = inputs.geometry.slotBounds[slot];
+      const double nearest =
+          glm::dot(box.center(), inputs.camera.forward) - glm::dot(box.halfExtent(), glm::abs(inputs.camera.forward));
+      seen.push_back({nearest, slot, trianglesIn(inputs, slot, instance)});
+      total += seen.back().triangles;
     }
-    grid.blocks.push_back(span);
   }
+  if (total < kTrianglesWorthHiding) return inView;
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return std::tie(a.nearest, a.slot) < std::tie(b.nearest, b.slot); });
+  std::vector<std::uint8_t> first(inView.size());
+  auto left = static_cast<std::int64_t>(kFirstShare * static_cast<double>(total));
+  for (const Seen& each : seen) {
+    if (left <= 0) break;
+    first[each.slot] = 1;
+    left -= static_cast<std::int64_t>(each.triangles);
+  }
+  return first;
 }
 
 } // namespace
 
-double viewDepthOf(const CameraView& camera, double depth) {
-  const glm::dmat4 clip = clipFromView(camera);
-  const double a = clip[2][2];
-  const double b = clip[3][2];
-  return camera.perspective ? b / (depth + a) : (b - depth) / a;
-}
-
 Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   Survey survey;
-  survey.drawn = slotsInView(inputs);
-  const DrawBatch batch =
-      uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, survey.drawn));
   survey.samples = samples;
-  survey.triangles = batch.triangles;
-  survey.drawCalls = batch.drawCalls;
-
+  survey.inView = slotsInView(inputs);
   survey.depth =
       gl::Texture({GL_DEPTH_COMPONENT32F, inputs.width, inputs.height, 1, samples > 1 ? samples : 0}, "survey depth");
   auto target = gl::Framebuffer::create({{}, {&survey.depth}}, "survey");
   if (!target) return target.problems();
-  if (const Status drawn = drawSurvey(inputs, batch, *target, samples); !drawn) return drawn.problems();
+  gl::PipelineState clear;
+  clear.framebuffer = target->id();
+  clear.viewport = {0, 0, inputs.width, inputs.height};
+  clear.depth.write = true;
+  gl::apply(clear);
+  target->clearDepth(0.0f);
 
-  survey.receivers = emptyGrid(inputs.width, inputs.height);
-  const auto depths = reduceBlocks(inputs, survey.depth, samples, survey.receivers);
-  if (!depths) return depths.problems();
-  fillBlocks(survey.receivers, inputs.camera, *depths);
-  survey.visible = visibleBoxes(inputs.camera, survey.receivers, inputs.geometry.slotBounds, survey.drawn);
+  std::vector<std::uint8_t> drawn = firstToDraw(inputs, survey.inView);
+  if (const Status first = drawDepth(inputs, drawn, target->id(), survey); !first) return first.problems();
+  auto blocks = depthBlocks(inputs, survey.depth, samples);
+  if (!blocks) return blocks.problems();
+  if (drawn != survey.inView) {
+    std::vector<std::uint8_t> rest(drawn.size());
+    std::transform(
+        survey.inView.begin(), survey.inView.end(), drawn.begin(), rest.begin(),
+        [](std::uint8_t seen, std::uint8_t done) { return static_cast<std::uint8_t>(seen != 0 && done == 0); });
+    rest = unhiddenBoxes(inputs.camera, *blocks, inputs.geometry.slotBounds, rest);
+    if (const Status second = drawDepth(inputs, rest, target->id(), survey); !second) return second.problems();
+    std::transform(drawn.begin(), drawn.end(), rest.begin(), drawn.begin(), std::bit_or<>());
+    blocks = depthBlocks(inputs, survey.depth, samples);
+    if (!blocks) return blocks.problems();
+  }
+  survey.receivers = std::move(*blocks);
+  survey.visible = visibleBoxes(inputs.camera, survey.receivers, inputs.geometry.slotBounds, drawn);
   return survey;
 }
 

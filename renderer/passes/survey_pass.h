@@ -10,7 +10,7 @@ namespace gnomon {
 /// What the camera sees.
 struct Survey {
   ReceiverDepths receivers;
-  std::vector<std::uint8_t> drawn;   ///< one a slot: inside the view
+  std::vector<std::uint8_t> inView;  ///< one a slot: inside the view, hidden or not
   std::vector<std::uint8_t> visible; ///< one a slot: not surely hidden behind others
   gl::Texture depth;                 ///< D32F, reversed
   int samples = 1;                   ///< a pixel
@@ -18,10 +18,8 @@ struct Survey {
   std::size_t drawCalls = 0;
 };
 
-/// Draws the depth of everything in view, and reduces it. `samples`: 1 or 4.
+/// Draws the depth of everything in view that is not surely hidden, and reduces it. Of many triangles the nearest are
+/// drawn first, so that what they hide need not be. `samples`: 1 or 4.
 Result<Survey> surveyScene(const PassInputs& inputs, int samples);
-
-/// The view depth in metres of a reversed depth value.
-double viewDepthOf(const CameraView& camera, double depth);
 
 } // namespace gnomon

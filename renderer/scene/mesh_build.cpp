@@ -2,6 +2,7 @@
 
 #include "renderer/scene/clusters.h"
 #include "renderer/scene/vertex_build.h"
+#include "renderer/scene/welding.h"
 
 namespace gnomon {
 
@@ -11,6 +12,7 @@ namespace {
 Primitive append(TriangleMesh mesh, Scene& scene) {
   mesh.indices = spatiallySorted(std::move(mesh.indices), mesh.positions);
   const std::vector<Cluster> clusters = clustersOf(mesh.indices, mesh.positions);
+  const std::vector<std::uint32_t> welded = weldedIndices(mesh.indices, mesh.positions);
 
   Primitive primitive;
   primitive.baseVertex = static_cast<std::uint32_t>(scene.positions.size());
@@ -20,11 +22,13 @@ Primitive append(TriangleMesh mesh, Scene& scene) {
   primitive.firstCluster = static_cast<std::uint32_t>(scene.clusters.size());
   primitive.clusterCount = static_cast<std::uint32_t>(clusters.size());
   primitive.hasTangents = mesh.hasTangents;
+  primitive.solid = boundsSolids(welded, mesh.positions);
   for (const Cluster& cluster : clusters) primitive.bounds.add(cluster.bounds);
 
   scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.attributes.insert(scene.attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
   scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
+  scene.welded.insert(scene.welded.end(), welded.begin(), welded.end());
   scene.clusters.insert(scene.clusters.end(), clusters.begin(), clusters.end());
   return primitive;
 }

@@ -41,7 +41,8 @@ struct Primitive {
   std::uint32_t firstCluster = 0; ///< into Scene::clusters; cluster k holds triangles [k, k+1) * kClusterTriangles
   std::uint32_t clusterCount = 0;
   bool hasTangents = false;
-  Aabb bounds; ///< in its own space
+  bool solid = false; ///< its triangles bound solids, front faces outside (welding.h)
+  Aabb bounds;        ///< in its own space
 };
 
 enum class AlphaMode { opaque, mask };
@@ -108,6 +109,7 @@ struct Scene {
   std::vector<glm::vec3> positions;         ///< of all primitives
   std::vector<VertexAttributes> attributes; ///< parallel to positions
   std::vector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
+  std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
   std::vector<Material> materials; ///< at least one (the default material)

@@ -28,9 +28,9 @@ vec4 baseColor(MaterialData material) {
   return color;
 }
 
-// The plane of the triangle itself, turned to the eye's side.
+// Of the triangle itself, on the eye's side; of any length.
 vec3 faceNormal(vec3 toEye) {
-  vec3 n = normalize(cross(dFdx(surface.relative), dFdy(surface.relative)));
+  vec3 n = cross(dFdx(surface.relative), dFdy(surface.relative));
   return dot(n, toEye) < 0.0 ? -n : n;
 }
 
@@ -58,15 +58,16 @@ mat3 tangentFrame(vec3 n) {
 }
 #endif
 
+// Of any length.
 vec3 shadingNormal(MaterialData material, vec3 face) {
-  vec3 n = normalize(surface.normal);
+  vec3 n = surface.normal;
 #ifdef DOUBLE_SIDED
   if (dot(n, face) < 0.0) n = -n;
 #endif
 #ifdef NORMAL_TEXTURE
   vec3 texel = texture(normalTexture, NORMAL_UV).xyz * 2.0 - 1.0;
   texel.xy *= material.surface.z;
-  n = normalize(tangentFrame(n) * texel);
+  n = tangentFrame(normalize(n)) * texel;
 #endif
   return n;
 }

@@ -1,6 +1,6 @@
 // What a picture's light needs to know of a surface: written once a pixel, read by every view.
 struct Surface {
-  vec3 face;   // normal of the triangle itself, on the eye's side
+  vec3 face;   // normal of the triangle itself, on the eye's side; to be packed, normals may have any length
   vec3 normal; // for shading
   vec3 baseColor;
   float metallic;
@@ -8,8 +8,8 @@ struct Surface {
   float occlusion; // of the surroundings, 1 = open
 };
 
-// Octahedral unit vectors (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
-// 2014), 16 bits an axis: within 7e-5 radians.
+// Octahedral directions (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
+// 2014), 16 bits an axis: within 7e-5 radians. `n` has any length.
 vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);

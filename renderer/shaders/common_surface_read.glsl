@@ -86,9 +86,4 @@ Sample mergedSample(uint left, out uint same) {
   first.viewDepth = middle.w;
   return first;
 }
-#else
-Sample mergedSample(uint left, out uint same) {
-  same = 1u;
-  return sampleAt(0);
-}
 #endif

@@ -44,6 +44,7 @@ vec4 picture(Sample seen) {
   return vec4(shown, 1.0);
 }
 
+#if SAMPLES > 1
 // The mean of the pixel's samples; those that show one surface are lit once. The loop turns once for each surface, so
 // that a pixel inside one costs no more than without antialiasing.
 vec4 antialiased() {
@@ -57,6 +58,9 @@ vec4 antialiased() {
   }
   return sum / float(SAMPLES);
 }
+#else
+vec4 antialiased() { return picture(sampleAt(0)); }
+#endif
 
 #if defined(VIEW_COLOR) || defined(VIEW_CASCADES)
 void main() { target = antialiased(); }

@@ -26,7 +26,7 @@ struct DepthFloor::Prepared {
   ProgramCache programs;
   gl::Buffer frame{sizeof(shared::FrameData), "frame"};
   gl::Buffer instances;
-  gl::VertexArray vertices;
+  SceneVertices vertices;
   DrawBatch batch;
   gl::Texture depth;
   gl::Framebuffer target;
@@ -42,7 +42,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   p.gpu = uploadScene(scene);
   const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye);
   p.instances = gl::Buffer(gl::bytesOf(geometry.instances), "instances");
-  p.vertices = vertexArray(p.gpu, p.instances);
+  p.vertices = sceneVertices(p.gpu, p.instances);
   shared::FrameData data{};
   const glm::mat4 clipFromRelative(clipFromView(frame.view) * viewFromRelative(frame.view));
   data.clipFromRelative = clipFromRelative;
@@ -50,7 +50,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   const PassInputs inputs{scene,   view,       p.gpu,      geometry,   frame.view,
                           p.frame, p.vertices, p.programs, spec.width, spec.height};
   const Survey survey = valueOf(surveyScene(inputs, samples));
-  p.batch = uploadDraws(buildDrawList(scene, view, geometry, DrawUse::survey, survey.drawn));
+  p.batch = uploadDraws(buildDrawList(scene, view, geometry, DrawUse::survey, survey.inView));
   p.depth = gl::Texture({GL_DEPTH_COMPONENT32F, spec.width, spec.height, 1, samples > 1 ? samples : 0}, "floor depth");
   p.target = valueOf(gl::Framebuffer::create({{}, {&p.depth}}, "floor"));
   p.state.framebuffer = p.target.id();

@@ -1,10 +1,13 @@
 #include "renderer/passes/occlusion.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 namespace gnomon {
 namespace {
+
+using ::testing::ElementsAre;
 
 /// A wall that fills the picture, 10 m before the camera, but for an open block at (column, row).
 ReceiverDepths wall(int column, int row) {
@@ -39,6 +42,18 @@ TEST(Occlusion, WhatTheSurveyDidNotDrawIsNotLookedAt) {
   const std::vector<Aabb> boxes{boxAt({0, 0, -5}, 1)};
   const std::vector<std::uint8_t> drawn{0};
   EXPECT_EQ(visibleBoxes(CameraView{}, wall(0, 0), boxes, drawn)[0], 0);
+}
+
+TEST(Occlusion, ABoxThatIsNotDrawnYetIsHiddenOnlyBehindClosedBlocks) {
+  ReceiverDepths closed = wall(0, 0);
+  for (DepthSpan& block : closed.blocks) block.open = false;
+  const std::vector<Aabb> boxes{boxAt({0, 0, -20}, 2), boxAt({0, 0, -5}, 1)};
+  const std::vector<std::uint8_t> wanted{1, 1};
+  EXPECT_THAT(unhiddenBoxes(CameraView{}, closed, boxes, wanted), ElementsAre(0, 1));
+  closed.blocks[4 * 8 + 4].open = true; // one sample in it shows no surface
+  EXPECT_THAT(unhiddenBoxes(CameraView{}, closed, boxes, wanted), ElementsAre(1, 1));
+  closed.blocks[4 * 8 + 4] = {}; // nothing in it yet
+  EXPECT_THAT(unhiddenBoxes(CameraView{}, closed, boxes, wanted), ElementsAre(1, 1));
 }
 
 TEST(Occlusion, NeverHidesABoxWithAPointThatABlockShows) {
