@@ -15,12 +15,12 @@ struct StageTime {
   double milliseconds = 0;
 };
 
-/// One cascade as it was drawn.
+/// One tile as it was drawn: a cascade, or a face of a spot or point light.
 struct CascadeReport {
-  double near = 0;                   ///< view depth where it begins, metres
-  double far = 0;                    ///< view depth where it ends, metres
+  double near = 0;                   ///< metres: view depth where it begins; face: distance along its direction
+  double far = 0;                    ///< metres: where it ends
   std::array<int, 4> tile{};         ///< x y width height in the atlas, texels, border included
-  std::array<double, 2> texelSize{}; ///< metres across and along
+  std::array<double, 2> texelSize{}; ///< metres across and along; of a face: at its far end
   std::uint64_t casterTriangles = 0; ///< drawn into this tile
   std::uint64_t culledTriangles = 0; ///< not drawn: they can't shadow anything that this cascade serves
 };

@@ -32,7 +32,7 @@ struct FrameSpec {
   int height = 720; ///< pixels
   Camera camera;
   std::optional<std::vector<Light>> lights; ///< absent = the scene's own; if it has none, one sun
-  Shadow shadow;                            ///< for every directional light without a shadow of its own
+  Shadow shadow;                            ///< for every light without a shadow of its own
   Atlas atlas;
   std::optional<int> scene; ///< index of the glTF scene; absent = the file's default
   Ambient ambient;

@@ -28,7 +28,7 @@ struct Light {
   double outerConeDegrees = 45;    ///< half angle; spot, > inner, < 90
   Vec3 color{1, 1, 1};             ///< linear RGB, 0..1
   double intensity = 3;            ///< lux (directional) or candela (spot, point)
-  std::optional<Shadow> shadow{};  ///< absent = the frame's `shadow`; directional only
+  std::optional<Shadow> shadow{};  ///< absent = the frame's `shadow`
 
   bool operator==(const Light&) const = default;
 };

@@ -48,7 +48,7 @@ inline constexpr auto kRows<Light> =
                 .unit = "lux or candela",
                 .range = kIntensityRange}),
          field("shadow", &Light::shadow,
-               {.says = "The light's own shadow, whole; absent = the frame's `shadow`; directional only."}))
+               {.says = "The light's own shadow, whole; absent = the frame's `shadow`."}))
         .withAlternatives({"direction", "sun"});
 static_assert(kRowsAreComplete<Light>);
 

@@ -14,15 +14,19 @@ namespace gnomon {
 
 template <>
 inline constexpr auto kRows<CascadeReport> = replyRows(
-    "CascadeReport", "One cascade as it was drawn.",
-    field("near", &CascadeReport::near, {.says = "View depth where it begins.", .unit = "metres"}),
-    field("far", &CascadeReport::far, {.says = "View depth where it ends.", .unit = "metres"}),
+    "CascadeReport", "One tile as it was drawn: a cascade, or a face of a spot or point light.",
+    field(
+        "near", &CascadeReport::near,
+        {.says = "Where it begins: the view depth of a cascade; a face's distance from the light along its direction.",
+         .unit = "metres"}),
+    field("far", &CascadeReport::far, {.says = "Where it ends, measured alike.", .unit = "metres"}),
     field("tile", &CascadeReport::tile,
           {.says = "x, y, width and height in the atlas, border included.", .unit = "texels"}),
-    field("texelSize", &CascadeReport::texelSize, {.says = "Size of a texel across and along.", .unit = "metres"}),
+    field("texelSize", &CascadeReport::texelSize,
+          {.says = "Size of a texel across and along; of a face, at its far end.", .unit = "metres"}),
     field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
     field("culledTriangles", &CascadeReport::culledTriangles,
-          {.says = "Triangles not drawn, because they can't shadow anything that this cascade serves."}));
+          {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}));
 static_assert(kRowsAreComplete<CascadeReport>);
 
 template <>
@@ -36,7 +40,8 @@ inline constexpr auto kRows<LightReport> =
                     {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
               field("note", &LightReport::note,
                     {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
-              field("cascades", &LightReport::cascades, {.says = "Its cascades, nearest first."}));
+              field("cascades", &LightReport::cascades,
+                    {.says = "Its cascades, nearest first, or the faces of a spot or point light."}));
 static_assert(kRowsAreComplete<LightReport>);
 
 template <>

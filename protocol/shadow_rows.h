@@ -46,13 +46,14 @@ static_assert(kRowsAreComplete<Filter>);
 
 template <>
 inline constexpr auto kRows<Shadow> = rows(
-    "Shadow", "The shadow of a directional light.",
+    "Shadow", "The shadow of a light.",
     field("enabled", &Shadow::enabled, {.says = "False = the light throws no shadow."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
-    field("size", &Shadow::size, {.says = "Side of one cascade's tile; larger is sharper and slower."}),
+    field("size", &Shadow::size,
+          {.says = "Side of one tile, of a cascade or of a spot or point light's face; larger is sharper and slower."}),
     field("cascadeCount", &Shadow::cascadeCount,
-          {.says = "Slices of the view, each with its own tile; more keep the foreground sharp.",
+          {.says = "Directional: slices of the view, each with its own tile; more keep the foreground sharp.",
            .unit = "cascades",
            .range = {1, kLimits.maxCascades}}),
     field("partition", &Shadow::partition, {.says = "How the depth range is cut into cascades."}),

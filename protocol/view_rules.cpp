@@ -134,7 +134,6 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
     require(light.position.has_value(), "position", {pointer + "/position"},
             "A light of type " + type + " needs a position.");
     forbid(light.sun.has_value(), "sun");
-    forbid(light.shadow.has_value(), "shadow");
   }
   if (light.direction && length(*light.direction) < kShortest) {
     broken.push_back({invalid(pointer + "/direction", "This direction is zero.", "any direction of some length",

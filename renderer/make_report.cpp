@@ -4,10 +4,11 @@ namespace gnomon {
 namespace {
 
 CascadeReport cascadeReport(const ShadowTile& tile, const TileCounts& counts) {
+  const glm::dvec2 texelSize = tile.space.fit.texelSize * (tile.space.fit.perspective ? tile.far : 1.0);
   return {tile.near,
           tile.far,
           {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height},
-          {tile.texelSize.x, tile.texelSize.y},
+          {texelSize.x, texelSize.y},
           counts.casterTriangles,
           counts.culledTriangles};
 }
@@ -18,8 +19,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     LightReport report;
     report.light = static_cast<int>(i);
     const Light& light = (*spec.lights)[i];
-    if (light.type != LightType::directional) report.note = "lit without a shadow: only directional lights cast";
-    if (light.shadow && !light.shadow->enabled) report.note = "its shadow is turned off";
+    if (!light.shadow->enabled) report.note = "its shadow is turned off";
     reports.push_back(std::move(report));
   }
   for (const PlannedLight& planned : plan.lights) {

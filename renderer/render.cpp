@@ -67,8 +67,12 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
   input.frameHeight = frame.spec.height;
   for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
     const Light& light = (*frame.spec.lights)[i];
-    if (light.type != LightType::directional || !light.shadow->enabled) continue;
-    input.casters.push_back({static_cast<int>(i), directionOf(light), *light.shadow});
+    if (!light.shadow->enabled) continue;
+    ShadowCaster caster{static_cast<int>(i), directionOf(light), *light.shadow, light.type};
+    if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
+    caster.range = light.range.value_or(0.0);
+    caster.outerCone = glm::radians(light.outerConeDegrees);
+    input.casters.push_back(caster);
   }
   return input;
 }

@@ -43,7 +43,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
 
   frame.spec.lights = chooseLights(spec, view, frame.warnings);
   for (Light& light : *frame.spec.lights) {
-    if (light.type == LightType::directional && !light.shadow) light.shadow = spec.shadow;
+    if (!light.shadow) light.shadow = spec.shadow;
   }
   return frame;
 }

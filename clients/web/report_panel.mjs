@@ -1,8 +1,8 @@
-// What the frame's report says about each light's cascades, and its warnings.
+// What the frame's report says about each light's tiles, and its warnings.
 
 import { count, element, short } from './dom.mjs';
 
-const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b']; // as the cascades view tints them
+const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf']; // as the cascades view tints them
 
 export function showReport(node, report) {
   node.replaceChildren(...report.lights.map(lightOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
@@ -22,7 +22,7 @@ function lightOf(light) {
       element('td', { title: `${count(cascade.culledTriangles)} culled` }, count(cascade.casterTriangles)),
     );
   });
-  const head = [['', ''], ['metres', 'View depth'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
+  const head = [['', ''], ['metres', 'View depth; of a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
   const table = element(
     'table',
     {},

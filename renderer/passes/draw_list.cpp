@@ -22,13 +22,26 @@ struct Run {
   std::uint32_t clusterCount = 0;
 };
 
+/// True where only front faces are drawn.
+bool isCulled(const Primitive& primitive, const Material& material, DrawUse use) {
+  switch (use) {
+    case DrawUse::survey:
+    case DrawUse::surface:
+      return !material.doubleSided;
+    case DrawUse::cast:
+      return primitive.solid && material.alphaMode == AlphaMode::opaque;
+    case DrawUse::castFromPoint:
+      return false;
+  }
+  return false;
+}
+
 GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
   GroupKey key;
   if (use == DrawUse::surface || material.alphaMode == AlphaMode::mask) key.material = primitive.material;
-  const bool solid = primitive.solid && material.alphaMode == AlphaMode::opaque;
-  if (use == DrawUse::cast ? solid : !material.doubleSided) {
+  if (isCulled(primitive, material, use)) {
     key.cull = gl::Cull::back;
     if (glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0) key.frontFace = gl::FrontFace::clockwise;
   }

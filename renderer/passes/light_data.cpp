@@ -12,10 +12,10 @@ namespace gnomon {
 
 // The shader's arrays are as large as a request may ask.
 static_assert(kLimits.maxLights == GNOMON_MAX_LIGHTS);
-static_assert(kLimits.maxCascades == GNOMON_LIGHT_TILES);
+static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // As std140 lays them out: whole vec4s, one after the other.
 static_assert(sizeof(shared::LightData) == 5 * 16 && offsetof(shared::LightData, tiles) == 4 * 16);
-static_assert(sizeof(shared::TileData) == 6 * 16 && offsetof(shared::TileData, bias) == 5 * 16);
+static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
 
@@ -55,17 +55,18 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
     return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]);
   };
   for (int axis = 0; axis < 2; ++axis) {
-    glm::dvec4 uv = row(axis) * (0.5 * size[axis] / atlas[axis]);
-    uv.w += (corner[axis] + 0.5 * size[axis]) / atlas[axis];
-    out.atlasFromRelative[axis] = glm::vec4(uv);
+    const double middle = (corner[axis] + 0.5 * size[axis]) / atlas[axis];
+    out.atlasFromRelative[axis] = glm::vec4(row(axis) * (0.5 * size[axis] / atlas[axis]) + row(3) * middle);
   }
   out.atlasFromRelative[2] = glm::vec4(row(2));
+  out.atlasFromRelative[3] = glm::vec4(row(3));
   // A filter reaches no farther than the border's width less one texel. A tile without texels has lowest above highest:
   // every lookup falls outside and is lit.
   const double inset = std::max(tile.border - 1, 1);
   out.bounds = glm::vec4((corner + inset) / atlas, (corner + size - inset) / atlas);
-  out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.normalOffset);
-  out.bias = glm::vec4(tile.depthBias, 0, 0, 0);
+  out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.space.fit.normalOffset);
+  out.bias = glm::vec4(tile.depthBias, tile.depthBiasNear, 0, 0);
+  out.axis = glm::vec4(tile.space.basis.direction, 0.0);
   return out;
 }
 

@@ -62,8 +62,9 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width == 0) continue;
-    const DrawBatch batch = uploadDraws(
-        buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::cast, castersOf(tile, inputs.geometry)));
+    const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
+    const DrawBatch batch =
+        uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
     if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
     gl::submit(); // a software driver fills this tile while the next one is prepared
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};

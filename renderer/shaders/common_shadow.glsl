@@ -53,12 +53,22 @@ float filtered(vec3 coordinate, int size) {
 // Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
 // no lookup of it leaves the tile.
 // The receiver is moved along its normal by reach * sin(angle) (see renderer/shadow/bias.h).
-float tileVisibility(TileData tile, Receiver receiver, vec3 toLight, int filterSize) {
-  float cosine = clamp(dot(receiver.normal, toLight), 0.0, 1.0);
-  float sine = sqrt(1.0 - cosine * cosine);
-  vec4 p = vec4(receiver.relative + receiver.normal * (tile.interval.w * sine), 1.0);
+float tileVisibility(TileData tile, Receiver receiver, int filterSize) {
+  float cosine = dot(receiver.normal, tile.axis.xyz);
+  float offset = tile.interval.w * sqrt(max(1.0 - cosine * cosine, 0.0));
+#ifdef PUNCTUAL
+  float distance = dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0));
+  vec4 p = vec4(receiver.relative + receiver.normal * (offset * distance), 1.0);
+  float divisor = dot(tile.atlasFromRelative[3], p);
+  if (divisor <= 0.0) return 1.0;
+  vec3 coordinate = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p),
+                         dot(tile.atlasFromRelative[2], p)) / divisor;
+  coordinate.z -= tile.bias.x + tile.bias.y / (divisor * divisor);
+#else
+  vec4 p = vec4(receiver.relative + receiver.normal * offset, 1.0);
   vec3 coordinate = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p),
                          dot(tile.atlasFromRelative[2], p) - tile.bias.x);
+#endif
   if (any(lessThan(coordinate.xy, tile.bounds.xy)) || any(greaterThan(coordinate.xy, tile.bounds.zw))) return 1.0;
   return filtered(vec3(coordinate.xy, clamp(coordinate.z, 0.0, 1.0)), filterSize);
 }
@@ -88,13 +98,36 @@ CascadeChoice chooseCascade(int light, float viewDepth) {
   return CascadeChoice(index, index, 0.0, fades ? zone : 0.0, !fades || viewDepth <= interval.z);
 }
 
+#ifdef PUNCTUAL
+// The face that looks most nearly along the light's way to the point.
+CascadeChoice chooseFace(int light, vec3 toLight) {
+  int best = 0;
+  float most = -2.0;
+  for (int i = 0; i < GNOMON_LIGHT_TILES; ++i) {
+    float along = -dot(tiles[light * GNOMON_LIGHT_TILES + i].axis.xyz, toLight);
+    if (i < int(lights[light].tiles.x) && along > most) {
+      most = along;
+      best = i;
+    }
+  }
+  return CascadeChoice(best, best, 0.0, 0.0, true);
+}
+#endif
+
+CascadeChoice chooseTile(int light, Receiver receiver, vec3 toLight) {
+#ifdef PUNCTUAL
+  if (int(lights[light].direction.w) != GNOMON_DIRECTIONAL) return chooseFace(light, toLight);
+#endif
+  return chooseCascade(light, receiver.viewDepth);
+}
+
 // `needed` false spares the lookups where no light arrives anyway.
 float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
 #ifdef NO_SHADOWS
   return 1.0;
 #endif
   if (lights[light].tiles.x == 0u) return 1.0;
-  CascadeChoice choice = chooseCascade(light, receiver.viewDepth);
+  CascadeChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
   float strength = lights[light].cone.z;
 #ifdef FILTER_SIZE
@@ -107,16 +140,17 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   float visibility = 0.0;
   for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
-    visibility += share * tileVisibility(tiles[light * GNOMON_LIGHT_TILES + i], receiver, toLight, size);
+    visibility += share * tileVisibility(tiles[light * GNOMON_LIGHT_TILES + i], receiver, size);
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, strength);
 }
 
-// Green, blue, purple, red: the cascades from near to far; white beyond.
-vec3 cascadeTint(int light, float viewDepth) {
-  const vec3 tints[4] = vec3[4](vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3));
-  CascadeChoice choice = chooseCascade(light, viewDepth);
+// Green, blue, purple, red: the cascades from near to far, white beyond; a light's faces go on with orange and cyan.
+vec3 cascadeTint(int light, Receiver receiver, vec3 toLight) {
+  const vec3 tints[6] = vec3[6](vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3),
+                                vec3(1.0, 0.65, 0.2), vec3(0.3, 0.95, 0.95));
+  CascadeChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return vec3(1.0);
   return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0), choice.fade);
 }

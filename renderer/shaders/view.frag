@@ -39,7 +39,11 @@ vec4 picture(Sample seen) {
   vec3 shown = toneMapped(radiance * frame.depthRange.z);
 #ifdef VIEW_CASCADES
   int tinted = firstShadowed();
-  if (tinted >= 0) shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(tinted, seen.viewDepth);
+  if (tinted >= 0) {
+    vec3 toLight;
+    irradiance(lights[tinted], seen.relative, toLight);
+    shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(tinted, receiverOf(seen, surface.face), toLight);
+  }
 #endif
   return vec4(shown, 1.0);
 }

@@ -1,5 +1,6 @@
 #include "renderer/shadow/bias.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
@@ -28,12 +29,21 @@ double normalOffset(double reach, const glm::dvec2& texelSize) {
   return reach * std::hypot(texelSize.x, texelSize.y);
 }
 
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize) {
+  const double c = std::min(normalOffset(reach, texelSize), 0.5);
+  return c / (1.0 - c);
+}
+
 double depthRounding(double magnitude) {
   return 2.0 * 5.0 * kFloatRounding * 2.0 * magnitude;
 }
 
 double depthBias(double magnitude, double depthExtent) {
   return kFloatRounding + depthRounding(magnitude) / depthExtent;
+}
+
+double punctualDepthQuantum() {
+  return 4.0 * kFloatRounding;
 }
 
 } // namespace gnomon

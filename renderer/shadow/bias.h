@@ -37,13 +37,23 @@ double finestTexel(double magnitude);
 /// that is w (r + 0.5) sqrt(2). (Holbert, "Saying Goodbye to Shadow Acne", GDC 2011, made exact.)
 double normalOffset(double reach, const glm::dvec2& texelSize);
 
+/// The same for light from a point, for each metre of distance from it along the tile's direction; to be multiplied by
+/// sin(angle between normal and that direction). `texelSize` is in metres a metre. Texels lie in planes across the
+/// direction, and all that lies between the light and a point on the lit side of a plane is on that side: so the
+/// argument above holds with the direction in the light's place. A moved receiver may be farther from the light by as
+/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize).
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize);
+
 /// Metres along the light by which map and receiver may disagree about one surface through rounding alone.
 /// `magnitude` bounds the distance from the eye to what is drawn. z is a sum of three float products and an offset, and
 /// each of its inputs is rounded: 5 roundings of 2^-24 on magnitudes that add up to at most twice `magnitude`, once for
 /// the map and once for the receiver. (Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 3.1.)
 double depthRounding(double magnitude);
 
-/// The same in z units of a tile, with the quantum of a 32-bit float depth.
+/// The same in z units of a tile of parallel light, with the quantum of a 32-bit float depth.
 double depthBias(double magnitude, double depthExtent);
+
+/// What a 32-bit float depth and its interpolation lose in a tile of light from a point, z units.
+double punctualDepthQuantum();
 
 } // namespace gnomon

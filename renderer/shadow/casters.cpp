@@ -6,8 +6,8 @@ namespace gnomon {
 // 1990). Towards the light nothing limits a caster: whatever stands before z 0 is drawn with its depth clamped.
 bool mayCastInto(const ShadowTile& tile, const Aabb& casterBounds) {
   if (tile.rect.width <= 0 || casterBounds.empty()) return false;
-  const Aabb clip = transformed(tile.clipFromRelative, casterBounds);
-  return tile.receivers.mayShadow(clip);
+  const Aabb clip = clipBox(tile.space, lightSpaceBox(tile.space, casterBounds));
+  return !clip.empty() && tile.receivers.mayShadow(clip);
 }
 
 } // namespace gnomon

@@ -67,16 +67,37 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   return fit;
 }
 
-glm::dmat4 clipFromRelative(const LightBasis& basis, const Fit& fit, int tileSize) {
-  const glm::dvec2 size = fit.texelSize * static_cast<double>(tileSize);
-  const glm::dvec3 rowX = basis.right * (2.0 / size.x);
-  const glm::dvec3 rowY = basis.up * (2.0 / size.y);
-  const glm::dvec3 rowZ = basis.direction / fit.depthExtent;
-  glm::dmat4 matrix(1.0);
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] = glm::dvec4(rowX[axis], rowY[axis], rowZ[axis], 0.0);
-  matrix[3] = glm::dvec4(-2.0 * fit.lowest.x / size.x - 1.0, -2.0 * fit.lowest.y / size.y - 1.0,
-                         -fit.depthNear / fit.depthExtent, 1.0);
-  return matrix;
+Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitTarget& target) {
+  constexpr double kNearShare = 1e-3; // of the far end, at least; see SEEDS X31
+  Aabb seen;                          // x, y: tangents; z: metres
+  for (const Aabb& piece : receiversLs) {
+    const double near = std::max(piece.min.z, kNearShare * piece.max.z);
+    const glm::dvec2 low = glm::min(glm::dvec2(piece.min) / near, glm::dvec2(piece.min) / piece.max.z);
+    const glm::dvec2 high = glm::max(glm::dvec2(piece.max) / near, glm::dvec2(piece.max) / piece.max.z);
+    seen.add(Aabb{glm::dvec3(glm::clamp(low, -tanHalf, tanHalf), near),
+                  glm::dvec3(glm::clamp(high, -tanHalf, tanHalf), piece.max.z)});
+  }
+  const int inner = innerTexels(target);
+  const double reach = biasReach(target.kernel);
+  const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));
+
+  Fit fit;
+  fit.perspective = true;
+  glm::dvec2 room(0.0);
+  for (int turn = 0; turn < 16; ++turn) {
+    fit.texelSize = (extent + 2.0 * room) / static_cast<double>(inner);
+    fit.normalOffset = punctualNormalOffset(reach, fit.texelSize);
+    // Moved by N a metre, a direction's tangent changes by up to N (1 + tangent) / (1 - N).
+    const double moved = std::min(fit.normalOffset, 0.5);
+    room = glm::dvec2(moved * (1.0 + tanHalf) / (1.0 - moved));
+  }
+  fit.lowest = glm::dvec2(seen.center()) - fit.texelSize * (0.5 * target.tileSize);
+  const double margin = depthMargin(seen.max.z - seen.min.z, fit.normalOffset * seen.max.z, target.magnitude);
+  const double far = seen.max.z + margin;
+  fit.depthNear = std::max(seen.min.z * (1.0 - std::min(fit.normalOffset, 0.5)) - 2.0 * depthRounding(target.magnitude),
+                           kNearShare * far);
+  fit.depthExtent = far - fit.depthNear;
+  return fit;
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "renderer/core/aabb.h"
 #include "renderer/shadow/bias.h"
@@ -9,13 +10,15 @@
 
 namespace gnomon {
 
-/// Where a tile's square of texels lies in light space, relative to the eye.
+/// Where a tile's square of texels lies in light space. Parallel light: lengths across are metres. Light from a point:
+/// they are metres for each metre of distance from the light along the tile's direction (tangents).
 struct Fit {
-  glm::dvec2 lowest{0};    ///< corner of the whole rectangle, border included; metres
-  glm::dvec2 texelSize{0}; ///< metres; the axes may differ
-  double depthNear = 0;    ///< metres along the light where z is 0
-  double depthExtent = 0;  ///< metres from z 0 to z 1
-  double normalOffset = 0; ///< see bias.h
+  bool perspective = false; ///< the light comes from a point, the origin of light space
+  glm::dvec2 lowest{0};     ///< corner of the whole rectangle, border included
+  glm::dvec2 texelSize{0};  ///< the axes may differ
+  double depthNear = 0;     ///< metres along the light where z is 0
+  double depthExtent = 0;   ///< metres from z 0 to z 1
+  double normalOffset = 0;  ///< metres, or metres for each metre of distance; see bias.h
 };
 
 struct FitTarget {
@@ -35,7 +38,9 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target);
 
-/// ShadowTile::clipFromRelative of a fit.
-glm::dmat4 clipFromRelative(const LightBasis& basis, const Fit& fit, int tileSize);
+/// The fit for light from a point: the rectangle of directions in which `receiversLs` lie (each in front of the light,
+/// relative to it), cut to `tanHalf` on every side, and room for their normal offset. z runs from the receiver nearest
+/// along the tile's direction to the farthest; casters before z 0 must be drawn with their depth clamped.
+Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitTarget& target);
 
 } // namespace gnomon

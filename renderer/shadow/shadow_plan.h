@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "protocol/shadow_options.h"
+#include "protocol/light.h"
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
 #include "renderer/shadow/receiver_mask.h"
+#include "renderer/shadow/tile_space.h"
 
 namespace gnomon {
 
@@ -34,46 +35,48 @@ struct ReceiverDepths {
 };
 
 /// A light that asks for a shadow.
-struct DirectionalCaster {
+struct ShadowCaster {
   int light = 0;                  ///< index into the effective spec's lights
-  glm::dvec3 direction{0, -1, 0}; ///< where the light travels; unit length
+  glm::dvec3 direction{0, -1, 0}; ///< where the light travels; unit length; directional and spot
   Shadow shadow;
+  LightType type = LightType::directional;
+  glm::dvec3 position{0}; ///< relative to the eye; spot and point
+  double range = 0;       ///< metres; spot and point; 0 = no end
+  double outerCone = 0;   ///< half angle, radians, less than a quarter turn; spot
 };
 
 struct PlanInput {
   CameraView view;
   ReceiverDepths receivers;
   Aabb sceneBounds; ///< of all casters, in the world
-  std::vector<DirectionalCaster> casters;
+  std::vector<ShadowCaster> casters;
   Atlas atlas;
   int maxTextureSize = 16384; ///< of the device
   int frameWidth = 0;         ///< pixels
   int frameHeight = 0;
 };
 
-/// One cascade: a rectangle of the atlas with its own matrix.
+/// One cascade, or one face of a spot or point light: a rectangle of the atlas with its own matrix.
 struct ShadowTile {
-  double near = 0;      ///< view depth from which pixels use it (the blend zone included)
-  double far = 0;       ///< view depth up to which pixels use it
-  double blendNear = 0; ///< where blending to the next cascade (or fading out) begins; = far where there is none
+  /// Cascade: the view depths in which pixels use it (the blend zone included). Face: where its receivers lie, by their
+  /// distance from the light along the tile's direction.
+  double near = 0;
+  double far = 0;
+  double blendNear = 0; ///< cascade: where blending to the next (or fading out) begins; = far where there is none
   Rect rect;            ///< in the atlas, border included; width 0 = no surface in view lies in it, not drawn
   int border = 0;       ///< texels kept on each side, so that no filter leaves the rectangle
-  /// Light clip space from eye-relative world space: x y in -1..1 over the whole rectangle, border included;
-  /// z 0 nearest the light, 1 farthest. Affine.
-  glm::dmat4 clipFromRelative{1};
-  glm::dvec2 texelSize{0}; ///< metres across and along
-  double depthExtent = 0;  ///< metres from z 0 to z 1
-  /// Metres to move a receiver along its normal, times the sine of the angle between normal and light (see bias.h).
-  double normalOffset = 0;
-  /// Added towards the light in z units: covers the depth quantum.
+  TileSpace space;
+  glm::dmat4 clipFromRelative{1}; ///< of the space
+  /// Added towards the light in z units: depthBias + depthBiasNear / w^2 covers the depth quantum and rounding.
   double depthBias = 0;
-  ReceiverMask receivers; ///< what the tile serves
+  double depthBiasNear = 0; ///< 0 for parallel light, whose w is 1
+  ReceiverMask receivers;   ///< what the tile serves
 };
 
 struct PlannedLight {
   int light = 0;
   int firstTile = 0; ///< into ShadowPlan::tiles
-  int tileCount = 0; ///< cascades, drawn or not; 0 = no shadow is drawn; `note` says why
+  int tileCount = 0; ///< cascades or faces, drawn or not; 0 = no shadow is drawn; `note` says why
   int askedTileSize = 0;
   int grantedTileSize = 0;
   /// The last tile fades to lit over its blend zone: surfaces may lie beyond it (manual depth range, or manual splits

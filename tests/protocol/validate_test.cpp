@@ -114,7 +114,7 @@ TEST(Validate, SpotAndPointHaveAPlace) {
   EXPECT_THAT(wrongIn(Light{.type = LightType::point, .direction = Vec3{0, -1, 0}, .position = Vec3{}}),
               ElementsAre("/lights/1/direction"));
   EXPECT_THAT(wrongIn(Light{.type = LightType::point, .sun = Sun{}, .position = Vec3{}, .shadow = Shadow{}}),
-              ElementsAre("/lights/1/sun", "/lights/1/shadow"));
+              ElementsAre("/lights/1/sun"));
 }
 
 TEST(Validate, TheInnerConeIsTheNarrower) {

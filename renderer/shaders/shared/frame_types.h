@@ -56,7 +56,7 @@ using glm::vec4;
 
 // Lights of a frame and tiles of a light, at most; light i has the tiles from i * GNOMON_LIGHT_TILES on.
 #define GNOMON_MAX_LIGHTS 16
-#define GNOMON_LIGHT_TILES 4
+#define GNOMON_LIGHT_TILES 6
 
 // LightData.type
 #define GNOMON_DIRECTIONAL 0
@@ -91,14 +91,15 @@ struct LightData {
   vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
   vec4 radiance;  // rgb: colour times intensity
   vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
-  uvec4 tiles;    // tile count, filter size in texels
+  uvec4 tiles;    // tile count (cascades or faces), filter size in texels
 };
 
 struct TileData {
-  vec4 atlasFromRelative[3]; // rows: to atlas u, v (0..1 over the atlas) and depth
+  vec4 atlasFromRelative[4]; // rows: to atlas u, v (0..1 over the atlas), depth, and what to divide them by
   vec4 bounds;               // atlas u v of the lowest and highest point that may be looked up
-  vec4 interval;             // near, blendNear, far (view depth, metres); w: normal offset in metres
-  vec4 bias;                 // x: depth bias
+  vec4 interval;             // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
+  vec4 bias;                 // x: depth bias; y: depth bias times the square of the divisor
+  vec4 axis;                 // xyz: where the light travels in the tile's middle
 };
 
 #ifdef __cplusplus

@@ -39,10 +39,10 @@ void expectMovesByMultiplesOf(int texels, Stabilization mode) {
     const ShadowPlan b = planShadows(second);
     RC_ASSERT(a.tiles.size() == 4u && b.tiles.size() == 4u);
     for (std::size_t i = 0; i < 4; ++i) {
-      RC_ASSERT(a.tiles[i].texelSize == b.tiles[i].texelSize);
-      RC_ASSERT(a.tiles[i].depthExtent == b.tiles[i].depthExtent);
+      RC_ASSERT(a.tiles[i].space.fit.texelSize == b.tiles[i].space.fit.texelSize);
+      RC_ASSERT(a.tiles[i].space.fit.depthExtent == b.tiles[i].space.fit.depthExtent);
       RC_ASSERT(a.tiles[i].depthBias == b.tiles[i].depthBias);
-      RC_ASSERT(a.tiles[i].normalOffset == b.tiles[i].normalOffset);
+      RC_ASSERT(a.tiles[i].space.fit.normalOffset == b.tiles[i].space.fit.normalOffset);
       const glm::dvec2 moved =
           texelOf(a.tiles[i], first, eye) - texelOf(b.tiles[i], second, eye); // of one and the same point
       const glm::dvec2 steps = moved / static_cast<double>(texels);
@@ -96,7 +96,7 @@ TEST(StableFit, X24_HoldsTheWholeSliceHoweverItIsSnapped) {
         const glm::dvec2 ndc(dice.between(-1, 1) > 0 ? 1 : -1, dice.between(-1, 1));
         const glm::dvec3 point = pointAt(input.view, ndc, dice.chance(0.5) ? tile.near : tile.far);
         RC_ASSERT(isServed(tile, point));
-        RC_ASSERT(isServed(tile, point + dice.direction() * tile.normalOffset));
+        RC_ASSERT(isServed(tile, point + dice.direction() * tile.space.fit.normalOffset));
       }
     }
   }));

@@ -23,7 +23,7 @@ inline std::ostream& operator<<(std::ostream& out, const RandomPlan& plan) {
   out << RandomView{plan.input.view} << "\n  frame " << plan.input.frameWidth << " x " << plan.input.frameHeight
       << " range " << plan.input.receivers.range.nearest << " .. " << plan.input.receivers.range.farthest << " seed "
       << plan.seed;
-  for (const DirectionalCaster& caster : plan.input.casters) {
+  for (const ShadowCaster& caster : plan.input.casters) {
     out << "\n  light " << caster.light << " direction " << caster.direction.x << ' ' << caster.direction.y << ' '
         << caster.direction.z << " size " << static_cast<int>(caster.shadow.size) << " count "
         << caster.shadow.cascadeCount << " partition " << static_cast<int>(caster.shadow.partition.mode)

@@ -43,7 +43,7 @@ TEST(ShadowPlan, X13_AFilterNeverReadsBesideItsTileNorThePointBeforeItsDepths) {
       for (std::size_t l = 0; l < plan.lights.size(); ++l) {
         const double reach = kernelOf(random.input.casters[l].shadow.filter).reach;
         for (const ShadowTile* tile : tilesRead(plan, plan.lights[l], point.depth)) {
-          const glm::dvec3 moved = point.relative + dice.direction() * tile->normalOffset;
+          const glm::dvec3 moved = point.relative + dice.direction() * tile->space.fit.normalOffset;
           const glm::dvec3 at = tileCoordinates(*tile, moved);
           RC_ASSERT(isServed(*tile, moved));
           for (int axis = 0; axis < 2; ++axis) {
@@ -110,9 +110,9 @@ TEST(ShadowPlan, X17_X18_G5_EverythingIsFiniteForAnyView) {
         for (int r = 0; r < 4; ++r) RC_ASSERT(std::isfinite(tile.clipFromRelative[c][r]));
       }
       if (tile.rect.width == 0) continue;
-      RC_ASSERT(tile.texelSize.x > 0 && tile.texelSize.y > 0 && std::isfinite(tile.texelSize.x + tile.texelSize.y));
-      RC_ASSERT(tile.depthExtent > 0 && std::isfinite(tile.depthExtent));
-      RC_ASSERT(tile.normalOffset > 0 && tile.depthBias > 0 && tile.depthBias < 0.5);
+      RC_ASSERT(tile.space.fit.texelSize.x > 0 && tile.space.fit.texelSize.y > 0 && std::isfinite(tile.space.fit.texelSize.x + tile.space.fit.texelSize.y));
+      RC_ASSERT(tile.space.fit.depthExtent > 0 && std::isfinite(tile.space.fit.depthExtent));
+      RC_ASSERT(tile.space.fit.normalOffset > 0 && tile.depthBias > 0 && tile.depthBias < 0.5);
     }
   }));
 }
@@ -324,7 +324,7 @@ TEST(ShadowPlan, M2_DepthGrowsWhereTheLightTravels) {
   const glm::dvec3 downstream = tileCoordinates(plan.tiles[3], point + input.casters[0].direction);
   EXPECT_NEAR(upstream.x, downstream.x, 1e-9);
   EXPECT_NEAR(upstream.y, downstream.y, 1e-9);
-  EXPECT_NEAR((downstream.z - upstream.z) * plan.tiles[3].depthExtent, 2.0, 1e-9);
+  EXPECT_NEAR((downstream.z - upstream.z) * plan.tiles[3].space.fit.depthExtent, 2.0, 1e-9);
 }
 
 TEST(ShadowPlan, X15_AnOrthographicCameraGetsItsCascades) {

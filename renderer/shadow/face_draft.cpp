@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/shadow/light_draft.h"
+#include "renderer/shadow/light_faces.h"
+
+namespace gnomon {
+namespace {
+
+double squaredDistance(const Aabb& box, const glm::dvec3& point) {
+  const glm::dvec3 away = glm::max(glm::max(box.min - point, point - box.max), glm::dvec3(0.0));
+  return glm::dot(away, away);
+}
+
+/// True where a part of the box (light space) lies in the face's pyramid.
+bool mayLieIn(const Aabb& box, double tanHalf) {
+  const double reach = tanHalf * box.max.z;
+  return box.max.z > 0 && box.min.x <= reach && box.max.x >= -reach && box.min.y <= reach && box.max.y >= -reach;
+}
+
+} // namespace
+
+void draftFaces(const ShadowCaster& caster, const std::vector<Aabb>& pieces, LightDraft& draft) {
+  std::vector<Aabb> reached;
+  const double range = caster.range > 0 ? caster.range : HUGE_VAL;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
+               [&](const Aabb& piece) { return squaredDistance(piece, caster.position) <= range * range; });
+  for (const LightFace& face : facesOf(caster)) {
+    TileDraft tile;
+    tile.basis = face.basis;
+    tile.origin = caster.position;
+    tile.tanHalf = face.tanHalf;
+    glm::dmat4 lightFromRelative(face.basis.lightFromWorld());
+    lightFromRelative[3] = glm::dvec4(-(face.basis.lightFromWorld() * caster.position), 1.0);
+    for (const Aabb& piece : reached) {
+      Aabb box = transformed(lightFromRelative, piece);
+      if (!mayLieIn(box, face.tanHalf)) continue;
+      box.max.z = std::min(box.max.z, range);
+      box.min.z = std::min(box.min.z, box.max.z);
+      tile.receivers.push_back(box);
+    }
+    draft.tiles.push_back(std::move(tile));
+  }
+  const bool any = std::any_of(draft.tiles.begin(), draft.tiles.end(),
+                               [](const TileDraft& tile) { return !tile.receivers.empty(); });
+  if (any) return;
+  draft.tiles.clear();
+  addNote(draft.planned, "it reaches nothing in view");
+}
+
+} // namespace gnomon

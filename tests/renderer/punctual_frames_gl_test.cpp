@@ -1,0 +1,121 @@
+// Spot and point lights' shadows, seen in rendered frames.
+#include <cmath>
+
+#include "protocol/json_codec.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+using testing::floatsOf;
+using testing::renderJson;
+
+/// The unit plane, scaled to 20 m and turned about X.
+testing::GlbBuilder tiltedPlane(double degrees) {
+  testing::GlbBuilder builder = testing::plane();
+  const double half = degrees * 3.14159265358979 / 360;
+  builder.json["nodes"][0]["rotation"] = {std::sin(half), 0, 0, std::cos(half)};
+  builder.json["nodes"][0]["scale"] = {10, 10, 10};
+  return builder;
+}
+
+std::ptrdiff_t darkPixels(const Frame& frame, float below) {
+  const auto& visibility = floatsOf(frame);
+  return std::count_if(visibility.begin(), visibility.end(), [below](float v) { return v < below; });
+}
+
+/// What a plane tilted by that much shows of one light's shadow, seen from its lit side.
+Json planeSpec(double degrees, const Json& light, const Json& filter, const std::string& size) {
+  const double angle = degrees * 3.14159265358979 / 180;
+  return {{"width", 160},
+          {"height", 160},
+          {"camera",
+           {{"eye", {1.7, std::cos(angle) * 15 - std::sin(angle) * 4, std::sin(angle) * 15 + std::cos(angle) * 4}},
+            {"target", {0, 0, 0}},
+            {"up", {0.1, 0, -1}}}},
+          {"lights", {light}},
+          {"shadow", {{"filter", filter}, {"size", size}}},
+          {"antialiasing", "none"},
+          {"views", {"shadow"}},
+          {"output", {{"format", "exr"}}}};
+}
+
+const Json kFilters = Json::parse(
+    R"([{"type":"hard"},{"type":"pcf","size":3},{"type":"pcf","size":5},{"type":"pcf","size":7}])");
+
+TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
+  const Json lights = Json::parse(R"([
+      {"type":"point","position":[1,8,2]},
+      {"type":"spot","position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40},
+      {"type":"spot","position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":80}])");
+  for (const double degrees : {0.0, 20.0, 45.0, 60.0, 75.0, 85.0}) {
+    const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
+    for (const Json& light : lights) {
+      for (const Json& filter : kFilters) {
+        const Frame frame = renderJson(scene, planeSpec(degrees, light, filter, "Small").dump());
+        EXPECT_EQ(darkPixels(frame, 0.999f), 0) << degrees << " degrees, " << light << ' ' << filter;
+      }
+    }
+  }
+}
+
+TEST(PunctualFrames, X32_NoSeamShowsWhereFacesMeet) {
+  // Close over a plane, every edge and corner of the light's cube falls on it somewhere.
+  for (const double degrees : {0.0, 30.0, 50.0}) {
+    const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
+    const double angle = degrees * 3.14159265358979 / 180;
+    for (const double height : {0.7, 2.0, 5.0}) {
+      const Json light = {{"type", "point"}, {"position", {0.3, height * std::cos(angle), height * std::sin(angle)}}};
+      for (const char* size : {"XSmall", "Small", "Large"}) {
+        for (const Json& filter : kFilters) {
+          const Frame frame = renderJson(scene, planeSpec(degrees, light, filter, size).dump());
+          EXPECT_EQ(darkPixels(frame, 0.999f), 0) << degrees << " degrees, " << height << " m, " << size << filter;
+        }
+      }
+    }
+  }
+}
+
+/// A card of 1 m x 1 m, 2 m over a floor, seen straight from above.
+Frame cardFrame(const Json& light) {
+  testing::GlbBuilder builder = tiltedPlane(0);
+  auto card = builder.json["nodes"][0];
+  card["scale"] = {0.5, 1, 0.5};
+  card["translation"] = {0, 2, 0};
+  builder.json["nodes"].push_back(card);
+  builder.json["scenes"][0]["nodes"].push_back(1);
+  const Json spec = {{"width", 400},
+                     {"height", 400},
+                     {"camera",
+                      {{"eye", {0, 10, 0}},
+                       {"target", {0, 0, 0}},
+                       {"up", {0, 0, -1}},
+                       {"orthographic", {{"height", 8}, {"near", 0.1}, {"far", 40}}}}},
+                     {"lights", {light}},
+                     {"antialiasing", "none"},
+                     {"views", {"shadow"}},
+                     {"output", {{"format", "exr"}}}};
+  return renderJson(testing::sceneOf(builder), spec.dump());
+}
+
+TEST(PunctualFrames, X31_X32_AShadowGrowsWithTheDistanceFromTheLight) {
+  // Half way up to the light, so that its shadow is twice as large; a quarter of that is hidden under it.
+  const Json lights = Json::parse(R"([
+      {"type":"point","position":[0,4,0]}, {"type":"point","position":[0,4,0],"range":6},
+      {"type":"spot","position":[0,4,0],"direction":[0,-1,0],"outerConeDegrees":50},
+      {"type":"spot","position":[0,4,0],"direction":[0.3,-1,0.2],"outerConeDegrees":85}])");
+  const double pixels = 50.0 * 50.0; // a square metre
+  for (const Json& light : lights) {
+    const double expected = (4.0 - 1.0) * pixels;
+    EXPECT_NEAR(static_cast<double>(darkPixels(cardFrame(light), 0.5f)), expected, 0.03 * expected) << light;
+  }
+}
+
+TEST(PunctualFrames, ALightWhoseShadowIsSwitchedOffTakesNoTile) {
+  const Frame frame = cardFrame(Json::parse(R"({"type":"point","position":[0,4,0],"shadow":{"enabled":false}})"));
+  EXPECT_EQ(frame.report.atlasSize[0], 0);
+  EXPECT_EQ(darkPixels(frame, 0.5f), 0);
+}
+
+} // namespace
+} // namespace gnomon
