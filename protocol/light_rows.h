@@ -47,8 +47,7 @@ inline constexpr auto kRows<Light> =
                {.says = "Brightness: lux (directional) or candela (spot and point).",
                 .unit = "lux or candela",
                 .range = kIntensityRange}),
-         field("shadow", &Light::shadow,
-               {.says = "The light's own shadow, whole; absent = the frame's `shadow`."}))
+         field("shadow", &Light::shadow, {.says = "The light's own shadow, whole; absent = the frame's `shadow`."}))
         .withAlternatives({"direction", "sun"});
 static_assert(kRowsAreComplete<Light>);
 
