@@ -25,6 +25,14 @@ inline constexpr std::array kSpellings<ShadowSize>{
 static_assert(spellsAll<ShadowSize>());
 
 template <>
+inline constexpr std::array kSpellings<ShadowImportance>{
+    spelling(ShadowImportance::low, "low", "a quarter of the tile's side"),
+    spelling(ShadowImportance::medium, "medium", "half of the tile's side"),
+    spelling(ShadowImportance::high, "high", "the whole"),
+};
+static_assert(spellsAll<ShadowImportance>());
+
+template <>
 inline constexpr std::array kSpellings<PartitionMode>{
     spelling(PartitionMode::manual, "manual", "at `splits`"),
     spelling(PartitionMode::uniform, "uniform", "into equal lengths"),

@@ -6,6 +6,7 @@
 namespace gnomon {
 
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
+enum class ShadowImportance { low, medium, high };
 enum class PartitionMode { manual, uniform, logarithmic };
 enum class DepthRangeMode { automatic, manual };
 enum class Stabilization { none, projectionSnapping, viewSnapping };
@@ -38,9 +39,12 @@ struct Filter {
 
 struct Shadow {
   bool enabled = true;
-  double strength = 1;                 ///< 0 = no shadow, 1 = no direct light in shadow
-  ShadowSize size = ShadowSize::Large; ///< of one cascade's tile: Large = atlas.baseSize, each step doubles
-  int cascadeCount = 4;                ///< 1..4
+  double strength = 1; ///< 0 = no shadow, 1 = no direct light in shadow
+  /// Of one tile: Large = atlas.baseSize, each step doubles. Absent = by the light: directional Large, spot Medium,
+  /// point Small.
+  std::optional<ShadowSize> size{};
+  ShadowImportance importance = ShadowImportance::high; ///< each step down halves the tile; the least yields first
+  int cascadeCount = 4;                                 ///< 1..4
   Partition partition;
   DepthRange depthRange;
   Stabilization stabilization = Stabilization::none;

@@ -51,7 +51,10 @@ inline constexpr auto kRows<Shadow> = rows(
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
     field("size", &Shadow::size,
-          {.says = "Side of one tile, of a cascade or of a spot or point light's face; larger is sharper and slower."}),
+          {.says = "Side of one tile, of a cascade or of a spot or point light's face; larger is sharper and slower; "
+                   "absent = Large for a directional light, Medium for a spot, Small for a point light."}),
+    field("importance", &Shadow::importance,
+          {.says = "Shrinks the tile, and decides who yields when the atlas is full: the least important first."}),
     field("cascadeCount", &Shadow::cascadeCount,
           {.says = "Directional: slices of the view, each with its own tile; more keep the foreground sharp.",
            .unit = "cascades",

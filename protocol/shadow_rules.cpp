@@ -84,7 +84,7 @@ void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::stri
                        std::vector<BrokenRule>& broken) {
   appendPartitionRules(shadow, pointer, broken);
   appendDepthRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
-  const int side = tileSide(shadow.size, atlas);
+  const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
   if (side > atlas.size && atlas.baseSize <= atlas.size) {
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = pointer + "/size",

@@ -25,6 +25,18 @@ std::vector<Light> chooseLights(const FrameSpec& spec, const SceneView& scene, s
   return lights;
 }
 
+ShadowSize usualSize(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return ShadowSize::Large;
+    case LightType::spot:
+      return ShadowSize::Medium;
+    case LightType::point:
+      return ShadowSize::Small;
+  }
+  return ShadowSize::Large;
+}
+
 } // namespace
 
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
@@ -44,6 +56,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   frame.spec.lights = chooseLights(spec, view, frame.warnings);
   for (Light& light : *frame.spec.lights) {
     if (!light.shadow) light.shadow = spec.shadow;
+    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
   }
   return frame;
 }

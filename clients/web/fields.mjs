@@ -26,7 +26,8 @@ export const kSections = [
     fields: [
       { path: 'shadow.enabled', label: 'Shadows', toggle: true },
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4']], needs: shadowed },
-      { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], needs: shadowed },
+      { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Unset: L for a sun, M for a spot, S for a point light', needs: shadowed },
+      { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Smaller tiles, and who yields first when the atlas is full', needs: shadowed },
       { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF']], needs: shadowed },
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => shadowed(store) && one('shadow.filter.type', 'pcf')(store) },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },

@@ -25,12 +25,32 @@ std::size_t nextToHalve(std::span<const TileRequest> requests, const std::vector
   std::size_t best = requests.size();
   for (std::size_t i = 0; i < requests.size(); ++i) {
     if (sizes[i] <= kSmallestTile || requests[i].tileCount == 0) continue;
-    if (best == requests.size() ||
-        std::tuple(sizes[i], requests[i].light) > std::tuple(sizes[best], requests[best].light)) {
-      best = i;
-    }
+    const auto yields = [&](std::size_t r) {
+      return std::tuple(-static_cast<int>(requests[r].importance), sizes[r], requests[r].light);
+    };
+    if (best == requests.size() || yields(i) > yields(best)) best = i;
   }
   return best;
+}
+
+/// What is left goes back to those that were halved, the most important and the lowest light first.
+std::vector<int> grown(std::span<const TileRequest> requests, std::vector<int> sizes, int atlasSide) {
+  const std::int64_t room = static_cast<std::int64_t>(atlasSide) * atlasSide;
+  std::vector<std::size_t> order(requests.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(-static_cast<int>(requests[a].importance), requests[a].light) <
+           std::tuple(-static_cast<int>(requests[b].importance), requests[b].light);
+  });
+  for (const std::size_t i : order) {
+    while (sizes[i] > 0 && 2 * sizes[i] <= std::min(requests[i].size, atlasSide)) {
+      sizes[i] *= 2;
+      if (areaOf(requests, sizes) <= room) continue;
+      sizes[i] /= 2;
+      break;
+    }
+  }
+  return sizes;
 }
 
 /// Every second bit, from the lowest, as one number.
@@ -55,11 +75,15 @@ std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlas
       if (halved == requests.size()) break;
       sizes[halved] /= 2;
     }
-    if (areaOf(requests, sizes) <= room) return sizes;
+    if (areaOf(requests, sizes) <= room) return grown(requests, std::move(sizes), atlasSide);
 
     std::size_t last = requests.size();
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      if (!refused[i] && (last == requests.size() || requests[i].light > requests[last].light)) last = i;
+      if (refused[i]) continue;
+      const auto yields = [&](std::size_t r) {
+        return std::pair(-static_cast<int>(requests[r].importance), requests[r].light);
+      };
+      if (last == requests.size() || yields(i) > yields(last)) last = i;
     }
     refused[last] = true;
   }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "protocol/shadow_options.h"
 #include "renderer/core/rect.h"
 
 namespace gnomon {
@@ -12,11 +13,14 @@ struct TileRequest {
   int light = 0; ///< stable name of the light; a lower one is kept in preference to a higher
   int tileCount = 0;
   int size = 0; ///< texels along a side, a power of two
+  ShadowImportance importance = ShadowImportance::high;
 };
 
 /// The size that each request gets so that all fit into a square of `atlasSide` texels (a power of two); 0 = refused.
-/// While they don't fit, the request with the largest tiles is halved; of equals, the one with the highest light.
-/// Where even tiles of kSmallestTile don't fit, the highest light is refused and the others start anew.
+/// While they don't fit, a request of the least importance is halved: of those the one with the largest tiles, of
+/// equals the one with the highest light. Only where none of them can shrink does the next importance yield. Where even
+/// tiles of kSmallestTile don't fit, the highest light of the least importance is refused and the others start anew.
+/// What is left over in the end goes back to the halved ones, the most important first.
 std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlasSide);
 
 /// One square to place.

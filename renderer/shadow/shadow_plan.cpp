@@ -9,6 +9,7 @@
 #include "renderer/shadow/bias.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/fit.h"
+#include "renderer/shadow/light_coverage.h"
 #include "renderer/shadow/light_draft.h"
 #include "renderer/shadow/receiver_pieces.h"
 #include "renderer/shadow/slice.h"
@@ -51,10 +52,14 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
   draft.planned.light = caster.light;
   if (caster.shadow.enabled && caster.shadow.strength > 0) {
     draft.planned.askedTileSize =
-        askedTileSize(caster.shadow.size, input.atlas.baseSize, input.frameWidth, input.frameHeight);
+        askedTileSize(caster.shadow.size.value_or(ShadowSize::Large), caster.shadow.importance, input.atlas.baseSize,
+                      lightSize(caster, input.view, input.frameWidth, input.frameHeight));
   }
+  draft.importance = caster.shadow.importance;
   if (const auto reason = reasonToSkip(caster, input)) {
     draft.planned.note = *reason;
+  } else if (draft.planned.askedTileSize == 0) {
+    draft.planned.note = "what it reaches is out of view";
   } else if (caster.type == LightType::directional) {
     draftCascades(caster, input, draft);
   } else {
@@ -74,7 +79,8 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
       std::bit_floor(static_cast<unsigned>(std::max(0, std::min(input.atlas.size, input.maxTextureSize)))));
   std::vector<TileRequest> requests;
   for (const LightDraft& draft : drafts) {
-    requests.push_back({draft.planned.light, drawnTiles(draft), std::max(draft.planned.askedTileSize, kSmallestTile)});
+    requests.push_back({draft.planned.light, drawnTiles(draft), std::max(draft.planned.askedTileSize, kSmallestTile),
+                        draft.importance});
   }
   const std::vector<int> sizes = grantTileSizes(requests, side);
   for (std::size_t i = 0; i < drafts.size(); ++i) {

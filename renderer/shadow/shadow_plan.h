@@ -38,7 +38,7 @@ struct ReceiverDepths {
 struct ShadowCaster {
   int light = 0;                  ///< index into the effective spec's lights
   glm::dvec3 direction{0, -1, 0}; ///< where the light travels; unit length; directional and spot
-  Shadow shadow;
+  Shadow shadow;                  ///< an absent size is Large
   LightType type = LightType::directional;
   glm::dvec3 position{0}; ///< relative to the eye; spot and point
   double range = 0;       ///< metres; spot and point; 0 = no end

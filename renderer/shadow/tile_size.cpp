@@ -6,14 +6,14 @@
 
 namespace gnomon {
 
-int askedTileSize(ShadowSize size, int baseSize, int frameWidth, int frameHeight) {
-  const int longest = std::max(frameWidth, frameHeight);
-  if (longest <= 0 || baseSize <= 0) return 0;
-  // In eighths of a texel every factor is a whole power of two, and nextPowerOfTwo scales with it.
-  const int doublings = static_cast<int>(size) - static_cast<int>(ShadowSize::XSmall);
-  const std::uint64_t byFrame = std::bit_ceil(static_cast<std::uint64_t>(longest)) << doublings;
+int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, int lightSize) {
+  if (lightSize <= 0 || baseSize <= 0) return 0;
+  // In 32nds of a texel every factor is a whole power of two, and nextPowerOfTwo scales with it.
+  const int doublings = static_cast<int>(size) - static_cast<int>(ShadowSize::XSmall) + static_cast<int>(importance) -
+                        static_cast<int>(ShadowImportance::low);
+  const std::uint64_t byLight = std::bit_ceil(static_cast<std::uint64_t>(lightSize)) << doublings;
   const std::uint64_t byBase = static_cast<std::uint64_t>(baseSize) << doublings;
-  return static_cast<int>(std::max<std::uint64_t>(1, std::min(byFrame, byBase) / 8));
+  return static_cast<int>(std::max<std::uint64_t>(1, std::min(byLight, byBase) / 32));
 }
 
 } // namespace gnomon

@@ -146,7 +146,9 @@ void mend(Shadow& shadow, const Atlas& atlas) {
     range.min.reset();
     range.max.reset();
   }
-  while (tileSide(shadow.size, atlas) > atlas.size) shadow.size = static_cast<ShadowSize>(int(shadow.size) - 1);
+  while (shadow.size && tileSide(*shadow.size, atlas) > atlas.size) {
+    shadow.size = static_cast<ShadowSize>(int(*shadow.size) - 1);
+  }
 }
 
 void mend(Light& light, const Atlas& atlas) {

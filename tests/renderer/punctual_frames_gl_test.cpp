@@ -92,6 +92,7 @@ Frame cardFrame(const Json& light) {
                        {"up", {0, 0, -1}},
                        {"orthographic", {{"height", 8}, {"near", 0.1}, {"far", 40}}}}},
                      {"lights", {light}},
+                     {"shadow", {{"size", "Large"}}},
                      {"antialiasing", "none"},
                      {"views", {"shadow"}},
                      {"output", {{"format", "exr"}}}};

@@ -120,5 +120,14 @@ TEST(AtlasPacker, NothingNeedsNoAtlas) {
   EXPECT_EQ(layout.height, 0);
 }
 
+TEST(AtlasPacker, X11_TheLeastImportantYieldFirstHoweverSmall) {
+  using enum ShadowImportance;
+  const std::vector<TileRequest> requests{{0, 1, 256, low}, {1, 4, 1024, high}, {2, 1, 512, low}};
+  EXPECT_EQ(grantTileSizes(requests, 2048), (std::vector<int>{256, 512, 512}))
+      << "nobody is refused while anybody can shrink";
+  const std::vector<TileRequest> roomy{{0, 1, 256, low}, {1, 3, 1024, high}, {2, 4, 512, medium}, {3, 1, 1024, low}};
+  EXPECT_EQ(grantTileSizes(roomy, 2048), (std::vector<int>{256, 1024, 256, 512}));
+}
+
 } // namespace
 } // namespace gnomon

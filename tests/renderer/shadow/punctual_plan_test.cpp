@@ -174,7 +174,7 @@ TEST(PunctualPlan, ALightThatReachesNothingInViewGetsNoTile) {
   const ShadowPlan plan = planShadows(input);
   EXPECT_EQ(plan.atlasWidth, 0);
   EXPECT_EQ(plan.lights[0].tileCount, 0);
-  EXPECT_EQ(plan.lights[0].note, "it reaches nothing in view");
+  EXPECT_EQ(plan.lights[0].note, "what it reaches is out of view");
   input.casters[0].range = 0;
   EXPECT_GT(planShadows(input).atlasWidth, 0);
 }

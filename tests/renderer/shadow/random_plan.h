@@ -25,7 +25,7 @@ inline std::ostream& operator<<(std::ostream& out, const RandomPlan& plan) {
       << plan.seed;
   for (const ShadowCaster& caster : plan.input.casters) {
     out << "\n  light " << caster.light << " direction " << caster.direction.x << ' ' << caster.direction.y << ' '
-        << caster.direction.z << " size " << static_cast<int>(caster.shadow.size) << " count "
+        << caster.direction.z << " size " << static_cast<int>(*caster.shadow.size) << " count "
         << caster.shadow.cascadeCount << " partition " << static_cast<int>(caster.shadow.partition.mode)
         << (caster.shadow.depthRange.mode == DepthRangeMode::manual ? " manual range" : " automatic range")
         << " stabilization " << static_cast<int>(caster.shadow.stabilization) << " filter "
@@ -83,6 +83,7 @@ inline ReceiverDepths randomReceivers(Dice& dice, int width, int height, double 
 inline Shadow randomShadow(Dice& dice) {
   Shadow shadow;
   shadow.size = static_cast<ShadowSize>(dice.below(5));
+  shadow.importance = static_cast<ShadowImportance>(dice.below(3));
   shadow.cascadeCount = 1 + dice.below(4);
   shadow.partition.mode = static_cast<PartitionMode>(dice.below(3));
   shadow.partition.pssmFactor = dice.between(0, 1);

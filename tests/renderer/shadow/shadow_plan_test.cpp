@@ -110,7 +110,8 @@ TEST(ShadowPlan, X17_X18_G5_EverythingIsFiniteForAnyView) {
         for (int r = 0; r < 4; ++r) RC_ASSERT(std::isfinite(tile.clipFromRelative[c][r]));
       }
       if (tile.rect.width == 0) continue;
-      RC_ASSERT(tile.space.fit.texelSize.x > 0 && tile.space.fit.texelSize.y > 0 && std::isfinite(tile.space.fit.texelSize.x + tile.space.fit.texelSize.y));
+      RC_ASSERT(tile.space.fit.texelSize.x > 0 && tile.space.fit.texelSize.y > 0 &&
+                std::isfinite(tile.space.fit.texelSize.x + tile.space.fit.texelSize.y));
       RC_ASSERT(tile.space.fit.depthExtent > 0 && std::isfinite(tile.space.fit.depthExtent));
       RC_ASSERT(tile.space.fit.normalOffset > 0 && tile.depthBias > 0 && tile.depthBias < 0.5);
     }

@@ -1,5 +1,6 @@
 #include "renderer/shadow/tile_size.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@ namespace {
 
 constexpr std::array kSizes{ShadowSize::XLarge, ShadowSize::Large, ShadowSize::Medium, ShadowSize::Small,
                             ShadowSize::XSmall};
+
+constexpr ShadowImportance kHigh = ShadowImportance::high;
 
 TEST(TileSize, X2_X3_X4_FiveSizesByFiveViewports) {
   struct Row {
@@ -22,13 +25,22 @@ TEST(TileSize, X2_X3_X4_FiveSizesByFiveViewports) {
                                  {1080, 4096, {2048, 1024, 512, 256, 128}}}};
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < kSizes.size(); ++i) {
-      EXPECT_EQ(askedTileSize(kSizes[i], 1024, row.width, row.height), row.sides[i]) << row.width << ' ' << i;
+      EXPECT_EQ(askedTileSize(kSizes[i], kHigh, 1024, std::max(row.width, row.height)), row.sides[i])
+          << row.width << ' ' << i;
     }
   }
 }
 
-TEST(TileSize, X4_AFrameWithoutPixelsAsksForNothing) {
-  for (const ShadowSize size : kSizes) EXPECT_EQ(askedTileSize(size, 1024, 0, 0), 0);
+TEST(TileSize, X5_EachStepOfImportanceHalves) {
+  EXPECT_EQ(askedTileSize(ShadowSize::Large, ShadowImportance::high, 1024, 1280), 1024);
+  EXPECT_EQ(askedTileSize(ShadowSize::Large, ShadowImportance::medium, 1024, 1280), 512);
+  EXPECT_EQ(askedTileSize(ShadowSize::Large, ShadowImportance::low, 1024, 1280), 256);
+  EXPECT_EQ(askedTileSize(ShadowSize::XSmall, ShadowImportance::low, 1024, 100), 4);
+  EXPECT_EQ(askedTileSize(ShadowSize::XSmall, ShadowImportance::low, 1024, 3), 1);
+}
+
+TEST(TileSize, X4_WhatCoversNoPixelAsksForNothing) {
+  for (const ShadowSize size : kSizes) EXPECT_EQ(askedTileSize(size, kHigh, 1024, 0), 0);
 }
 
 TEST(TileSize, X4_IsThePowerOfTwoOverTheScaledFrameForEverySide) {
@@ -38,7 +50,7 @@ TEST(TileSize, X4_IsThePowerOfTwoOverTheScaledFrameForEverySide) {
       double power = 1.0 / 1024;
       while (power < side * factor) power *= 2;
       const double expected = std::max(1.0, std::min(2048 * factor, power));
-      ASSERT_EQ(askedTileSize(kSizes[i], 2048, side, 1), static_cast<int>(expected)) << side << ' ' << i;
+      ASSERT_EQ(askedTileSize(kSizes[i], kHigh, 2048, side), static_cast<int>(expected)) << side << ' ' << i;
     }
   }
 }
