@@ -25,6 +25,13 @@ inline constexpr std::array kSpellings<ShadowSize>{
 static_assert(spellsAll<ShadowSize>());
 
 template <>
+inline constexpr std::array kSpellings<ShadowLightPolicy>{
+    spelling(ShadowLightPolicy::all, "all", "every light whose shadow is enabled"),
+    spelling(ShadowLightPolicy::first, "first", "the first directional light alone"),
+};
+static_assert(spellsAll<ShadowLightPolicy>());
+
+template <>
 inline constexpr std::array kSpellings<ShadowImportance>{
     spelling(ShadowImportance::low, "low", "a quarter of the tile's side"),
     spelling(ShadowImportance::medium, "medium", "half of the tile's side"),

@@ -46,6 +46,7 @@ inline constexpr auto kRows<FrameSpec> = rows(
           {.says = "The lights; absent = the scene's own, or one sun where it has none.",
            .maxCount = kLimits.maxLights}),
     field("shadow", &FrameSpec::shadow, {.says = "The shadow of every directional light that has none of its own."}),
+    field("shadowLightPolicy", &FrameSpec::shadowLightPolicy, {.says = "Which lights cast shadows."}),
     field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every cascade's tile."}),
     field("scene", &FrameSpec::scene,
           {.says = "Index of the glTF scene; absent = the file's default.", .range = kNodeRange}),

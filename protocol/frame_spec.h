@@ -33,6 +33,7 @@ struct FrameSpec {
   Camera camera;
   std::optional<std::vector<Light>> lights; ///< absent = the scene's own; if it has none, one sun
   Shadow shadow;                            ///< for every light without a shadow of its own
+  ShadowLightPolicy shadowLightPolicy = ShadowLightPolicy::all;
   Atlas atlas;
   std::optional<int> scene; ///< index of the glTF scene; absent = the file's default
   Ambient ambient;

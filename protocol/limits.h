@@ -12,7 +12,7 @@ struct Limits {
   std::int64_t maxFramePixels = 33'554'432; ///< width x height
   int maxAtlasSide = 8192;                  ///< texels; the device may allow less
   int maxLights = 16;                       ///< lights in one frame
-  int maxCascades = 4;                      ///< cascades of one light
+  int maxCascades = 8;                      ///< cascades of one light
 
   // Requests
   std::size_t maxSpecBytes = 1 << 20;     ///< a FrameSpec's JSON

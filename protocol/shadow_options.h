@@ -6,6 +6,7 @@
 namespace gnomon {
 
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
+enum class ShadowLightPolicy { all, first };
 enum class ShadowImportance { low, medium, high };
 enum class PartitionMode { manual, uniform, logarithmic };
 enum class DepthRangeMode { automatic, manual };
@@ -44,7 +45,7 @@ struct Shadow {
   /// point Small.
   std::optional<ShadowSize> size{};
   ShadowImportance importance = ShadowImportance::high; ///< each step down halves the tile; the least yields first
-  int cascadeCount = 4;                                 ///< 1..4
+  int cascadeCount = 4;                                 ///< 1..8
   Partition partition;
   DepthRange depthRange;
   Stabilization stabilization = Stabilization::none;

@@ -19,7 +19,8 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     LightReport report;
     report.light = static_cast<int>(i);
     const Light& light = (*spec.lights)[i];
-    if (!light.shadow->enabled) report.note = "its shadow is turned off";
+    report.note = light.shadow->enabled ? "shadowLightPolicy is first, and this is not the first directional light"
+                                        : "its shadow is turned off";
     reports.push_back(std::move(report));
   }
   for (const PlannedLight& planned : plan.lights) {

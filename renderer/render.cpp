@@ -65,14 +65,20 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
   input.maxTextureSize = maxTextureSize;
   input.frameWidth = frame.spec.width;
   input.frameHeight = frame.spec.height;
+  const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
   for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
     const Light& light = (*frame.spec.lights)[i];
-    if (!light.shadow->enabled) continue;
+    if (firstOnly && light.type != LightType::directional) continue;
+    if (!light.shadow->enabled) {
+      if (firstOnly) break; // the first is the first, with a shadow or without
+      continue;
+    }
     ShadowCaster caster{static_cast<int>(i), directionOf(light), *light.shadow, light.type};
     if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
     caster.range = light.range.value_or(0.0);
     caster.outerCone = glm::radians(light.outerConeDegrees);
     input.casters.push_back(caster);
+    if (firstOnly) break;
   }
   return input;
 }

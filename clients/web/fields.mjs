@@ -25,7 +25,7 @@ export const kSections = [
     title: 'Shadows',
     fields: [
       { path: 'shadow.enabled', label: 'Shadows', toggle: true },
-      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4']], needs: shadowed },
+      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: shadowed },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Unset: L for a sun, M for a spot, S for a point light', needs: shadowed },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Smaller tiles, and who yields first when the atlas is full', needs: shadowed },
       { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF']], needs: shadowed },
@@ -58,7 +58,7 @@ export const kSections = [
 
 export const kViews = [
   ['color', 'Colour', 'The shaded scene'],
-  ['cascades', 'Cascades', 'Tinted by cascade: green, blue, purple, red'],
+  ['cascades', 'Cascades', 'Tinted by cascade: green, blue, purple, red, orange, cyan, yellow, pink'],
   ['shadow', 'Shadow', 'Share of the light that arrives'],
   ['depth', 'Depth', 'Distance along the view axis'],
   ['normal', 'Normal', 'World-space shading normal'],

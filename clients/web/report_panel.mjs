@@ -2,7 +2,7 @@
 
 import { count, element, short } from './dom.mjs';
 
-const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf']; // as the cascades view tints them
+const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8']; // as the cascades view tints them
 
 export function showReport(node, report) {
   node.replaceChildren(...report.lights.map(lightOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));

@@ -118,12 +118,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{R"({"camera":{"orbit":{"elevationDegrees":90.5}}})", "/camera/orbit/elevationDegrees"},
         Refused{R"({"lights":[{"sun":{},"intensity":-1}]})", "/lights/0/intensity"},
         Refused{R"({"lights":[{"sun":{},"color":[0,0,1.5]}]})", "/lights/0/color/2"},
-        Refused{R"({"shadow":{"cascadeCount":5}})", "/shadow/cascadeCount"},
+        Refused{R"({"shadow":{"cascadeCount":9}})", "/shadow/cascadeCount"},
         Refused{R"({"shadow":{"cascadeCount":0}})", "/shadow/cascadeCount"},
         Refused{R"({"shadow":{"filter":{"size":4}}})", "/shadow/filter/size"},
         Refused{R"({"shadow":{"size":"large"}})", "/shadow/size"},
         Refused{R"({"shadow":{"partition":{"mode":"manual","splits":[0.5,0]}}})", "/shadow/partition/splits/1"},
-        Refused{R"({"shadow":{"partition":{"mode":"manual","splits":[1,1,1,1,1]}}})", "/shadow/partition/splits"},
+        Refused{R"({"shadow":{"partition":{"mode":"manual","splits":[1,1,1,1,1,1,1,1,1]}}})",
+                "/shadow/partition/splits"},
         Refused{R"({"atlas":{"size":3000}})", "/atlas/size"}, Refused{R"({"atlas":{"size":16384}})", "/atlas/size"},
         Refused{R"({"views":[]})", "/views"}, Refused{R"({"views":["depth","color","depth"]})", "/views/2"},
         Refused{R"({"output":{"pngCompression":10}})", "/output/pngCompression"},
@@ -218,8 +219,8 @@ TEST(FrameSpecJson, AbsentFieldsAreLeftOutAndKeysKeepTheirOrder) {
   EXPECT_TRUE(json["camera"].empty());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "atlas", "ambient", "background", "exposure",
-                                "toneMapping", "antialiasing", "views", "output"));
+  EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "ambient",
+                                "background", "exposure", "toneMapping", "antialiasing", "views", "output"));
 }
 
 TEST(FrameSpecJson, TheViewDirectionStandsDirectlyInTheCamera) {

@@ -40,8 +40,8 @@ Json planeSpec(double degrees, const Json& light, const Json& filter, const std:
           {"output", {{"format", "exr"}}}};
 }
 
-const Json kFilters = Json::parse(
-    R"([{"type":"hard"},{"type":"pcf","size":3},{"type":"pcf","size":5},{"type":"pcf","size":7}])");
+const Json kFilters =
+    Json::parse(R"([{"type":"hard"},{"type":"pcf","size":3},{"type":"pcf","size":5},{"type":"pcf","size":7}])");
 
 TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
   const Json lights = Json::parse(R"([

@@ -135,6 +135,30 @@ TEST(ShadowFrames, D1_EveryDirectionalLightCasts) {
   EXPECT_EQ(frame.report.lights[1].cascades.size(), 2u);
 }
 
+TEST(ShadowFrames, D1_OnRequestTheFirstDirectionalLightCastsAlone) {
+  const Frame frame = renderJson(testing::generatedScene("box_on_plane"),
+                                 R"({"width":64,"height":64,"shadowLightPolicy":"first","lights":[
+      {"type":"point","position":[0,5,0]},{"type":"directional","direction":[1,-1,0]},
+      {"type":"directional","direction":[0,-1,1]}]})");
+  ASSERT_EQ(frame.report.lights.size(), 3u);
+  EXPECT_FALSE(frame.report.lights[0].shadowed);
+  EXPECT_TRUE(frame.report.lights[1].shadowed);
+  EXPECT_FALSE(frame.report.lights[2].shadowed);
+  EXPECT_NE(frame.report.lights[2].note.find("shadowLightPolicy"), std::string::npos);
+}
+
+TEST(ShadowFrames, X15_EightCascadesEachServeTheirPart) {
+  const Frame frame = renderJson(testing::generatedScene("long_row"),
+                                 R"({"width":160,"height":90,"camera":{"node":"camera"},
+      "lights":[{"type":"directional","direction":[1,-1,0]}],"shadow":{"cascadeCount":8,"size":"Small"}})");
+  const auto& cascades = frame.report.lights[0].cascades;
+  ASSERT_EQ(cascades.size(), 8u);
+  for (std::size_t i = 1; i < cascades.size(); ++i) {
+    EXPECT_GT(cascades[i].far, cascades[i - 1].far);
+    EXPECT_LT(cascades[i].near, cascades[i - 1].far) << "they overlap to blend";
+  }
+}
+
 TEST(ShadowFrames, M14_CastersAreCulledPerTileAndHiddenClustersAreNotShaded) {
   const Frame frame = renderJson(testing::generatedScene("long_row"),
                                  R"({"width":320,"height":180,"camera":{"node":"camera"},

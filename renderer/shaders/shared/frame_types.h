@@ -56,7 +56,7 @@ using glm::vec4;
 
 // Lights of a frame and tiles of a light, at most; light i has the tiles from i * GNOMON_LIGHT_TILES on.
 #define GNOMON_MAX_LIGHTS 16
-#define GNOMON_LIGHT_TILES 6
+#define GNOMON_LIGHT_TILES 8
 
 // LightData.type
 #define GNOMON_DIRECTIONAL 0
@@ -97,9 +97,9 @@ struct LightData {
 struct TileData {
   vec4 atlasFromRelative[4]; // rows: to atlas u, v (0..1 over the atlas), depth, and what to divide them by
   vec4 bounds;               // atlas u v of the lowest and highest point that may be looked up
-  vec4 interval;             // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
-  vec4 bias;                 // x: depth bias; y: depth bias times the square of the divisor
-  vec4 axis;                 // xyz: where the light travels in the tile's middle
+  vec4 interval; // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
+  vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor
+  vec4 axis;     // xyz: where the light travels in the tile's middle
 };
 
 #ifdef __cplusplus

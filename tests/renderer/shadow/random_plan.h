@@ -84,7 +84,7 @@ inline Shadow randomShadow(Dice& dice) {
   Shadow shadow;
   shadow.size = static_cast<ShadowSize>(dice.below(5));
   shadow.importance = static_cast<ShadowImportance>(dice.below(3));
-  shadow.cascadeCount = 1 + dice.below(4);
+  shadow.cascadeCount = 1 + dice.below(8);
   shadow.partition.mode = static_cast<PartitionMode>(dice.below(3));
   shadow.partition.pssmFactor = dice.between(0, 1);
   if (shadow.partition.mode == PartitionMode::manual) {
