@@ -33,11 +33,6 @@ GLenum colorAttachment(int attachment) {
   return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment);
 }
 
-void copy(const Framebuffer& from, const Framebuffer& to, const Rect& rect, GLbitfield what) {
-  glBlitNamedFramebuffer(from.id(), to.id(), rect.x, rect.y, rect.x + rect.width, rect.y + rect.height, rect.x, rect.y,
-                         rect.x + rect.width, rect.y + rect.height, what, GL_NEAREST);
-}
-
 } // namespace
 
 Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::string_view label) {
@@ -54,19 +49,15 @@ Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::str
   if (const Attachment& depth = attachments.depth; depth.texture) {
     glNamedFramebufferTexture(id, depthAttachment(depth.texture->shape().format), depth.texture->id(), depth.level);
   }
-  framebuffer.drawToAll();
+  std::vector<GLenum> targets(static_cast<std::size_t>(std::max(1, framebuffer.colors_)), GL_NONE);
+  for (int i = 0; i < framebuffer.colors_; ++i) targets[static_cast<std::size_t>(i)] = colorAttachment(i);
+  glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(targets.size()), targets.data());
   if (framebuffer.colors_ == 0) glNamedFramebufferReadBuffer(id, GL_NONE);
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     return backendProblem("the framebuffer \"" + std::string(label) + "\" is incomplete: " + statusName(status));
   }
   return framebuffer;
-}
-
-void Framebuffer::drawToAll() const {
-  std::vector<GLenum> targets(static_cast<std::size_t>(std::max(1, colors_)), GL_NONE);
-  for (int i = 0; i < colors_; ++i) targets[static_cast<std::size_t>(i)] = colorAttachment(i);
-  glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(targets.size()), targets.data());
 }
 
 void Framebuffer::clearColor(int attachment, const glm::vec4& color) {
@@ -105,17 +96,6 @@ glm::vec2 Framebuffer::samplePosition(int sample) const {
   glm::vec2 position(0.0f);
   glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(sample), &position.x);
   return position;
-}
-
-void copyColor(const Framebuffer& from, int fromAttachment, const Framebuffer& to, int toAttachment, const Rect& rect) {
-  glNamedFramebufferReadBuffer(from.id(), colorAttachment(fromAttachment));
-  glNamedFramebufferDrawBuffer(to.id(), colorAttachment(toAttachment)); // a copy goes to every one that is drawn to
-  copy(from, to, rect, GL_COLOR_BUFFER_BIT);
-  to.drawToAll();
-}
-
-void copyDepth(const Framebuffer& from, const Framebuffer& to, const Rect& rect) {
-  copy(from, to, rect, GL_DEPTH_BUFFER_BIT);
 }
 
 } // namespace gnomon::gl

@@ -33,9 +33,6 @@ class Framebuffer {
 
   GLuint id() const { return object_.get(); }
 
-  /// Makes draws go to every color attachment, as they do unless copyColor is at work.
-  void drawToAll() const;
-
   /// Clears depend on the scissor and the write masks: state a PipelineState first.
   void clearColor(int attachment, const glm::vec4& color);
   void clearColor(int attachment, const glm::uvec4& color);
@@ -56,10 +53,5 @@ class Framebuffer {
   Object<Delete{}> object_;
   int colors_ = 0;
 };
-
-/// Copies one color attachment, texel for texel; resolves multisampled colors where `to` has no samples.
-/// Depends on the scissor of `to`.
-void copyColor(const Framebuffer& from, int fromAttachment, const Framebuffer& to, int toAttachment, const Rect& rect);
-void copyDepth(const Framebuffer& from, const Framebuffer& to, const Rect& rect);
 
 } // namespace gnomon::gl

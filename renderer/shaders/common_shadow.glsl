@@ -73,7 +73,7 @@ float tileVisibility(TileData tile, Receiver receiver, int filterSize) {
   return filtered(vec3(coordinate.xy, clamp(coordinate.z, 0.0, 1.0)), filterSize);
 }
 
-struct CascadeChoice {
+struct TileChoice {
   int first;   // among the light's tiles
   int second;  // blended in; = first where there is none
   float blend; // share of the second
@@ -82,7 +82,7 @@ struct CascadeChoice {
 };
 
 // The first cascade that reaches as far as the view depth.
-CascadeChoice chooseCascade(int light, float viewDepth) {
+TileChoice chooseCascade(int light, float viewDepth) {
   int last = int(lights[light].tiles.x) - 1;
   int index = 0;
   vec3 interval = tiles[light * GNOMON_LIGHT_TILES].interval.xyz;
@@ -94,13 +94,13 @@ CascadeChoice chooseCascade(int light, float viewDepth) {
   }
   float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
   bool fades = lights[light].cone.w > 0.0;
-  if (index < last) return CascadeChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, true);
-  return CascadeChoice(index, index, 0.0, fades ? zone : 0.0, !fades || viewDepth <= interval.z);
+  if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, true);
+  return TileChoice(index, index, 0.0, fades ? zone : 0.0, !fades || viewDepth <= interval.z);
 }
 
 #ifdef PUNCTUAL
 // The face that looks most nearly along the light's way to the point.
-CascadeChoice chooseFace(int light, vec3 toLight) {
+TileChoice chooseFace(int light, vec3 toLight) {
   int best = 0;
   float most = -2.0;
   for (int i = 0; i < GNOMON_LIGHT_TILES; ++i) {
@@ -110,11 +110,11 @@ CascadeChoice chooseFace(int light, vec3 toLight) {
       best = i;
     }
   }
-  return CascadeChoice(best, best, 0.0, 0.0, true);
+  return TileChoice(best, best, 0.0, 0.0, true);
 }
 #endif
 
-CascadeChoice chooseTile(int light, Receiver receiver, vec3 toLight) {
+TileChoice chooseTile(int light, Receiver receiver, vec3 toLight) {
 #ifdef PUNCTUAL
   if (int(lights[light].direction.w) != GNOMON_DIRECTIONAL) return chooseFace(light, toLight);
 #endif
@@ -127,7 +127,7 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   return 1.0;
 #endif
   if (lights[light].tiles.x == 0u) return 1.0;
-  CascadeChoice choice = chooseTile(light, receiver, toLight);
+  TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
   float strength = lights[light].cone.z;
 #ifdef FILTER_SIZE
@@ -150,7 +150,7 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
 vec3 cascadeTint(int light, Receiver receiver, vec3 toLight) {
   const vec3 tints[8] = vec3[8](vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3),
                                 vec3(1.0, 0.65, 0.2), vec3(0.3, 0.95, 0.95), vec3(1.0, 0.95, 0.3), vec3(1.0, 0.5, 0.75));
-  CascadeChoice choice = chooseTile(light, receiver, toLight);
+  TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return vec3(1.0);
   return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0), choice.fade);
 }

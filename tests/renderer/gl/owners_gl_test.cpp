@@ -132,52 +132,32 @@ TEST_F(Owners, incompleteFramebufferIsAProblem) {
   EXPECT_THAT(framebuffer.problems().front().detail, testing::HasSubstr("\"mixed samples\" is incomplete"));
 }
 
-TEST_F(Owners, copyResolvesSamplesIntoOneAttachment) {
-  constexpr Rect kAll{0, 0, 2, 2};
-  const Texture samples({.width = 2, .height = 2, .samples = 4}, "samples");
-  const Texture first({.width = 2, .height = 2}, "first");
-  const Texture second({.width = 2, .height = 2}, "second");
-  Attachments fromAttachments;
-  fromAttachments.color = {{.texture = &samples}};
-  Attachments toAttachments;
-  toAttachments.color = {{.texture = &first}, {.texture = &second}};
-  Framebuffer from = *Framebuffer::create(fromAttachments, "from");
-  Framebuffer to = *Framebuffer::create(toAttachments, "to");
-  PipelineState state;
-  state.viewport = kAll;
-  apply(state);
-  from.clearColor(0, glm::vec4(1, 0, 0, 1));
-  to.clearColor(0, glm::vec4(0, 1, 0, 1));
-  copyColor(from, 0, to, 1, kAll);
-  std::vector<std::uint8_t> read(16);
-  to.readColor(1, kAll, {}, std::as_writable_bytes(std::span(read)));
-  EXPECT_THAT(std::span(read).first<4>(), ElementsAre(255, 0, 0, 255));
-  to.readColor(0, kAll, {}, std::as_writable_bytes(std::span(read)));
-  EXPECT_THAT(std::span(read).first<4>(), ElementsAre(0, 255, 0, 255)) << "the other attachment is left alone";
-  to.clearColor(1, glm::vec4(0, 0, 1, 1));
-  to.readColor(1, kAll, {}, std::as_writable_bytes(std::span(read)));
-  EXPECT_THAT(std::span(read).first<4>(), ElementsAre(0, 0, 255, 255)) << "both are drawn to again";
-}
-
-TEST_F(Owners, depthIsClearedCopiedAndRead) {
+TEST_F(Owners, depthIsClearedAndRead) {
   constexpr Rect kAll{0, 0, 2, 1};
-  const TextureShape shape{.format = GL_DEPTH_COMPONENT32F, .width = 2, .height = 1};
-  const Texture a(shape, "a");
-  const Texture b(shape, "b");
+  const Texture depth({.format = GL_DEPTH_COMPONENT32F, .width = 2, .height = 1}, "depth");
   Attachments attachments;
-  attachments.depth = {.texture = &a};
-  Framebuffer from = *Framebuffer::create(attachments, "from");
-  attachments.depth = {.texture = &b};
-  const Framebuffer to = *Framebuffer::create(attachments, "to");
+  attachments.depth = {.texture = &depth};
+  Framebuffer framebuffer = *Framebuffer::create(attachments, "depth");
   PipelineState state;
   state.viewport = kAll;
   state.depth.write = true;
   apply(state);
-  from.clearDepth(0.25f);
-  copyDepth(from, to, kAll);
+  framebuffer.clearDepth(0.25f);
   std::array<float, 2> depths{};
-  to.readDepth(kAll, depths);
+  framebuffer.readDepth(kAll, depths);
   EXPECT_THAT(depths, ElementsAre(0.25f, 0.25f));
+}
+
+TEST_F(Owners, samplesLieApartWithinTheirPixel) {
+  const Texture color({.samples = 4}, "samples");
+  Attachments attachments;
+  attachments.color = {{.texture = &color}};
+  const Framebuffer framebuffer = *Framebuffer::create(attachments, "samples");
+  for (int i = 0; i < 4; ++i) {
+    const glm::vec2 position = framebuffer.samplePosition(i);
+    EXPECT_TRUE(position.x >= 0 && position.x <= 1 && position.y >= 0 && position.y <= 1) << i;
+    for (int k = 0; k < i; ++k) EXPECT_NE(framebuffer.samplePosition(k), position) << i << ' ' << k;
+  }
 }
 
 } // namespace
