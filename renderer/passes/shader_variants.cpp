@@ -73,6 +73,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   std::vector<std::string> defines{viewDefine(variant.view)};
   defines.push_back("SAMPLES " + std::to_string(variant.samples));
   defines.push_back("LIGHT_COUNT " + std::to_string(variant.lights));
+  if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   if (!variant.filterSize) defines.emplace_back("NO_SHADOWS");
   if (variant.filterSize.value_or(0) > 0) defines.push_back("FILTER_SIZE " + std::to_string(*variant.filterSize));

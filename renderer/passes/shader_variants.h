@@ -27,6 +27,7 @@ struct ViewVariant {
   int samples = 1;       ///< a pixel
   bool emission = false; ///< as in SurfaceVariant
   int lights = 0;
+  int tiles = 0;         ///< of the light that has most
   bool punctual = false; ///< some light is a spot or a point
   /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
   std::optional<int> filterSize{};

@@ -1,5 +1,7 @@
 #include "renderer/passes/view_pass.h"
 
+#include <algorithm>
+
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/sampler.h"
@@ -25,6 +27,7 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
   for (const shared::LightData& light : shading.lights.first(shading.spec.lights->size())) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
     if (light.tiles.x == 0) continue;
+    variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
     const int size = static_cast<int>(light.tiles.y);
     variant.filterSize = variant.filterSize.value_or(size) == size ? size : 0;
   }

@@ -86,7 +86,7 @@ TileChoice chooseCascade(int light, float viewDepth) {
   int last = int(lights[light].tiles.x) - 1;
   int index = 0;
   vec3 interval = tiles[light * GNOMON_LIGHT_TILES].interval.xyz;
-  for (int i = 1; i < GNOMON_LIGHT_TILES; ++i) {
+  for (int i = 1; i < TILE_COUNT; ++i) {
     if (i <= last && viewDepth > interval.z) {
       index = i;
       interval = tiles[light * GNOMON_LIGHT_TILES + i].interval.xyz;
@@ -103,7 +103,7 @@ TileChoice chooseCascade(int light, float viewDepth) {
 TileChoice chooseFace(int light, vec3 toLight) {
   int best = 0;
   float most = -2.0;
-  for (int i = 0; i < GNOMON_LIGHT_TILES; ++i) {
+  for (int i = 0; i < TILE_COUNT; ++i) {
     float along = -dot(tiles[light * GNOMON_LIGHT_TILES + i].axis.xyz, toLight);
     if (i < int(lights[light].tiles.x) && along > most) {
       most = along;

@@ -10,8 +10,9 @@
 namespace gnomon::codec {
 namespace {
 
-/// libpng's PNG_FILTER_PAETH. Trying every filter on every row, its default, takes a third longer for the same size.
-constexpr int kPaethFilter = 0x80;
+/// libpng's PNG_FILTER_SUB. Trying every filter on every row, its default, takes half as long again for the same size;
+/// PNG_FILTER_PAETH a quarter longer, for 4 % less.
+constexpr int kSubFilter = 0x10;
 
 /// The library writes the time of day where none is given; pinned, equal pictures have equal bytes.
 constexpr const char* kDateTime = "2000:01:01 00:00:00";
@@ -63,7 +64,7 @@ bool encodePng(const BytePicture& picture, int level, const Sink& encoded, const
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("png:compressionLevel", level);
-    spec.attribute("png:filter", kPaethFilter);
+    spec.attribute("png:filter", kSubFilter);
     const auto output = OIIO::ImageOutput::create("png");
     if (!output) return fail(message, OIIO::geterror());
     std::vector<unsigned char> bytes;
