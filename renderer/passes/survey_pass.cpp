@@ -52,7 +52,7 @@ Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep
 /// Below this, finding what is hidden takes longer than drawing it.
 constexpr std::uint64_t kTrianglesWorthHiding = 1u << 16;
 /// The share of the triangles in view, the nearest ones, that is drawn first to hide others.
-constexpr double kFirstShare = 0.25;
+constexpr double kFirstShare = 0.12;
 
 std::uint64_t trianglesIn(const PassInputs& inputs, std::uint32_t slot, std::size_t instance) {
   const Primitive& primitive =

@@ -29,6 +29,7 @@ void lookups(int size, float fraction, out vec4 offsets, out vec4 weights) {
 float filtered(vec3 coordinate, int size) {
   if (size <= 1) return textureLod(atlas, coordinate, 0.0);
   vec2 atlasSize = vec2(textureSize(atlas, 0));
+  vec2 step = 1.0 / atlasSize; // exact: sides are powers of two
   vec2 texel = coordinate.xy * atlasSize;
   vec2 base = floor(texel - 0.5);
   vec2 fraction = texel - 0.5 - base;
@@ -43,7 +44,7 @@ float filtered(vec3 coordinate, int size) {
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
       float w = weightsX[x] * weightsY[y];
-      sum += w * textureLod(atlas, vec3((first + vec2(offsetsX[x], offsetsY[y])) / atlasSize, coordinate.z), 0.0);
+      sum += w * textureLod(atlas, vec3((first + vec2(offsetsX[x], offsetsY[y])) * step, coordinate.z), 0.0);
       weight += w;
     }
   }
