@@ -7,4 +7,20 @@ void bindInputs(const PassInputs& inputs) {
   inputs.gpu.materialData.bindStorage(GNOMON_MATERIAL_BUFFER);
 }
 
+Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, gl::PipelineState state,
+                  const GroupProgram& programOf) {
+  for (const DrawGroup& group : batch.groups) {
+    const Material* material =
+        group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
+    const auto program = programOf(group, material);
+    if (!program) return program.problems();
+    if (material != nullptr) bindMaterial(inputs.gpu, group.material, **program);
+    state.cull = group.cull;
+    state.frontFace = group.frontFace;
+    gl::apply(state);
+    drawGroup(batch, group, inputs.vertices, **program);
+  }
+  return Done{};
+}
+
 } // namespace gnomon

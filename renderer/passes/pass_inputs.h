@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
+
 #include "renderer/core/camera_view.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
@@ -25,5 +28,12 @@ struct PassInputs {
 
 /// Binds the buffers that every pass reads.
 void bindInputs(const PassInputs& inputs);
+
+/// The program for a group, ready but for its material; `material` is null for a group of any opaque ones.
+using GroupProgram = std::function<Result<const gl::Program*>(const DrawGroup& group, const Material* material)>;
+
+/// Draws every group of a batch, its material bound, with the group's own facing and `state` for the rest.
+Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, gl::PipelineState state,
+                  const GroupProgram& programOf);
 
 } // namespace gnomon

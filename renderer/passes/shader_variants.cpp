@@ -40,6 +40,10 @@ std::vector<std::string> maskDefines(const Material* material) {
   return defines;
 }
 
+gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked) {
+  return {std::move(vertexShader), masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)};
+}
+
 gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant) {
   struct Slot {
     const std::optional<TextureUse>* use;

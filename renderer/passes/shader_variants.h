@@ -11,6 +11,9 @@ namespace gnomon {
 /// The #defines that a masked material needs where only its outline matters; none for an opaque one (null).
 std::vector<std::string> maskDefines(const Material* material);
 
+/// Draws depth alone with a vertex shader; `masked` as in maskDefines.
+gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked);
+
 struct SurfaceVariant {
   bool tangents = false; ///< the primitive brings its own
   bool emission = false; ///< something in the scene glows: every program writes what it gives off

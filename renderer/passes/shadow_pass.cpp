@@ -25,20 +25,11 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.scissor = tile.rect;
   state.depth = {true, true, GL_LESS};
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
-  for (const DrawGroup& group : batch.groups) {
-    const Material* masked =
-        group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
-    const auto program = inputs.programs.get(
-        {"shadow_cast.vert", masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)});
-    if (!program) return program.problems();
-    if (masked != nullptr) bindMaterial(inputs.gpu, group.material, **program);
-    (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
-    state.cull = group.cull;
-    state.frontFace = group.frontFace;
-    gl::apply(state);
-    drawGroup(batch, group, inputs.vertices, **program);
-  }
-  return Done{};
+  return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
+    auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
+    if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
+    return program;
+  });
 }
 
 } // namespace

@@ -15,21 +15,6 @@ bool anythingGlows(const Scene& scene) {
                      [](const Material& material) { return material.emissiveFactor != glm::vec3(0.0f); });
 }
 
-Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, bool emission, gl::PipelineState state) {
-  bindInputs(inputs);
-  for (const DrawGroup& group : batch.groups) {
-    const Material& material = inputs.scene.materials[static_cast<std::size_t>(group.material)];
-    const auto program = inputs.programs.get(surfaceProgram(material, {group.tangents, emission}));
-    if (!program) return program.problems();
-    bindMaterial(inputs.gpu, group.material, **program);
-    state.cull = group.cull;
-    state.frontFace = group.frontFace;
-    gl::apply(state);
-    drawGroup(batch, group, inputs.vertices, **program);
-  }
-  return Done{};
-}
-
 } // namespace
 
 Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples) {
@@ -64,7 +49,11 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   state.multisample = samples > 1;
   gl::apply(state);
   if (!reuse) target->clearDepth(0.0f);
-  if (const Status drawn = drawGroups(inputs, batch, emission, state); !drawn) return drawn.problems();
+  bindInputs(inputs);
+  const Status drawn = drawGroups(inputs, batch, state, [&](const DrawGroup& group, const Material* material) {
+    return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission}));
+  });
+  if (!drawn) return drawn.problems();
   return surfaces;
 }
 

@@ -34,19 +34,9 @@ Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep
   state.depth = {true, true, GL_GREATER};
   state.multisample = survey.samples > 1;
   bindInputs(inputs);
-  for (const DrawGroup& group : batch.groups) {
-    const Material* masked =
-        group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
-    const auto program =
-        inputs.programs.get({"survey.vert", masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)});
-    if (!program) return program.problems();
-    if (masked != nullptr) bindMaterial(inputs.gpu, group.material, **program);
-    state.cull = group.cull;
-    state.frontFace = group.frontFace;
-    gl::apply(state);
-    drawGroup(batch, group, inputs.vertices, **program);
-  }
-  return Done{};
+  return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
+    return inputs.programs.get(depthProgram("survey.vert", masked));
+  });
 }
 
 /// Below this, finding what is hidden takes longer than drawing it.

@@ -2,17 +2,16 @@
 layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
 
 #if SAMPLES > 1
-layout(binding = GNOMON_DEPTH_UNIT) uniform sampler2DMS surfaceDepths;
-layout(binding = GNOMON_SURFACE_UNIT) uniform usampler2DMS surfaceBits;
-#ifdef EMISSION
-layout(binding = GNOMON_EMISSION_UNIT) uniform sampler2DMS surfaceEmission;
-#endif
+#define SURFACE_FLOATS sampler2DMS
+#define SURFACE_WORDS usampler2DMS
 #else
-layout(binding = GNOMON_DEPTH_UNIT) uniform sampler2D surfaceDepths;
-layout(binding = GNOMON_SURFACE_UNIT) uniform usampler2D surfaceBits;
-#ifdef EMISSION
-layout(binding = GNOMON_EMISSION_UNIT) uniform sampler2D surfaceEmission;
+#define SURFACE_FLOATS sampler2D
+#define SURFACE_WORDS usampler2D
 #endif
+layout(binding = GNOMON_DEPTH_UNIT) uniform SURFACE_FLOATS surfaceDepths;
+layout(binding = GNOMON_SURFACE_UNIT) uniform SURFACE_WORDS surfaceBits;
+#ifdef EMISSION
+layout(binding = GNOMON_EMISSION_UNIT) uniform SURFACE_FLOATS surfaceEmission;
 #endif
 
 // Where the samples lie in a pixel, 0..1.

@@ -30,10 +30,9 @@ void draftFaces(const ShadowCaster& caster, const std::vector<Aabb>& pieces, Lig
     tile.basis = face.basis;
     tile.origin = caster.position;
     tile.tanHalf = face.tanHalf;
-    glm::dmat4 lightFromRelative(face.basis.lightFromWorld());
-    lightFromRelative[3] = glm::dvec4(-(face.basis.lightFromWorld() * caster.position), 1.0);
+    const glm::dmat4 toLightSpace = lightFromRelative(face.basis, caster.position);
     for (const Aabb& piece : reached) {
-      Aabb box = transformed(lightFromRelative, piece);
+      Aabb box = transformed(toLightSpace, piece);
       if (!mayLieIn(box, face.tanHalf)) continue;
       box.max.z = std::min(box.max.z, range);
       box.min.z = std::min(box.min.z, box.max.z);

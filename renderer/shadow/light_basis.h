@@ -16,6 +16,14 @@ struct LightBasis {
   glm::dmat3 lightFromWorld() const { return glm::transpose(glm::dmat3(right, up, direction)); }
 };
 
+/// Light space from eye-relative world space, with its origin there: a turn and a shift.
+inline glm::dmat4 lightFromRelative(const LightBasis& basis, const glm::dvec3& origin) {
+  const glm::dmat3 turn = basis.lightFromWorld();
+  glm::dmat4 matrix(turn);
+  matrix[3] = glm::dvec4(-(turn * origin), 1.0);
+  return matrix;
+}
+
 /// The basis for a unit direction. It depends on nothing but the direction and turns as little as it: at the vertical,
 /// where a basis made from a world "up" jumps, the roll changes about as much as the light moved. A tangent field on
 /// the sphere must spin somewhere; here that is around light shining up from a point 11 degrees below the horizon,

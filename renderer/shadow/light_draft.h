@@ -20,7 +20,6 @@ struct TileDraft {
 /// What is decided about a light before the atlas is shared out.
 struct LightDraft {
   bool stable = false;
-  ShadowImportance importance = ShadowImportance::high;
   std::vector<TileDraft> tiles; ///< empty = no shadow is drawn
   PlannedLight planned;
 };

@@ -55,7 +55,6 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
         askedTileSize(caster.shadow.size.value_or(ShadowSize::Large), caster.shadow.importance, input.atlas.baseSize,
                       lightSize(caster, input.view, input.frameWidth, input.frameHeight));
   }
-  draft.importance = caster.shadow.importance;
   if (const auto reason = reasonToSkip(caster, input)) {
     draft.planned.note = *reason;
   } else if (draft.planned.askedTileSize == 0) {
@@ -78,9 +77,10 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
   const int side = static_cast<int>(
       std::bit_floor(static_cast<unsigned>(std::max(0, std::min(input.atlas.size, input.maxTextureSize)))));
   std::vector<TileRequest> requests;
-  for (const LightDraft& draft : drafts) {
-    requests.push_back({draft.planned.light, drawnTiles(draft), std::max(draft.planned.askedTileSize, kSmallestTile),
-                        draft.importance});
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    const PlannedLight& planned = drafts[i].planned;
+    requests.push_back({planned.light, drawnTiles(drafts[i]), std::max(planned.askedTileSize, kSmallestTile),
+                        input.casters[i].shadow.importance});
   }
   const std::vector<int> sizes = grantTileSizes(requests, side);
   for (std::size_t i = 0; i < drafts.size(); ++i) {

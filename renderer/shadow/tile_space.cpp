@@ -19,10 +19,6 @@ double depthFar(const Fit& fit) {
 glm::dmat4 clipFromRelative(const TileSpace& space) {
   const Fit& fit = space.fit;
   const glm::dvec2 size = fit.texelSize * static_cast<double>(space.size);
-  const glm::dmat3 lightFromWorld = space.basis.lightFromWorld();
-  glm::dmat4 lightFromRelative(lightFromWorld);
-  lightFromRelative[3] = glm::dvec4(-(lightFromWorld * space.origin), 1.0);
-
   glm::dmat4 clipFromLight(0.0);
   clipFromLight[0][0] = 2.0 / size.x;
   clipFromLight[1][1] = 2.0 / size.y;
@@ -35,14 +31,11 @@ glm::dmat4 clipFromRelative(const TileSpace& space) {
     clipFromLight[2][2] = 1.0 / fit.depthExtent;
     clipFromLight[3] = glm::dvec4(shift, -fit.depthNear / fit.depthExtent, 1.0);
   }
-  return clipFromLight * lightFromRelative;
+  return clipFromLight * lightFromRelative(space.basis, space.origin);
 }
 
 Aabb lightSpaceBox(const TileSpace& space, const Aabb& relative) {
-  const glm::dmat3 lightFromWorld = space.basis.lightFromWorld();
-  glm::dmat4 lightFromRelative(lightFromWorld);
-  lightFromRelative[3] = glm::dvec4(-(lightFromWorld * space.origin), 1.0);
-  return transformed(lightFromRelative, relative);
+  return transformed(lightFromRelative(space.basis, space.origin), relative);
 }
 
 Aabb clipBox(const TileSpace& space, const Aabb& boxLs) {
