@@ -53,11 +53,16 @@ vec3 emissionAt(int index) {
 // Largest difference between two octahedral normals that light tells apart no more than an eye does: about 2 degrees.
 const float kNormalStep = 0.03;
 
-// Two samples of a pixel that light treats alike: normals, colors and the rest of the material within steps too small
-// to see, and half a pixel at most between their planes. Compared as they are stored; where the octahedron folds, close
-// normals may pass for different ones, which costs time and nothing else.
+// Two samples of a pixel that light treats alike: normals, colors, what they give off and the rest of the material within
+// steps too small to see, and half a pixel at most between their planes. Compared as they are stored; where the
+// octahedron folds, close normals may pass for different ones, which costs time and nothing else.
 bool alike(Sample a, Sample b) {
   if (!a.hit || !b.hit) return a.hit == b.hit;
+#ifdef EMISSION
+  vec3 glowA = emissionAt(a.index);
+  vec3 glowB = emissionAt(b.index);
+  if (any(greaterThan(abs(glowA - glowB), 0.02 * max(glowA, glowB)))) return false;
+#endif
   vec4 normals = abs(vec4(unpackSnorm2x16(a.bits.x) - unpackSnorm2x16(b.bits.x),
                           unpackSnorm2x16(a.bits.y) - unpackSnorm2x16(b.bits.y)));
   vec3 color = abs(rootColor(a.bits.z) - rootColor(b.bits.z));

@@ -94,6 +94,33 @@ TEST(Render, LambertReflectsTheShareOfTheLightThatItShould) {
   EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 0.5 * std::sqrt(0.5), 0.03);
 }
 
+TEST(Render, TheEdgeOfWhatGlowsIsAntialiased) {
+  // Two halves of one plane, alike but for what they give off; their edge crosses the picture's columns at a slant.
+  testing::GlbBuilder halves = testing::plane();
+  auto& json = halves.json;
+  const auto black = [](double emission) {
+    return Json{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
+                {"emissiveFactor", {emission, emission, emission}}};
+  };
+  json["materials"] = {black(0), black(1)};
+  auto other = json["meshes"][0];
+  json["meshes"][1] = other;
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  json["meshes"][1]["primitives"][0]["material"] = 1;
+  json["nodes"][0]["translation"] = {-1, 0, 0};
+  halves.addRoot({{"mesh", 1}, {"translation", {1, 0, 0}}});
+  const Frame frame = renderJson(testing::sceneOf(halves),
+                                 R"({"width":64,"height":64,"ambient":{"intensity":0},"toneMapping":"none",
+      "camera":{"eye":[0,8,0],"target":[0,0,0],"up":[0.1,0,-1],"orthographic":{"height":1,"near":1,"far":20}},
+      "lights":[{"type":"directional","direction":[0,-1,0],"intensity":0.0001}],"output":{"format":"exr"}})");
+  const auto& color = floatsOf(frame);
+  int between = 0;
+  for (std::size_t i = 0; i < color.size(); i += 3) between += color[i] > 0.1f && color[i] < 0.9f ? 1 : 0;
+  EXPECT_NEAR(color.front(), 0, 0.01);
+  EXPECT_NEAR(color.back(), 1, 0.01);
+  EXPECT_GE(between, 32) << "about one pixel a row";
+}
+
 TEST(Render, ACameraThatIsNotThereIsNamed) {
   const Problems problems =
       testing::refusedJson(testing::generatedScene("box_on_plane"), R"({"camera":{"node":"no such"}})");
