@@ -65,9 +65,26 @@ static_assert(spellsAll<Stabilization>());
 template <>
 inline constexpr std::array kSpellings<FilterType>{
     spelling(FilterType::hard, "hard", "one sample, a sharp edge"),
-    spelling(FilterType::pcf, "pcf", "percentage-closer filtering over `size` x `size` texels"),
+    spelling(FilterType::pcf, "pcf", "percentage-closer filtering over `size` x `size` texels, or over a disc"),
+    spelling(FilterType::vsm, "vsm", "variance shadow map, blurred"),
+    spelling(FilterType::evsm, "evsm", "exponential variance shadow map, blurred: leaks less light"),
+    spelling(FilterType::msm, "msm", "moment shadow map of four moments, blurred: leaks less light"),
 };
 static_assert(spellsAll<FilterType>());
+
+template <>
+inline constexpr std::array kSpellings<BiasMode>{
+    spelling(BiasMode::automatic, "automatic", "from the texels' size, the filter and the slope: nothing to tune"),
+    spelling(BiasMode::manual, "manual", "by `depth`, `slope` and `normalOffsetScale`"),
+};
+static_assert(spellsAll<BiasMode>());
+
+template <>
+inline constexpr std::array kSpellings<BlendedCasters>{
+    spelling(BlendedCasters::dither, "dither", "by a 4x4 pattern that lets as much light through as their alpha"),
+    spelling(BlendedCasters::threshold, "threshold", "where their alpha is at least a half"),
+};
+static_assert(spellsAll<BlendedCasters>());
 
 template <>
 inline constexpr std::array kSpellings<View>{
@@ -75,8 +92,16 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::depth, "depth", "distance along the view axis: metres in EXR, near-to-far grey in PNG"),
     spelling(View::normal, "normal", "world-space shading normal: -1..1 in EXR, 0..1 in PNG"),
     spelling(View::cascades, "cascades", "the shaded scene tinted by cascade: green, blue, purple, red"),
-    spelling(View::shadow, "shadow", "the share of the first shadow-casting light that arrives, 0..1"),
-    spelling(View::atlas, "atlas", "the shadow atlas, depth as grey, at its own size"),
+    spelling(View::shadow, "shadow", "the share of `debug.light` that arrives, 0..1"),
+    spelling(View::atlas, "atlas",
+             "the shadow atlas at its own size: grey with tiles outlined and named, or raw depth"),
+    spelling(View::tile, "tile", "the depths of one tile, `debug.tile` of `debug.light`, at its own size"),
+    spelling(View::texelGrid, "texelGrid", "the shaded scene with the texels of `debug.light` as a checkerboard"),
+    spelling(View::texelDensity, "texelDensity", "pixels that a texel of `debug.light` covers: a heat map, or numbers"),
+    spelling(View::blendWeight, "blendWeight", "share of the next cascade, 0..1"),
+    spelling(View::bias, "bias", "metres that a surface is moved for `debug.light`: a heat map, or numbers"),
+    spelling(View::casterIds, "casterIds", "the node that throws the shadow of `debug.light`: a color, or its index"),
+    spelling(View::lightContribution, "lightContribution", "the shaded scene in nothing but `debug.light`"),
 };
 static_assert(spellsAll<View>());
 

@@ -5,6 +5,7 @@
 #include "protocol/fields.h"
 #include "protocol/frame_spec.h"
 #include "protocol/light_rows.h"
+#include "protocol/node_rows.h"
 #include "protocol/ranges.h"
 #include "protocol/shadow_rows.h"
 
@@ -37,6 +38,17 @@ inline constexpr auto kRows<Output> =
 static_assert(kRowsAreComplete<Output>);
 
 template <>
+inline constexpr auto kRows<Debug> =
+    rows("Debug", "What the debug views show.",
+         field("light", &Debug::light,
+               {.says = "Index of the light; absent = the first that casts a shadow in this frame.",
+                .range = {0, kLimits.maxLights - 1.0}}),
+         field("tile", &Debug::tile,
+               {.says = "Which of its tiles the view `tile` shows: a cascade or a face.",
+                .range = {0, kLimits.maxCascades - 1.0}}));
+static_assert(kRowsAreComplete<Debug>);
+
+template <>
 inline constexpr auto kRows<FrameSpec> = rows(
     "FrameSpec", "Everything that a frame depends on besides the scene; every field may be left out.",
     field("width", &FrameSpec::width, {.says = "Width of the picture.", .unit = "pixels", .range = kFrameSideRange}),
@@ -45,9 +57,12 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("lights", &FrameSpec::lights,
           {.says = "The lights; absent = the scene's own, or one sun where it has none.",
            .maxCount = kLimits.maxLights}),
-    field("shadow", &FrameSpec::shadow, {.says = "The shadow of every directional light that has none of its own."}),
+    field("shadow", &FrameSpec::shadow, {.says = "The shadow of every light that has none of its own."}),
     field("shadowLightPolicy", &FrameSpec::shadowLightPolicy, {.says = "Which lights cast shadows."}),
-    field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every cascade's tile."}),
+    field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every tile."}),
+    field("nodes", &FrameSpec::nodes,
+          {.says = "Switches of single nodes; of two for one node the later one counts.",
+           .maxCount = kLimits.maxNodeOptions}),
     field("scene", &FrameSpec::scene,
           {.says = "Index of the glTF scene; absent = the file's default.", .range = kNodeRange}),
     field("ambient", &FrameSpec::ambient, {.says = "Even light from everywhere."}),
@@ -61,6 +76,7 @@ inline constexpr auto kRows<FrameSpec> = rows(
            .minCount = 1,
            .maxCount = kSpellings<View>.size(),
            .distinct = true}),
+    field("debug", &FrameSpec::debug, {.says = "What the debug views show."}),
     field("output", &FrameSpec::output, {.says = "The picture's file."}));
 static_assert(kRowsAreComplete<FrameSpec>);
 

@@ -26,6 +26,14 @@ struct Background {
   bool operator==(const Background&) const = default;
 };
 
+/// What the debug views show.
+struct Debug {
+  std::optional<int> light{}; ///< index into the lights; absent = the first that casts a shadow in this frame
+  int tile = 0;               ///< of that light: a cascade, or a face
+
+  bool operator==(const Debug&) const = default;
+};
+
 /// Everything that a frame depends on besides the scene. JSON keys are the members' names.
 struct FrameSpec {
   int width = 1280; ///< pixels
@@ -35,13 +43,15 @@ struct FrameSpec {
   Shadow shadow;                            ///< for every light without a shadow of its own
   ShadowLightPolicy shadowLightPolicy = ShadowLightPolicy::all;
   Atlas atlas;
-  std::optional<int> scene; ///< index of the glTF scene; absent = the file's default
+  std::vector<NodeOptions> nodes; ///< of two for one node the later one counts
+  std::optional<int> scene;       ///< index of the glTF scene; absent = the file's default
   Ambient ambient;
   Background background;
   double exposure = 0; ///< stops; light is multiplied by 2^exposure before tone mapping
   ToneMapping toneMapping = ToneMapping::aces;
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color}; ///< at least one, each once
+  Debug debug;
   Output output;
 
   bool operator==(const FrameSpec&) const = default;

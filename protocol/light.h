@@ -4,6 +4,7 @@
 #include <string>
 
 #include "protocol/camera.h"
+#include "protocol/node_options.h"
 #include "protocol/shadow_options.h"
 
 namespace gnomon {
@@ -20,15 +21,17 @@ struct Sun {
 
 struct Light {
   LightType type = LightType::directional;
-  std::optional<Vec3> direction{}; ///< where the light travels; directional and spot. Not zero
-  std::optional<Sun> sun{};        ///< directional only, instead of direction
-  std::optional<Vec3> position{};  ///< metres; spot and point
-  std::optional<double> range{};   ///< metres; spot and point; absent = infinite
-  double innerConeDegrees = 0;     ///< half angle; spot
-  double outerConeDegrees = 45;    ///< half angle; spot, > inner, < 90
-  Vec3 color{1, 1, 1};             ///< linear RGB, 0..1
-  double intensity = 3;            ///< lux (directional) or candela (spot, point)
-  std::optional<Shadow> shadow{};  ///< absent = the frame's `shadow`
+  std::optional<Vec3> direction{};           ///< where the light travels; directional and spot. Not zero
+  std::optional<Sun> sun{};                  ///< directional only, instead of direction
+  std::optional<Vec3> position{};            ///< metres; spot and point
+  std::optional<double> range{};             ///< metres; spot and point; absent = infinite
+  double innerConeDegrees = 0;               ///< half angle; spot
+  double outerConeDegrees = 45;              ///< half angle; spot, > inner, < 90
+  std::optional<Vec3> color{};               ///< linear RGB, 0..1; absent = white, or by temperatureKelvin
+  std::optional<double> temperatureKelvin{}; ///< of a black body that glows in the light's color; instead of color
+  double intensity = 3;                      ///< lux (directional) or candela (spot, point)
+  int cullingMask = kAllLayers;   ///< one bit a layer: the layers of nodes that it lights and that cast from it
+  std::optional<Shadow> shadow{}; ///< absent = the frame's `shadow`
 
   bool operator==(const Light&) const = default;
 };

@@ -42,13 +42,21 @@ inline constexpr auto kRows<Light> =
                 .range = {0, 90, false, true}}),
          field("outerConeDegrees", &Light::outerConeDegrees,
                {.says = "Half angle at which a spot ends.", .unit = "degrees", .range = {0, 90, true, true}}),
-         field("color", &Light::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+         field("color", &Light::color,
+               {.says = "Linear red, green and blue; absent = white, or by `temperatureKelvin`.", .range = kUnitRange}),
+         field("temperatureKelvin", &Light::temperatureKelvin,
+               {.says = "Temperature of a black body that glows in the light's color, instead of `color`.",
+                .unit = "kelvin",
+                .range = kTemperatureRange}),
          field("intensity", &Light::intensity,
                {.says = "Brightness: lux (directional) or candela (spot and point).",
                 .unit = "lux or candela",
                 .range = kIntensityRange}),
+         field("cullingMask", &Light::cullingMask,
+               {.says = "Layers, one bit each: the light lights nodes of these layers, and only they cast from it.",
+                .range = {0, double(kAllLayers)}}),
          field("shadow", &Light::shadow, {.says = "The light's own shadow, whole; absent = the frame's `shadow`."}))
-        .withAlternatives({"direction", "sun"});
+        .withAlternatives({"direction", "sun"}, {"color", "temperatureKelvin"});
 static_assert(kRowsAreComplete<Light>);
 
 } // namespace gnomon

@@ -11,8 +11,11 @@ struct Limits {
   int maxFrameSide = 8192;                  ///< pixels
   std::int64_t maxFramePixels = 33'554'432; ///< width x height
   int maxAtlasSide = 8192;                  ///< texels; the device may allow less
-  int maxLights = 16;                       ///< lights in one frame
+  int maxLights = 256;                      ///< lights in one frame
   int maxCascades = 8;                      ///< cascades of one light
+  int maxLayers = 16;                       ///< layers of nodes
+  int maxNodeOptions = 4096;                ///< entries of a frame's `nodes`
+  int maxReceiverGroups = 32;               ///< different pairs of layers and receiveShadow in one frame
 
   // Requests
   std::size_t maxSpecBytes = 1 << 20;     ///< a FrameSpec's JSON

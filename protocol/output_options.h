@@ -6,12 +6,19 @@ namespace gnomon {
 
 /// What a picture shows.
 enum class View {
-  color,    ///< the shaded scene
-  depth,    ///< distance along the view axis: metres in EXR, near-to-far grey in PNG
-  normal,   ///< world-space shading normal: -1..1 in EXR, 0..1 in PNG
-  cascades, ///< the shaded scene tinted by cascade: green, blue, purple, red
-  shadow,   ///< share of the first shadow-casting light that arrives, 0..1
-  atlas     ///< the shadow atlas, depth as grey, at its own size
+  color,            ///< the shaded scene
+  depth,            ///< distance along the view axis: metres in EXR, near-to-far grey in PNG
+  normal,           ///< world-space shading normal: -1..1 in EXR, 0..1 in PNG
+  cascades,         ///< the shaded scene tinted by cascade: green, blue, purple, red
+  shadow,           ///< share of debug.light that arrives, 0..1
+  atlas,            ///< the shadow atlas at its own size: grey with tiles outlined and named, or raw depth (EXR)
+  tile,             ///< depths of one tile, debug.tile of debug.light, at its own size
+  texelGrid,        ///< the shaded scene with the texels of debug.light as a checkerboard
+  texelDensity,     ///< pixels that a texel of debug.light covers, at most: heat map, or the number (EXR)
+  blendWeight,      ///< share of the next cascade, 0..1
+  bias,             ///< metres that a surface is moved for debug.light: heat map, or the number (EXR)
+  casterIds,        ///< node that throws the shadow of debug.light: a color for each, or its index (EXR), -1 = lit
+  lightContribution ///< the shaded scene in nothing but debug.light
 };
 
 enum class ImageFormat { png, exr };

@@ -11,7 +11,9 @@ enum class ShadowImportance { low, medium, high };
 enum class PartitionMode { manual, uniform, logarithmic };
 enum class DepthRangeMode { automatic, manual };
 enum class Stabilization { none, projectionSnapping, viewSnapping };
-enum class FilterType { hard, pcf };
+enum class FilterType { hard, pcf, vsm, evsm, msm };
+enum class BiasMode { automatic, manual };
+enum class BlendedCasters { dither, threshold };
 
 /// How the depth range is cut into cascades.
 struct Partition {
@@ -22,20 +24,43 @@ struct Partition {
   bool operator==(const Partition&) const = default;
 };
 
+/// A range that an earlier frame's report gave.
+struct PreviousRange {
+  double near = 0; ///< metres, view depth
+  double far = 0;  ///< metres, view depth, > near
+
+  bool operator==(const PreviousRange&) const = default;
+};
+
 /// The depths that the cascades cover.
 struct DepthRange {
   DepthRangeMode mode = DepthRangeMode::automatic; ///< automatic = the nearest and farthest surface in this frame
   std::optional<double> min{};                     ///< manual: metres from the camera's near plane, >= 0
   std::optional<double> max{};                     ///< manual: metres from the camera's near plane, > min
+  /// automatic, in a sequence: kept where this frame's surfaces lie within it and the guard; else a new one is made.
+  std::optional<PreviousRange> previous{};
+  std::optional<double> guardDistance{}; ///< metres added to both ends of `previous`; absent = 1
 
   bool operator==(const DepthRange&) const = default;
 };
 
 struct Filter {
   FilterType type = FilterType::pcf;
-  int size = 5; ///< pcf: texels across, 3, 5 or 7
+  int size = 5;                   ///< texels across, 3, 5 or 7; not for hard, nor with a radius
+  std::optional<double> radius{}; ///< metres in the world, instead of size: one softness for all tiles; not for hard
 
   bool operator==(const Filter&) const = default;
+};
+
+/// How far a receiver is moved before it is held against the map, so that no surface shadows itself.
+struct Bias {
+  BiasMode mode = BiasMode::automatic; ///< automatic = from the texels' size, the filter's reach and the slope
+  // manual, absent = 0; lengths in the world, of one meaning for all types of light:
+  std::optional<double> depth{};             ///< metres towards the light
+  std::optional<double> slope{};             ///< metres towards the light, times the tangent of normal and light
+  std::optional<double> normalOffsetScale{}; ///< times depth: metres along the surface's normal
+
+  bool operator==(const Bias&) const = default;
 };
 
 struct Shadow {
@@ -51,6 +76,8 @@ struct Shadow {
   Stabilization stabilization = Stabilization::none;
   bool blendCascades = true; ///< cross-fade over the last 20 % of each cascade
   Filter filter;
+  Bias bias;
+  BlendedCasters blendedCasters = BlendedCasters::dither;
 
   bool operator==(const Shadow&) const = default;
 };
@@ -59,6 +86,7 @@ struct Shadow {
 struct Atlas {
   int size = 4096;     ///< texels along a side at most, a power of two
   int baseSize = 1024; ///< texels along a side of a Large tile, a power of two
+  int samples = 1;     ///< depths a texel: 1 or 4
 
   bool operator==(const Atlas&) const = default;
 };

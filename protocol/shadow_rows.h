@@ -22,6 +22,15 @@ inline constexpr auto kRows<Partition> =
 static_assert(kRowsAreComplete<Partition>);
 
 template <>
+inline constexpr auto kRows<PreviousRange> =
+    rows("PreviousRange", "A range that an earlier frame's report gave.",
+         field("near", &PreviousRange::near,
+               {.says = "View depth where it begins.", .unit = "metres", .range = kPositionRange}),
+         field("far", &PreviousRange::far,
+               {.says = "View depth where it ends, more than near.", .unit = "metres", .range = kPositionRange}));
+static_assert(kRowsAreComplete<PreviousRange>);
+
+template <>
 inline constexpr auto kRows<DepthRange> = rows(
     "DepthRange", "The depths that the cascades cover.", field("mode", &DepthRange::mode, {.says = "Who decides."}),
     field("min", &DepthRange::min,
@@ -31,18 +40,45 @@ inline constexpr auto kRows<DepthRange> = rows(
     field("max", &DepthRange::max,
           {.says = "In mode manual: where shadows end, from the camera's near plane; more than min.",
            .unit = "metres",
-           .range = kLengthRange}));
+           .range = kLengthRange}),
+    field(
+        "previous", &DepthRange::previous,
+        {.says = "In mode automatic, for sequences: the `depthRange` that the report gave for this light in the frame "
+                 "before; kept, with `guardDistance` on both ends, as long as it holds what is seen."}),
+    field("guardDistance", &DepthRange::guardDistance,
+          {.says = "Added to both ends of `previous`; absent = 1.", .unit = "metres", .range = {0, 1e9}}));
 static_assert(kRowsAreComplete<DepthRange>);
 
 template <>
 inline constexpr auto kRows<Filter> =
     rows("Filter", "How the shadow map is sampled.", field("type", &Filter::type, {.says = "The kind of filter."}),
          field("size", &Filter::size,
-               {.says = "With pcf: texels across the kernel; wider is softer and slower.",
+               {.says = "Texels across the kernel; wider is softer and slower; nothing to hard, nor with a radius.",
                 .unit = "texels",
                 .range = {3, 7},
-                .choices = choices(3, 5, 7)}));
+                .choices = choices(3, 5, 7)}),
+         field("radius", &Filter::radius,
+               {.says = "Radius of the kernel in the world, instead of `size`: the same softness in every cascade; not "
+                        "with hard.",
+                .unit = "metres",
+                .range = kLengthRange}));
 static_assert(kRowsAreComplete<Filter>);
+
+template <>
+inline constexpr auto kRows<Bias> =
+    rows("Bias", "How far a surface is moved before it is held against the map, so that it doesn't shadow itself.",
+         field("mode", &Bias::mode, {.says = "Who decides."}),
+         field("depth", &Bias::depth,
+               {.says = "In mode manual: towards the light; absent = 0.", .unit = "metres", .range = kBiasRange}),
+         field("slope", &Bias::slope,
+               {.says = "In mode manual: towards the light, times the tangent of the angle between normal and light; "
+                        "absent = 0.",
+                .unit = "metres",
+                .range = kBiasRange}),
+         field("normalOffsetScale", &Bias::normalOffsetScale,
+               {.says = "In mode manual: along the surface's normal, as a multiple of `depth`; absent = 0.",
+                .range = kBiasRange}));
+static_assert(kRowsAreComplete<Bias>);
 
 template <>
 inline constexpr auto kRows<Shadow> = rows(
@@ -64,7 +100,9 @@ inline constexpr auto kRows<Shadow> = rows(
     field("stabilization", &Shadow::stabilization,
           {.says = "How shadow edges are kept from crawling when the camera moves; costs sharpness."}),
     field("blendCascades", &Shadow::blendCascades, {.says = "True = cross-fade over the last 20 % of each cascade."}),
-    field("filter", &Shadow::filter, {.says = "How the shadow map is sampled."}));
+    field("filter", &Shadow::filter, {.says = "How the shadow map is sampled."}),
+    field("bias", &Shadow::bias, {.says = "How surfaces are kept from shadowing themselves."}),
+    field("blendedCasters", &Shadow::blendedCasters, {.says = "How materials of alphaMode BLEND cast."}));
 static_assert(kRowsAreComplete<Shadow>);
 
 template <>
@@ -79,7 +117,11 @@ inline constexpr auto kRows<Atlas> =
                {.says = "Side of a tile of size Large, a power of two, at most the atlas.",
                 .unit = "texels",
                 .range = {128, kLimits.maxAtlasSide},
-                .choices = kTexelSides}));
+                .choices = kTexelSides}),
+         field("samples", &Atlas::samples,
+               {.says = "Depths in each texel, each compared by itself; 4 where the device has such textures.",
+                .range = {1, 4},
+                .choices = choices(1, 4)}));
 static_assert(kRowsAreComplete<Atlas>);
 
 } // namespace gnomon

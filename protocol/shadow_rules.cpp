@@ -62,6 +62,55 @@ void appendDepthRangeRules(const DepthRange& range, const std::string& pointer, 
   }
 }
 
+void appendPreviousRangeRules(const DepthRange& range, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  const std::string previous = pointer + "/previous";
+  if (range.guardDistance && !range.previous) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/guardDistance",
+                       .detail = "guardDistance guards a previous range; without one the range is this frame's own."},
+                      {previous}});
+  }
+  if (!range.previous) return;
+  if (range.mode == DepthRangeMode::manual) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = previous,
+                       .detail = "previous needs depthRange mode automatic.",
+                       .actual = "mode manual"},
+                      {pointer + "/mode"}});
+  }
+  if (range.previous->near >= range.previous->far) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = previous + "/far",
+                       .detail = "far must be more than near.",
+                       .limit = "more than " + numberText(range.previous->near),
+                       .actual = numberText(range.previous->far)},
+                      {previous}});
+  }
+}
+
+void appendFilterRules(const Filter& filter, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  if (filter.type != FilterType::hard || !filter.radius) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = pointer + "/radius",
+                     .detail = "A hard shadow has no radius.",
+                     .limit = "filter type pcf, vsm, evsm or msm",
+                     .actual = "hard"},
+                    {pointer + "/type"}});
+}
+
+void appendBiasRules(const Bias& bias, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  if (bias.mode == BiasMode::manual) return;
+  for (const auto& [value, name] : {std::pair(bias.depth, "depth"), std::pair(bias.slope, "slope"),
+                                    std::pair(bias.normalOffsetScale, "normalOffsetScale")}) {
+    if (!value) continue;
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/" + name,
+                       .detail = std::string(name) + " needs bias mode manual.",
+                       .actual = "mode automatic"},
+                      {pointer + "/mode"}});
+  }
+}
+
 } // namespace
 
 int tileSide(ShadowSize size, const Atlas& atlas) {
@@ -84,6 +133,9 @@ void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::stri
                        std::vector<BrokenRule>& broken) {
   appendPartitionRules(shadow, pointer, broken);
   appendDepthRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
+  appendPreviousRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
+  appendFilterRules(shadow.filter, pointer + "/filter", broken);
+  appendBiasRules(shadow.bias, pointer + "/bias", broken);
   const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
   if (side > atlas.size && atlas.baseSize <= atlas.size) {
     broken.push_back({{.code = ProblemCode::invalidValue,

@@ -21,6 +21,30 @@ void appendPixelRule(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
                     {"/width", "/height"}});
 }
 
+void appendNodeRules(const std::vector<NodeOptions>& nodes, std::vector<BrokenRule>& broken) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].node) continue;
+    const std::string pointer = "/nodes/" + std::to_string(i) + "/node";
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer,
+                       .detail = "A node's index or name is needed.",
+                       .actual = "absent"},
+                      {pointer}});
+  }
+}
+
+void appendDebugRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  if (!spec.debug.light || !spec.lights) return;
+  const int count = static_cast<int>(spec.lights->size());
+  if (*spec.debug.light < count) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = "/debug/light",
+                     .detail = "The frame has no light of that index.",
+                     .limit = count == 0 ? "no lights" : "0.." + std::to_string(count - 1),
+                     .actual = std::to_string(*spec.debug.light)},
+                    {"/lights"}});
+}
+
 } // namespace
 
 std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
@@ -38,6 +62,8 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   }
   appendShadowRules(spec.shadow, spec.atlas, "/shadow", broken);
   appendAtlasRules(spec.atlas, broken);
+  appendNodeRules(spec.nodes, broken);
+  appendDebugRules(spec, broken);
   return broken;
 }
 

@@ -20,6 +20,20 @@ std::string layerName(View view) {
       return "shadow";
     case View::atlas:
       return "atlas";
+    case View::tile:
+      return "tile";
+    case View::texelGrid:
+      return "texelGrid";
+    case View::texelDensity:
+      return "texelDensity";
+    case View::blendWeight:
+      return "blendWeight";
+    case View::bias:
+      return "bias";
+    case View::casterIds:
+      return "casterIds";
+    case View::lightContribution:
+      return "lightContribution";
   }
   return "";
 }

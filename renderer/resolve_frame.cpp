@@ -55,6 +55,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
 
   frame.spec.lights = chooseLights(spec, view, frame.warnings);
   for (Light& light : *frame.spec.lights) {
+    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
     if (!light.shadow) light.shadow = spec.shadow;
     if (!light.shadow->size) light.shadow->size = usualSize(light.type);
   }

@@ -10,10 +10,8 @@
 
 namespace gnomon {
 
-// The shader's arrays are as large as a request may ask.
-static_assert(kLimits.maxLights == GNOMON_MAX_LIGHTS);
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
-// As std140 lays them out: whole vec4s, one after the other.
+// As std140 and std430 lay them out: whole vec4s, one after the other.
 static_assert(sizeof(shared::LightData) == 5 * 16 && offsetof(shared::LightData, tiles) == 4 * 16);
 static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
@@ -94,15 +92,14 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     const glm::dvec3 direction = directionOf(light);
     out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
     if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
-    out.radiance = glm::vec4(toVector(light.color) * light.intensity, 0.0);
+    out.radiance = glm::vec4(toVector(light.color.value_or(Vec3{1, 1, 1})) * light.intensity, 0.0);
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
     data.push_back(out);
   }
-  data.resize(GNOMON_MAX_LIGHTS);
   for (const PlannedLight& planned : plan.lights) {
     shared::LightData& out = data[static_cast<std::size_t>(planned.light)];
     const Shadow& shadow = *lights[static_cast<std::size_t>(planned.light)].shadow;
-    out.tiles = {planned.tileCount, filterTexels(shadow.filter), 0, 0};
+    out.tiles = {planned.tileCount, filterTexels(shadow.filter), planned.firstTile, 0};
     out.cone.z = static_cast<float>(shadow.strength);
     out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
   }
@@ -110,13 +107,10 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
 }
 
 std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
-  std::vector<shared::TileData> data(std::size_t{GNOMON_MAX_LIGHTS} * GNOMON_LIGHT_TILES);
+  std::vector<shared::TileData> data;
   const glm::dvec2 atlas(plan.atlasWidth, plan.atlasHeight);
-  for (const PlannedLight& light : plan.lights) {
-    const auto from = plan.tiles.begin() + light.firstTile;
-    std::transform(from, from + light.tileCount, data.begin() + std::ptrdiff_t{light.light} * GNOMON_LIGHT_TILES,
-                   [&](const ShadowTile& tile) { return tileData(tile, atlas); });
-  }
+  std::transform(plan.tiles.begin(), plan.tiles.end(), std::back_inserter(data),
+                 [&](const ShadowTile& tile) { return tileData(tile, atlas); });
   return data;
 }
 

@@ -12,11 +12,10 @@ namespace gnomon {
 /// Where the light travels, unit length, from `direction` or `sun`; for a point light it means nothing.
 glm::dvec3 directionOf(const Light& light);
 
-/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles. Always GNOMON_MAX_LIGHTS:
-/// the last ones are empty.
+/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles.
 std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye);
 
-/// GNOMON_LIGHT_TILES for each light, those past its cascades empty.
+/// The plan's tiles, in its order.
 std::vector<shared::TileData> tileData(const ShadowPlan& plan);
 
 } // namespace gnomon

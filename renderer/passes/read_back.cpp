@@ -16,7 +16,7 @@ std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
     case View::depth:
     case View::atlas:
       return {encoded ? "Y" : "Z"};
-    case View::shadow:
+    default:
       return {"Y"};
   }
   return {};

@@ -21,7 +21,7 @@ const char* viewDefine(View view) {
       return "VIEW_NORMAL";
     case View::shadow:
       return "VIEW_SHADOW";
-    case View::atlas:
+    default:
       break;
   }
   return "VIEW_COLOR";

@@ -24,7 +24,7 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
   variant.lights = static_cast<int>(shading.spec.lights->size());
-  for (const shared::LightData& light : shading.lights.first(shading.spec.lights->size())) {
+  for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
     if (light.tiles.x == 0) continue;
     variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
@@ -77,8 +77,8 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
 
   bindInputs(inputs);
   const LightBuffers buffers{{std::as_bytes(shading.lights), "lights"}, {std::as_bytes(shading.tiles), "tiles"}};
-  buffers.lights.bindUniform(GNOMON_LIGHT_BUFFER);
-  buffers.tiles.bindUniform(GNOMON_TILE_BUFFER);
+  buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
   const Samplers samplers;
   bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, samplers.texels,
               GNOMON_DEPTH_UNIT);

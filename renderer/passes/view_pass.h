@@ -20,8 +20,8 @@ struct DrawnView {
 struct ViewInputs {
   const Survey& survey;
   const ShadowAtlas& atlas;
-  std::span<const shared::LightData> lights; ///< GNOMON_MAX_LIGHTS; those past the spec's are not read
-  std::span<const shared::TileData> tiles;   ///< GNOMON_LIGHT_TILES for each
+  std::span<const shared::LightData> lights; ///< the spec's
+  std::span<const shared::TileData> tiles;   ///< the plan's
   const FrameSpec& spec;                     ///< effective
 };
 

@@ -77,7 +77,7 @@ std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& 
   if (source.color.size() == 3) {
     // Colours beyond 1 become intensity, so that the light stays what it was.
     const double greatest = std::max({1.0, source.color[0], source.color[1], source.color[2]});
-    for (std::size_t i = 0; i < 3; ++i) light.color[i] = source.color[i] / greatest;
+    light.color = {source.color[0] / greatest, source.color[1] / greatest, source.color[2] / greatest};
     light.intensity *= greatest;
   }
   return placed;

@@ -1,8 +1,6 @@
 // Visibility of a light through its tiles in the shadow atlas.
-layout(std140, binding = GNOMON_LIGHT_BUFFER) uniform LightBuffer { LightData lights[GNOMON_MAX_LIGHTS]; };
-layout(std140, binding = GNOMON_TILE_BUFFER) uniform TileBuffer {
-  TileData tiles[GNOMON_MAX_LIGHTS * GNOMON_LIGHT_TILES];
-};
+layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
+layout(std430, binding = GNOMON_TILE_BUFFER) readonly buffer TileBuffer { TileData tiles[]; };
 layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DShadow atlas;
 
 struct Receiver {
@@ -86,11 +84,11 @@ struct TileChoice {
 TileChoice chooseCascade(int light, float viewDepth) {
   int last = int(lights[light].tiles.x) - 1;
   int index = 0;
-  vec3 interval = tiles[light * GNOMON_LIGHT_TILES].interval.xyz;
+  vec3 interval = tiles[lights[light].tiles.z].interval.xyz;
   for (int i = 1; i < TILE_COUNT; ++i) {
     if (i <= last && viewDepth > interval.z) {
       index = i;
-      interval = tiles[light * GNOMON_LIGHT_TILES + i].interval.xyz;
+      interval = tiles[lights[light].tiles.z + i].interval.xyz;
     }
   }
   float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
@@ -105,7 +103,7 @@ TileChoice chooseFace(int light, vec3 toLight) {
   int best = 0;
   float most = -2.0;
   for (int i = 0; i < TILE_COUNT; ++i) {
-    float along = -dot(tiles[light * GNOMON_LIGHT_TILES + i].axis.xyz, toLight);
+    float along = -dot(tiles[lights[light].tiles.z + i].axis.xyz, toLight);
     if (i < int(lights[light].tiles.x) && along > most) {
       most = along;
       best = i;
@@ -141,7 +139,7 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   float visibility = 0.0;
   for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
-    visibility += share * tileVisibility(tiles[light * GNOMON_LIGHT_TILES + i], receiver, size);
+    visibility += share * tileVisibility(tiles[lights[light].tiles.z + i], receiver, size);
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, strength);

@@ -37,7 +37,7 @@ TEST(FieldList, TellsTypeBoundsUnitAndDefault) {
   EXPECT_EQ(width.allowed, "1..8192");
   EXPECT_EQ(width.unit, "pixels");
   EXPECT_EQ(width.preset, "1280");
-  EXPECT_EQ(entryAt(entries, "shadow.filter.type").type, "hard | pcf");
+  EXPECT_EQ(entryAt(entries, "shadow.filter.type").type, "hard | pcf | vsm | evsm | msm");
   EXPECT_EQ(entryAt(entries, "shadow.filter.size").allowed, "3, 5 or 7");
   EXPECT_EQ(entryAt(entries, "camera.eye").preset, "");
   EXPECT_EQ(entryAt(entries, "camera.node").type, "whole number or string");
@@ -55,8 +55,10 @@ TEST(FieldList, TheTableHasARowForEachFieldAndFiveCellsInEach) {
     begin = end + 1;
   }
   EXPECT_EQ(rows, frameFields().size() + 2);
-  EXPECT_THAT(table,
-              testing::HasSubstr("| `shadow.filter.type` | hard \\| pcf |  | `\"pcf\"` | The kind of filter. |"));
+  EXPECT_THAT(
+      table,
+      testing::HasSubstr(
+          "| `shadow.filter.type` | hard \\| pcf \\| vsm \\| evsm \\| msm |  | `\"pcf\"` | The kind of filter. |"));
 }
 
 TEST(FieldList, TheHelpNamesEachField) {

@@ -47,7 +47,7 @@ TEST(DecodeFrameSpec, ReadsEveryField) {
   EXPECT_EQ(spec->lights->at(0).sun->azimuthDegrees, 90);
   EXPECT_EQ(spec->lights->at(0).shadow->cascadeCount, 2);
   EXPECT_EQ(spec->lights->at(1).type, LightType::spot);
-  EXPECT_EQ(spec->lights->at(1).color, (Vec3{1, 0.5, 0.25}));
+  EXPECT_EQ(*spec->lights->at(1).color, (Vec3{1, 0.5, 0.25}));
   EXPECT_EQ(spec->shadow.partition.splits, (std::vector<double>{0.1, 0.3, 1}));
   EXPECT_EQ(spec->shadow.depthRange.min, 0);
   EXPECT_EQ(spec->shadow.stabilization, Stabilization::viewSnapping);
@@ -219,8 +219,8 @@ TEST(FrameSpecJson, AbsentFieldsAreLeftOutAndKeysKeepTheirOrder) {
   EXPECT_TRUE(json["camera"].empty());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "ambient",
-                                "background", "exposure", "toneMapping", "antialiasing", "views", "output"));
+  EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "nodes", "ambient",
+                                "background", "exposure", "toneMapping", "antialiasing", "views", "debug", "output"));
 }
 
 TEST(FrameSpecJson, TheViewDirectionStandsDirectlyInTheCamera) {

@@ -67,7 +67,7 @@ TEST(JsonSchema, SaysWhatTheRowsSay) {
   EXPECT_EQ(spec["views"]["uniqueItems"], true);
   EXPECT_EQ(spec["views"]["minItems"], 1);
   EXPECT_EQ(spec["views"]["default"].dump(), R"(["color"])");
-  EXPECT_EQ(spec["lights"]["maxItems"], 16);
+  EXPECT_EQ(spec["lights"]["maxItems"], 256);
   const Json& fov = schemaNamed("Perspective")["properties"]["fovYDegrees"];
   EXPECT_EQ(fov["exclusiveMinimum"], 0);
   EXPECT_EQ(fov["exclusiveMaximum"], 180);

@@ -146,6 +146,11 @@ void mend(Shadow& shadow, const Atlas& atlas) {
     range.min.reset();
     range.max.reset();
   }
+  if (range.mode == DepthRangeMode::manual) range.previous.reset();
+  if (!range.previous) range.guardDistance.reset();
+  if (range.previous) order(range.previous->near, range.previous->far);
+  if (shadow.filter.type == FilterType::hard) shadow.filter.radius.reset();
+  if (shadow.bias.mode == BiasMode::automatic) shadow.bias = {};
   while (shadow.size && tileSide(*shadow.size, atlas) > atlas.size) {
     shadow.size = static_cast<ShadowSize>(int(*shadow.size) - 1);
   }
@@ -167,6 +172,7 @@ void mend(Light& light, const Atlas& atlas) {
     if (light.type == LightType::point) light.direction.reset();
   }
   if (light.innerConeDegrees >= light.outerConeDegrees) light.innerConeDegrees = light.outerConeDegrees / 2;
+  keepOnly(pick(0, 2), light.color, light.temperatureKelvin);
   if (light.shadow) mend(*light.shadow, atlas);
 }
 
@@ -178,10 +184,12 @@ rc::Gen<FrameSpec> anySpec() {
     if (std::int64_t{spec.width} * spec.height > kLimits.maxFramePixels) spec.height /= 4;
     spec.height = std::max(spec.height, 1);
     spec.atlas.baseSize = std::min(spec.atlas.baseSize, spec.atlas.size);
+    for (NodeOptions& node : spec.nodes) node.node = node.node.value_or(7);
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {
       for (Light& light : *spec.lights) mend(light, spec.atlas);
+      if (spec.debug.light && *spec.debug.light >= static_cast<int>(spec.lights->size())) spec.debug.light.reset();
     }
     return spec;
   });

@@ -57,7 +57,7 @@ TEST(Validate, HoldsEveryValueAgainstItsRow) {
   spec.shadow.filter.size = 6;
   spec.camera.fit = false;
   spec.camera.node = std::string("\xFF");
-  spec.lights = std::vector<Light>(17, Light{.sun = Sun{}});
+  spec.lights = std::vector<Light>(257, Light{.sun = Sun{}});
   spec.toneMapping = static_cast<ToneMapping>(7);
   EXPECT_THAT(wrongIn(spec), ElementsAre("/width", "/camera/node", "/camera/fit", "/lights", "/shadow/filter/size",
                                          "/background/color/1", "/exposure", "/toneMapping", "/views"));

@@ -32,11 +32,11 @@ using glm::vec4;
 
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
-#define GNOMON_LIGHT_BUFFER 1
-#define GNOMON_TILE_BUFFER 2
 
 // Storage buffer bindings.
 #define GNOMON_MATERIAL_BUFFER 0
+#define GNOMON_LIGHT_BUFFER 1
+#define GNOMON_TILE_BUFFER 2
 
 // Uniform locations.
 #define GNOMON_MATERIAL 0
@@ -58,8 +58,7 @@ using glm::vec4;
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
 
-// Lights of a frame and tiles of a light, at most; light i has the tiles from i * GNOMON_LIGHT_TILES on.
-#define GNOMON_MAX_LIGHTS 16
+// Tiles of a light, at most.
 #define GNOMON_LIGHT_TILES 8
 
 // LightData.type
@@ -95,7 +94,7 @@ struct LightData {
   vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
   vec4 radiance;  // rgb: colour times intensity
   vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
-  uvec4 tiles;    // tile count (cascades or faces), filter size in texels
+  uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile
 };
 
 struct TileData {

@@ -33,7 +33,7 @@ TEST(Lights, ReadsDirectionalLights) {
   expectNear(toDvec3(*placed.light.direction), {-1, 0, 0});
   EXPECT_FALSE(placed.light.position);
   EXPECT_EQ(placed.light.intensity, 5);
-  EXPECT_EQ(placed.light.color, (Vec3{1, 0.5, 0}));
+  EXPECT_EQ(*placed.light.color, (Vec3{1, 0.5, 0}));
   EXPECT_EQ(scene.summary.lights.at(0).type, "directional");
 }
 
@@ -63,7 +63,7 @@ TEST(Lights, ReadsPointLights) {
 TEST(Lights, ColorsBeyondOneBecomeIntensity) {
   const Light light =
       load(lit({{"type", "point"}, {"color", {4, 2, 0}}, {"intensity", 3}})).scenes[0].lights.at(0).light;
-  EXPECT_EQ(light.color, (Vec3{1, 0.5, 0}));
+  EXPECT_EQ(*light.color, (Vec3{1, 0.5, 0}));
   EXPECT_EQ(light.intensity, 12);
 }
 
