@@ -132,6 +132,10 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
       effective.height};
   clock.finish("upload");
 
+  if (effective.atlas.samples > info().maxSamples) {
+    return Problem{ProblemCode::invalidValue, "/atlas/samples", "the device has no depth textures of so many samples",
+                   "at most " + std::to_string(info().maxSamples), std::to_string(effective.atlas.samples)};
+  }
   const int samples = effective.antialiasing == Antialiasing::msaa4x ? 4 : 1;
   const auto survey = surveyScene(inputs, samples);
   if (!survey) return survey.problems();
@@ -152,7 +156,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   }
   clock.finish("plan");
 
-  const auto atlas = castShadows(inputs, plan);
+  const auto atlas = castShadows(inputs, plan, effective.atlas.samples);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 

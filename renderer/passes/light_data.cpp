@@ -7,12 +7,13 @@
 
 #include "protocol/limits.h"
 #include "renderer/core/vec3.h"
+#include "renderer/shadow/bias.h"
 
 namespace gnomon {
 
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // As std140 and std430 lay them out: whole vec4s, one after the other.
-static_assert(sizeof(shared::LightData) == 5 * 16 && offsetof(shared::LightData, tiles) == 4 * 16);
+static_assert(sizeof(shared::LightData) == 7 * 16 && offsetof(shared::LightData, bias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
@@ -41,7 +42,15 @@ glm::vec2 coneFalloff(const Light& light) {
 
 /// Texels a side that the shader's filter compares.
 unsigned filterTexels(const Filter& filter) {
-  return filter.type == FilterType::pcf ? static_cast<unsigned>(filter.size) : 1u;
+  return filterKind(filter) == GNOMON_FILTER_KERNEL && filter.type != FilterType::hard
+             ? static_cast<unsigned>(filter.size)
+             : 1u;
+}
+
+glm::vec4 manualBias(const Bias& bias) {
+  const auto offset = manualOffset(bias);
+  if (!offset) return glm::vec4(0.0f);
+  return {bias.depth.value_or(0.0), bias.slope.value_or(0.0), *offset, 1.0};
 }
 
 shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
@@ -63,12 +72,29 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   const double inset = std::max(tile.border - 1, 1);
   out.bounds = glm::vec4((corner + inset) / atlas, (corner + size - inset) / atlas);
   out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.space.fit.normalOffset);
-  out.bias = glm::vec4(tile.depthBias, tile.depthBiasNear, 0, 0);
+  const glm::dvec2 texel = tile.rect.width > 0 ? tile.space.fit.texelSize : glm::dvec2(1.0);
+  out.bias = glm::vec4(tile.depthBias, tile.depthBiasNear, 1.0 / (texel * atlas));
   out.axis = glm::vec4(tile.space.basis.direction, 0.0);
   return out;
 }
 
 } // namespace
+
+int filterKind(const Filter& filter) {
+  switch (filter.type) {
+    case FilterType::hard:
+      return GNOMON_FILTER_KERNEL;
+    case FilterType::pcf:
+      return filter.radius ? GNOMON_FILTER_DISC : GNOMON_FILTER_KERNEL;
+    case FilterType::vsm:
+      return GNOMON_FILTER_VSM;
+    case FilterType::evsm:
+      return GNOMON_FILTER_EVSM;
+    case FilterType::msm:
+      return GNOMON_FILTER_MSM;
+  }
+  return GNOMON_FILTER_KERNEL;
+}
 
 glm::dvec3 directionOf(const Light& light) {
   if (light.sun) {
@@ -100,6 +126,8 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     shared::LightData& out = data[static_cast<std::size_t>(planned.light)];
     const Shadow& shadow = *lights[static_cast<std::size_t>(planned.light)].shadow;
     out.tiles = {planned.tileCount, filterTexels(shadow.filter), planned.firstTile, 0};
+    out.sampling = {filterKind(shadow.filter), shadow.filter.radius.value_or(0.0), 0, 0};
+    out.bias = manualBias(shadow.bias);
     out.cone.z = static_cast<float>(shadow.strength);
     out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
   }

@@ -12,6 +12,9 @@ namespace gnomon {
 /// Where the light travels, unit length, from `direction` or `sun`; for a point light it means nothing.
 glm::dvec3 directionOf(const Light& light);
 
+/// How the shader samples the map: GNOMON_FILTER_...
+int filterKind(const Filter& filter);
+
 /// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles.
 std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye);
 

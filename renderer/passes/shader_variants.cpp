@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "renderer/shaders/shared/frame_types.h"
+
 namespace gnomon {
 namespace {
 
@@ -25,6 +27,19 @@ const char* viewDefine(View view) {
       break;
   }
   return "VIEW_COLOR";
+}
+
+void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& defines) {
+  if (shadows.kinds.empty()) {
+    defines.emplace_back("NO_SHADOWS");
+    return;
+  }
+  if (shadows.kinds.size() == 1) defines.push_back("FILTER_KIND " + std::to_string(*shadows.kinds.begin()));
+  if (shadows.texels.size() == 1) defines.push_back("FILTER_SIZE " + std::to_string(*shadows.texels.begin()));
+  if (shadows.kinds.contains(GNOMON_FILTER_DISC)) defines.emplace_back("FILTER_DISC");
+  if (*shadows.kinds.rbegin() >= GNOMON_FILTER_VSM) defines.emplace_back("FILTER_MOMENTS");
+  if (shadows.manualBias) defines.emplace_back("MANUAL_BIAS");
+  if (shadows.atlasSamples > 1) defines.push_back("ATLAS_SAMPLES " + std::to_string(shadows.atlasSamples));
 }
 
 } // namespace
@@ -79,8 +94,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   defines.push_back("LIGHT_COUNT " + std::to_string(variant.lights));
   if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
-  if (!variant.filterSize) defines.emplace_back("NO_SHADOWS");
-  if (variant.filterSize.value_or(0) > 0) defines.push_back("FILTER_SIZE " + std::to_string(*variant.filterSize));
+  addShadowDefines(variant.shadows, defines);
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <set>
 
 #include "protocol/output_options.h"
 #include "renderer/gl/program.h"
@@ -22,6 +22,14 @@ struct SurfaceVariant {
 /// Draws a material's surface.
 gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant);
 
+/// How a frame's shadows are looked up.
+struct ShadowSampling {
+  std::set<int> kinds{};   ///< GNOMON_FILTER_...; none = nothing casts a shadow
+  std::set<int> texels{};  ///< sides of the kernels that compare texels
+  bool manualBias = false; ///< of some light
+  int atlasSamples = 1;
+};
+
 /// What lighting the surfaces needs, and no more.
 struct ViewVariant {
   View view = View::color;
@@ -32,8 +40,7 @@ struct ViewVariant {
   int lights = 0;
   int tiles = 0;         ///< of the light that has most
   bool punctual = false; ///< some light is a spot or a point
-  /// Texels a side that every shadow's filter compares; 0 = they differ; absent = nothing casts a shadow.
-  std::optional<int> filterSize{};
+  ShadowSampling shadows{};
 };
 
 /// Makes a view from the surfaces.

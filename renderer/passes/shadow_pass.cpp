@@ -6,6 +6,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
+#include "renderer/passes/moments_pass.h"
 #include "renderer/passes/shader_variants.h"
 
 namespace gnomon {
@@ -24,6 +25,7 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.viewport = tile.rect;
   state.scissor = tile.rect;
   state.depth = {true, true, GL_LESS};
+  state.multisample = true;
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
   return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
     auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
@@ -34,11 +36,12 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
 
 } // namespace
 
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan) {
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
-  atlas.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight}, "shadow atlas");
+  atlas.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight, 1, samples > 1 ? samples : 0},
+                            "shadow atlas");
   auto target = gl::Framebuffer::create({{}, {&atlas.depth}}, "shadow atlas");
   if (!target) return target.problems();
 
@@ -61,6 +64,9 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
     atlas.drawCalls += batch.drawCalls;
   }
+  auto moments = blurMoments(inputs, plan, atlas.depth);
+  if (!moments) return moments.problems();
+  atlas.moments = std::move(*moments);
   return atlas;
 }
 

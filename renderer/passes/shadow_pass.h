@@ -16,10 +16,12 @@ struct TileCounts {
 /// Every light's tiles, drawn.
 struct ShadowAtlas {
   gl::Texture depth;             ///< D32F, 0 nearest the light; 1 where nothing casts. Empty for an empty plan
+  gl::Texture moments;           ///< RGBA32F, of the tiles whose filter blurs; empty where none does
   std::vector<TileCounts> tiles; ///< one a tile of the plan
   std::size_t drawCalls = 0;
 };
 
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan);
+/// `samples` depths a texel: 1 or 4.
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples);
 
 } // namespace gnomon

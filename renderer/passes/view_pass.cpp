@@ -23,13 +23,16 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
   variant.toneMapping = shading.spec.toneMapping;
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
+  variant.shadows.atlasSamples = shading.spec.atlas.samples;
   variant.lights = static_cast<int>(shading.spec.lights->size());
   for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
     if (light.tiles.x == 0) continue;
     variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
-    const int size = static_cast<int>(light.tiles.y);
-    variant.filterSize = variant.filterSize.value_or(size) == size ? size : 0;
+    const int kind = static_cast<int>(light.sampling.x);
+    variant.shadows.kinds.insert(kind);
+    if (kind == GNOMON_FILTER_KERNEL) variant.shadows.texels.insert(static_cast<int>(light.tiles.y));
+    variant.shadows.manualBias = variant.shadows.manualBias || light.bias.w > 0;
   }
   return variant;
 }
@@ -44,6 +47,7 @@ struct Samplers {
   gl::Sampler texels{{GL_NEAREST, GL_NEAREST}, "surface texels"};
   gl::Sampler compare{{GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE, GL_LEQUAL, {0, 0, 0, 0}},
                       "shadow compare"};
+  gl::Sampler blurred{{GL_LINEAR, GL_LINEAR}, "shadow moments"};
 };
 
 void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
@@ -85,6 +89,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   bindTexture(surfaces.bits, samplers.texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, samplers.texels, GNOMON_EMISSION_UNIT);
   bindTexture(shading.atlas.depth, samplers.compare, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
   for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
   }

@@ -12,9 +12,15 @@ constexpr double kSubpixel = 1.0 / 32.0;   ///< texels
 } // namespace
 
 FilterKernel kernelOf(const Filter& filter) {
-  const int size = filter.type == FilterType::pcf ? filter.size : 1;
-  const double reach = 0.5 * (size + 1);
-  return {reach, static_cast<int>(std::ceil(reach)) + 1};
+  const bool bySize = filter.type != FilterType::hard && !filter.radius;
+  const double reach = 0.5 * ((bySize ? filter.size : 1) + 1);
+  const double radius = filter.type == FilterType::hard ? 0.0 : filter.radius.value_or(0.0);
+  const bool compared = filter.type == FilterType::hard || filter.type == FilterType::pcf;
+  return {reach, static_cast<int>(std::ceil(reach)) + 1, radius, compared && radius > 0, !compared};
+}
+
+double radiusOffset(const FilterKernel& kernel) {
+  return kernel.followsPlane ? 0.0 : std::sqrt(2.0) * kernel.radius;
 }
 
 double biasReach(const FilterKernel& kernel) {
@@ -29,9 +35,14 @@ double normalOffset(double reach, const glm::dvec2& texelSize) {
   return reach * std::hypot(texelSize.x, texelSize.y);
 }
 
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize) {
-  const double c = std::min(normalOffset(reach, texelSize), 0.5);
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset) {
+  const double c = std::min(normalOffset(reach, texelSize) + radiusOffset, 0.5);
   return c / (1.0 - c);
+}
+
+std::optional<double> manualOffset(const Bias& bias) {
+  if (bias.mode == BiasMode::automatic) return std::nullopt;
+  return bias.depth.value_or(0.0) * bias.normalOffsetScale.value_or(0.0);
 }
 
 double depthRounding(double magnitude) {

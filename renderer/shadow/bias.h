@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "protocol/shadow_options.h"
 
@@ -11,13 +12,21 @@ struct FilterKernel {
   /// Texels along an axis to the farthest texel centre that gets a weight. A comparison is bilinear: it weighs centres
   /// up to 1 away. hard is one of them; pcf is `size` of them a texel apart, the outermost (size - 1) / 2 away. So it
   /// is the row's r + 0.5 with the bilinear kernel's r = size / 2: 1 (hard), 2, 3, 4 (pcf 3, 5, 7).
+  /// Moments are blurred over as many texels and looked up bilinearly: the same. With a radius a tap's own: 1.
   double reach = 1;
   /// Texels that a tile keeps on each side, so that a lookup at the edge of what it serves stays inside: the reach, the
   /// half texel between a centre and its edge, and the rest of a texel for the rounding of coordinates.
   int border = 2;
+  double radius = 0; ///< metres around the point that are read besides; 0 = none
+  /// Each tap is held against the receiver's own plane, so that the radius needs no bias.
+  bool followsPlane = false;
+  bool moments = false; ///< the map's depths are blurred, not compared one by one
 };
 
 FilterKernel kernelOf(const Filter& filter);
+
+/// Metres of normal offset that a kernel's radius needs: to the corner of the square that it blurs.
+double radiusOffset(const FilterKernel& kernel);
 
 /// The kernel's reach as the bias must cover it: a texel's depth belongs to its centre only to within the rasterizer's
 /// grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a float position finds its texel to within kTexelNoise.
@@ -41,8 +50,12 @@ double normalOffset(double reach, const glm::dvec2& texelSize);
 /// sin(angle between normal and that direction). `texelSize` is in metres a metre. Texels lie in planes across the
 /// direction, and all that lies between the light and a point on the lit side of a plane is on that side: so the
 /// argument above holds with the direction in the light's place. A moved receiver may be farther from the light by as
-/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize).
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize);
+/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize) + radiusOffset; the
+/// latter in metres a metre, too.
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset = 0);
+
+/// The metres along the normal that a manual bias asks for; none for an automatic one.
+std::optional<double> manualOffset(const Bias& bias);
 
 /// Metres along the light by which map and receiver may disagree about one surface through rounding alone.
 /// `magnitude` bounds the distance from the eye to what is drawn. z is a sum of three float products and an offset, and

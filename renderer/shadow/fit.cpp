@@ -15,13 +15,19 @@ double depthMargin(double depthLength, double normalOffset, double magnitude) {
   return normalOffset + 2.0 * depthRounding(magnitude) + 0x1p-20 * depthLength;
 }
 
+/// How far before the nearest receiver the depths of a blurred map begin: a caster farther off is flattened onto that
+/// plane, and must still stand clear of what it shades, for moments can't tell close depths apart.
+double clearance(const FitTarget& target, double depthLength, double width) {
+  return target.kernel.moments ? std::max(depthLength, 0.25 * width) : 0.0;
+}
+
 /// The normal offset N of a box of `extent` metres on `inner` texels that must have room for N on every side:
-/// N = c hypot(extent.x + 2 N, extent.y + 2 N) with c = reach / inner, solved for N.
-double offsetWithRoom(const glm::dvec2& extent, double reach, int inner) {
+/// N = c hypot(extent.x + 2 N, extent.y + 2 N) + constant with c = reach / inner, solved for N.
+double offsetWithRoom(const glm::dvec2& extent, double reach, int inner, double constant) {
   const double c2 = reach * reach / (static_cast<double>(inner) * inner);
   const double a = 1.0 - 8.0 * c2;
-  const double halfB = 2.0 * c2 * (extent.x + extent.y);
-  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y);
+  const double halfB = constant + 2.0 * c2 * (extent.x + extent.y);
+  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y) - constant * constant;
   return (halfB + std::sqrt(halfB * halfB + a * squares)) / a;
 }
 
@@ -32,14 +38,18 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   const glm::dvec3 length = receiversLs.max - receiversLs.min;
   const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finestTexel(target.reach) * inner));
 
+  const double reach = biasReach(target.kernel);
+  const glm::dvec2 read = extent + 2.0 * target.kernel.radius;
   Fit fit;
-  const double room = offsetWithRoom(extent, biasReach(target.kernel), inner);
-  fit.texelSize = (extent + 2.0 * room) / static_cast<double>(inner);
-  fit.normalOffset = normalOffset(biasReach(target.kernel), fit.texelSize);
+  fit.radius = target.kernel.radius;
+  const double room = target.manualOffset.value_or(offsetWithRoom(read, reach, inner, radiusOffset(target.kernel)));
+  fit.texelSize = (read + 2.0 * room) / static_cast<double>(inner);
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
   fit.lowest = glm::dvec2(receiversLs.center()) - fit.texelSize * (0.5 * target.tileSize);
   const double margin = depthMargin(length.z, fit.normalOffset, target.magnitude);
-  fit.depthNear = receiversLs.min.z - margin;
-  fit.depthExtent = length.z + 2.0 * margin;
+  const double clear = clearance(target, length.z, std::max(read.x, read.y));
+  fit.depthNear = receiversLs.min.z - margin - clear;
+  fit.depthExtent = length.z + 2.0 * margin + clear;
   return fit;
 }
 
@@ -47,9 +57,11 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
               const FitTarget& target) {
   const int inner = innerTexels(target);
   const double reach = biasReach(target.kernel);
-  // inner * texel >= 2 radius + 2 normal offsets + the step, of which rounding takes up to half on either side
-  const double texel =
-      std::max(2.0 * sphere.radius / (inner - snapTexels - 2.0 * std::sqrt(2.0) * reach), finestTexel(target.reach));
+  // inner * texel >= 2 radii (the sphere's and the filter's) + 2 normal offsets + the step, of which rounding takes up
+  // to half on either side
+  const double fixed = target.kernel.radius + target.manualOffset.value_or(radiusOffset(target.kernel));
+  const double texels = inner - snapTexels - (target.manualOffset ? 0.0 : 2.0 * std::sqrt(2.0) * reach);
+  const double texel = std::max(2.0 * (sphere.radius + fixed) / texels, finestTexel(target.reach));
   const double step = snapTexels * texel;
 
   const glm::dmat3 lightFromWorld = basis.lightFromWorld();
@@ -57,18 +69,20 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   const glm::dvec3 snapped = glm::round((eyeLs + lightFromWorld * sphere.center) / step) * step - eyeLs;
 
   Fit fit;
+  fit.radius = target.kernel.radius;
   fit.texelSize = glm::dvec2(texel);
-  fit.normalOffset = normalOffset(reach, fit.texelSize);
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
   fit.lowest = glm::dvec2(snapped) - fit.texelSize * (0.5 * target.tileSize);
   const double depthLength = 2.0 * sphere.radius + step;
   const double margin = depthMargin(depthLength, fit.normalOffset, target.magnitude);
-  fit.depthNear = snapped.z - 0.5 * depthLength - margin;
-  fit.depthExtent = depthLength + 2.0 * margin;
+  const double clear = clearance(target, depthLength, depthLength);
+  fit.depthNear = snapped.z - 0.5 * depthLength - margin - clear;
+  fit.depthExtent = depthLength + 2.0 * margin + clear;
   return fit;
 }
 
 Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitTarget& target) {
-  constexpr double kNearShare = 1e-3; // of the far end, at least; see SEEDS X31
+  constexpr double kNearShare = 1e-3; // of the far end, at least
   Aabb seen;                          // x, y: tangents; z: metres
   for (const Aabb& piece : receiversLs) {
     const double near = std::max(piece.min.z, kNearShare * piece.max.z);
@@ -81,12 +95,19 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   const double reach = biasReach(target.kernel);
   const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));
 
+  // What a length in metres spans, seen from the light, at the nearest receiver; a blur is one for the whole tile.
+  const auto tangent = [&](double metres) { return std::min(metres / seen.min.z, kWidestTangent); };
+  const double blurred = std::sqrt(seen.min.z * seen.max.z);
   Fit fit;
   fit.perspective = true;
+  fit.radius =
+      target.kernel.moments ? std::min(target.kernel.radius / blurred, kWidestTangent) : tangent(target.kernel.radius);
+  const double offset = target.kernel.moments ? std::sqrt(2.0) * fit.radius : 0.0;
   glm::dvec2 room(0.0);
   for (int turn = 0; turn < 16; ++turn) {
-    fit.texelSize = (extent + 2.0 * room) / static_cast<double>(inner);
-    fit.normalOffset = punctualNormalOffset(reach, fit.texelSize);
+    fit.texelSize = (extent + 2.0 * (room + fit.radius)) / static_cast<double>(inner);
+    fit.normalOffset =
+        target.manualOffset ? tangent(*target.manualOffset) : punctualNormalOffset(reach, fit.texelSize, offset);
     // Moved by N a metre, a direction's tangent changes by up to N (1 + tangent) / (1 - N).
     const double moved = std::min(fit.normalOffset, 0.5);
     room = glm::dvec2(moved * (1.0 + tanHalf) / (1.0 - moved));
@@ -94,8 +115,9 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   fit.lowest = glm::dvec2(seen.center()) - fit.texelSize * (0.5 * target.tileSize);
   const double margin = depthMargin(seen.max.z - seen.min.z, fit.normalOffset * seen.max.z, target.magnitude);
   const double far = seen.max.z + margin;
-  fit.depthNear = std::max(seen.min.z * (1.0 - std::min(fit.normalOffset, 0.5)) - 2.0 * depthRounding(target.magnitude),
-                           kNearShare * far);
+  const double near = seen.min.z * (1.0 - std::min(fit.normalOffset, 0.5)) - 2.0 * depthRounding(target.magnitude);
+  const double clear = target.kernel.moments ? std::max(0.5 * near, far - near) : 0.0;
+  fit.depthNear = std::max(near - clear, kNearShare * far);
   fit.depthExtent = far - fit.depthNear;
   return fit;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/core/aabb.h"
@@ -19,18 +20,23 @@ struct Fit {
   double depthNear = 0;     ///< metres along the light where z is 0
   double depthExtent = 0;   ///< metres from z 0 to z 1
   double normalOffset = 0;  ///< metres, or metres for each metre of distance; see bias.h
+  double radius = 0;        ///< of the filter, in lengths across: metres, or metres for each metre of distance
 };
 
 struct FitTarget {
   int tileSize = 0; ///< texels along a side, border included; at least kSmallestTile (tile_size.h)
   FilterKernel kernel;
-  double reach = 0;     ///< metres from the eye to the farthest receiver
-  double magnitude = 0; ///< metres from the eye to the farthest thing drawn, see depthRounding
+  double reach = 0;                     ///< metres from the eye to the farthest receiver
+  double magnitude = 0;                 ///< metres from the eye to the farthest thing drawn, see depthRounding
+  std::optional<double> manualOffset{}; ///< metres along the normal that were asked for, instead of the analytic ones
 };
 
-/// The tight fit: the tile without its border is the box of the receivers and room for their normal offset, each axis
-/// with its own texel size. z runs from the receiver nearest the light to the farthest, and the normal offset and the
-/// rounding beyond each; casters before z 0 must be drawn with their depth clamped.
+/// The widest radius of a filter as light from a point sees it, a tangent: nearer to the light, softness shrinks.
+inline constexpr double kWidestTangent = 0.5;
+
+/// The tight fit: the tile without its border is the box of the receivers, room for their normal offset and for the
+/// filter's radius, each axis with its own texel size. z runs from the receiver nearest the light to the farthest, and
+/// the normal offset and the rounding beyond each; casters before z 0 must be drawn with their depth clamped.
 Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
 
 /// The stable fit: the same square for every place and turn of the camera, moved over the world in steps of

@@ -111,7 +111,8 @@ ReceiverMask maskOf(const TileDraft& draft, const ShadowTile& tile, double depth
     clip.push_back(box);
   }
   const Fit& fit = tile.space.fit;
-  const glm::dvec2 reach = fit.texelSize * static_cast<double>(tile.border) + fit.normalOffset * (1.0 + draft.tanHalf);
+  const glm::dvec2 reach =
+      fit.texelSize * static_cast<double>(tile.border) + fit.radius + fit.normalOffset * (1.0 + draft.tanHalf);
   return receiverMask(clip, reach * 2.0 / (fit.texelSize * static_cast<double>(tile.space.size)));
 }
 
@@ -139,12 +140,14 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   tile.near = draft.cascade.near;
   tile.far = draft.cascade.far;
   tile.blendNear = draft.cascade.blendNear;
+  tile.filter = caster.shadow.filter;
   tile.space.basis = draft.basis;
   if (draft.receivers.empty()) return tile;
 
   FitTarget target;
   target.tileSize = light.planned.grantedTileSize;
   target.kernel = kernelOf(caster.shadow.filter);
+  target.manualOffset = manualOffset(caster.shadow.bias);
   const bool parallel = caster.type == LightType::directional;
   const Fit fit = parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, target);
 

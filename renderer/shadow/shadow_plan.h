@@ -65,6 +65,7 @@ struct ShadowTile {
   double blendNear = 0; ///< cascade: where blending to the next (or fading out) begins; = far where there is none
   Rect rect;            ///< in the atlas, border included; width 0 = no surface in view lies in it, not drawn
   int border = 0;       ///< texels kept on each side, so that no filter leaves the rectangle
+  Filter filter;        ///< of its light
   TileSpace space;
   glm::dmat4 clipFromRelative{1}; ///< of the space
   /// Added towards the light in z units: depthBias + depthBiasNear / w^2 covers the depth quantum and rounding.

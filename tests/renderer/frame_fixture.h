@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "protocol/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/glb_builder.h"
 
@@ -10,6 +11,9 @@ namespace gnomon::testing {
 
 /// One renderer for all cases of a program: a context is made once.
 Renderer& sharedRenderer();
+
+/// A shadow.filter of every kind and size, as JSON.
+const Json& everyFilter();
 
 ScenePtr sceneOf(const GlbBuilder& builder);
 ScenePtr generatedScene(const std::string& name); ///< of tests/scenes

@@ -21,7 +21,7 @@ ScenePtr tiltedPlane(double degrees) {
   return testing::sceneOf(builder);
 }
 
-std::string acneSpec(double degrees, const std::string& filter, double eyeLift, int cascades) {
+std::string acneSpec(double degrees, const Json& filter, double eyeLift, int cascades) {
   const double angle = degrees * 3.14159265358979 / 180;
   // From the lit side: along the plane's normal, leaning over by eyeLift.
   const double y = std::cos(angle) * 15 - std::sin(angle) * eyeLift;
@@ -29,8 +29,8 @@ std::string acneSpec(double degrees, const std::string& filter, double eyeLift, 
   return Json{{"width", 128},
               {"height", 128},
               {"camera", {{"eye", {1.7, y, z}}, {"target", {0, 0, 0}}, {"up", {0.1, 0, -1}}}},
-              {"lights", {{{"type", "directional"}, {"direction", {0.03, -1, 0.02}}}}},
-              {"shadow", {{"filter", Json::parse(filter)}, {"cascadeCount", cascades}, {"size", "Small"}}},
+              {"lights", {{{"type", "directional"}, {"direction", {0.03, -1, 0}}}}},
+              {"shadow", {{"filter", filter}, {"cascadeCount", cascades}, {"size", "Small"}}},
               {"antialiasing", "none"},
               {"views", {"shadow"}},
               {"output", {{"format", "exr"}}}}
@@ -38,10 +38,9 @@ std::string acneSpec(double degrees, const std::string& filter, double eyeLift, 
 }
 
 TEST(ShadowFrames, H4_NoAcneOnPlanesOfAnyTilt) {
-  for (const double degrees : {0.0, 7.0, 15.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0}) {
+  for (const double degrees : {0.0, 7.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0}) {
     const ScenePtr scene = tiltedPlane(degrees);
-    for (const char* filter : {R"({"type":"hard"})", R"({"type":"pcf","size":3})", R"({"type":"pcf","size":5})",
-                               R"({"type":"pcf","size":7})"}) {
+    for (const Json& filter : testing::everyFilter()) {
       for (const double eyeLift : {2.0, 30.0}) {
         for (const int cascades : {1, 4}) {
           const Frame frame = renderJson(scene, acneSpec(degrees, filter, eyeLift, cascades));

@@ -15,6 +15,9 @@ using glm::vec4;
 #define LIGHT_COUNT 1
 #endif
 // Tiles of the light that has most of them.
+#ifndef ATLAS_SAMPLES
+#define ATLAS_SAMPLES 1
+#endif
 #ifndef TILE_COUNT
 #define TILE_COUNT GNOMON_LIGHT_TILES
 #endif
@@ -43,6 +46,8 @@ using glm::vec4;
 #define GNOMON_LIGHT_CLIP 1
 #define GNOMON_FRAME_SIZE 1
 #define GNOMON_SAMPLE_POSITIONS 1 // as many as there are samples
+#define GNOMON_MOMENT_TILE 1
+#define GNOMON_MOMENT_BLUR 2
 
 // Texture units.
 #define GNOMON_BASE_COLOR_UNIT 0
@@ -54,6 +59,7 @@ using glm::vec4;
 #define GNOMON_DEPTH_UNIT 6
 #define GNOMON_SURFACE_UNIT 7
 #define GNOMON_EMISSION_UNIT 8
+#define GNOMON_MOMENTS_UNIT 9
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
@@ -65,6 +71,13 @@ using glm::vec4;
 #define GNOMON_DIRECTIONAL 0
 #define GNOMON_SPOT 1
 #define GNOMON_POINT 2
+
+// LightData.sampling.x
+#define GNOMON_FILTER_KERNEL 0 // comparisons over a square of texels
+#define GNOMON_FILTER_DISC 1   // comparisons over a disc of the world
+#define GNOMON_FILTER_VSM 2    // this and all that follow: moments of blurred depths
+#define GNOMON_FILTER_EVSM 3
+#define GNOMON_FILTER_MSM 4
 
 struct FrameData {
   mat4 clipFromRelative;
@@ -95,13 +108,15 @@ struct LightData {
   vec4 radiance;  // rgb: colour times intensity
   vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
   uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile
+  vec4 sampling;  // x: kind; y: radius in metres (disc)
+  vec4 bias;      // manual, metres: x towards the light; y the same times the slope; z along the normal; w: 1 = manual
 };
 
 struct TileData {
   vec4 atlasFromRelative[4]; // rows: to atlas u, v (0..1 over the atlas), depth, and what to divide them by
   vec4 bounds;               // atlas u v of the lowest and highest point that may be looked up
   vec4 interval; // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
-  vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor
+  vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor; zw: atlas u v of a length across, 1
   vec4 axis;     // xyz: where the light travels in the tile's middle
 };
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "renderer/shaders/shared/frame_types.h"
+
 namespace gnomon {
 namespace {
 
@@ -49,8 +51,10 @@ TEST(ShaderVariants, LinearPicturesAreNotToneMapped) {
 }
 
 TEST(ShaderVariants, FiltersThatDifferAreChosenInTheShader) {
-  EXPECT_THAT(viewProgram({.filterSize = 7}).defines, Contains("FILTER_SIZE 7"));
-  EXPECT_THAT(viewProgram({.filterSize = 0}).defines, Not(Contains("FILTER_SIZE 0")));
+  EXPECT_THAT(viewProgram({.shadows = {.kinds = {GNOMON_FILTER_KERNEL}, .texels = {7}}}).defines,
+              Contains("FILTER_SIZE 7"));
+  EXPECT_THAT(viewProgram({.shadows = {.kinds = {GNOMON_FILTER_KERNEL}, .texels = {1, 7}}}).defines,
+              Not(Contains(::testing::HasSubstr("FILTER_SIZE"))));
   EXPECT_THAT(viewProgram({}).defines, Contains("NO_SHADOWS"));
 }
 

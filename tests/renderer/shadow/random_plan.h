@@ -28,8 +28,8 @@ inline std::ostream& operator<<(std::ostream& out, const RandomPlan& plan) {
         << caster.direction.z << " size " << static_cast<int>(*caster.shadow.size) << " count "
         << caster.shadow.cascadeCount << " partition " << static_cast<int>(caster.shadow.partition.mode)
         << (caster.shadow.depthRange.mode == DepthRangeMode::manual ? " manual range" : " automatic range")
-        << " stabilization " << static_cast<int>(caster.shadow.stabilization) << " filter "
-        << caster.shadow.filter.size;
+        << " stabilization " << static_cast<int>(caster.shadow.stabilization) << " filter " << caster.shadow.filter.size
+        << " radius " << caster.shadow.filter.radius.value_or(0);
   }
   return out;
 }
@@ -102,7 +102,8 @@ inline Shadow randomShadow(Dice& dice) {
   }
   shadow.stabilization = static_cast<Stabilization>(dice.below(3));
   shadow.blendCascades = dice.chance(0.7);
-  shadow.filter.type = dice.chance(0.2) ? FilterType::hard : FilterType::pcf;
+  shadow.filter.type = dice.chance(0.5) ? FilterType::pcf : static_cast<FilterType>(dice.below(5));
+  if (shadow.filter.type != FilterType::hard && dice.chance(0.3)) shadow.filter.radius = dice.between(0.01, 3);
   shadow.filter.size = 3 + 2 * dice.below(3);
   return shadow;
 }

@@ -47,8 +47,9 @@ TEST(ShadowPlan, X13_AFilterNeverReadsBesideItsTileNorThePointBeforeItsDepths) {
           const glm::dvec3 at = tileCoordinates(*tile, moved);
           RC_ASSERT(isServed(*tile, moved));
           for (int axis = 0; axis < 2; ++axis) {
-            RC_ASSERT(at[axis] - reach - 0.5 >= 0);
-            RC_ASSERT(at[axis] + reach + 0.5 <= tile->rect.width);
+            const double read = reach + tile->space.fit.radius / tile->space.fit.texelSize[axis];
+            RC_ASSERT(at[axis] - read - 0.5 >= 0);
+            RC_ASSERT(at[axis] + read + 0.5 <= tile->rect.width);
           }
           RC_ASSERT(at.z - tile->depthBias > 0);
         }

@@ -1,0 +1,55 @@
+// Where a receiver lies in a light's tiles.
+layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
+layout(std430, binding = GNOMON_TILE_BUFFER) readonly buffer TileBuffer { TileData tiles[]; };
+
+struct Receiver {
+  vec3 relative;
+  vec3 normal;     // of the surface itself, not of its shading; unit length
+  float viewDepth; // metres
+};
+
+// Where in the atlas a receiver is looked up in one tile.
+struct Lookup {
+  vec3 coordinate; // atlas u v, depth less its bias
+  float divisor;   // metres from the light along the tile's axis; 1 for parallel light
+  bool inside;     // of what the tile covers; outside everything is lit
+};
+
+// The receiver, moved so that its surface doesn't shadow itself: automatically along its normal by
+// reach * sin(angle) (see renderer/shadow/bias.h), or as the light's own bias says.
+vec3 movedReceiver(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
+#ifdef MANUAL_BIAS
+  if (light.bias.w > 0.0) {
+    float cosine = clamp(dot(receiver.normal, toLight), 1e-2, 1.0);
+    float tangent = sqrt(1.0 - cosine * cosine) / cosine;
+    return receiver.relative + receiver.normal * light.bias.z + toLight * (light.bias.x + light.bias.y * tangent);
+  }
+#endif
+  float cosine = dot(receiver.normal, tile.axis.xyz);
+  float offset = tile.interval.w * sqrt(max(1.0 - cosine * cosine, 0.0));
+#ifdef PUNCTUAL
+  offset *= dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0));
+#endif
+  return receiver.relative + receiver.normal * offset;
+}
+
+Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
+  vec4 p = vec4(movedReceiver(light, tile, receiver, toLight), 1.0);
+  Lookup at;
+  at.coordinate = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p),
+                       dot(tile.atlasFromRelative[2], p));
+  at.divisor = 1.0;
+  at.inside = true;
+#ifdef PUNCTUAL
+  at.divisor = dot(tile.atlasFromRelative[3], p);
+  if (at.divisor <= 0.0) return Lookup(vec3(0.0), 1.0, false);
+  at.coordinate /= at.divisor;
+  at.coordinate.z -= tile.bias.x + tile.bias.y / (at.divisor * at.divisor);
+#else
+  at.coordinate.z -= tile.bias.x;
+#endif
+  if (any(lessThan(at.coordinate.xy, tile.bounds.xy)) || any(greaterThan(at.coordinate.xy, tile.bounds.zw))) {
+    at.inside = false;
+  }
+  return at;
+}

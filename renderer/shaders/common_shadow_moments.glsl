@@ -1,0 +1,20 @@
+// Lookups in the blurred shadow maps.
+#ifdef FILTER_MOMENTS
+#include "common_moments.glsl"
+layout(binding = GNOMON_MOMENTS_UNIT) uniform sampler2D momentAtlas;
+
+// The receiver's depth as moments are made of it.
+float momentDepth(TileData tile, Lookup at) {
+#ifdef PUNCTUAL
+  if (dot(tile.atlasFromRelative[3].xyz, tile.axis.xyz) != 0.0) {
+    float bias = (tile.bias.x * at.divisor * at.divisor + tile.bias.y) / (tile.interval.x * tile.interval.z);
+    return clamp((at.divisor - tile.interval.x) / (tile.interval.z - tile.interval.x) - bias, 0.0, 1.0);
+  }
+#endif
+  return clamp(at.coordinate.z, 0.0, 1.0);
+}
+
+float momentVisibility(vec2 coordinate, float depth, int kind) {
+  return visibilityFrom(textureLod(momentAtlas, coordinate, 0.0), depth, kind);
+}
+#endif
