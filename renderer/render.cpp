@@ -12,6 +12,7 @@
 #include "renderer/make_report.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/light_data.h"
+#include "renderer/passes/light_lists.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/read_back.h"
 #include "renderer/passes/shadow_pass.h"
@@ -144,6 +145,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye);
   const auto tiles = tileData(plan);
+  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
+                                                         : std::vector<std::uint32_t>{};
   if (!survey->receivers.range.empty()) {
     data.depthRange.x = survey->receivers.range.nearest;
     data.depthRange.y = survey->receivers.range.farthest;
@@ -160,7 +163,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 
-  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, effective});
+  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective});
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 

@@ -38,8 +38,9 @@ struct ViewVariant {
   int samples = 1;       ///< a pixel
   bool emission = false; ///< as in SurfaceVariant
   int lights = 0;
-  int tiles = 0;         ///< of the light that has most
-  bool punctual = false; ///< some light is a spot or a point
+  bool lightLists = false; ///< each square of the picture lists its own
+  int tiles = 0;           ///< of the light that has most
+  bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
 };
 

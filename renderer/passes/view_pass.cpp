@@ -25,6 +25,7 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
   variant.emission = surfaces.emission.id() != 0;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;
   variant.lights = static_cast<int>(shading.spec.lights->size());
+  variant.lightLists = !shading.lightLists.empty();
   for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
     if (light.tiles.x == 0) continue;
@@ -41,6 +42,7 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
 struct LightBuffers {
   gl::Buffer lights;
   gl::Buffer tiles;
+  gl::Buffer lists;
 };
 
 struct Samplers {
@@ -80,9 +82,12 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   gl::apply(state);
 
   bindInputs(inputs);
-  const LightBuffers buffers{{std::as_bytes(shading.lights), "lights"}, {std::as_bytes(shading.tiles), "tiles"}};
+  const LightBuffers buffers{{std::as_bytes(shading.lights), "lights"},
+                             {std::as_bytes(shading.tiles), "tiles"},
+                             {std::as_bytes(shading.lightLists), "light lists"}};
   buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
   buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
+  buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
   const Samplers samplers;
   bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, samplers.texels,
               GNOMON_DEPTH_UNIT);

@@ -22,6 +22,7 @@ struct ViewInputs {
   const ShadowAtlas& atlas;
   std::span<const shared::LightData> lights; ///< the spec's
   std::span<const shared::TileData> tiles;   ///< the plan's
+  std::span<const std::uint32_t> lightLists; ///< empty = every light is tried at every pixel
   const FrameSpec& spec;                     ///< effective
 };
 

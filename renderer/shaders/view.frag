@@ -4,13 +4,16 @@
 #include "common_brdf.glsl"
 #include "common_shadow.glsl"
 #include "common_light.glsl"
+#include "common_light_lists.glsl"
 #include "common_tone.glsl"
 
 layout(location = 0) out vec4 target;
 
 vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlusion) {
   vec3 sum = emission + frame.ambient.rgb * ambientReflectance(s) * occlusion;
-  for (int i = 0; i < LIGHT_COUNT; ++i) {
+  uvec2 list = lightList();
+  for (uint k = list.x; k < list.y; ++k) {
+    int i = listedLight(k);
     vec3 toLight;
     vec3 arriving = irradiance(lights[i], receiver.relative, toLight);
     vec3 reflected = reflectedRadiance(s, toLight) * arriving;
@@ -20,7 +23,7 @@ vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlu
 }
 
 int firstShadowed() {
-  for (int i = 0; i < LIGHT_COUNT; ++i) {
+  for (int i = 0; i < lights.length(); ++i) {
     if (lights[i].tiles.x > 0u) return i;
   }
   return -1;

@@ -40,6 +40,7 @@ using glm::vec4;
 #define GNOMON_MATERIAL_BUFFER 0
 #define GNOMON_LIGHT_BUFFER 1
 #define GNOMON_TILE_BUFFER 2
+#define GNOMON_LIGHT_LIST_BUFFER 3
 
 // Uniform locations.
 #define GNOMON_MATERIAL 0
@@ -63,6 +64,9 @@ using glm::vec4;
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
+
+// Pixels along a side of the squares of the picture that have a list of lights each; whole blocks.
+#define GNOMON_REGION_SIZE 64
 
 // Tiles of a light, at most.
 #define GNOMON_LIGHT_TILES 8
