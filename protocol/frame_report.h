@@ -23,6 +23,7 @@ struct CascadeReport {
   std::array<double, 2> texelSize{}; ///< metres across and along; of a face: at its far end
   std::uint64_t casterTriangles = 0; ///< drawn into this tile
   std::uint64_t culledTriangles = 0; ///< not drawn: they can't shadow anything that this cascade serves
+  bool reused = false;               ///< drawn for an earlier frame; nothing was drawn for this one
 };
 
 struct LightReport {

@@ -26,7 +26,9 @@ inline constexpr auto kRows<CascadeReport> = replyRows(
           {.says = "Size of a texel across and along; of a face, at its far end.", .unit = "metres"}),
     field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
     field("culledTriangles", &CascadeReport::culledTriangles,
-          {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}));
+          {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}),
+    field("reused", &CascadeReport::reused,
+          {.says = "True = an earlier frame's tile serves, and nothing was drawn into it for this one."}));
 static_assert(kRowsAreComplete<CascadeReport>);
 
 template <>

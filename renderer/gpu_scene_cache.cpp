@@ -13,6 +13,7 @@ const GpuScene& GpuSceneCache::get(const std::shared_ptr<const Scene>& scene) {
   }
   entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
   entries_.push_front({scene, uploadScene(*scene)});
+  entries_.front().gpu.id = ++uploads_;
   drop();
   return entries_.front().gpu;
 }

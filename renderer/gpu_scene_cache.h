@@ -24,6 +24,7 @@ class GpuSceneCache {
   void drop();
 
   std::size_t budgetBytes_;
+  std::uint64_t uploads_ = 0;
   std::list<Entry> entries_; ///< most recently used first
 };
 

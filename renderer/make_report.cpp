@@ -10,7 +10,8 @@ CascadeReport cascadeReport(const ShadowTile& tile, const TileCounts& counts) {
           {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height},
           {texelSize.x, texelSize.y},
           counts.casterTriangles,
-          counts.culledTriangles};
+          counts.culledTriangles,
+          counts.reused};
 }
 
 std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const ShadowAtlas& atlas) {
@@ -50,8 +51,11 @@ FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const
   report.lights = lightReports(frame.spec, plan, atlas);
   report.counts.sceneTriangles = scene.triangles;
   report.counts.surveyedTriangles = survey.triangles;
-  report.counts.drawCalls = survey.drawCalls + atlas.drawCalls;
-  for (const TileCounts& tile : atlas.tiles) report.counts.casterTriangles += tile.casterTriangles;
+  report.counts.drawCalls = survey.drawCalls;
+  for (const TileCounts& tile : atlas.tiles) {
+    report.counts.casterTriangles += tile.casterTriangles;
+    report.counts.drawCalls += tile.drawCalls;
+  }
   for (const auto& [samples, surfaces] : drawn.surfaces) {
     report.counts.shadedTriangles += surfaces.triangles;
     report.counts.drawCalls += surfaces.drawCalls;

@@ -35,6 +35,7 @@ struct Renderer::Impl {
   std::unique_ptr<gl::Context> context;
   ProgramCache programs;
   GpuSceneCache scenes;
+  TileCache tiles;
 };
 
 namespace {
@@ -62,6 +63,7 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
   input.view = frame.view;
   input.receivers = survey.receivers;
   input.sceneBounds = scene.bounds;
+  input.anchor = anchorOf(scene);
   input.atlas = frame.spec.atlas;
   input.maxTextureSize = maxTextureSize;
   input.frameWidth = frame.spec.width;
@@ -107,7 +109,8 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   auto context = gl::createContext(options.backend);
   if (!context) return context.problems();
-  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*context), {}, GpuSceneCache(options.gpuSceneBytes)}));
+  return Renderer(std::unique_ptr<Impl>(
+      new Impl{std::move(*context), {}, GpuSceneCache(options.gpuSceneBytes), TileCache(options.tileCacheBytes)}));
 }
 
 const RendererInfo& Renderer::info() const {
@@ -125,12 +128,13 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
   const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
   const SceneVertices vertices = sceneVertices(gpu, instances);
+  const SceneVertices anchored = sceneVertices(gpu, gpu.anchored[static_cast<std::size_t>(resolved->scene)]);
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{
-      *scene,          view, gpu, geometry, resolved->view, frameBuffer, vertices, impl_->programs, effective.width,
-      effective.height};
+  const PassInputs inputs{*scene,          view,     gpu,      geometry,        resolved->view,
+                          frameBuffer,     vertices, anchored, impl_->programs, effective.width,
+                          effective.height};
   clock.finish("upload");
 
   if (effective.atlas.samples > info().maxSamples) {
@@ -159,7 +163,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   }
   clock.finish("plan");
 
-  const auto atlas = castShadows(inputs, plan, effective.atlas.samples);
+  const auto atlas = castShadows(inputs, plan, effective.atlas.samples, impl_->tiles);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 

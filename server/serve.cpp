@@ -98,7 +98,7 @@ int serve(const ServeOptions& options) {
   if (!store) {
     return failed(store.problems());
   }
-  auto queue = RenderQueue::start({options.backend, options.gpuSceneBytes}, options.queueLimit);
+  auto queue = RenderQueue::start({options.backend, options.gpuSceneBytes, options.tileCacheBytes}, options.queueLimit);
   if (!queue) {
     return failed(queue.problems());
   }

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // A choice more needs a flag more, below. The page is no choice; `backend` has two flags.
-static_assert(memberCount<ServeOptions>() == 15);
+static_assert(memberCount<ServeOptions>() == 16);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
@@ -60,6 +60,8 @@ void addBytes(CLI::App& serve, const char* flag, const char* variable, std::size
 void addHowMuch(CLI::App& serve, ServeOptions& options) {
   addBytes(serve, "--gpu-scene-bytes", "GNOMON_GPU_SCENE_BYTES", options.gpuSceneBytes,
            "Uploaded scenes that the renderer keeps; units are taken: 512MB, 2GB");
+  addBytes(serve, "--tile-cache-bytes", "GNOMON_TILE_CACHE_BYTES", options.tileCacheBytes,
+           "Shadow atlases kept for later frames; 0 = every tile is drawn anew");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
            "Loaded scenes kept in memory, the least used dropped first");
   addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes, "The largest upload");

@@ -96,6 +96,13 @@ void Texture::clear(int level, TexelLayout layout, std::span<const std::byte> te
   glClearTexImage(id(), level, layout.format, layout.type, texel.data());
 }
 
+void Texture::copyFrom(const Texture& source, const Rect& rect) {
+  assert(source.shape_.format == shape_.format && source.shape_.samples == shape_.samples);
+  const GLenum target = shape_.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+  glCopyImageSubData(source.id(), target, 0, rect.x, rect.y, 0, id(), target, 0, rect.x, rect.y, 0, rect.width,
+                     rect.height, 1);
+}
+
 void Texture::generateLevels() {
   glGenerateTextureMipmap(id());
 }

@@ -49,6 +49,8 @@ class Texture {
   /// The texels of a rectangle of a level. Waits for the GPU. REQUIRES: texels has room for them.
   void read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
   void clear(int level, TexelLayout layout, std::span<const std::byte> texel);
+  /// Copies a rectangle to the same place. REQUIRES: one format, as many samples, and room in both.
+  void copyFrom(const Texture& source, const Rect& rect);
   void generateLevels();
   void bind(GLuint unit) const;
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "renderer/passes/frame_geometry.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
@@ -84,7 +85,11 @@ GpuScene uploadScene(const Scene& scene) {
   gpu.attributes = gl::Buffer(gl::bytesOf(scene.attributes), "attributes");
   gpu.indices = gl::Buffer(gl::bytesOf(scene.indices), "indices");
   gpu.welded = gl::Buffer(gl::bytesOf(scene.welded), "welded indices");
-  gpu.bytes = gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();
+  for (const SceneView& view : scene.scenes) {
+    gpu.anchored.emplace_back(gl::bytesOf(frameGeometry(scene, view, anchorOf(view)).instances), "anchored instances");
+    gpu.bytes += gpu.anchored.back().bytes();
+  }
+  gpu.bytes += gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();
 
   std::vector<shared::MaterialData> data;
   TextureUpload upload(scene, gpu);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "renderer/gl/buffer.h"
@@ -24,6 +25,7 @@ struct GpuMaterial {
 
 /// A scene's geometry and materials on the device. Made once per scene.
 struct GpuScene {
+  std::uint64_t id = 0;  ///< of the upload: no two have the same
   gl::Buffer positions;  ///< vec3
   gl::Buffer attributes; ///< VertexAttributes
   gl::Buffer indices;
@@ -32,7 +34,8 @@ struct GpuScene {
   std::vector<GpuMaterial> materials;
   std::vector<gl::Texture> textures;
   std::vector<gl::Sampler> samplers;
-  std::size_t bytes = 0; ///< of device memory, about
+  std::vector<gl::Buffer> anchored; ///< shared::InstanceData relative to anchorOf, one a glTF scene
+  std::size_t bytes = 0;            ///< of device memory, about
 };
 
 GpuScene uploadScene(const Scene& scene);

@@ -12,10 +12,6 @@
 namespace gnomon {
 namespace {
 
-bool isBlurred(const ShadowTile& tile) {
-  return tile.rect.width > 0 && filterKind(tile.filter) >= GNOMON_FILTER_VSM;
-}
-
 /// Texels to each side that the blur takes whole: (x, y).
 glm::vec2 blurOf(const ShadowTile& tile) {
   if (!tile.filter.radius) return glm::vec2(0.5f * static_cast<float>(tile.filter.size - 1));
@@ -54,30 +50,28 @@ Status blur(const PassInputs& inputs, const ShadowTile& tile, int samples, const
 
 } // namespace
 
-Result<gl::Texture> blurMoments(const PassInputs& inputs, const ShadowPlan& plan, const gl::Texture& depth) {
+bool isBlurred(const ShadowTile& tile) {
+  return tile.rect.width > 0 && filterKind(tile.filter) >= GNOMON_FILTER_VSM;
+}
+
+Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*>& tiles, AtlasTextures& atlas) {
   int side = 0;
-  for (const ShadowTile& tile : plan.tiles) {
-    if (isBlurred(tile)) side = std::max(side, tile.rect.width);
-  }
-  if (side == 0) return gl::Texture();
-  gl::Texture moments({GL_RGBA32F, depth.width(), depth.height()}, "shadow moments");
+  for (const ShadowTile* tile : tiles) side = std::max(side, tile->rect.width);
+  if (side == 0) return Done{};
   const gl::Texture rows({GL_RGBA32F, side, side}, "blurred rows");
-  auto target = gl::Framebuffer::create({{{&moments}}, {}}, "shadow moments");
+  auto target = gl::Framebuffer::create({{{&atlas.moments}}, {}}, "shadow moments");
   if (!target) return target.problems();
   auto between = gl::Framebuffer::create({{{&rows}}, {}}, "blurred rows");
   if (!between) return between.problems();
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "moment texels");
   texels.bind(0);
-  for (const ShadowTile& tile : plan.tiles) {
-    if (!isBlurred(tile)) continue;
-    const Rect alone{0, 0, tile.rect.width, tile.rect.height};
-    const int samples = std::max(1, depth.shape().samples);
-    if (const Status along = blur(inputs, tile, samples, {true, depth, *between, alone}); !along) {
-      return along.problems();
-    }
-    if (const Status up = blur(inputs, tile, samples, {false, rows, *target, tile.rect}); !up) return up.problems();
+  const int samples = std::max(1, atlas.depth.shape().samples);
+  for (const ShadowTile* tile : tiles) {
+    const Rect alone{0, 0, tile->rect.width, tile->rect.height};
+    if (const Status along = blur(inputs, *tile, samples, {true, atlas.depth, *between, alone}); !along) return along;
+    if (const Status up = blur(inputs, *tile, samples, {false, rows, *target, tile->rect}); !up) return up;
   }
-  return moments;
+  return Done{};
 }
 
 } // namespace gnomon

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "protocol/result.h"
-#include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/tile_cache.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
 
-/// The moments of the depths of every tile whose filter blurs, at the tile's own place; RGBA32F. Empty where no tile
-/// does. No blur reads beside its tile.
-Result<gl::Texture> blurMoments(const PassInputs& inputs, const ShadowPlan& plan, const gl::Texture& depth);
+/// True for a tile that has texels and whose filter looks up moments.
+bool isBlurred(const ShadowTile& tile);
+
+/// Makes the moments of the depths of these tiles, each at its own place. No blur reads beside its tile.
+Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*>& tiles, AtlasTextures& atlas);
 
 } // namespace gnomon

@@ -7,8 +7,8 @@ void bindInputs(const PassInputs& inputs) {
   inputs.gpu.materialData.bindStorage(GNOMON_MATERIAL_BUFFER);
 }
 
-Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, gl::PipelineState state,
-                  const GroupProgram& programOf) {
+Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const DrawBatch& batch,
+                  gl::PipelineState state, const GroupProgram& programOf) {
   for (const DrawGroup& group : batch.groups) {
     const Material* material =
         group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
@@ -18,7 +18,7 @@ Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, gl::Pipeline
     state.cull = group.cull;
     state.frontFace = group.frontFace;
     gl::apply(state);
-    drawGroup(batch, group, inputs.vertices, **program);
+    drawGroup(batch, group, vertices, **program);
   }
   return Done{};
 }

@@ -21,6 +21,7 @@ struct PassInputs {
   const CameraView& camera;
   const gl::Buffer& frame;       ///< shared::FrameData
   const SceneVertices& vertices; ///< of the scene and of geometry's instances
+  const SceneVertices& anchored; ///< the same, its instances relative to anchorOf(view) instead of the eye
   ProgramCache& programs;
   int width = 0; ///< of the frame, pixels
   int height = 0;
@@ -33,7 +34,7 @@ void bindInputs(const PassInputs& inputs);
 using GroupProgram = std::function<Result<const gl::Program*>(const DrawGroup& group, const Material* material)>;
 
 /// Draws every group of a batch, its material bound, with the group's own facing and `state` for the rest.
-Status drawGroups(const PassInputs& inputs, const DrawBatch& batch, gl::PipelineState state,
-                  const GroupProgram& programOf);
+Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const DrawBatch& batch,
+                  gl::PipelineState state, const GroupProgram& programOf);
 
 } // namespace gnomon

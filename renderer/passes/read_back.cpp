@@ -60,12 +60,13 @@ Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
 }
 
 Image readAtlas(const ShadowAtlas& atlas, bool encoded) {
-  Image image{atlas.depth.width(), atlas.depth.height(), channelsOf(View::atlas, encoded, true), {}};
+  Image image{
+      atlas.textures->depth.width(), atlas.textures->depth.height(), channelsOf(View::atlas, encoded, true), {}};
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   std::vector<float> depths(width * height);
-  atlas.depth.read(0, {0, 0, image.width, image.height}, {GL_DEPTH_COMPONENT, GL_FLOAT},
-                   std::as_writable_bytes(std::span(depths)));
+  atlas.textures->depth.read(0, {0, 0, image.width, image.height}, {GL_DEPTH_COMPONENT, GL_FLOAT},
+                             std::as_writable_bytes(std::span(depths)));
   std::vector<float> turned(depths.size());
   for (std::size_t y = 0; y < height; ++y) {
     std::copy_n(depths.data() + (height - 1 - y) * width, width, turned.data() + y * width);

@@ -12,11 +12,55 @@
 namespace gnomon {
 namespace {
 
+/// A tile that has texels, and what goes into it.
+struct TileContent {
+  std::size_t index = 0; ///< into the plan's tiles
+  DrawUse use = DrawUse::cast;
+  std::vector<std::uint8_t> casters; ///< one a slot
+  TileKey key;
+};
+
 std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry& geometry) {
   std::vector<std::uint8_t> keep(geometry.slotCount());
   std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), keep.begin(),
                  [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
   return keep;
+}
+
+template <class T>
+void append(TileKey& key, const T& value) {
+  const auto bytes = gl::bytesOfValue(value);
+  key.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+/// The place counts: rasterizing elsewhere may round otherwise.
+TileKey keyOf(const PassInputs& inputs, const ShadowTile& tile, const TileContent& content, int samples) {
+  TileKey key;
+  append(key, inputs.gpu.id);
+  append(key, &inputs.view - inputs.scene.scenes.data());
+  append(key, glm::mat4(tile.clipFromAnchored));
+  append(key, tile.rect);
+  append(key, samples);
+  append(key, content.use);
+  append(key, tile.filter.type);
+  append(key, tile.filter.size);
+  append(key, tile.space.fit.radius);
+  append(key, glm::vec2(tile.near, tile.far)); // moments are of depths between these
+  key.append(content.casters.begin(), content.casters.end());
+  return key;
+}
+
+std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
+  std::vector<TileContent> contents;
+  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+    const ShadowTile& tile = plan.tiles[i];
+    if (tile.rect.width <= 0) continue;
+    TileContent content{
+        i, tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast, castersOf(tile, inputs.geometry), {}};
+    content.key = keyOf(inputs, tile, content, samples);
+    contents.push_back(std::move(content));
+  }
+  return contents;
 }
 
 Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
@@ -27,46 +71,80 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.depth = {true, true, GL_LESS};
   state.multisample = true;
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
-  return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
+  return drawGroups(inputs, inputs.anchored, batch, state, [&](const DrawGroup&, const Material* masked) {
     auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
-    if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
+    if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromAnchored));
     return program;
   });
 }
 
+Result<TileCounts> castTile(const PassInputs& inputs, const ShadowTile& tile, const TileContent& content,
+                            GLuint framebuffer) {
+  const DrawBatch batch =
+      uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, content.use, content.casters));
+  if (const Status drawn = drawTile(inputs, tile, batch, framebuffer); !drawn) return drawn.problems();
+  gl::submit(); // a software driver fills this tile while the next one is prepared
+  return TileCounts{batch.triangles, inputs.view.triangles - batch.triangles, batch.drawCalls, false};
+}
+
+/// An empty atlas of the plan's size; a framebuffer over it is to be cleared.
+AtlasTextures emptyAtlas(const ShadowPlan& plan, int samples) {
+  AtlasTextures textures;
+  textures.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight, 1, samples > 1 ? samples : 0},
+                               "shadow atlas");
+  const bool blurs = std::any_of(plan.tiles.begin(), plan.tiles.end(), isBlurred);
+  if (blurs) textures.moments = gl::Texture({GL_RGBA32F, plan.atlasWidth, plan.atlasHeight}, "shadow moments");
+  return textures;
+}
+
+void clearDepths(const gl::Texture& depth, gl::Framebuffer& target) {
+  gl::PipelineState whole;
+  whole.framebuffer = target.id();
+  whole.viewport = {0, 0, depth.width(), depth.height()};
+  whole.depth = {true, true, GL_LESS};
+  gl::apply(whole);
+  target.clearDepth(1.0f);
+}
+
 } // namespace
 
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples, TileCache& cache) {
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
-  atlas.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight, 1, samples > 1 ? samples : 0},
-                            "shadow atlas");
-  auto target = gl::Framebuffer::create({{}, {&atlas.depth}}, "shadow atlas");
-  if (!target) return target.problems();
+  const std::vector<TileContent> contents = contentsOf(inputs, plan, samples);
+  std::vector<TileKey> keys;
+  for (const TileContent& content : contents) keys.push_back(content.key);
 
-  gl::PipelineState whole;
-  whole.framebuffer = target->id();
-  whole.viewport = {0, 0, plan.atlasWidth, plan.atlasHeight};
-  whole.depth = {true, true, GL_LESS};
-  gl::apply(whole);
-  target->clearDepth(1.0f);
-
-  bindInputs(inputs);
-  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
-    const ShadowTile& tile = plan.tiles[i];
-    if (tile.rect.width == 0) continue;
-    const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
-    const DrawBatch batch =
-        uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
-    if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
-    gl::submit(); // a software driver fills this tile while the next one is prepared
-    atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
-    atlas.drawCalls += batch.drawCalls;
+  if (auto same = cache.findAll(keys);
+      same && same->depth.width() == plan.atlasWidth && same->depth.height() == plan.atlasHeight) {
+    for (const TileContent& content : contents) atlas.tiles[content.index].reused = true;
+    atlas.textures = std::move(same);
+    return atlas;
   }
-  auto moments = blurMoments(inputs, plan, atlas.depth);
-  if (!moments) return moments.problems();
-  atlas.moments = std::move(*moments);
+
+  auto textures = std::make_shared<AtlasTextures>(emptyAtlas(plan, samples));
+  auto target = gl::Framebuffer::create({{}, {&textures->depth}}, "shadow atlas");
+  if (!target) return target.problems();
+  clearDepths(textures->depth, *target);
+  bindInputs(inputs);
+  std::vector<const ShadowTile*> toBlur;
+  for (const TileContent& content : contents) {
+    const ShadowTile& tile = plan.tiles[content.index];
+    if (const auto drawn = cache.find(content.key)) {
+      textures->depth.copyFrom(drawn->depth, tile.rect);
+      if (isBlurred(tile)) textures->moments.copyFrom(drawn->moments, tile.rect);
+      atlas.tiles[content.index].reused = true;
+      continue;
+    }
+    const auto counts = castTile(inputs, tile, content, target->id());
+    if (!counts) return counts.problems();
+    atlas.tiles[content.index] = *counts;
+    if (isBlurred(tile)) toBlur.push_back(&tile);
+  }
+  if (const Status blurred = blurMoments(inputs, toBlur, *textures); !blurred) return blurred.problems();
+  cache.keep(std::move(keys), textures);
+  atlas.textures = std::move(textures);
   return atlas;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "protocol/result.h"
-#include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/tile_cache.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
@@ -11,17 +11,17 @@ namespace gnomon {
 struct TileCounts {
   std::uint64_t casterTriangles = 0;
   std::uint64_t culledTriangles = 0;
+  std::size_t drawCalls = 0;
+  bool reused = false; ///< an earlier frame's tile serves; nothing was drawn
 };
 
 /// Every light's tiles, drawn.
 struct ShadowAtlas {
-  gl::Texture depth;             ///< D32F, 0 nearest the light; 1 where nothing casts. Empty for an empty plan
-  gl::Texture moments;           ///< RGBA32F, of the tiles whose filter blurs; empty where none does
-  std::vector<TileCounts> tiles; ///< one a tile of the plan
-  std::size_t drawCalls = 0;
+  std::shared_ptr<const AtlasTextures> textures = std::make_shared<AtlasTextures>(); ///< without any for an empty plan
+  std::vector<TileCounts> tiles;                                                     ///< one a tile of the plan
 };
 
-/// `samples` depths a texel: 1 or 4.
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples);
+/// `samples` depths a texel: 1 or 4. Tiles that the cache has are taken from it, and the cache keeps the new ones.
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples, TileCache& cache);
 
 } // namespace gnomon

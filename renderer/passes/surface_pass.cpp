@@ -50,9 +50,10 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   gl::apply(state);
   if (!reuse) target->clearDepth(0.0f);
   bindInputs(inputs);
-  const Status drawn = drawGroups(inputs, batch, state, [&](const DrawGroup& group, const Material* material) {
-    return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission}));
-  });
+  const Status drawn =
+      drawGroups(inputs, inputs.vertices, batch, state, [&](const DrawGroup& group, const Material* material) {
+        return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission}));
+      });
   if (!drawn) return drawn.problems();
   return surfaces;
 }

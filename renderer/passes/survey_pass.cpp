@@ -34,7 +34,7 @@ Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep
   state.depth = {true, true, GL_GREATER};
   state.multisample = survey.samples > 1;
   bindInputs(inputs);
-  return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
+  return drawGroups(inputs, inputs.vertices, batch, state, [&](const DrawGroup&, const Material* masked) {
     return inputs.programs.get(depthProgram("survey.vert", masked));
   });
 }

@@ -93,8 +93,8 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
               GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, samplers.texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, samplers.texels, GNOMON_EMISSION_UNIT);
-  bindTexture(shading.atlas.depth, samplers.compare, GNOMON_ATLAS_UNIT);
-  bindTexture(shading.atlas.moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
+  bindTexture(shading.atlas.textures->depth, samplers.compare, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.textures->moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
   for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
   }

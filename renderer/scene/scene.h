@@ -104,6 +104,11 @@ struct SceneView {
   std::uint64_t triangles = 0;
 };
 
+/// The point that what casts is placed by on the device: it stands still while cameras move.
+inline glm::dvec3 anchorOf(const SceneView& view) {
+  return view.bounds.empty() ? glm::dvec3(0.0) : view.bounds.center();
+}
+
 /// A loaded glTF file: immutable, shared between threads. At least one scene.
 struct Scene {
   std::vector<glm::vec3> positions;         ///< of all primitives

@@ -7,7 +7,8 @@ layout(binding = GNOMON_MOMENTS_UNIT) uniform sampler2D momentAtlas;
 float momentDepth(TileData tile, Lookup at) {
 #ifdef PUNCTUAL
   if (dot(tile.atlasFromRelative[3].xyz, tile.axis.xyz) != 0.0) {
-    float bias = (tile.bias.x * at.divisor * at.divisor + tile.bias.y) / (tile.interval.x * tile.interval.z);
+    // Depths of the map, made linear, are no finer than this.
+    float bias = (3.0 * tile.bias.x * at.divisor * at.divisor + tile.bias.y) / (tile.interval.x * tile.interval.z);
     return clamp((at.divisor - tile.interval.x) / (tile.interval.z - tile.interval.x) - bias, 0.0, 1.0);
   }
 #endif

@@ -2,9 +2,9 @@
 #include "common_transform.glsl"
 #include "common_mask_vertex.glsl"
 
-layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromRelative;
+layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromAnchored;
 
 void main() {
-  gl_Position = clipFromRelative * vec4(relativeFromLocal(position), 1.0);
+  gl_Position = clipFromAnchored * vec4(relativeFromLocal(position), 1.0);
   passMask();
 }

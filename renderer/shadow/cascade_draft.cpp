@@ -38,7 +38,10 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
     TileDraft tile;
     tile.cascade = cascade;
     tile.basis = draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascade);
+    tile.origin = input.anchor - input.view.eye;
     tile.receivers = receiverPieces(input.view, input.receivers, tile.basis, cascade);
+    const glm::dvec3 fromOrigin = tile.basis.lightFromWorld() * -tile.origin;
+    for (Aabb& piece : tile.receivers) piece = {piece.min + fromOrigin, piece.max + fromOrigin};
     draft.tiles.push_back(std::move(tile));
   }
   if (shadow.stabilization != Stabilization::none && !draft.stable) {

@@ -18,9 +18,22 @@ bool mayLieIn(const Aabb& box, double tanHalf) {
   return box.max.z > 0 && box.min.x <= reach && box.max.x >= -reach && box.min.y <= reach && box.max.y >= -reach;
 }
 
+/// All that a face can serve: its pyramid as far as the light or the scene reaches, whatever the camera sees of it.
+Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDraft& tile) {
+  constexpr double kRoom = 2; // surfaces are seen as boxes, which reach beyond the scene
+  const Aabb scene{input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
+  double far = kRoom * transformed(lightFromRelative(tile.basis, anchoredOrigin(input, tile)), scene).max.z;
+  for (const Aabb& piece : tile.receivers) far = std::max(far, piece.max.z);
+  if (caster.range > 0) far = std::min(caster.range, far);
+  const double side = tile.tanHalf * far;
+  return {glm::dvec3(-side, -side, 0), glm::dvec3(side, side, far)};
+}
+
 } // namespace
 
-void draftFaces(const ShadowCaster& caster, const std::vector<Aabb>& pieces, LightDraft& draft) {
+void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces,
+                LightDraft& draft) {
+  draft.stable = caster.shadow.stabilization != Stabilization::none;
   std::vector<Aabb> reached;
   const double range = caster.range > 0 ? caster.range : HUGE_VAL;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
@@ -38,6 +51,7 @@ void draftFaces(const ShadowCaster& caster, const std::vector<Aabb>& pieces, Lig
       box.min.z = std::min(box.min.z, box.max.z);
       tile.receivers.push_back(box);
     }
+    if (draft.stable && !tile.receivers.empty()) tile.receivers = {wholeFace(caster, input, tile)};
     draft.tiles.push_back(std::move(tile));
   }
   const bool any = std::any_of(draft.tiles.begin(), draft.tiles.end(),

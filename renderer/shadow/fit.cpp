@@ -64,9 +64,7 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   const double texel = std::max(2.0 * (sphere.radius + fixed) / texels, finestTexel(target.reach));
   const double step = snapTexels * texel;
 
-  const glm::dmat3 lightFromWorld = basis.lightFromWorld();
-  const glm::dvec3 eyeLs = lightFromWorld * eye;
-  const glm::dvec3 snapped = glm::round((eyeLs + lightFromWorld * sphere.center) / step) * step - eyeLs;
+  const glm::dvec3 snapped = glm::round(basis.lightFromWorld() * (eye + sphere.center) / step) * step;
 
   Fit fit;
   fit.radius = target.kernel.radius;

@@ -40,7 +40,8 @@ inline constexpr double kWidestTangent = 0.5;
 Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
 
 /// The stable fit: the same square for every place and turn of the camera, moved over the world in steps of
-/// `snapTexels` whole texels. `eye` is the eye's place in the world; the steps are counted from the world's origin.
+/// `snapTexels` whole texels, counted from light space's origin. `eye` is the eye's place relative to that. Equal steps
+/// give equal fits, to the bit.
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target);
 

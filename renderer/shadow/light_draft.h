@@ -19,10 +19,14 @@ struct TileDraft {
 
 /// What is decided about a light before the atlas is shared out.
 struct LightDraft {
-  bool stable = false;
+  bool stable = false;          ///< fitted to the light and the lens alone: the same however the camera moves
   std::vector<TileDraft> tiles; ///< empty = no shadow is drawn
   PlannedLight planned;
 };
+
+/// The origin of light space relative to the plan's anchor, free of the rounding that the eye's place brings: equal
+/// lights have equal origins, to the bit, whatever camera sees them.
+glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile);
 
 void addNote(PlannedLight& light, const std::string& note);
 
@@ -30,6 +34,7 @@ void addNote(PlannedLight& light, const std::string& note);
 void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraft& draft);
 
 /// A spot or point light's faces. `pieces`: what the camera sees, as boxes along the world's axes, relative to the eye.
-void draftFaces(const ShadowCaster& caster, const std::vector<Aabb>& pieces, LightDraft& draft);
+/// Where the light's shadow is to be stabilized, a face serves all of its pyramid and not what is seen alone.
+void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces, LightDraft& draft);
 
 } // namespace gnomon

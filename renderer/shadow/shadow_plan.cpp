@@ -17,6 +17,11 @@
 
 namespace gnomon {
 
+glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile) {
+  constexpr double kStep = 0x1p-32; // metres: far above the rounding of differences, far below anything seen
+  return glm::round((tile.origin + (input.view.eye - input.anchor)) / kStep) * kStep;
+}
+
 void addNote(PlannedLight& light, const std::string& note) {
   if (!light.note.empty()) light.note += "; ";
   light.note += note;
@@ -62,7 +67,7 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
   } else if (caster.type == LightType::directional) {
     draftCascades(caster, input, draft);
   } else {
-    draftFaces(caster, pieces, draft);
+    draftFaces(caster, input, pieces, draft);
   }
   return draft;
 }
@@ -101,8 +106,10 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
   }
 }
 
-/// What the filter reads around the receivers, once they are moved along their normals.
-ReceiverMask maskOf(const TileDraft& draft, const ShadowTile& tile, double depthSlack) {
+/// What the filter reads around the receivers, once they are moved along their normals; all of a stable tile, so that
+/// it holds for other cameras, too.
+ReceiverMask maskOf(const TileDraft& draft, const LightDraft& light, const ShadowTile& tile, double depthSlack) {
+  if (light.stable) return receiverMask({{glm::dvec3(-1, -1, 0), glm::dvec3(1)}}, glm::dvec2(0.0));
   std::vector<Aabb> clip;
   clip.reserve(draft.receivers.size());
   for (const Aabb& piece : draft.receivers) {
@@ -116,21 +123,33 @@ ReceiverMask maskOf(const TileDraft& draft, const ShadowTile& tile, double depth
   return receiverMask(clip, reach * 2.0 / (fit.texelSize * static_cast<double>(tile.space.size)));
 }
 
+/// An orthographic depth buffer rounds by a share of its whole length, not of the depth. What this adds to the
+/// magnitude of which depthRounding is a share: two steps of 2^-24.
+double orthographicReach(const CameraView& view) {
+  return view.perspective ? 0.0 : 0.1 * (view.far - view.near);
+}
+
 Fit cascadeFit(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster, const PlanInput& input,
                FitTarget& target) {
   const DepthInterval depths{draft.cascade.near - depthSlack(input.view, draft.cascade.near),
                              draft.cascade.far + depthSlack(input.view, draft.cascade.far)};
   // No term of these moves with the camera, so that a stable fit keeps its extents.
   target.reach = sliceReach(input.view, depths);
-  target.magnitude = target.reach + glm::length(input.sceneBounds.max - input.sceneBounds.min);
+  target.magnitude =
+      target.reach + glm::length(input.sceneBounds.max - input.sceneBounds.min) + orthographicReach(input.view);
   const int snapTexels = caster.shadow.stabilization == Stabilization::viewSnapping ? 4 : 1;
-  return light.stable ? stableFit(sliceSphere(input.view, depths), draft.basis, input.view.eye, snapTexels, target)
+  return light.stable ? stableFit(sliceSphere(input.view, depths), draft.basis, input.view.eye - input.anchor,
+                                  snapTexels, target)
                       : tightFit(boxAround(draft.receivers), target);
 }
 
-Fit faceFit(const TileDraft& draft, FitTarget& target) {
+Fit faceFit(const TileDraft& draft, const LightDraft& light, const PlanInput& input, FitTarget& target) {
   const double reach = boxAround(draft.receivers).max.z;
-  target.magnitude = glm::length(draft.origin) + reach * (1.0 + std::sqrt(2.0) * draft.tanHalf);
+  const double fromAnchor = glm::length(anchoredOrigin(input, draft));
+  const double fromEye = light.stable ? glm::length(input.sceneBounds.max - input.sceneBounds.min)
+                                      : glm::length(draft.origin); // a stable fit knows no eye
+  target.magnitude =
+      std::max(fromEye, fromAnchor) + reach * (1.0 + std::sqrt(2.0) * draft.tanHalf) + orthographicReach(input.view);
   return punctualFit(draft.receivers, draft.tanHalf, target);
 }
 
@@ -149,22 +168,24 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   target.kernel = kernelOf(caster.shadow.filter);
   target.manualOffset = manualOffset(caster.shadow.bias);
   const bool parallel = caster.type == LightType::directional;
-  const Fit fit = parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, target);
+  const Fit fit = parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, light, input, target);
 
   tile.rect.width = tile.rect.height = target.tileSize;
   tile.border = target.kernel.border;
-  tile.space = {draft.basis, draft.origin, fit, target.tileSize};
-  tile.clipFromRelative = clipFromRelative(tile.space);
+  const glm::dvec3 anchored = anchoredOrigin(input, draft);
+  tile.space = {draft.basis, anchored - (input.view.eye - input.anchor), fit, target.tileSize};
+  tile.clipFromRelative = clipFromLight(tile.space) * lightFromRelative(draft.basis, tile.space.origin);
+  tile.clipFromAnchored = clipFromLight(tile.space) * lightFromRelative(draft.basis, anchored);
   if (parallel) {
     tile.depthBias = depthBias(target.magnitude, fit.depthExtent);
-    tile.receivers = maskOf(draft, tile, 2.0 * tile.depthBias);
+    tile.receivers = maskOf(draft, light, tile, 2.0 * tile.depthBias);
     return tile;
   }
   tile.near = fit.depthNear;
   tile.far = tile.blendNear = fit.depthNear + fit.depthExtent;
   tile.depthBias = punctualDepthQuantum();
   tile.depthBiasNear = depthRounding(target.magnitude) * tile.near * tile.far / fit.depthExtent;
-  tile.receivers = maskOf(draft, tile, 2.0 * (tile.depthBias + tile.depthBiasNear / (tile.near * tile.near)));
+  tile.receivers = maskOf(draft, light, tile, 2.0 * (tile.depthBias + tile.depthBiasNear / (tile.near * tile.near)));
   return tile;
 }
 

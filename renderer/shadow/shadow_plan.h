@@ -48,7 +48,8 @@ struct ShadowCaster {
 struct PlanInput {
   CameraView view;
   ReceiverDepths receivers;
-  Aabb sceneBounds; ///< of all casters, in the world
+  Aabb sceneBounds;     ///< of all casters, in the world
+  glm::dvec3 anchor{0}; ///< in the world: casters are placed by it, whatever the camera
   std::vector<ShadowCaster> casters;
   Atlas atlas;
   int maxTextureSize = 16384; ///< of the device
@@ -68,6 +69,7 @@ struct ShadowTile {
   Filter filter;        ///< of its light
   TileSpace space;
   glm::dmat4 clipFromRelative{1}; ///< of the space
+  glm::dmat4 clipFromAnchored{1}; ///< the same from positions relative to the plan's anchor
   /// Added towards the light in z units: depthBias + depthBiasNear / w^2 covers the depth quantum and rounding.
   double depthBias = 0;
   double depthBiasNear = 0; ///< 0 for parallel light, whose w is 1

@@ -16,22 +16,22 @@ double depthFar(const Fit& fit) {
 
 } // namespace
 
-glm::dmat4 clipFromRelative(const TileSpace& space) {
+glm::dmat4 clipFromLight(const TileSpace& space) {
   const Fit& fit = space.fit;
   const glm::dvec2 size = fit.texelSize * static_cast<double>(space.size);
-  glm::dmat4 clipFromLight(0.0);
-  clipFromLight[0][0] = 2.0 / size.x;
-  clipFromLight[1][1] = 2.0 / size.y;
-  const glm::dvec2 shift = -2.0 * fit.lowest / size - 1.0;
+  glm::dmat4 clip(0.0);
+  clip[0][0] = 2.0 / size.x;
+  clip[1][1] = 2.0 / size.y;
+  const glm::dvec2 corner = -2.0 * fit.lowest / size - 1.0;
   if (fit.perspective) {
     // z / w = far (depth - near) / (depth (far - near))
-    clipFromLight[2] = glm::dvec4(shift, depthFar(fit) / fit.depthExtent, 1.0);
-    clipFromLight[3][2] = -fit.depthNear * depthFar(fit) / fit.depthExtent;
+    clip[2] = glm::dvec4(corner, depthFar(fit) / fit.depthExtent, 1.0);
+    clip[3][2] = -fit.depthNear * depthFar(fit) / fit.depthExtent;
   } else {
-    clipFromLight[2][2] = 1.0 / fit.depthExtent;
-    clipFromLight[3] = glm::dvec4(shift, -fit.depthNear / fit.depthExtent, 1.0);
+    clip[2][2] = 1.0 / fit.depthExtent;
+    clip[3] = glm::dvec4(corner, -fit.depthNear / fit.depthExtent, 1.0);
   }
-  return clipFromLight * lightFromRelative(space.basis, space.origin);
+  return clip;
 }
 
 Aabb lightSpaceBox(const TileSpace& space, const Aabb& relative) {

@@ -56,6 +56,22 @@ TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
   }
 }
 
+TEST(PunctualFrames, G5_H4_NoAcneUnderAnOrthographicCameraOfGreatDepth) {
+  const ScenePtr scene = testing::sceneOf(tiltedPlane(0));
+  for (const Json& light :
+       Json::parse(R"([{"type":"point","position":[0,2,-2]},{"type":"directional","direction":[0,-1,0]},
+      {"type":"spot","position":[0,2,-2],"direction":[0,-1,0],"outerConeDegrees":50}])")) {
+    for (const Json& filter : testing::everyFilter()) {
+      Json spec = planeSpec(0, light, filter, "Small");
+      spec["camera"] = {{"eye", {0, 8, 0}},
+                        {"target", {0, 0, 0}},
+                        {"up", {0, 0, -1}},
+                        {"orthographic", {{"height", 20}, {"near", 0}, {"far", 5000}}}};
+      EXPECT_EQ(darkPixels(renderJson(scene, spec.dump()), 0.999f), 0) << light << ' ' << filter;
+    }
+  }
+}
+
 TEST(PunctualFrames, X32_NoSeamShowsWhereFacesMeet) {
   // Close over a plane, every edge and corner of the light's cube falls on it somewhere.
   for (const double degrees : {0.0, 30.0, 50.0}) {
