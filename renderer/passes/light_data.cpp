@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/limits.h"
+#include "renderer/core/black_body.h"
 #include "renderer/core/vec3.h"
 #include "renderer/shadow/bias.h"
 
@@ -38,6 +39,11 @@ glm::vec2 coneFalloff(const Light& light) {
   const double outer = std::cos(glm::radians(light.outerConeDegrees));
   const double scale = 1.0 / std::max(1e-3, inner - outer);
   return {scale, -outer * scale};
+}
+
+glm::dvec3 colorOf(const Light& light) {
+  if (light.temperatureKelvin) return blackBodyColor(*light.temperatureKelvin);
+  return toVector(light.color.value_or(Vec3{1, 1, 1}));
 }
 
 /// Texels a side that the shader's filter compares.
@@ -118,7 +124,7 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     const glm::dvec3 direction = directionOf(light);
     out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
     if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
-    out.radiance = glm::vec4(toVector(light.color.value_or(Vec3{1, 1, 1})) * light.intensity, 0.0);
+    out.radiance = glm::vec4(colorOf(light) * light.intensity, 0.0);
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
     data.push_back(out);
   }
