@@ -122,15 +122,24 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   gl::StageClock clock;
 
   const GpuScene& gpu = impl_->scenes.get(scene);
-  const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
+  const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye, resolved->groups.ofInstance);
   const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
   const SceneVertices vertices = sceneVertices(gpu, instances);
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{
-      *scene,          view, gpu, geometry, resolved->view, frameBuffer, vertices, impl_->programs, effective.width,
-      effective.height};
+  const PassInputs inputs{*scene,
+                          view,
+                          gpu,
+                          geometry,
+                          resolved->view,
+                          frameBuffer,
+                          vertices,
+                          impl_->programs,
+                          effective.width,
+                          effective.height,
+                          resolved->nodes,
+                          resolved->groups.matter()};
   clock.finish("upload");
 
   if (effective.atlas.samples > info().maxSamples) {
@@ -143,7 +152,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("survey");
 
   const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
-  const auto lights = lightData(*effective.lights, plan, resolved->view.eye);
+  const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
                                                          : std::vector<std::uint32_t>{};
@@ -159,7 +168,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   }
   clock.finish("plan");
 
-  const auto atlas = castShadows(inputs, plan, effective.atlas.samples);
+  const auto atlas = castShadows(inputs, plan, effective);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 

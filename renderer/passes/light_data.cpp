@@ -14,7 +14,7 @@ namespace gnomon {
 
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // As std140 and std430 lay them out: whole vec4s, one after the other.
-static_assert(sizeof(shared::LightData) == 7 * 16 && offsetof(shared::LightData, bias) == 6 * 16);
+static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, groups) == 7 * 16);
 static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
@@ -117,7 +117,8 @@ glm::dvec3 directionOf(const Light& light) {
   return {0, -1, 0};
 }
 
-std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye) {
+std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
+                                         std::span<const LitGroups> groups) {
   std::vector<shared::LightData> data;
   for (const Light& light : lights) {
     shared::LightData out{};
@@ -126,6 +127,8 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
     out.radiance = glm::vec4(colorOf(light) * light.intensity, 0.0);
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
+    const LitGroups lit = groups.empty() ? LitGroups{} : groups[data.size()];
+    out.groups = {lit.lit, lit.shadowed, 0, 0};
     data.push_back(out);
   }
   for (const PlannedLight& planned : plan.lights) {

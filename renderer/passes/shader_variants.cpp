@@ -85,6 +85,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
   if (material.alphaMode == AlphaMode::mask) defines.emplace_back("ALPHA_MASK");
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   return {"surface.vert", "surface.frag", "", std::move(defines)};
 }
 
@@ -96,6 +97,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

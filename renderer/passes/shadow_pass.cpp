@@ -12,10 +12,22 @@
 namespace gnomon {
 namespace {
 
-std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry& geometry) {
-  std::vector<std::uint8_t> keep(geometry.slotCount());
-  std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), keep.begin(),
+/// The light that each tile is of.
+std::vector<const Light*> lightsOfTiles(const ShadowPlan& plan, std::span<const Light> lights) {
+  std::vector<const Light*> of(plan.tiles.size());
+  for (const PlannedLight& planned : plan.lights) {
+    std::fill_n(of.begin() + planned.firstTile, planned.tileCount, &lights[static_cast<std::size_t>(planned.light)]);
+  }
+  return of;
+}
+
+std::vector<std::uint8_t> castersOf(const PassInputs& inputs, const ShadowTile& tile, const Light& light) {
+  const std::vector<Aabb>& bounds = inputs.geometry.slotBounds;
+  std::vector<std::uint8_t> keep(bounds.size());
+  std::transform(bounds.begin(), bounds.end(), keep.begin(),
                  [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
+  keepNodes(
+      inputs, [&](const NodeSwitches& node) { return castsFrom(light, node); }, keep);
   return keep;
 }
 
@@ -36,7 +48,8 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
 
 } // namespace
 
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec) {
+  const int samples = spec.atlas.samples;
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
@@ -53,12 +66,13 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   target->clearDepth(1.0f);
 
   bindInputs(inputs);
+  const std::vector<const Light*> lightOf = lightsOfTiles(plan, *spec.lights);
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width == 0) continue;
     const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
-    const DrawBatch batch =
-        uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
+    const DrawBatch batch = uploadDraws(
+        buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(inputs, tile, *lightOf[i])));
     if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
     gl::submit(); // a software driver fills this tile while the next one is prepared
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
@@ -21,7 +22,7 @@ struct ShadowAtlas {
   std::size_t drawCalls = 0;
 };
 
-/// `samples` depths a texel: 1 or 4.
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples);
+/// `spec`: effective.
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec);
 
 } // namespace gnomon

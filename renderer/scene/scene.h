@@ -73,9 +73,15 @@ struct Material {
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
 };
 
+/// A node of the file, whichever scene it belongs to.
+struct SceneNode {
+  std::string name;
+  int parent = -1; ///< index into Scene::nodes; -1 = a root
+};
+
 /// A primitive placed in the world.
 struct Instance {
-  int node = 0;      ///< index into the file's nodes
+  int node = 0;      ///< index into Scene::nodes
   int primitive = 0; ///< index into Scene::primitives
   glm::dmat4 worldFromLocal{1};
   Aabb bounds; ///< in the world
@@ -114,6 +120,7 @@ struct Scene {
   std::vector<Primitive> primitives;
   std::vector<Material> materials; ///< at least one (the default material)
   std::vector<Image> images;       ///< 8-bit RGBA
+  std::vector<SceneNode> nodes;    ///< as the file numbers them
   std::vector<SceneView> scenes;
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it

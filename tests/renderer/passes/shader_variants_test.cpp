@@ -44,6 +44,13 @@ TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
   EXPECT_THAT(viewProgram({.emission = true}).defines, Contains("EMISSION"));
 }
 
+TEST(ShaderVariants, X14_WhereNoLightTellsThemApartNoGroupsAreWritten) {
+  EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("RECEIVER_GROUPS")));
+  EXPECT_THAT(surfaceProgram(Material{}, {.receiverGroups = true}).defines, Contains("RECEIVER_GROUPS"));
+  EXPECT_THAT(viewProgram({}).defines, Not(Contains("RECEIVER_GROUPS")));
+  EXPECT_THAT(viewProgram({.receiverGroups = true}).defines, Contains("RECEIVER_GROUPS"));
+}
+
 TEST(ShaderVariants, LinearPicturesAreNotToneMapped) {
   const auto linear = viewProgram({.encoded = false}).defines;
   EXPECT_THAT(linear, Not(Contains("TONE_ACES")));
