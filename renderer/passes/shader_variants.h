@@ -3,16 +3,20 @@
 #include <set>
 
 #include "protocol/output_options.h"
+#include "protocol/shadow_options.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
 
-/// The #defines that a masked material needs where only its outline matters; none for an opaque one (null).
+/// The #defines that a material with alpha needs where only its outline matters; none for an opaque one (null).
 std::vector<std::string> maskDefines(const Material* material);
 
 /// Draws depth alone with a vertex shader; `masked` as in maskDefines.
 gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked);
+
+/// Draws casters into a tile; `masked` as in maskDefines.
+gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
 
 struct SurfaceVariant {
   bool tangents = false;       ///< the primitive brings its own

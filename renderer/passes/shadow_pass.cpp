@@ -31,7 +31,8 @@ std::vector<std::uint8_t> castersOf(const PassInputs& inputs, const ShadowTile& 
   return keep;
 }
 
-Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const Light& light, const DrawBatch& batch,
+                GLuint framebuffer) {
   gl::PipelineState state;
   state.framebuffer = framebuffer;
   state.viewport = tile.rect;
@@ -40,7 +41,7 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.multisample = true;
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
   return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
-    auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
+    auto program = inputs.programs.get(castProgram(masked, light.shadow->blendedCasters));
     if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
     return program;
   });
@@ -73,7 +74,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
     const DrawBatch batch = uploadDraws(
         buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(inputs, tile, *lightOf[i])));
-    if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
+    if (const Status drawn = drawTile(inputs, tile, *lightOf[i], batch, target->id()); !drawn) return drawn.problems();
     gl::submit(); // a software driver fills this tile while the next one is prepared
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
     atlas.drawCalls += batch.drawCalls;

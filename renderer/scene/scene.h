@@ -45,7 +45,7 @@ struct Primitive {
   Aabb bounds;        ///< in its own space
 };
 
-enum class AlphaMode { opaque, mask };
+enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 
 /// A texture as a material uses it.
@@ -66,7 +66,7 @@ struct Material {
   float roughnessFactor = 1;
   float normalScale = 1;
   float occlusionStrength = 1;
-  float alphaCutoff = 0.5f; ///< mask: below it, nothing is there
+  float alphaCutoff = 0.5f; ///< mask, and blend where it is drawn like one: below it, nothing is there
   AlphaMode alphaMode = AlphaMode::opaque;
   bool doubleSided = false;
   bool hasVertexColors = false;

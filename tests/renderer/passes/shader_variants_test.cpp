@@ -37,6 +37,18 @@ TEST(ShaderVariants, G2_AMaskIsCutForEyeAndLight) {
   EXPECT_TRUE(maskDefines(nullptr).empty());
 }
 
+TEST(ShaderVariants, X34_OnlyTheShadowOfABlendedMaterialIsDithered) {
+  Material material;
+  material.alphaMode = AlphaMode::blend;
+  EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Contains("ALPHA_DITHER"));
+  EXPECT_THAT(castProgram(&material, BlendedCasters::threshold).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_THAT(depthProgram("survey.vert", &material).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_THAT(surfaceProgram(material, {}).defines, Contains("ALPHA_MASK"));
+  material.alphaMode = AlphaMode::mask;
+  EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_TRUE(castProgram(nullptr, BlendedCasters::dither).defines.empty());
+}
+
 TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
   EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("EMISSION")));
   EXPECT_THAT(surfaceProgram(Material{}, {.emission = true}).defines, Contains("EMISSION"));
