@@ -18,6 +18,7 @@ struct ResolvedFrame {
   int scene = 0; ///< index into Scene::scenes
   std::vector<std::string> warnings;
   std::vector<NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  LayersInUse layers;
   ReceiverGroups groups;
 };
 

@@ -125,6 +125,17 @@ Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entr
   return nodes;
 }
 
+LayersInUse layersInUse(const SceneView& view, std::span<const NodeSwitches> nodes) {
+  if (nodes.empty()) return {};
+  LayersInUse used{0, 0};
+  for (const Instance& instance : view.instances) {
+    const NodeSwitches& node = nodes[static_cast<std::size_t>(instance.node)];
+    if (node.castShadow) used.casting |= node.layers;
+    if (node.visible && node.receiveShadow) used.receiving |= node.layers;
+  }
+  return used;
+}
+
 Result<ReceiverGroups> resolveReceiverGroups(const SceneView& view, std::span<const NodeSwitches> nodes,
                                              std::span<const Light> lights) {
   ReceiverGroups groups;

@@ -16,8 +16,10 @@ namespace gnomon {
 /// finds no node is a problem at /nodes/i/node.
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene);
 
-/// The receiver groups of what is visible in a scene. More than there may be are a problem at /nodes. `nodes`: as
-/// resolveNodes gives them.
+/// The layers that some instance of a scene casts or receives in. `nodes`: as resolveNodes gives them.
+LayersInUse layersInUse(const SceneView& view, std::span<const NodeSwitches> nodes);
+
+/// The receiver groups of what is visible in a scene. More than there may be are a problem at /nodes.
 Result<ReceiverGroups> resolveReceiverGroups(const SceneView& view, std::span<const NodeSwitches> nodes,
                                              std::span<const Light> lights);
 

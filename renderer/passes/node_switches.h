@@ -23,6 +23,12 @@ inline bool castsFrom(const Light& light, const NodeSwitches& node) {
   return node.castShadow && isLitBy(light, node);
 }
 
+/// The layers of what casts, and of what is seen and receives.
+struct LayersInUse {
+  int casting = 1;
+  int receiving = 1;
+};
+
 /// What one light does to the receiver groups, a bit a group; bits of no group are set.
 struct LitGroups {
   std::uint32_t lit = ~0u;

@@ -191,6 +191,22 @@ TEST(NodeOptions, X14_WithoutNodesEverythingIsInTheFirstLayer) {
   EXPECT_EQ(dark.report.counts.casterTriangles, 0u);
 }
 
+TEST(NodeOptions, X14_ALightWithoutCastersOrReceiversHasNoTiles) {
+  Json box = kSun;
+  box["cullingMask"] = 2;
+  const auto lightOf = [&](bool castShadow, bool receiveShadow) {
+    const Frame frame =
+        frameOf({box}, {{{"node", "box"}, {"layers", 2}, {"castShadow", castShadow}, {"receiveShadow", receiveShadow}}},
+                {"shadow"});
+    return frame.report.lights.at(0);
+  };
+  EXPECT_TRUE(lightOf(true, true).shadowed);
+  EXPECT_FALSE(lightOf(false, true).shadowed);
+  EXPECT_EQ(lightOf(false, true).note, "nothing that it lights casts a shadow");
+  EXPECT_FALSE(lightOf(true, false).shadowed);
+  EXPECT_EQ(lightOf(true, false).note, "nothing that it lights receives a shadow");
+}
+
 TEST(NodeOptions, X14_LightsAddUpEachOnItsOwnLayers) {
   Json first = kSun;
   first["cullingMask"] = 1;
