@@ -10,7 +10,6 @@ namespace {
 
 using testing::floatsOf;
 using testing::renderJson;
-using testing::valueAt;
 
 const std::vector<Json> kLights = Json::parse(R"([{"type":"directional","direction":[0.1,-1,0.05]},
     {"type":"spot","position":[0.3,9,0.2],"direction":[0,-1,0.01],"outerConeDegrees":40},

@@ -32,7 +32,7 @@ TEST(BlackBody, X14_AnIncandescentLampHasTheColorOfIlluminantA) {
 
 TEST(BlackBody, X14_HotterIsBluerAndNeverBrighter) {
   double before = 1e9;
-  for (double kelvin = 1000; kelvin <= 15000; kelvin += 50) {
+  for (int kelvin = 1000; kelvin <= 15000; kelvin += 50) {
     const glm::dvec3 color = blackBodyColor(kelvin);
     EXPECT_NEAR(luminanceOf(color), 1.0, 1e-12) << kelvin;
     for (int i = 0; i < 3; ++i) EXPECT_GE(color[i], 0.0) << kelvin;
@@ -40,7 +40,7 @@ TEST(BlackBody, X14_HotterIsBluerAndNeverBrighter) {
     before = color.r / color.g;
   }
   double blueness = -1;
-  for (double kelvin = 2000; kelvin <= 15000; kelvin += 50) {
+  for (int kelvin = 2000; kelvin <= 15000; kelvin += 50) {
     const glm::dvec3 color = blackBodyColor(kelvin);
     EXPECT_GT(color.b / color.g, blueness) << kelvin;
     blueness = color.b / color.g;
