@@ -80,6 +80,8 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
     if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
     caster.range = light.range.value_or(0.0);
     caster.outerCone = glm::radians(light.outerConeDegrees);
+    caster.casts = (light.cullingMask & frame.layers.casting) != 0;
+    caster.shadows = (light.cullingMask & frame.layers.receiving) != 0;
     input.casters.push_back(caster);
     if (firstOnly) break;
   }
@@ -125,16 +127,26 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   gl::StageClock clock;
 
   const GpuScene& gpu = impl_->scenes.get(scene);
-  const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye);
+  const FrameGeometry geometry = frameGeometry(*scene, view, resolved->view.eye, resolved->groups.ofInstance);
   const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
   const SceneVertices vertices = sceneVertices(gpu, instances);
   const SceneVertices anchored = sceneVertices(gpu, gpu.anchored[static_cast<std::size_t>(resolved->scene)]);
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{*scene,          view,     gpu,      geometry,        resolved->view,
-                          frameBuffer,     vertices, anchored, impl_->programs, effective.width,
-                          effective.height};
+  const PassInputs inputs{*scene,
+                          view,
+                          gpu,
+                          geometry,
+                          resolved->view,
+                          frameBuffer,
+                          vertices,
+                          anchored,
+                          impl_->programs,
+                          effective.width,
+                          effective.height,
+                          resolved->nodes,
+                          resolved->groups.matter()};
   clock.finish("upload");
 
   if (effective.atlas.samples > info().maxSamples) {
@@ -147,7 +159,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("survey");
 
   const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
-  const auto lights = lightData(*effective.lights, plan, resolved->view.eye);
+  const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
                                                          : std::vector<std::uint32_t>{};
@@ -163,7 +175,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   }
   clock.finish("plan");
 
-  const auto atlas = castShadows(inputs, plan, effective.atlas.samples, impl_->tiles);
+  const auto atlas = castShadows(inputs, plan, effective, impl_->tiles);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 

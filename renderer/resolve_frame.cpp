@@ -2,6 +2,7 @@
 
 #include "protocol/limits.h"
 #include "renderer/resolve_camera.h"
+#include "renderer/resolve_nodes.h"
 
 namespace gnomon {
 namespace {
@@ -40,7 +41,7 @@ ShadowSize usualSize(LightType type) {
 } // namespace
 
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
-  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}};
+  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
   const int count = static_cast<int>(scene.scenes.size());
   if (frame.scene < 0 || frame.scene >= count) {
     return Problem{ProblemCode::invalidValue, "/scene", "the file has no scene of that index",
@@ -59,6 +60,14 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
     if (!light.shadow) light.shadow = spec.shadow;
     if (!light.shadow->size) light.shadow->size = usualSize(light.type);
   }
+
+  auto nodes = resolveNodes(spec.nodes, scene);
+  if (!nodes) return nodes.problems();
+  frame.nodes = std::move(*nodes);
+  frame.layers = layersInUse(view, frame.nodes);
+  auto groups = resolveReceiverGroups(view, frame.nodes, *frame.spec.lights);
+  if (!groups) return groups.problems();
+  frame.groups = std::move(*groups);
   return frame;
 }
 

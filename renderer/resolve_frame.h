@@ -6,6 +6,7 @@
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/passes/node_switches.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -16,6 +17,9 @@ struct ResolvedFrame {
   CameraView view;
   int scene = 0; ///< index into Scene::scenes
   std::vector<std::string> warnings;
+  std::vector<NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  LayersInUse layers;
+  ReceiverGroups groups;
 };
 
 /// Fills in what only the scene can tell. The spec has passed protocol/validate.

@@ -40,7 +40,7 @@ GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
   GroupKey key;
-  if (use == DrawUse::surface || material.alphaMode == AlphaMode::mask) key.material = primitive.material;
+  if (use == DrawUse::surface || material.alphaMode != AlphaMode::opaque) key.material = primitive.material;
   if (isCulled(primitive, material, use)) {
     key.cull = gl::Cull::back;
     if (glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0) key.frontFace = gl::FrontFace::clockwise;

@@ -12,9 +12,9 @@ namespace gnomon {
 
 /// What a draw list is for: it decides which state and which textures its groups need.
 enum class DrawUse {
-  survey,        ///< culled by facing; textures only for masked materials
-  cast,          ///< both faces cast, but of solids only the front ones; textures only for masked materials
-  castFromPoint, ///< both faces cast: the light may stand inside a solid; textures only for masked materials
+  survey,        ///< culled by facing; textures only for materials with alpha
+  cast,          ///< both faces cast, but of solids only the front ones; textures only for materials with alpha
+  castFromPoint, ///< both faces cast: the light may stand inside a solid; textures only for materials with alpha
   surface        ///< culled by facing; a group for each material
 };
 

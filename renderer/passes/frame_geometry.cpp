@@ -31,7 +31,8 @@ shared::InstanceData instanceData(const glm::dmat4& relativeFromLocal) {
 
 } // namespace
 
-FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye) {
+FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye,
+                            std::span<const std::uint8_t> groups) {
   FrameGeometry geometry;
   geometry.instances.reserve(view.instances.size());
   geometry.firstSlot.reserve(view.instances.size() + 1);
@@ -39,7 +40,9 @@ FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm
   for (const Instance& instance : view.instances) {
     glm::dmat4 relativeFromLocal = instance.worldFromLocal;
     relativeFromLocal[3] -= glm::dvec4(eye, 0.0);
-    geometry.instances.push_back(instanceData(relativeFromLocal));
+    shared::InstanceData data = instanceData(relativeFromLocal);
+    if (!groups.empty()) data.normalFromLocal[0].w = groups[geometry.instances.size()];
+    geometry.instances.push_back(data);
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
     for (std::uint32_t i = 0; i < primitive.clusterCount; ++i) {
       geometry.slotBounds.push_back(transformed(relativeFromLocal, scene.clusters[primitive.firstCluster + i].bounds));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/core/aabb.h"
@@ -19,6 +20,8 @@ struct FrameGeometry {
   std::size_t slotCount() const { return slotBounds.size(); }
 };
 
-FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye);
+/// `groups`: the receiver group of each instance (node_switches.h); none = 0 for all.
+FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye,
+                            std::span<const std::uint8_t> groups = {});
 
 } // namespace gnomon

@@ -13,7 +13,7 @@ namespace {
 shared::MaterialData materialData(const Material& material) {
   return {
       material.baseColorFactor,
-      glm::vec4(material.emissiveFactor, material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 0.0f),
+      glm::vec4(material.emissiveFactor, material.alphaMode != AlphaMode::opaque ? material.alphaCutoff : 0.0f),
       glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength)};
 }
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/limits.h"
+#include "renderer/core/black_body.h"
 #include "renderer/core/vec3.h"
 #include "renderer/shadow/bias.h"
 
@@ -13,7 +14,7 @@ namespace gnomon {
 
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // As std140 and std430 lay them out: whole vec4s, one after the other.
-static_assert(sizeof(shared::LightData) == 7 * 16 && offsetof(shared::LightData, bias) == 6 * 16);
+static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, groups) == 7 * 16);
 static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
@@ -38,6 +39,11 @@ glm::vec2 coneFalloff(const Light& light) {
   const double outer = std::cos(glm::radians(light.outerConeDegrees));
   const double scale = 1.0 / std::max(1e-3, inner - outer);
   return {scale, -outer * scale};
+}
+
+glm::dvec3 colorOf(const Light& light) {
+  if (light.temperatureKelvin) return blackBodyColor(*light.temperatureKelvin);
+  return toVector(light.color.value_or(Vec3{1, 1, 1}));
 }
 
 /// Texels a side that the shader's filter compares.
@@ -111,15 +117,18 @@ glm::dvec3 directionOf(const Light& light) {
   return {0, -1, 0};
 }
 
-std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye) {
+std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
+                                         std::span<const LitGroups> groups) {
   std::vector<shared::LightData> data;
   for (const Light& light : lights) {
     shared::LightData out{};
     const glm::dvec3 direction = directionOf(light);
     out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
     if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
-    out.radiance = glm::vec4(toVector(light.color.value_or(Vec3{1, 1, 1})) * light.intensity, 0.0);
+    out.radiance = glm::vec4(colorOf(light) * light.intensity, 0.0);
     if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
+    const LitGroups lit = groups.empty() ? LitGroups{} : groups[data.size()];
+    out.groups = {lit.lit, lit.shadowed, 0, 0};
     data.push_back(out);
   }
   for (const PlannedLight& planned : plan.lights) {

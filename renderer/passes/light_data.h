@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "protocol/light.h"
+#include "renderer/passes/node_switches.h"
 #include "renderer/shaders/shared/frame_types.h"
 #include "renderer/shadow/shadow_plan.h"
 
@@ -15,8 +16,10 @@ glm::dvec3 directionOf(const Light& light);
 /// How the shader samples the map: GNOMON_FILTER_...
 int filterKind(const Filter& filter);
 
-/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles.
-std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye);
+/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles. `groups`: what each does to
+/// the receiver groups; none = every light lights and shadows all.
+std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
+                                         std::span<const LitGroups> groups = {});
 
 /// The plan's tiles, in its order.
 std::vector<shared::TileData> tileData(const ShadowPlan& plan);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "renderer/core/camera_view.h"
 #include "renderer/gl/buffer.h"
@@ -8,6 +11,7 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
+#include "renderer/passes/node_switches.h"
 #include "renderer/passes/program_cache.h"
 
 namespace gnomon {
@@ -25,7 +29,13 @@ struct PassInputs {
   ProgramCache& programs;
   int width = 0; ///< of the frame, pixels
   int height = 0;
+  std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  bool receiverGroups = false;         ///< some light tells receiver groups apart: surfaces say to which they belong
 };
+
+/// Clears the slots (a byte each) of the nodes that don't pass.
+void keepNodes(const PassInputs& inputs, const std::function<bool(const NodeSwitches&)>& pass,
+               std::vector<std::uint8_t>& slots);
 
 /// Binds the buffers that every pass reads.
 void bindInputs(const PassInputs& inputs);

@@ -59,6 +59,13 @@ gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked)
   return {std::move(vertexShader), masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)};
 }
 
+gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended) {
+  gl::ProgramSource source = depthProgram("shadow_cast.vert", masked);
+  const bool blends = masked != nullptr && masked->alphaMode == AlphaMode::blend;
+  if (blends && blended == BlendedCasters::dither) source.defines.emplace_back("ALPHA_DITHER");
+  return source;
+}
+
 gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant) {
   struct Slot {
     const std::optional<TextureUse>* use;
@@ -83,8 +90,9 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
-  if (material.alphaMode == AlphaMode::mask) defines.emplace_back("ALPHA_MASK");
+  if (material.alphaMode != AlphaMode::opaque) defines.emplace_back("ALPHA_MASK");
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   return {"surface.vert", "surface.frag", "", std::move(defines)};
 }
 
@@ -96,6 +104,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

@@ -3,20 +3,25 @@
 #include <set>
 
 #include "protocol/output_options.h"
+#include "protocol/shadow_options.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
 
-/// The #defines that a masked material needs where only its outline matters; none for an opaque one (null).
+/// The #defines that a material with alpha needs where only its outline matters; none for an opaque one (null).
 std::vector<std::string> maskDefines(const Material* material);
 
 /// Draws depth alone with a vertex shader; `masked` as in maskDefines.
 gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked);
 
+/// Draws casters into a tile; `masked` as in maskDefines.
+gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
+
 struct SurfaceVariant {
-  bool tangents = false; ///< the primitive brings its own
-  bool emission = false; ///< something in the scene glows: every program writes what it gives off
+  bool tangents = false;       ///< the primitive brings its own
+  bool emission = false;       ///< something in the scene glows: every program writes what it gives off
+  bool receiverGroups = false; ///< some light tells receiver groups apart
 };
 
 /// Draws a material's surface.
@@ -35,8 +40,9 @@ struct ViewVariant {
   View view = View::color;
   bool encoded = true; ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
   ToneMapping toneMapping = ToneMapping::aces;
-  int samples = 1;       ///< a pixel
-  bool emission = false; ///< as in SurfaceVariant
+  int samples = 1;             ///< a pixel
+  bool emission = false;       ///< as in SurfaceVariant
+  bool receiverGroups = false; ///< as in SurfaceVariant
   int lights = 0;
   bool lightLists = false; ///< each square of the picture lists its own
   int tiles = 0;           ///< of the light that has most

@@ -17,13 +17,26 @@ struct TileContent {
   std::size_t index = 0; ///< into the plan's tiles
   DrawUse use = DrawUse::cast;
   std::vector<std::uint8_t> casters; ///< one a slot
+  const Light& light;
   TileKey key;
 };
 
-std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry& geometry) {
-  std::vector<std::uint8_t> keep(geometry.slotCount());
-  std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), keep.begin(),
+/// The light that each tile is of.
+std::vector<const Light*> lightsOfTiles(const ShadowPlan& plan, std::span<const Light> lights) {
+  std::vector<const Light*> of(plan.tiles.size());
+  for (const PlannedLight& planned : plan.lights) {
+    std::fill_n(of.begin() + planned.firstTile, planned.tileCount, &lights[static_cast<std::size_t>(planned.light)]);
+  }
+  return of;
+}
+
+std::vector<std::uint8_t> castersOf(const PassInputs& inputs, const ShadowTile& tile, const Light& light) {
+  const std::vector<Aabb>& bounds = inputs.geometry.slotBounds;
+  std::vector<std::uint8_t> keep(bounds.size());
+  std::transform(bounds.begin(), bounds.end(), keep.begin(),
                  [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
+  keepNodes(
+      inputs, [&](const NodeSwitches& node) { return castsFrom(light, node); }, keep);
   return keep;
 }
 
@@ -42,6 +55,7 @@ TileKey keyOf(const PassInputs& inputs, const ShadowTile& tile, const TileConten
   append(key, tile.rect);
   append(key, samples);
   append(key, content.use);
+  append(key, content.light.shadow->blendedCasters);
   append(key, tile.filter.type);
   append(key, tile.filter.size);
   append(key, tile.space.fit.radius);
@@ -50,20 +64,25 @@ TileKey keyOf(const PassInputs& inputs, const ShadowTile& tile, const TileConten
   return key;
 }
 
-std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
+std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec) {
+  const std::vector<const Light*> lightOf = lightsOfTiles(plan, *spec.lights);
   std::vector<TileContent> contents;
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width <= 0) continue;
-    TileContent content{
-        i, tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast, castersOf(tile, inputs.geometry), {}};
-    content.key = keyOf(inputs, tile, content, samples);
+    TileContent content{i,
+                        tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast,
+                        castersOf(inputs, tile, *lightOf[i]),
+                        *lightOf[i],
+                        {}};
+    content.key = keyOf(inputs, tile, content, spec.atlas.samples);
     contents.push_back(std::move(content));
   }
   return contents;
 }
 
-Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const Light& light, const DrawBatch& batch,
+                GLuint framebuffer) {
   gl::PipelineState state;
   state.framebuffer = framebuffer;
   state.viewport = tile.rect;
@@ -72,7 +91,7 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.multisample = true;
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
   return drawGroups(inputs, inputs.anchored, batch, state, [&](const DrawGroup&, const Material* masked) {
-    auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
+    auto program = inputs.programs.get(castProgram(masked, light.shadow->blendedCasters));
     if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromAnchored));
     return program;
   });
@@ -82,7 +101,7 @@ Result<TileCounts> castTile(const PassInputs& inputs, const ShadowTile& tile, co
                             GLuint framebuffer) {
   const DrawBatch batch =
       uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, content.use, content.casters));
-  if (const Status drawn = drawTile(inputs, tile, batch, framebuffer); !drawn) return drawn.problems();
+  if (const Status drawn = drawTile(inputs, tile, content.light, batch, framebuffer); !drawn) return drawn.problems();
   gl::submit(); // a software driver fills this tile while the next one is prepared
   return TileCounts{batch.triangles, inputs.view.triangles - batch.triangles, batch.drawCalls, false};
 }
@@ -108,11 +127,12 @@ void clearDepths(const gl::Texture& depth, gl::Framebuffer& target) {
 
 } // namespace
 
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples, TileCache& cache) {
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec,
+                                TileCache& cache) {
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
-  const std::vector<TileContent> contents = contentsOf(inputs, plan, samples);
+  const std::vector<TileContent> contents = contentsOf(inputs, plan, spec);
   std::vector<TileKey> keys;
   for (const TileContent& content : contents) keys.push_back(content.key);
 
@@ -123,7 +143,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     return atlas;
   }
 
-  auto textures = std::make_shared<AtlasTextures>(emptyAtlas(plan, samples));
+  auto textures = std::make_shared<AtlasTextures>(emptyAtlas(plan, spec.atlas.samples));
   auto target = gl::Framebuffer::create({{}, {&textures->depth}}, "shadow atlas");
   if (!target) return target.problems();
   clearDepths(textures->depth, *target);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/tile_cache.h"
@@ -21,7 +22,8 @@ struct ShadowAtlas {
   std::vector<TileCounts> tiles;                                                     ///< one a tile of the plan
 };
 
-/// `samples` depths a texel: 1 or 4. Tiles that the cache has are taken from it, and the cache keeps the new ones.
-Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples, TileCache& cache);
+/// `spec`: effective. Tiles that the cache has are taken from it, and the cache keeps the new ones.
+Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec,
+                                TileCache& cache);
 
 } // namespace gnomon

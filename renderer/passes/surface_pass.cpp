@@ -52,7 +52,7 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   bindInputs(inputs);
   const Status drawn =
       drawGroups(inputs, inputs.vertices, batch, state, [&](const DrawGroup& group, const Material* material) {
-        return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission}));
+        return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission, inputs.receiverGroups}));
       });
   if (!drawn) return drawn.problems();
   return surfaces;

@@ -19,6 +19,8 @@ std::vector<std::uint8_t> slotsInView(const PassInputs& inputs) {
   std::vector<std::uint8_t> keep(inputs.geometry.slotCount());
   std::transform(inputs.geometry.slotBounds.begin(), inputs.geometry.slotBounds.end(), keep.begin(),
                  [&](const Aabb& box) { return static_cast<std::uint8_t>(mayIntersect(frustum, box)); });
+  keepNodes(
+      inputs, [](const NodeSwitches& node) { return node.visible; }, keep);
   return keep;
 }
 

@@ -16,7 +16,7 @@ GLenum formatOf(View view, bool encoded) {
 }
 
 /// A variant that holds no more than these lights and surfaces need.
-ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View view) {
+ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
   ViewVariant variant;
   variant.view = view;
   variant.encoded = shading.spec.output.format == ImageFormat::png;
@@ -24,6 +24,7 @@ ViewVariant variantFor(const ViewInputs& shading, const Surfaces& surfaces, View
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;
+  variant.receiverGroups = inputs.receiverGroups;
   variant.lights = static_cast<int>(shading.spec.lights->size());
   variant.lightLists = !shading.lightLists.empty();
   for (const shared::LightData& light : shading.lights) {
@@ -65,7 +66,7 @@ bool isPicture(View view) {
 }
 
 Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
-  const ViewVariant variant = variantFor(shading, surfaces, view);
+  const ViewVariant variant = variantFor(inputs, shading, surfaces, view);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
 

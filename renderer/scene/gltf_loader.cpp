@@ -10,6 +10,7 @@
 #include "renderer/scene/materials.h"
 #include "renderer/scene/mesh_build.h"
 #include "renderer/scene/mesh_source.h"
+#include "renderer/scene/node_tree.h"
 #include "renderer/scene/scene_views.h"
 #include "renderer/scene/skins.h"
 #include "renderer/scene/summary.h"
@@ -36,6 +37,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = flattenScenes(*document, meshes, scene->primitives, limits, findings);
   if (findings.refused()) return findings.takeProblems();
+  scene->nodes = namedNodes(document->model);
   scene->images = loadImages(*document, limits, scene->materials, findings);
   if (findings.refused()) return findings.takeProblems();
 

@@ -66,9 +66,9 @@ class MaterialReading {
       material.alphaMode = AlphaMode::mask;
       material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
     } else if (source_.alphaMode == "BLEND") {
-      material.alphaMode = AlphaMode::mask;
+      material.alphaMode = AlphaMode::blend;
       material.alphaCutoff = 0.5f;
-      findings_.warn("The " + name_ + " is blended; it is drawn solid where its alpha is at least 0.5.");
+      findings_.warn("The " + name_ + " is blended; the camera sees it solid where its alpha is at least 0.5.");
     }
   }
 

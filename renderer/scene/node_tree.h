@@ -5,6 +5,7 @@
 
 #include "renderer/scene/findings.h"
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
 
@@ -18,6 +19,9 @@ struct NodeTree {
 /// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.
 /// With a problem in the findings, the result is not to be used.
 NodeTree buildNodeTree(const GltfDocument& document, Findings& findings);
+
+/// Names and parents of the nodes, which have been found to be trees.
+std::vector<SceneNode> namedNodes(const tinygltf::Model& model);
 
 /// The axes of a node, orthonormal whatever scales it; false where the matrix leaves none.
 struct NodeFrame {

@@ -45,7 +45,7 @@ struct Primitive {
   Aabb bounds;        ///< in its own space
 };
 
-enum class AlphaMode { opaque, mask };
+enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 
 /// A texture as a material uses it.
@@ -66,16 +66,22 @@ struct Material {
   float roughnessFactor = 1;
   float normalScale = 1;
   float occlusionStrength = 1;
-  float alphaCutoff = 0.5f; ///< mask: below it, nothing is there
+  float alphaCutoff = 0.5f; ///< mask, and blend where it is drawn like one: below it, nothing is there
   AlphaMode alphaMode = AlphaMode::opaque;
   bool doubleSided = false;
   bool hasVertexColors = false;
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
 };
 
+/// A node of the file, whichever scene it belongs to.
+struct SceneNode {
+  std::string name;
+  int parent = -1; ///< index into Scene::nodes; -1 = a root
+};
+
 /// A primitive placed in the world.
 struct Instance {
-  int node = 0;      ///< index into the file's nodes
+  int node = 0;      ///< index into Scene::nodes
   int primitive = 0; ///< index into Scene::primitives
   glm::dmat4 worldFromLocal{1};
   Aabb bounds; ///< in the world
@@ -119,6 +125,7 @@ struct Scene {
   std::vector<Primitive> primitives;
   std::vector<Material> materials; ///< at least one (the default material)
   std::vector<Image> images;       ///< 8-bit RGBA
+  std::vector<SceneNode> nodes;    ///< as the file numbers them
   std::vector<SceneView> scenes;
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it

@@ -20,7 +20,8 @@ std::uint64_t bytesIn(const std::vector<T>& values) {
 std::uint64_t memoryBytes(const Scene& scene) {
   std::uint64_t bytes = bytesIn(scene.positions) + bytesIn(scene.attributes) + bytesIn(scene.indices) +
                         bytesIn(scene.welded) + bytesIn(scene.clusters) + bytesIn(scene.primitives) +
-                        bytesIn(scene.materials);
+                        bytesIn(scene.materials) + bytesIn(scene.nodes);
+  for (const SceneNode& node : scene.nodes) bytes += node.name.size();
   for (const Image& image : scene.images) {
     bytes += std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   }

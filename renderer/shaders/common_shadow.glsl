@@ -83,6 +83,9 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   return 1.0;
 #endif
   if (lights[light].tiles.x == 0u) return 1.0;
+#ifdef RECEIVER_GROUPS
+  if ((lights[light].groups.y & receiver.groupBit) == 0u) return 1.0;
+#endif
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
   float strength = lights[light].cone.z;

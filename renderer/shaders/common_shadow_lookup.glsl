@@ -6,6 +6,9 @@ struct Receiver {
   vec3 relative;
   vec3 normal;     // of the surface itself, not of its shading; unit length
   float viewDepth; // metres
+#ifdef RECEIVER_GROUPS
+  uint groupBit;
+#endif
 };
 
 // Where in the atlas a receiver is looked up in one tile.

@@ -33,6 +33,10 @@ uvec4 packedSurface(Surface s) {
                color.r | (color.g << 11) | (color.b << 22), packUnorm4x8(vec4(s.metallic, s.roughness, s.occlusion, 0.0)));
 }
 
+// The receiver group (renderer/passes/node_switches.h) takes the last byte.
+uvec4 withReceiverGroup(uvec4 bits, uint group) { return bits | uvec4(0u, 0u, 0u, group << 24); }
+uint receiverGroup(uvec4 bits) { return bits.w >> 24; }
+
 vec3 rootColor(uint bits) { return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / kColorSteps; }
 
 Surface unpackedSurface(uvec4 bits) {

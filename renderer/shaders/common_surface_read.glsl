@@ -58,6 +58,9 @@ const float kNormalStep = 0.03;
 // octahedron folds, close normals may pass for different ones, which costs time and nothing else.
 bool alike(Sample a, Sample b) {
   if (!a.hit || !b.hit) return a.hit == b.hit;
+#ifdef RECEIVER_GROUPS
+  if (receiverGroup(a.bits) != receiverGroup(b.bits)) return false;
+#endif
 #ifdef EMISSION
   vec3 glowA = emissionAt(a.index);
   vec3 glowB = emissionAt(b.index);

@@ -19,4 +19,7 @@ STAGE_IO SurfaceVaryings {
 #ifdef VERTEX_COLORS
   vec4 color;
 #endif
+#ifdef RECEIVER_GROUPS
+  flat uint receiverGroup;
+#endif
 } surface;

@@ -22,6 +22,9 @@ void main() {
   vec2 metallicRoughness = metallicRoughnessOf(material);
   surfaceBits = packedSurface(Surface(face, shadingNormal(material, face), color.rgb, metallicRoughness.x, metallicRoughness.y,
                                occlusionOf(material)));
+#ifdef RECEIVER_GROUPS
+  surfaceBits = withReceiverGroup(surfaceBits, surface.receiverGroup);
+#endif
 #ifdef EMISSION
   emitted = vec4(emissionOf(material), 0.0);
 #endif

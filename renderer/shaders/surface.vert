@@ -31,4 +31,7 @@ void main() {
 #ifdef VERTEX_COLORS
   surface.color = color;
 #endif
+#ifdef RECEIVER_GROUPS
+  surface.receiverGroup = uint(normalRows[0].w);
+#endif
 }

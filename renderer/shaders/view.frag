@@ -14,6 +14,9 @@ vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlu
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) {
     int i = listedLight(k);
+#ifdef RECEIVER_GROUPS
+    if ((lights[i].groups.x & receiver.groupBit) == 0u) continue;
+#endif
     vec3 toLight;
     vec3 arriving = irradiance(lights[i], receiver.relative, toLight);
     vec3 reflected = reflectedRadiance(s, toLight) * arriving;
@@ -30,7 +33,11 @@ int firstShadowed() {
 }
 
 Receiver receiverOf(Sample seen, vec3 face) {
+#ifdef RECEIVER_GROUPS
+  return Receiver(seen.relative, face, seen.viewDepth, 1u << receiverGroup(seen.bits));
+#else
   return Receiver(seen.relative, face, seen.viewDepth);
+#endif
 }
 
 vec4 picture(Sample seen) {

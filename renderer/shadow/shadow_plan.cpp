@@ -39,6 +39,8 @@ std::optional<std::string> reasonToSkip(const ShadowCaster& caster, const PlanIn
   if (caster.shadow.strength <= 0) return "the shadow's strength is 0";
   if (input.receivers.range.empty()) return "nothing in view";
   if (input.sceneBounds.empty()) return "nothing in the scene casts a shadow";
+  if (!caster.casts) return "nothing that it lights casts a shadow";
+  if (!caster.shadows) return "nothing that it lights receives a shadow";
   return std::nullopt;
 }
 

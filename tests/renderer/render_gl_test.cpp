@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "protocol/json_codec.h"
@@ -92,6 +93,34 @@ TEST(Render, LambertReflectsTheShareOfTheLightThatItShould) {
       "toneMapping":"none","output":{"format":"exr","exrPixelType":"float"}})");
   // Albedo 0.5 * cos 45 of a light of pi lux: 0.354, and a few hundredths of rough dielectric reflection.
   EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 0.5 * std::sqrt(0.5), 0.03);
+}
+
+TEST(Render, X14_AColorTemperatureChangesNoLuminance) {
+  testing::GlbBuilder plane = testing::plane();
+  plane.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
+  plane.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const ScenePtr scene = testing::sceneOf(plane);
+  const auto lit = [&](const Json& color) {
+    Json light = {{"type", "directional"}, {"direction", {0, -1, 0}}};
+    light.update(color);
+    const Json spec = {{"width", 8},
+                       {"height", 8},
+                       {"camera", {{"eye", {0, 1, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}}},
+                       {"ambient", {{"intensity", 0}}},
+                       {"lights", {light}},
+                       {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+    const Frame frame = renderJson(scene, spec.dump());
+    const auto& pixels = floatsOf(frame);
+    return std::array<double, 3>{pixels.at(0), pixels.at(1), pixels.at(2)};
+  };
+  const auto luminance = [](const std::array<double, 3>& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+  const auto white = lit({{"color", {1, 1, 1}}});
+  EXPECT_EQ(white, lit(Json::object())) << "white unless told otherwise";
+  for (const double kelvin : {1000.0, 2000.0, 4000.0, 15000.0}) {
+    const auto color = lit({{"temperatureKelvin", kelvin}});
+    EXPECT_NEAR(luminance(color) / luminance(white), 1.0, 1e-5) << kelvin;
+    EXPECT_EQ(color[0] > color[2], kelvin < 6500) << kelvin;
+  }
 }
 
 TEST(Render, TheEdgeOfWhatGlowsIsAntialiased) {

@@ -67,6 +67,19 @@ def mask_leaf():
     return stage.finish()
 
 
+def blended_pane():
+    stage = Stage(10.0, eye=(4, 4, 5), target=(0, 0.8, 0))
+    ramp = [(150, 60, 40, min(max(x - 8, 0) * 255 // 47, 255)) for _ in range(64) for x in range(64)]
+    texture = stage.glb.texture(png(64, 64, 4, [c for pixel in ramp for c in pixel]), "pane")
+    pane = Mesh()
+    first, last = 8 / 64, 56 / 64  # away from where the ramp wraps around, in smaller levels, too
+    pane.flat_quad(((-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)), (0, 1, 0),
+                   ((first, 1), (last, 1), (last, 0), (first, 0)))
+    stage.add("pane", pane, material=stage.glb.material("pane", texture=texture, blend=True, double_sided=True),
+              translation=[0.0, 2.0, 0.0])
+    return stage.finish()
+
+
 def _ell():
     """An upright L without mirror symmetry, its foot towards +X."""
     return Mesh().append(box(0.6, 2.4, 0.6)).append(box(1.2, 0.6, 0.6), (0.9, 0, 0)).append(

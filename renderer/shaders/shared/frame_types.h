@@ -97,7 +97,7 @@ struct FrameData {
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.
 struct InstanceData {
   vec4 relativeFromLocal[3]; // rows of the affine matrix
-  vec4 normalFromLocal[3];   // rows; xyz
+  vec4 normalFromLocal[3];   // rows; xyz; the first one's w: receiver group
 };
 
 struct MaterialData {
@@ -114,6 +114,7 @@ struct LightData {
   uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile
   vec4 sampling;  // x: kind; y: radius in metres (disc)
   vec4 bias;      // manual, metres: x towards the light; y the same times the slope; z along the normal; w: 1 = manual
+  uvec4 groups;   // a bit a receiver group: x: those that it lights; y: of these, where it throws shadows
 };
 
 struct TileData {

@@ -48,6 +48,15 @@ TEST(LightData, OnlyPlannedLightsHaveTiles) {
   EXPECT_EQ(data[1].cone.w, 1.0f);
 }
 
+TEST(LightData, X14_LightsHoldTheGroupsThatTheyLight) {
+  const std::vector<Light> lights(2);
+  const std::vector<LitGroups> groups{{~0u, ~0u}, {5u, 4u}};
+  const auto data = lightData(lights, {}, {0, 0, 0}, groups);
+  EXPECT_EQ(data[0].groups, glm::uvec4(~0u, ~0u, 0, 0));
+  EXPECT_EQ(data[1].groups, glm::uvec4(5, 4, 0, 0));
+  EXPECT_EQ(lightData(lights, {}, {0, 0, 0})[1].groups, glm::uvec4(~0u, ~0u, 0, 0));
+}
+
 TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
   ShadowPlan plan;
   plan.atlasWidth = 256;

@@ -37,11 +37,30 @@ TEST(ShaderVariants, G2_AMaskIsCutForEyeAndLight) {
   EXPECT_TRUE(maskDefines(nullptr).empty());
 }
 
+TEST(ShaderVariants, X34_OnlyTheShadowOfABlendedMaterialIsDithered) {
+  Material material;
+  material.alphaMode = AlphaMode::blend;
+  EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Contains("ALPHA_DITHER"));
+  EXPECT_THAT(castProgram(&material, BlendedCasters::threshold).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_THAT(depthProgram("survey.vert", &material).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_THAT(surfaceProgram(material, {}).defines, Contains("ALPHA_MASK"));
+  material.alphaMode = AlphaMode::mask;
+  EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Not(Contains("ALPHA_DITHER")));
+  EXPECT_TRUE(castProgram(nullptr, BlendedCasters::dither).defines.empty());
+}
+
 TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
   EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("EMISSION")));
   EXPECT_THAT(surfaceProgram(Material{}, {.emission = true}).defines, Contains("EMISSION"));
   EXPECT_THAT(viewProgram({}).defines, Not(Contains("EMISSION")));
   EXPECT_THAT(viewProgram({.emission = true}).defines, Contains("EMISSION"));
+}
+
+TEST(ShaderVariants, X14_WhereNoLightTellsThemApartNoGroupsAreWritten) {
+  EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("RECEIVER_GROUPS")));
+  EXPECT_THAT(surfaceProgram(Material{}, {.receiverGroups = true}).defines, Contains("RECEIVER_GROUPS"));
+  EXPECT_THAT(viewProgram({}).defines, Not(Contains("RECEIVER_GROUPS")));
+  EXPECT_THAT(viewProgram({.receiverGroups = true}).defines, Contains("RECEIVER_GROUPS"));
 }
 
 TEST(ShaderVariants, LinearPicturesAreNotToneMapped) {

@@ -75,12 +75,12 @@ TEST(Materials, ReadsEveryFactor) {
   EXPECT_TRUE(material.doubleSided);
 }
 
-TEST(Materials, BlendBecomesMaskWithAWarning) {
+TEST(Materials, G2_BlendIsKeptAndWarnedOf) {
   testing::GlbBuilder builder = testing::plane();
   builder.add("materials", {{"name", "Glass"}, {"alphaMode", "BLEND"}, {"alphaCutoff", 0.1}});
   builder.json["meshes"][0]["primitives"][0]["material"] = 0;
   const Scene scene = load(builder);
-  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::mask);
+  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::blend);
   EXPECT_EQ(onlyMaterial(scene).alphaCutoff, 0.5f);
   EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\"")));
 }

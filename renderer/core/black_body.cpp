@@ -1,0 +1,42 @@
+#include "renderer/core/black_body.h"
+
+namespace gnomon {
+namespace {
+
+/// The Planckian locus in CIE 1960 u, v, within 9e-5 of it from 1000 to 15000 K (Krystek, "An algorithm to calculate
+/// correlated colour temperature", Color Research & Application 10, 1985).
+glm::dvec2 planckianLocus(double kelvin) {
+  const double square = kelvin * kelvin;
+  return {(0.860117757 + 1.54118254e-4 * kelvin + 1.28641212e-7 * square) /
+              (1.0 + 8.42420235e-4 * kelvin + 7.08145163e-7 * square),
+          (0.317398726 + 4.22806245e-5 * kelvin + 4.20481691e-8 * square) /
+              (1.0 - 2.89741816e-5 * kelvin + 1.61456053e-7 * square)};
+}
+
+/// CIE 1931 X, Y, Z of luminance 1, from CIE 1960 u, v.
+glm::dvec3 xyzOf(const glm::dvec2& uv) {
+  const double scale = 2.0 * uv.x - 8.0 * uv.y + 4.0;
+  const double x = 3.0 * uv.x / scale;
+  const double y = 2.0 * uv.y / scale;
+  return {x / y, 1.0, (1.0 - x - y) / y};
+}
+
+/// IEC 61966-2-1.
+glm::dvec3 linearSrgbOf(const glm::dvec3& xyz) {
+  return {glm::dot(glm::dvec3(3.2404542, -1.5371385, -0.4985314), xyz),
+          glm::dot(glm::dvec3(-0.9692660, 1.8760108, 0.0415560), xyz),
+          glm::dot(glm::dvec3(0.0556434, -0.2040259, 1.0572252), xyz)};
+}
+
+} // namespace
+
+double luminanceOf(const glm::dvec3& color) {
+  return glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), color);
+}
+
+glm::dvec3 blackBodyColor(double kelvin) {
+  const glm::dvec3 color = glm::max(linearSrgbOf(xyzOf(planckianLocus(kelvin))), glm::dvec3(0.0));
+  return color / luminanceOf(color);
+}
+
+} // namespace gnomon

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace gnomon {
+
+/// The color of a black body's glow as linear sRGB of luminance 1, so that it changes no lux and no candela: components
+/// may exceed 1. What lies outside of sRGB is brought to its edge. `kelvin`: 1000..15000.
+glm::dvec3 blackBodyColor(double kelvin);
+
+/// Luminance of linear sRGB (Rec. 709).
+double luminanceOf(const glm::dvec3& color);
+
+} // namespace gnomon
