@@ -17,8 +17,10 @@
 #include "renderer/passes/read_back.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/survey_pass.h"
+#include "renderer/plan_input.h"
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
+#include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 
@@ -55,33 +57,6 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
   data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
   return data;
-}
-
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, int maxTextureSize) {
-  PlanInput input;
-  input.view = frame.view;
-  input.receivers = survey.receivers;
-  input.sceneBounds = scene.bounds;
-  input.atlas = frame.spec.atlas;
-  input.maxTextureSize = maxTextureSize;
-  input.frameWidth = frame.spec.width;
-  input.frameHeight = frame.spec.height;
-  const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
-  for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
-    const Light& light = (*frame.spec.lights)[i];
-    if (firstOnly && light.type != LightType::directional) continue;
-    if (!light.shadow->enabled) {
-      if (firstOnly) break; // the first is the first, with a shadow or without
-      continue;
-    }
-    ShadowCaster caster{static_cast<int>(i), directionOf(light), *light.shadow, light.type};
-    if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
-    caster.range = light.range.value_or(0.0);
-    caster.outerCone = glm::radians(light.outerConeDegrees);
-    input.casters.push_back(caster);
-    if (firstOnly) break;
-  }
-  return input;
 }
 
 Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
@@ -142,7 +117,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!survey) return survey.problems();
   clock.finish("survey");
 
-  const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
+  const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, info().maxTextureSize));
+  const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
@@ -172,7 +148,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
-  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, *drawn, clock.take()), std::move(*images)};
+  return Frame{makeReport({*resolved, view, gpu, *survey, plan, errors, *atlas, *drawn}, clock.take()),
+               std::move(*images)};
 }
 
 } // namespace gnomon

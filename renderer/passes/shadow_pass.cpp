@@ -1,6 +1,6 @@
 #include "renderer/passes/shadow_pass.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
@@ -8,16 +8,10 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/moments_pass.h"
 #include "renderer/passes/shader_variants.h"
+#include "renderer/passes/tile_casters.h"
 
 namespace gnomon {
 namespace {
-
-std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry& geometry) {
-  std::vector<std::uint8_t> keep(geometry.slotCount());
-  std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), keep.begin(),
-                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
-  return keep;
-}
 
 Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
   gl::PipelineState state;
@@ -40,6 +34,8 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
+  atlas.timer = gl::Timer::start();
+  gl::Timer timer = gl::Timer::start(); // of the first tile: it brings the clear
   atlas.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight, 1, samples > 1 ? samples : 0},
                             "shadow atlas");
   auto target = gl::Framebuffer::create({{}, {&atlas.depth}}, "shadow atlas");
@@ -56,17 +52,19 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width == 0) continue;
-    const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
-    const DrawBatch batch =
-        uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
+    const DrawBatch batch = uploadDraws(castersInto(tile, inputs.scene, inputs.view, inputs.geometry));
     if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
-    gl::submit(); // a software driver fills this tile while the next one is prepared
-    atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
+    timer.stop();
+    gl::Timer next = gl::Timer::start(); // before the tile is submitted: see Timer
+    gl::submit();                        // a software driver fills this tile while the next one is prepared
+    atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles, batch.drawCalls,
+                      std::exchange(timer, std::move(next))};
     atlas.drawCalls += batch.drawCalls;
   }
   auto moments = blurMoments(inputs, plan, atlas.depth);
   if (!moments) return moments.problems();
   atlas.moments = std::move(*moments);
+  atlas.timer.stop();
   return atlas;
 }
 

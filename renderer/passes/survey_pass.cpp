@@ -88,6 +88,7 @@ std::vector<std::uint8_t> firstToDraw(const PassInputs& inputs, const std::vecto
 
 Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   Survey survey;
+  survey.timer = gl::Timer::start();
   survey.samples = samples;
   survey.inView = slotsInView(inputs);
   survey.depth =
@@ -118,6 +119,7 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   }
   survey.receivers = std::move(*blocks);
   survey.visible = visibleBoxes(inputs.camera, survey.receivers, inputs.geometry.slotBounds, drawn);
+  survey.timer.stop();
   return survey;
 }
 

@@ -70,6 +70,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   if (!program) return program.problems();
 
   DrawnView drawn;
+  drawn.timer = gl::Timer::start();
   drawn.color = gl::Texture({formatOf(view, variant.encoded), inputs.width, inputs.height}, "view");
   auto target = gl::Framebuffer::create({{{&drawn.color}}, {}}, "view");
   if (!target) return target.problems();
@@ -100,6 +101,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   }
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
   gl::drawFullscreen(**program, nothing);
+  drawn.timer.stop();
   return drawn;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "protocol/frame_report.h"
+#include "renderer/core/camera_view.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// The errors that a plan promises; see PredictedError. Absent where no tile is drawn or none of its blocks is seen.
+struct PredictedErrors {
+  std::vector<std::optional<PredictedError>> tiles;  ///< one a tile of the plan
+  std::vector<std::optional<PredictedError>> lights; ///< one a light of the plan
+  std::optional<PredictedError> all;
+};
+
+/// m, pixels, for each block that a tile serves: the longer diagonal of the picture, to first order, of the texel under
+/// the middle of the block, at its nearest surface that lies in the tile. None for a tile that is not drawn.
+std::vector<float> texelExtents(const CameraView& view, const ReceiverDepths& receivers, const ShadowTile& tile);
+
+/// The percentiles by nearest rank; absent for none.
+std::optional<PredictedError> errorOf(std::vector<float> extents);
+
+PredictedErrors predictErrors(const CameraView& view, const ReceiverDepths& receivers, const ShadowPlan& plan);
+
+} // namespace gnomon
