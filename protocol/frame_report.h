@@ -36,9 +36,12 @@ struct CascadeReport {
   std::array<double, 2> texelSize{}; ///< metres across and along; of a face: at its far end
   /// The tile's clip space from world space, column by column: x y -1..1 over the whole tile, z 0 (near the light)..1.
   std::optional<std::array<double, 16>> matrix{};
-  /// Metres that a surface is moved along its normal, times the sine of normal and light; of a face: at its far end.
+  /// Metres that a surface is moved along its normal, times the sine of normal and light; of a face: at its far end. Of
+  /// a manual bias: its depth times its normalOffsetScale, whatever the angle and the place.
   double normalOffset = 0;
-  double depthBias = 0;       ///< added towards the light: of the tile's depth 0..1; of a face: at its far end
+  /// What rounding asks for besides, towards the light, of the tile's depth 0..1; of a face: at its far end. A manual
+  /// bias's depth and slope come on top.
+  double depthBias = 0;
   double depthBiasMetres = 0; ///< the same in metres
   std::optional<PredictedError> predictedError{};
   std::uint64_t casterTriangles = 0; ///< drawn into this tile

@@ -37,13 +37,14 @@ inline constexpr auto kRows<CascadeReport> = replyRows(
     field("matrix", &CascadeReport::matrix,
           {.says = "The tile's clip space from world space, column by column: x and y -1..1 over the whole tile, z 0 "
                    "near the light and 1 far from it, after the division by w; absent where it is not drawn."}),
-    field("normalOffset", &CascadeReport::normalOffset,
-          {.says = "How far a surface is moved along its normal, times the sine of the angle between normal and light; "
-                   "of a face, at its far end.",
-           .unit = "metres"}),
+    field(
+        "normalOffset", &CascadeReport::normalOffset,
+        {.says = "How far a surface is moved along its normal, times the sine of the angle between normal and light; "
+                 "of a face, at its far end; of a manual bias, `depth` times `normalOffsetScale`, whatever the angle.",
+         .unit = "metres"}),
     field("depthBias", &CascadeReport::depthBias,
-          {.says = "How far a surface is moved towards the light beyond that, of the tile's depth 0..1; of a face, at "
-                   "its far end."}),
+          {.says = "How far a surface is moved towards the light besides, for what rounding loses, as a share of the "
+                   "tile's depth; of a face, at its far end. A manual bias's `depth` and `slope` come on top."}),
     field("depthBiasMetres", &CascadeReport::depthBiasMetres, {.says = "The same along the light.", .unit = "metres"}),
     field("predictedError", &CascadeReport::predictedError,
           {.says = "How large its texels show; absent where it is not drawn."}),

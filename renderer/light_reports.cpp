@@ -1,6 +1,6 @@
 #include "renderer/light_reports.h"
 
-#include <algorithm>
+#include "renderer/shadow/bias.h"
 
 namespace gnomon {
 namespace {
@@ -14,22 +14,22 @@ std::array<double, 16> clipFromWorld(const ShadowTile& tile, const glm::dvec3& e
 }
 
 /// Offsets at the far end of a face, which is where they are largest along the normal; anywhere in a cascade.
-void addBias(const ShadowTile& tile, CascadeReport& report) {
+void addBias(const ShadowTile& tile, const Bias& bias, CascadeReport& report) {
   const Fit& fit = tile.space.fit;
+  report.normalOffset = manualOffset(bias).value_or(fit.normalOffset * (fit.perspective ? tile.far : 1.0));
   if (!fit.perspective) {
-    report.normalOffset = fit.normalOffset;
     report.depthBias = tile.depthBias;
     report.depthBiasMetres = tile.depthBias * fit.depthExtent;
     return;
   }
-  report.normalOffset = fit.normalOffset * tile.far;
   report.depthBias = tile.depthBias + tile.depthBiasNear / (tile.far * tile.far);
   // z = far (1 - near / distance) / extent
   const double zPerMetre = fit.depthNear / (tile.far * fit.depthExtent);
   report.depthBiasMetres = report.depthBias / zPerMetre;
 }
 
-CascadeReport tileReport(const ShadowTile& tile, const std::optional<PredictedError>& error, const glm::dvec3& eye) {
+CascadeReport tileReport(const ShadowTile& tile, const Bias& bias, const std::optional<PredictedError>& error,
+                         const glm::dvec3& eye) {
   CascadeReport report;
   report.near = tile.near;
   report.far = tile.far;
@@ -39,7 +39,7 @@ CascadeReport tileReport(const ShadowTile& tile, const std::optional<PredictedEr
   report.border = tile.border;
   report.texelSize = {texelSize.x, texelSize.y};
   report.matrix = clipFromWorld(tile, eye);
-  addBias(tile, report);
+  addBias(tile, bias, report);
   report.predictedError = error;
   return report;
 }
@@ -76,7 +76,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
     for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
       const auto index = static_cast<std::size_t>(tile);
-      report.cascades.push_back(tileReport(plan.tiles[index], errors.tiles[index], eye));
+      report.cascades.push_back(tileReport(plan.tiles[index], shadow->bias, errors.tiles[index], eye));
     }
   }
   return reports;

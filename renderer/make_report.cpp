@@ -67,7 +67,7 @@ FrameCounts countsOf(const FrameStages& stages, const std::vector<PassReport>& p
 MemoryReport memoryOf(const FrameStages& stages) {
   MemoryReport memory;
   memory.scene = stages.gpu.bytes + stages.gpu.materialData.bytes();
-  memory.atlas = stages.atlas.depth.bytes();
+  memory.atlas = stages.atlas.depth.bytes() + stages.atlas.moments.bytes();
   memory.targets = stages.survey.depth.bytes();
   for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
     memory.targets += surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes();

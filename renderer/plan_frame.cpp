@@ -1,3 +1,4 @@
+#include "renderer/check_device.h"
 #include "renderer/light_reports.h"
 #include "renderer/passes/box_depths.h"
 #include "renderer/passes/frame_geometry.h"
@@ -30,6 +31,7 @@ void addCasters(const ShadowPlan& plan, const Scene& scene, const SceneView& vie
 Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const RendererInfo& device) {
   const auto frame = resolveFrame(scene, spec);
   if (!frame) return frame.problems();
+  if (const Status able = checkDevice(spec, device); !able) return able.problems();
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
   const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye);
   const std::vector<std::uint8_t> all(geometry.slotCount(), 1);

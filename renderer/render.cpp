@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/check_device.h"
 #include "renderer/core/vec3.h"
 #include "renderer/draw_views.h"
 #include "renderer/gl/context.h"
@@ -92,6 +93,7 @@ const RendererInfo& Renderer::info() const {
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   auto resolved = resolveFrame(*scene, spec);
   if (!resolved) return resolved.problems();
+  if (const Status able = checkDevice(spec, info()); !able) return able.problems();
   const FrameSpec& effective = resolved->spec;
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
   gl::StageClock clock;
@@ -108,10 +110,6 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
       effective.height};
   clock.finish("upload");
 
-  if (effective.atlas.samples > info().maxSamples) {
-    return Problem{ProblemCode::invalidValue, "/atlas/samples", "the device has no depth textures of so many samples",
-                   "at most " + std::to_string(info().maxSamples), std::to_string(effective.atlas.samples)};
-  }
   const int samples = effective.antialiasing == Antialiasing::msaa4x ? 4 : 1;
   const auto survey = surveyScene(inputs, samples);
   if (!survey) return survey.problems();

@@ -54,11 +54,23 @@ TEST(FramePlans, X8_TheDeviceBoundsTheAtlas) {
   const ScenePtr scene = testing::generatedScene("box_on_plane");
   RendererInfo device;
   device.maxTextureSize = 512;
+  device.maxSamples = 1;
   const auto plan = planFrame(*scene, FrameSpec{}, device);
   ASSERT_TRUE(plan);
   EXPECT_LE(plan->atlasSize[0], 512);
   EXPECT_LT(plan->lights[0].grantedTileSize, plan->lights[0].askedTileSize);
   EXPECT_NE(plan->lights[0].note.find("is full"), std::string::npos) << plan->lights[0].note;
+}
+
+TEST(FramePlans, D4_TheDeviceMustHaveTheSamples) {
+  FrameSpec spec;
+  spec.atlas.samples = 4;
+  RendererInfo device;
+  device.maxTextureSize = 512;
+  device.maxSamples = 1;
+  const auto plan = planFrame(*testing::generatedScene("box_on_plane"), spec, device);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.problems()[0].pointer, "/atlas/samples");
 }
 
 } // namespace
