@@ -30,6 +30,9 @@ Json toJson(const FrameSpec& spec) {
 Json toJson(const FrameReport& report) {
   return encodeValue(report);
 }
+Json toJson(const PlanReport& report) {
+  return encodeValue(report);
+}
 Json toJson(const SceneSummary& summary) {
   return encodeValue(summary);
 }

@@ -27,6 +27,7 @@ Result<FrameSpec> decodeFrameQuery(const std::vector<std::pair<std::string, std:
 
 Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives the same spec
 Json toJson(const FrameReport& report);
+Json toJson(const PlanReport& report);
 Json toJson(const SceneSummary& summary);
 Json toJson(const RendererInfo& info);
 Json toJson(const FrameReply& reply);

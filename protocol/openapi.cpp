@@ -173,6 +173,13 @@ Json framesRoute() {
   return {{"post", withBody(std::move(post), specBody())}};
 }
 
+Json planRoute() {
+  Json post = operation("planFrame", "Decide a frame without rendering it",
+                        replies(jsonReply("What it would do.", "PlanReport"),
+                                {"400", "404", "408", "411", "413", "415", "422", "503", "504"}));
+  return {{"post", withBody(withScene(std::move(post)), specBody())}};
+}
+
 Json frameRoute() {
   Json get = operation("getFrame", "Render a frame from a query string, for links and <img>",
                        frameReplies({"304", "400", "404", "406", "422", "429", "500", "503", "504"}));
@@ -201,6 +208,7 @@ Json paths() {
   paths["/v1/scenes/{id}"] = sceneRoute();
   paths["/v1/scenes/{id}/frames"] = framesRoute();
   paths["/v1/scenes/{id}/frame"] = frameRoute();
+  paths["/v1/scenes/{id}/plan"] = planRoute();
   paths["/v1/render"] = renderRoute();
   paths["/v1/capabilities"] =
       getRoute("capabilities", "What this server can do", jsonReply("Its renderer and limits.", "Capabilities"));

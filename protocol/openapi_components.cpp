@@ -75,6 +75,7 @@ Json schemas() {
   Json components = Json::object();
   schemaOf<FrameSpec>(Notes{}, components);
   schemaOf<FrameReply>(Notes{}, components);
+  schemaOf<PlanReport>(Notes{}, components);
   schemaOf<SceneList>(Notes{}, components);
   schemaOf<Capabilities>(Notes{}, components);
   components["Problem"] = problemSchema();

@@ -3,77 +3,13 @@
 #include "protocol/capabilities.h"
 #include "protocol/field_rows.h"
 #include "protocol/fields.h"
-#include "protocol/frame_report.h"
 #include "protocol/limits.h"
 #include "protocol/replies.h"
+#include "protocol/report_rows.h"
 #include "protocol/scene_summary.h"
 
-/// One row for each member of the structs that replies are made of; see field_rows.h. StageTime has none: the stages
-/// are one JSON object.
+/// One row for each member of the structs that replies are made of, but the reports (report_rows.h); see field_rows.h.
 namespace gnomon {
-
-template <>
-inline constexpr auto kRows<CascadeReport> = replyRows(
-    "CascadeReport", "One tile as it was drawn: a cascade, or a face of a spot or point light.",
-    field(
-        "near", &CascadeReport::near,
-        {.says = "Where it begins: the view depth of a cascade; a face's distance from the light along its direction.",
-         .unit = "metres"}),
-    field("far", &CascadeReport::far, {.says = "Where it ends, measured alike.", .unit = "metres"}),
-    field("tile", &CascadeReport::tile,
-          {.says = "x, y, width and height in the atlas, border included.", .unit = "texels"}),
-    field("texelSize", &CascadeReport::texelSize,
-          {.says = "Size of a texel across and along; of a face, at its far end.", .unit = "metres"}),
-    field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
-    field("culledTriangles", &CascadeReport::culledTriangles,
-          {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}),
-    field("reused", &CascadeReport::reused,
-          {.says = "True = an earlier frame's tile serves, and nothing was drawn into it for this one."}));
-static_assert(kRowsAreComplete<CascadeReport>);
-
-template <>
-inline constexpr auto kRows<LightReport> =
-    replyRows("LightReport", "What was decided for one light.",
-              field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
-              field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
-              field("askedTileSize", &LightReport::askedTileSize,
-                    {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
-              field("grantedTileSize", &LightReport::grantedTileSize,
-                    {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
-              field("note", &LightReport::note,
-                    {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
-              field("cascades", &LightReport::cascades,
-                    {.says = "Its cascades, nearest first, or the faces of a spot or point light."}));
-static_assert(kRowsAreComplete<LightReport>);
-
-template <>
-inline constexpr auto kRows<FrameCounts> =
-    replyRows("FrameCounts", "How much was drawn.",
-              field("sceneTriangles", &FrameCounts::sceneTriangles, {.says = "Triangles in the chosen glTF scene."}),
-              field("surveyedTriangles", &FrameCounts::surveyedTriangles,
-                    {.says = "Triangles drawn by the survey: those inside the view."}),
-              field("shadedTriangles", &FrameCounts::shadedTriangles,
-                    {.says = "Triangles drawn for the surfaces to light: in clusters that the survey saw."}),
-              field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
-              field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
-static_assert(kRowsAreComplete<FrameCounts>);
-
-template <>
-inline constexpr auto kRows<FrameReport> = rows(
-    "FrameReport", "What a frame's rendering gives besides its pictures.",
-    field("spec", &FrameReport::spec,
-          {.says = "The effective specification: every default resolved, so that it can be asked for again."}),
-    field("depthRange", &FrameReport::depthRange,
-          {.says = "Nearest and farthest surface in view; 0 0 = nothing in view.", .unit = "metres"}),
-    field("atlasSize", &FrameReport::atlasSize,
-          {.says = "Width and height that the atlas really took; 0 0 = no atlas.", .unit = "texels"}),
-    field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
-    field("counts", &FrameReport::counts, {.says = "How much was drawn."}),
-    field("stages", &FrameReport::stages,
-          {.says = "Time that each stage took: queue, load, upload, survey, plan, shadow, shade, readback, encode.",
-           .unit = "milliseconds"}),
-    field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));
-static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
 inline constexpr auto kRows<CameraSummary> =

@@ -1,68 +1,97 @@
 #include "renderer/make_report.h"
 
+#include "renderer/light_reports.h"
+
 namespace gnomon {
 namespace {
 
-CascadeReport cascadeReport(const ShadowTile& tile, const TileCounts& counts) {
-  const glm::dvec2 texelSize = tile.space.fit.texelSize * (tile.space.fit.perspective ? tile.far : 1.0);
-  return {tile.near,
-          tile.far,
-          {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height},
-          {texelSize.x, texelSize.y},
-          counts.casterTriangles,
-          counts.culledTriangles,
-          counts.reused};
+std::vector<LightReport> drawnLights(const FrameStages& stages) {
+  auto lights = lightReports(stages.frame.spec, stages.plan, stages.errors, stages.frame.view.eye);
+  for (const PlannedLight& planned : stages.plan.lights) {
+    LightReport& light = lights[static_cast<std::size_t>(planned.light)];
+    for (std::size_t i = 0; i < light.cascades.size(); ++i) {
+      const TileCounts& counts = stages.atlas.tiles[static_cast<std::size_t>(planned.firstTile) + i];
+      CascadeReport& tile = light.cascades[i];
+      tile.casterTriangles = counts.casterTriangles;
+      tile.culledTriangles = counts.culledTriangles;
+      tile.drawCalls = counts.drawCalls;
+      tile.reused = counts.reused;
+      if (!counts.timer.stopped()) continue;
+      tile.cpuMilliseconds = counts.timer.cpuMilliseconds();
+      tile.gpuMilliseconds = counts.timer.gpuMilliseconds();
+    }
+    addSums(light);
+  }
+  return lights;
 }
 
-std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const ShadowAtlas& atlas) {
-  std::vector<LightReport> reports;
-  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
-    LightReport report;
-    report.light = static_cast<int>(i);
-    const Light& light = (*spec.lights)[i];
-    report.note = light.shadow->enabled ? "shadowLightPolicy is first, and this is not the first directional light"
-                                        : "its shadow is turned off";
-    reports.push_back(std::move(report));
+PassReport passReport(const char* name, const gl::Timer& timer, std::uint64_t drawCalls, std::uint64_t triangles) {
+  PassReport pass;
+  pass.pass = name;
+  pass.cpuMilliseconds = timer.cpuMilliseconds();
+  pass.gpuMilliseconds = timer.gpuMilliseconds();
+  pass.drawCalls = drawCalls;
+  pass.triangles = triangles;
+  return pass;
+}
+
+std::vector<PassReport> passReports(const FrameStages& stages) {
+  const Survey& survey = stages.survey;
+  std::vector<PassReport> passes{passReport("survey", survey.timer, survey.drawCalls, survey.triangles)};
+  if (stages.atlas.timer.stopped()) {
+    std::uint64_t triangles = 0;
+    for (const TileCounts& tile : stages.atlas.tiles) triangles += tile.casterTriangles;
+    passes.push_back(passReport("shadow", stages.atlas.timer, stages.atlas.drawCalls, triangles));
   }
-  for (const PlannedLight& planned : plan.lights) {
-    LightReport& report = reports[static_cast<std::size_t>(planned.light)];
-    report.shadowed = planned.tileCount > 0;
-    report.askedTileSize = planned.askedTileSize;
-    report.grantedTileSize = planned.grantedTileSize;
-    report.note = planned.note;
-    for (int i = 0; i < planned.tileCount; ++i) {
-      const auto tile = static_cast<std::size_t>(planned.firstTile + i);
-      report.cascades.push_back(cascadeReport(plan.tiles[tile], atlas.tiles[tile]));
-    }
+  for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
+    passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
   }
-  return reports;
+  for (std::size_t i = 0; i < stages.drawn.views.size(); ++i) {
+    const DrawnView& view = stages.drawn.views[i];
+    if (!view.timer.stopped()) continue; // read from a target that is there anyway
+    passes.push_back(passReport("view", view.timer, 1, 1));
+    passes.back().view = stages.frame.spec.views[i];
+  }
+  return passes;
+}
+
+FrameCounts countsOf(const FrameStages& stages, const std::vector<PassReport>& passes) {
+  FrameCounts counts;
+  counts.sceneTriangles = stages.scene.triangles;
+  counts.surveyedTriangles = stages.survey.triangles;
+  for (const TileCounts& tile : stages.atlas.tiles) counts.casterTriangles += tile.casterTriangles;
+  for (const auto& [samples, surfaces] : stages.drawn.surfaces) counts.shadedTriangles += surfaces.triangles;
+  for (const PassReport& pass : passes) counts.drawCalls += pass.drawCalls;
+  return counts;
+}
+
+MemoryReport memoryOf(const FrameStages& stages) {
+  MemoryReport memory;
+  memory.scene = stages.gpu.bytes + stages.gpu.materialData.bytes();
+  memory.atlas = stages.atlas.textures->bytes();
+  memory.targets = stages.survey.depth.bytes();
+  for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
+    memory.targets += surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes();
+  }
+  for (const DrawnView& view : stages.drawn.views) memory.targets += view.color.bytes();
+  return memory;
 }
 
 } // namespace
 
-FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, const ShadowPlan& plan,
-                       const ShadowAtlas& atlas, const DrawnViews& drawn, std::vector<StageTime> stages) {
+FrameReport makeReport(const FrameStages& stages, std::vector<StageTime> times) {
   FrameReport report;
-  report.spec = frame.spec;
-  if (!survey.receivers.range.empty()) {
-    report.depthRange = {survey.receivers.range.nearest, survey.receivers.range.farthest};
-  }
-  report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame.spec, plan, atlas);
-  report.counts.sceneTriangles = scene.triangles;
-  report.counts.surveyedTriangles = survey.triangles;
-  report.counts.drawCalls = survey.drawCalls;
-  for (const TileCounts& tile : atlas.tiles) {
-    report.counts.casterTriangles += tile.casterTriangles;
-    report.counts.drawCalls += tile.drawCalls;
-  }
-  for (const auto& [samples, surfaces] : drawn.surfaces) {
-    report.counts.shadedTriangles += surfaces.triangles;
-    report.counts.drawCalls += surfaces.drawCalls;
-  }
-  report.counts.drawCalls += drawn.views.size();
-  report.stages = std::move(stages);
-  report.warnings = frame.warnings;
+  report.spec = stages.frame.spec;
+  const DepthSpan& range = stages.survey.receivers.range;
+  if (!range.empty()) report.depthRange = {range.nearest, range.farthest};
+  report.atlasSize = {stages.plan.atlasWidth, stages.plan.atlasHeight};
+  report.lights = drawnLights(stages);
+  report.predictedError = stages.errors.all;
+  report.passes = passReports(stages);
+  report.counts = countsOf(stages, report.passes);
+  report.memory = memoryOf(stages);
+  report.stages = std::move(times);
+  report.warnings = stages.frame.warnings;
   return report;
 }
 

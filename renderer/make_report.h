@@ -3,11 +3,24 @@
 #include "protocol/frame_report.h"
 #include "renderer/draw_views.h"
 #include "renderer/resolve_frame.h"
+#include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 
-/// What happened, told from what the stages returned.
-FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, const ShadowPlan& plan,
-                       const ShadowAtlas& atlas, const DrawnViews& drawn, std::vector<StageTime> stages);
+/// What the stages of a frame returned.
+struct FrameStages {
+  const ResolvedFrame& frame;
+  const SceneView& scene;
+  const GpuScene& gpu;
+  const Survey& survey;
+  const ShadowPlan& plan;
+  const PredictedErrors& errors;
+  const ShadowAtlas& atlas;
+  const DrawnViews& drawn;
+};
+
+/// What happened, told from what the stages returned. Reads the timers, so that it waits for the device if that is not
+/// done.
+FrameReport makeReport(const FrameStages& stages, std::vector<StageTime> times);
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/check_device.h"
 #include "renderer/core/vec3.h"
 #include "renderer/draw_views.h"
 #include "renderer/gl/context.h"
@@ -17,8 +18,10 @@
 #include "renderer/passes/read_back.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/survey_pass.h"
+#include "renderer/plan_input.h"
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
+#include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 
@@ -58,36 +61,6 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   return data;
 }
 
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Survey& survey, int maxTextureSize) {
-  PlanInput input;
-  input.view = frame.view;
-  input.receivers = survey.receivers;
-  input.sceneBounds = scene.bounds;
-  input.anchor = anchorOf(scene);
-  input.atlas = frame.spec.atlas;
-  input.maxTextureSize = maxTextureSize;
-  input.frameWidth = frame.spec.width;
-  input.frameHeight = frame.spec.height;
-  const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
-  for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
-    const Light& light = (*frame.spec.lights)[i];
-    if (firstOnly && light.type != LightType::directional) continue;
-    if (!light.shadow->enabled) {
-      if (firstOnly) break; // the first is the first, with a shadow or without
-      continue;
-    }
-    ShadowCaster caster{static_cast<int>(i), directionOf(light), *light.shadow, light.type};
-    if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
-    caster.range = light.range.value_or(0.0);
-    caster.outerCone = glm::radians(light.outerConeDegrees);
-    caster.casts = (light.cullingMask & frame.layers.casting) != 0;
-    caster.shadows = (light.cullingMask & frame.layers.receiving) != 0;
-    input.casters.push_back(caster);
-    if (firstOnly) break;
-  }
-  return input;
-}
-
 Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
                                          const ShadowAtlas& atlas) {
   const bool encoded = frame.spec.output.format == ImageFormat::png;
@@ -122,6 +95,7 @@ const RendererInfo& Renderer::info() const {
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   auto resolved = resolveFrame(*scene, spec);
   if (!resolved) return resolved.problems();
+  if (const Status able = checkDevice(spec, info()); !able) return able.problems();
   const FrameSpec& effective = resolved->spec;
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
   gl::StageClock clock;
@@ -149,16 +123,13 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
                           resolved->groups.matter()};
   clock.finish("upload");
 
-  if (effective.atlas.samples > info().maxSamples) {
-    return Problem{ProblemCode::invalidValue, "/atlas/samples", "the device has no depth textures of so many samples",
-                   "at most " + std::to_string(info().maxSamples), std::to_string(effective.atlas.samples)};
-  }
   const int samples = effective.antialiasing == Antialiasing::msaa4x ? 4 : 1;
   const auto survey = surveyScene(inputs, samples);
   if (!survey) return survey.problems();
   clock.finish("survey");
 
-  const ShadowPlan plan = planShadows(planInput(*resolved, view, *survey, info().maxTextureSize));
+  const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, info().maxTextureSize));
+  const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
@@ -188,7 +159,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
-  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, *drawn, clock.take()), std::move(*images)};
+  return Frame{makeReport({*resolved, view, gpu, *survey, plan, errors, *atlas, *drawn}, clock.take()),
+               std::move(*images)};
 }
 
 } // namespace gnomon

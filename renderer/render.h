@@ -24,6 +24,10 @@ Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLi
 /// What the scene holds; `id` is empty. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);
 
+/// What rendering `spec` on a device of that kind would do, without one: bounds stand in for what the camera sees. Any
+/// thread. The same problems as render gives.
+Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const RendererInfo& device);
+
 struct RendererOptions {
   BackendOptions backend;
   std::size_t gpuSceneBytes = 1u << 30;  ///< uploaded scenes kept, least recently used dropped first

@@ -6,6 +6,7 @@
 #include "server/ascii.h"
 #include "server/frame_handlers.h"
 #include "server/info_handlers.h"
+#include "server/plan_handlers.h"
 #include "server/problem_reply.h"
 #include "server/scenes_handlers.h"
 
@@ -81,6 +82,7 @@ std::vector<Route> makeRoutes(Services& services) {
       {"DELETE", "/v1/scenes/{id}", none, {}, bind(deleteScene)},
       {"POST", "/v1/scenes/{id}/frames", json, {"application/json"}, bind(postFrame)},
       {"GET", "/v1/scenes/{id}/frame", none, {}, bind(getFrame)},
+      {"POST", "/v1/scenes/{id}/plan", json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/render", oneShot, {"multipart/form-data"}, bind(renderOnce)},
       {"GET", "/v1/capabilities", none, {}, bind(getCapabilities)},
       {"GET", "/openapi.json", none, {}, bind(getOpenApi)},

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <semaphore>
 #include <vector>
 
 #include "server/byte_budget.h"
@@ -20,6 +21,7 @@ struct Services {
   std::size_t frameMemoryBytes = 4ull << 30;        ///< the whole of `frameBytes`
   ByteBudget frameBytes;                            ///< left for pictures that are drawn or encoded at once
   std::vector<StaticFile> page;
+  std::counting_semaphore<> plans{2}; ///< made at once: each takes memory by the picture's size
   std::atomic<bool> draining = false; ///< true from the first signal on: readyz says so
 };
 

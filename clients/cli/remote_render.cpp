@@ -92,27 +92,44 @@ std::optional<Rendered> renderedOf(const std::string& text) {
   return rendered;
 }
 
+/// What the server says to a spec sent to `route` of the scene, which is uploaded unless it is there.
+Result<std::string> askAbout(const std::string& server, const SceneBundle& bundle, const std::string& route,
+                             const FrameSpec& spec, Progress& progress) {
+  const auto id = sceneId(server, bundle, progress);
+  if (!id) return id.problems();
+
+  progress.stage("working on the server");
+  const std::string body = toJson(spec).dump();
+  HttpCall call;
+  call.method = "POST";
+  call.path = "/v1/scenes/" + *id + route;
+  call.headers = {{"Accept", "application/json"}};
+  call.contentType = "application/json";
+  call.body = body;
+  auto reply = callPatiently(server, call, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(server, *reply);
+  return std::move(reply->body);
+}
+
 } // namespace
 
 Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
                              Progress& progress) {
-  const auto id = sceneId(server, bundle, progress);
-  if (!id) return id.problems();
-
-  progress.stage("rendering on the server");
-  const std::string body = toJson(spec).dump();
-  HttpCall call;
-  call.method = "POST";
-  call.path = "/v1/scenes/" + *id + "/frames";
-  call.headers = {{"Accept", "application/json"}};
-  call.contentType = "application/json";
-  call.body = body;
-  const auto reply = callPatiently(server, call, progress);
+  const auto reply = askAbout(server, bundle, "/frames", spec, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(server, *reply);
-  auto rendered = renderedOf(reply->body);
+  auto rendered = renderedOf(*reply);
   if (!rendered) return Problem{ProblemCode::internal, server, "the reply is not a frame", "", ""};
   return std::move(*rendered);
+}
+
+Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+                              Progress& progress) {
+  const auto reply = askAbout(server, bundle, "/plan", spec, progress);
+  if (!reply) return reply.problems();
+  const Json plan = Json::parse(*reply, nullptr, false);
+  if (!plan.is_object()) return Problem{ProblemCode::internal, server, "the reply is not a plan", "", ""};
+  return plan.dump(2) + "\n";
 }
 
 } // namespace gnomon::cli

@@ -15,4 +15,8 @@ namespace gnomon::cli {
 Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
                              Progress& progress);
 
+/// The same for a plan: its JSON.
+Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+                              Progress& progress);
+
 } // namespace gnomon::cli

@@ -111,4 +111,21 @@ void Texture::bind(GLuint unit) const {
   glBindTextureUnit(unit, id());
 }
 
+std::size_t Texture::bytes() const {
+  if (id() == 0) return 0;
+  std::size_t bitsPerTexel = 0;
+  for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                            GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE}) {
+    GLint bits = 0;
+    glGetTextureLevelParameteriv(id(), 0, part, &bits);
+    bitsPerTexel += static_cast<std::size_t>(bits);
+  }
+  std::size_t texels = 0;
+  for (int level = 0; level < shape_.levels; ++level) {
+    texels +=
+        static_cast<std::size_t>(sizeAt(shape_.width, level)) * static_cast<std::size_t>(sizeAt(shape_.height, level));
+  }
+  return texels * static_cast<std::size_t>(std::max(1, shape_.samples)) * bitsPerTexel / 8;
+}
+
 } // namespace gnomon::gl

@@ -54,6 +54,9 @@ class Texture {
   void generateLevels();
   void bind(GLuint unit) const;
 
+  /// What its texels take on the device, of all levels and samples; 0 for a default-made one.
+  std::size_t bytes() const;
+
  private:
   struct Delete {
     void operator()(GLuint id) const { glDeleteTextures(1, &id); }

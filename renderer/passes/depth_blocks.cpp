@@ -6,6 +6,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/sampler.h"
+#include "renderer/passes/box_depths.h"
 
 namespace gnomon {
 namespace {
@@ -37,16 +38,6 @@ Result<std::vector<glm::vec4>> reduceBlocks(const PassInputs& inputs, const gl::
   return depths;
 }
 
-ReceiverDepths emptyGrid(int width, int height) {
-  ReceiverDepths grid;
-  grid.blockSize = GNOMON_BLOCK_SIZE;
-  grid.width = width;
-  grid.height = height;
-  grid.columns = (width + grid.blockSize - 1) / grid.blockSize;
-  grid.rows = (height + grid.blockSize - 1) / grid.blockSize;
-  return grid;
-}
-
 void fillBlocks(ReceiverDepths& grid, const CameraView& camera, const std::vector<glm::vec4>& depths) {
   grid.blocks.reserve(depths.size());
   for (const glm::vec4& depth : depths) {
@@ -73,7 +64,7 @@ double viewDepthOf(const CameraView& camera, double depth) {
 }
 
 Result<ReceiverDepths> depthBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples) {
-  ReceiverDepths grid = emptyGrid(inputs.width, inputs.height);
+  ReceiverDepths grid = emptyDepths(inputs.width, inputs.height);
   const auto depths = reduceBlocks(inputs, depth, samples, grid);
   if (!depths) return depths.problems();
   fillBlocks(grid, inputs.camera, *depths);

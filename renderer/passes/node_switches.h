@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "protocol/light.h"
+#include "renderer/passes/frame_geometry.h"
 
 namespace gnomon {
 
@@ -45,5 +48,10 @@ struct ReceiverGroups {
   /// Some light makes a difference between them.
   bool matter() const;
 };
+
+/// Clears the slots (a byte each) of the nodes that don't pass. `nodes`: one a node of the file; empty = every node has
+/// the defaults.
+void keepNodes(std::span<const NodeSwitches> nodes, const SceneView& view, const FrameGeometry& geometry,
+               const std::function<bool(const NodeSwitches&)>& pass, std::vector<std::uint8_t>& slots);
 
 } // namespace gnomon

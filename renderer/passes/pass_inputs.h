@@ -33,10 +33,6 @@ struct PassInputs {
   bool receiverGroups = false;         ///< some light tells receiver groups apart: surfaces say to which they belong
 };
 
-/// Clears the slots (a byte each) of the nodes that don't pass.
-void keepNodes(const PassInputs& inputs, const std::function<bool(const NodeSwitches&)>& pass,
-               std::vector<std::uint8_t>& slots);
-
 /// Binds the buffers that every pass reads.
 void bindInputs(const PassInputs& inputs);
 

@@ -1,6 +1,7 @@
 #include "renderer/passes/shadow_pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
@@ -8,6 +9,8 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/moments_pass.h"
 #include "renderer/passes/shader_variants.h"
+#include "renderer/passes/tile_casters.h"
+#include "renderer/passes/tile_key.h"
 
 namespace gnomon {
 namespace {
@@ -15,54 +18,10 @@ namespace {
 /// A tile that has texels, and what goes into it.
 struct TileContent {
   std::size_t index = 0; ///< into the plan's tiles
-  DrawUse use = DrawUse::cast;
-  std::vector<std::uint8_t> casters; ///< one a slot
   const Light& light;
+  TileCasters casters;
   TileKey key;
 };
-
-/// The light that each tile is of.
-std::vector<const Light*> lightsOfTiles(const ShadowPlan& plan, std::span<const Light> lights) {
-  std::vector<const Light*> of(plan.tiles.size());
-  for (const PlannedLight& planned : plan.lights) {
-    std::fill_n(of.begin() + planned.firstTile, planned.tileCount, &lights[static_cast<std::size_t>(planned.light)]);
-  }
-  return of;
-}
-
-std::vector<std::uint8_t> castersOf(const PassInputs& inputs, const ShadowTile& tile, const Light& light) {
-  const std::vector<Aabb>& bounds = inputs.geometry.slotBounds;
-  std::vector<std::uint8_t> keep(bounds.size());
-  std::transform(bounds.begin(), bounds.end(), keep.begin(),
-                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
-  keepNodes(
-      inputs, [&](const NodeSwitches& node) { return castsFrom(light, node); }, keep);
-  return keep;
-}
-
-template <class T>
-void append(TileKey& key, const T& value) {
-  const auto bytes = gl::bytesOfValue(value);
-  key.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
-/// The place counts: rasterizing elsewhere may round otherwise.
-TileKey keyOf(const PassInputs& inputs, const ShadowTile& tile, const TileContent& content, int samples) {
-  TileKey key;
-  append(key, inputs.gpu.id);
-  append(key, &inputs.view - inputs.scene.scenes.data());
-  append(key, glm::mat4(tile.clipFromAnchored));
-  append(key, tile.rect);
-  append(key, samples);
-  append(key, content.use);
-  append(key, content.light.shadow->blendedCasters);
-  append(key, tile.filter.type);
-  append(key, tile.filter.size);
-  append(key, tile.space.fit.radius);
-  append(key, glm::vec2(tile.near, tile.far)); // moments are of depths between these
-  key.append(content.casters.begin(), content.casters.end());
-  return key;
-}
 
 std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec) {
   const std::vector<const Light*> lightOf = lightsOfTiles(plan, *spec.lights);
@@ -70,12 +29,8 @@ std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& 
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width <= 0) continue;
-    TileContent content{i,
-                        tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast,
-                        castersOf(inputs, tile, *lightOf[i]),
-                        *lightOf[i],
-                        {}};
-    content.key = keyOf(inputs, tile, content, spec.atlas.samples);
+    TileContent content{i, *lightOf[i], castersInto(tile, *lightOf[i], inputs.view, inputs.geometry, inputs.nodes), {}};
+    content.key = tileKey(inputs, tile, content.light, content.casters, spec.atlas.samples);
     contents.push_back(std::move(content));
   }
   return contents;
@@ -95,15 +50,6 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const Light& l
     if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromAnchored));
     return program;
   });
-}
-
-Result<TileCounts> castTile(const PassInputs& inputs, const ShadowTile& tile, const TileContent& content,
-                            GLuint framebuffer) {
-  const DrawBatch batch =
-      uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, content.use, content.casters));
-  if (const Status drawn = drawTile(inputs, tile, content.light, batch, framebuffer); !drawn) return drawn.problems();
-  gl::submit(); // a software driver fills this tile while the next one is prepared
-  return TileCounts{batch.triangles, inputs.view.triangles - batch.triangles, batch.drawCalls, false};
 }
 
 /// An empty atlas of the plan's size; a framebuffer over it is to be cleared.
@@ -132,6 +78,8 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   ShadowAtlas atlas;
   atlas.tiles.resize(plan.tiles.size());
   if (plan.atlasWidth == 0) return atlas;
+  atlas.timer = gl::Timer::start();
+  gl::Timer timer = gl::Timer::start(); // of the first tile: it brings the clear
   const std::vector<TileContent> contents = contentsOf(inputs, plan, spec);
   std::vector<TileKey> keys;
   for (const TileContent& content : contents) keys.push_back(content.key);
@@ -140,6 +88,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
       same && same->depth.width() == plan.atlasWidth && same->depth.height() == plan.atlasHeight) {
     for (const TileContent& content : contents) atlas.tiles[content.index].reused = true;
     atlas.textures = std::move(same);
+    atlas.timer.stop();
     return atlas;
   }
 
@@ -151,20 +100,30 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   std::vector<const ShadowTile*> toBlur;
   for (const TileContent& content : contents) {
     const ShadowTile& tile = plan.tiles[content.index];
+    TileCounts& counts = atlas.tiles[content.index];
     if (const auto drawn = cache.find(content.key)) {
       textures->depth.copyFrom(drawn->depth, tile.rect);
       if (isBlurred(tile)) textures->moments.copyFrom(drawn->moments, tile.rect);
-      atlas.tiles[content.index].reused = true;
+      counts.reused = true;
       continue;
     }
-    const auto counts = castTile(inputs, tile, content, target->id());
-    if (!counts) return counts.problems();
-    atlas.tiles[content.index] = *counts;
+    const DrawBatch batch = uploadDraws(
+        buildDrawList(inputs.scene, inputs.view, inputs.geometry, content.casters.use, content.casters.slots));
+    if (const Status drawn = drawTile(inputs, tile, content.light, batch, target->id()); !drawn) {
+      return drawn.problems();
+    }
+    timer.stop();
+    gl::Timer next = gl::Timer::start(); // before the tile is submitted: see Timer
+    gl::submit();                        // a software driver fills this tile while the next one is prepared
+    counts = {batch.triangles, inputs.view.triangles - batch.triangles, batch.drawCalls, false,
+              std::exchange(timer, std::move(next))};
+    atlas.drawCalls += batch.drawCalls;
     if (isBlurred(tile)) toBlur.push_back(&tile);
   }
   if (const Status blurred = blurMoments(inputs, toBlur, *textures); !blurred) return blurred.problems();
   cache.keep(std::move(keys), textures);
   atlas.textures = std::move(textures);
+  atlas.timer.stop();
   return atlas;
 }
 

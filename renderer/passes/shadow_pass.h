@@ -2,6 +2,7 @@
 
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
+#include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/tile_cache.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -14,12 +15,15 @@ struct TileCounts {
   std::uint64_t culledTriangles = 0;
   std::size_t drawCalls = 0;
   bool reused = false; ///< an earlier frame's tile serves; nothing was drawn
+  gl::Timer timer;     ///< of finding the casters and drawing them; of the first tile, of clearing the atlas too
 };
 
 /// Every light's tiles, drawn.
 struct ShadowAtlas {
   std::shared_ptr<const AtlasTextures> textures = std::make_shared<AtlasTextures>(); ///< without any for an empty plan
   std::vector<TileCounts> tiles;                                                     ///< one a tile of the plan
+  std::size_t drawCalls = 0;
+  gl::Timer timer; ///< of all tiles
 };
 
 /// `spec`: effective. Tiles that the cache has are taken from it, and the cache keeps the new ones.

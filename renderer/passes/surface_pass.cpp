@@ -18,6 +18,7 @@ bool anythingGlows(const Scene& scene) {
 } // namespace
 
 Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples) {
+  gl::Timer timer = gl::Timer::start();
   const bool reuse = samples == survey.samples;
   const bool emission = anythingGlows(inputs.scene);
   const DrawBatch batch = uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
@@ -55,6 +56,8 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
         return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission, inputs.receiverGroups}));
       });
   if (!drawn) return drawn.problems();
+  timer.stop();
+  surfaces.timer = std::move(timer);
   return surfaces;
 }
 

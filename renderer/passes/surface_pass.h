@@ -2,6 +2,7 @@
 
 #include "protocol/result.h"
 #include "renderer/gl/texture.h"
+#include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey_pass.h"
 
@@ -15,6 +16,7 @@ struct Surfaces {
   std::vector<glm::vec2> samplePositions; ///< within a pixel, 0..1 from its lower left corner; one a sample
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
+  gl::Timer timer;
 };
 
 /// Draws the surfaces that the survey found, `samples` a pixel (1 or 4). With the survey's own samples its depth and

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> slotsInView(const PassInputs& inputs) {
   std::transform(inputs.geometry.slotBounds.begin(), inputs.geometry.slotBounds.end(), keep.begin(),
                  [&](const Aabb& box) { return static_cast<std::uint8_t>(mayIntersect(frustum, box)); });
   keepNodes(
-      inputs, [](const NodeSwitches& node) { return node.visible; }, keep);
+      inputs.nodes, inputs.view, inputs.geometry, [](const NodeSwitches& node) { return node.visible; }, keep);
   return keep;
 }
 
@@ -90,6 +90,7 @@ std::vector<std::uint8_t> firstToDraw(const PassInputs& inputs, const std::vecto
 
 Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   Survey survey;
+  survey.timer = gl::Timer::start();
   survey.samples = samples;
   survey.inView = slotsInView(inputs);
   survey.depth =
@@ -120,6 +121,7 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   }
   survey.receivers = std::move(*blocks);
   survey.visible = visibleBoxes(inputs.camera, survey.receivers, inputs.geometry.slotBounds, drawn);
+  survey.timer.stop();
   return survey;
 }
 

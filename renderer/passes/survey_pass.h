@@ -2,6 +2,7 @@
 
 #include "protocol/result.h"
 #include "renderer/gl/framebuffer.h"
+#include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"
 
@@ -16,6 +17,7 @@ struct Survey {
   int samples = 1;                   ///< a pixel
   std::uint64_t triangles = 0;       ///< drawn
   std::size_t drawCalls = 0;
+  gl::Timer timer;
 };
 
 /// Draws the depth of everything in view that is not surely hidden, and reduces it. Of many triangles the nearest are

@@ -3,17 +3,9 @@
 #include <algorithm>
 
 namespace gnomon {
-namespace {
-
-std::size_t texels(const gl::Texture& texture) {
-  if (texture.id() == 0) return 0;
-  return static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height());
-}
-
-} // namespace
 
 std::size_t AtlasTextures::bytes() const {
-  return texels(depth) * 4 * static_cast<std::size_t>(std::max(1, depth.shape().samples)) + texels(moments) * 16;
+  return depth.bytes() + moments.bytes();
 }
 
 std::shared_ptr<const AtlasTextures> TileCache::findAll(const std::vector<TileKey>& keys) {

@@ -71,6 +71,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   if (!program) return program.problems();
 
   DrawnView drawn;
+  drawn.timer = gl::Timer::start();
   drawn.color = gl::Texture({formatOf(view, variant.encoded), inputs.width, inputs.height}, "view");
   auto target = gl::Framebuffer::create({{{&drawn.color}}, {}}, "view");
   if (!target) return target.problems();
@@ -101,6 +102,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   }
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
   gl::drawFullscreen(**program, nothing);
+  drawn.timer.stop();
   return drawn;
 }
 

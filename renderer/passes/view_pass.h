@@ -5,6 +5,7 @@
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/gl/framebuffer.h"
+#include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/surface_pass.h"
@@ -15,6 +16,7 @@ namespace gnomon {
 struct DrawnView {
   gl::Texture color; ///< RGBA8 or SRGB8_ALPHA8 when encoded, else RGBA32F
   gl::Framebuffer framebuffer;
+  gl::Timer timer;
 };
 
 struct ViewInputs {

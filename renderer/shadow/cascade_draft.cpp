@@ -29,10 +29,13 @@ void noteEmptyCascades(LightDraft& draft) {
 void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraft& draft) {
   const Shadow& shadow = caster.shadow;
   const bool manual = shadow.depthRange.mode == DepthRangeMode::manual;
-  const DepthInterval range = *depthRangeOf(input.view, input.receivers, shadow.depthRange);
+  const PlannedRange planned = *depthRangeOf(input.view, input.receivers, shadow.depthRange);
+  const DepthInterval& range = planned.covered;
+  draft.planned.depthRange = planned.base;
   const std::vector<double> splits = splitDistances(shadow.partition, shadow.cascadeCount, range);
   draft.planned.fadeOut = manual || splits.back() < range.far;
-  draft.stable = manual && shadow.stabilization != Stabilization::none;
+  const bool held = manual || shadow.depthRange.previous.has_value(); // not this frame's alone
+  draft.stable = held && shadow.stabilization != Stabilization::none;
   const LightBasis basis = lightBasis(caster.direction);
   for (const CascadeInterval& cascade : cascadeIntervals(splits, shadow.blendCascades, draft.planned.fadeOut)) {
     TileDraft tile;
@@ -47,6 +50,7 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
   if (shadow.stabilization != Stabilization::none && !draft.stable) {
     addNote(draft.planned, "stabilization is ignored: the depth range is automatic");
   }
+  if (!planned.note.empty()) addNote(draft.planned, planned.note);
   noteEmptyCascades(draft);
 }
 

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gnomon {
 namespace {
 
 constexpr double kDefaultMin = 0.0;
 constexpr double kDefaultMax = 50.0;
+constexpr double kDefaultGuard = 1.0;
+
+/// Factors by which the ends of a held range move: a little at a time outwards, so that it is not longer than it need
+/// be; inwards only where much is won, so that it does not move to and fro.
+constexpr double kOutwards = 1.1;
+constexpr double kInwards = 2.0;
 
 /// A range thinner than this share of its own depth can't be cut into cascades that floats tell apart.
 constexpr double kThinnest = 1e-5;
@@ -19,6 +26,82 @@ DepthInterval widened(DepthInterval range) {
   return range;
 }
 
+/// The least start * factor^n, n >= 0, that is at least `target`. REQUIRES: start > 0, factor > 1.
+double steppedUp(double start, double target, double factor) {
+  double reached = start;
+  if (target > start) reached *= std::pow(factor, std::floor(std::log(target / start) / std::log(factor)));
+  while (reached < target) reached *= factor;
+  return reached;
+}
+
+/// The greatest start / factor^n, n >= 0, that is at most `target`. REQUIRES: start > 0, target > 0, factor > 1.
+double steppedDown(double start, double target, double factor) {
+  double reached = start;
+  if (target < start) reached /= std::pow(factor, std::floor(std::log(start / target) / std::log(factor)));
+  while (reached > target) reached /= factor;
+  return reached;
+}
+
+/// The greatest start * factor^n, n >= 0, that is at most `target`. REQUIRES: 0 < start <= target, factor > 1.
+double raisedTo(double start, double target, double factor) {
+  const double reached = start * std::pow(factor, std::floor(std::log(target / start) / std::log(factor)));
+  return reached > target ? reached / factor : reached;
+}
+
+double loweredTo(double start, double target, double factor) {
+  const double reached = start / std::pow(factor, std::floor(std::log(start / target) / std::log(factor)));
+  return reached < target ? reached * factor : reached;
+}
+
+/// With the guard, but no farther than surfaces can lie: between the camera's planes, with room for rounding.
+DepthInterval guarded(const CameraView& view, const DepthInterval& base, double guard) {
+  return {std::max(base.near - guard, view.near - 3.0 * depthSlack(view, view.near)),
+          std::min(base.far + guard, std::isinf(view.far) ? view.far : view.far + 3.0 * depthSlack(view, view.far))};
+}
+
+/// REQUIRES: both intervals lie in front of the eye.
+DepthInterval movedByFactors(const DepthInterval& previous, const DepthInterval& covered,
+                             const DepthInterval& surfaces) {
+  DepthInterval moved = previous;
+  if (surfaces.near < covered.near) {
+    moved.near = steppedDown(previous.near, surfaces.near, kOutwards);
+  } else if (surfaces.near >= kInwards * previous.near) {
+    moved.near = raisedTo(previous.near, surfaces.near, kInwards);
+  }
+  if (surfaces.far > covered.far) {
+    moved.far = steppedUp(previous.far, surfaces.far, kOutwards);
+  } else if (kInwards * surfaces.far <= previous.far) {
+    moved.far = loweredTo(previous.far, surfaces.far, kInwards);
+  }
+  return moved;
+}
+
+DepthInterval moved(const DepthInterval& previous, const DepthInterval& covered, const DepthInterval& surfaces) {
+  if (previous.near > 0.0 && surfaces.near > 0.0) return movedByFactors(previous, covered, surfaces);
+  const bool outside = surfaces.near < covered.near || surfaces.far > covered.far;
+  const bool tooLong = kInwards * (surfaces.far - surfaces.near) <= previous.far - previous.near;
+  return outside || tooLong ? surfaces : previous;
+}
+
+std::string movedNote(const DepthInterval& previous, const DepthInterval& surfaces, bool outside) {
+  std::ostringstream text;
+  text << "the depth range was planned anew: the previous one, " << previous.near << ".." << previous.far << " m, "
+       << (outside ? "does not hold" : "is far longer than") << " this frame's " << surfaces.near << ".."
+       << surfaces.far << " m";
+  return text.str();
+}
+
+PlannedRange heldOrMoved(const CameraView& view, const DepthInterval& surfaces, const DepthInterval& previous,
+                         double guard) {
+  const DepthInterval held = guarded(view, previous, guard);
+  const bool outside = surfaces.near < held.near || surfaces.far > held.far;
+  DepthInterval base = moved(previous, held, surfaces);
+  if (!(base.near < base.far)) base = surfaces;
+  const DepthInterval covered = guarded(view, base, guard);
+  if (!outside && covered.near == held.near && covered.far == held.far) return {previous, held, {}};
+  return {base, covered, movedNote(previous, surfaces, outside)};
+}
+
 } // namespace
 
 double depthSlack(const CameraView& view, double depth) {
@@ -26,15 +109,20 @@ double depthSlack(const CameraView& view, double depth) {
   return view.perspective ? slack : slack + 2e-7 * (view.far - view.near);
 }
 
-std::optional<DepthInterval> depthRangeOf(const CameraView& view, const ReceiverDepths& receivers,
-                                          const DepthRange& options) {
+std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverDepths& receivers,
+                                         const DepthRange& options) {
   if (receivers.range.empty()) return std::nullopt;
   if (options.mode == DepthRangeMode::manual) {
-    return widened({view.near + options.min.value_or(kDefaultMin), view.near + options.max.value_or(kDefaultMax)});
+    const DepthInterval asked =
+        widened({view.near + options.min.value_or(kDefaultMin), view.near + options.max.value_or(kDefaultMax)});
+    return PlannedRange{asked, asked, {}};
   }
   const double nearest = receivers.range.nearest;
   const double farthest = receivers.range.farthest;
-  return widened({nearest - depthSlack(view, nearest), farthest + depthSlack(view, farthest)});
+  const DepthInterval surfaces = widened({nearest - depthSlack(view, nearest), farthest + depthSlack(view, farthest)});
+  if (!options.previous) return PlannedRange{surfaces, surfaces, {}};
+  return heldOrMoved(view, surfaces, {options.previous->near, options.previous->far},
+                     options.guardDistance.value_or(kDefaultGuard));
 }
 
 } // namespace gnomon

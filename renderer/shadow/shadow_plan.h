@@ -9,6 +9,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
+#include "renderer/shadow/depth_interval.h"
 #include "renderer/shadow/receiver_mask.h"
 #include "renderer/shadow/tile_space.h"
 
@@ -87,6 +88,7 @@ struct PlannedLight {
   /// The last tile fades to lit over its blend zone: surfaces may lie beyond it (manual depth range, or manual splits
   /// that end before the range does).
   bool fadeOut = false;
+  std::optional<DepthInterval> depthRange{}; ///< directional: the base of its depth range, see PlannedRange
   std::string note;
 };
 

@@ -226,6 +226,17 @@ class WithServer(CommandLine):
                          {key: there[key] for key in there if key not in ("id", "bytes")})
         self.assertIn("triangles", gnomon("inspect", BOX).stdout.decode())
 
+    def test_a_plan_is_the_same_here_and_there(self):
+        spec = self.folder / "spec.json"
+        spec.write_text('{"shadow": {"cascadeCount": 2}}')
+        here, there = (gnomon("plan", BOX, str(spec), "--sun", "135,40", *where) for where in ([], ["--server", self.url]))
+        for run in (here, there):
+            self.assert_ends(run, OK)
+        self.assertEqual(json.loads(here.stdout), json.loads(there.stdout))
+        self.assertEqual(len(json.loads(here.stdout)["lights"][0]["cascades"]), 2)
+        run = gnomon("plan", BOX, "--set", "shadow.cascadeCount=9")
+        self.assert_ends(run, PROBLEM, "--set shadow.cascadeCount")
+
     def test_health(self):
         self.assert_ends(gnomon("health", "--url", self.url), OK)
         self.assert_ends(gnomon("health", GNOMON_URL=self.url), OK)

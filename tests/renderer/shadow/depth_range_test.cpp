@@ -23,10 +23,10 @@ DepthRange manualRange(double min, double max) {
 TEST(DepthRange, X18_AutomaticIsTheSurveyedRangeAndBothEndsAreInside) {
   const auto range = depthRangeOf(CameraView{}, receiversBetween(3.5f, 80.25f), {});
   ASSERT_TRUE(range);
-  EXPECT_LT(range->near, 3.5);
-  EXPECT_GT(range->far, 80.25);
-  EXPECT_NEAR(range->near, 3.5, 1e-4);
-  EXPECT_NEAR(range->far, 80.25, 1e-3);
+  EXPECT_LT(range->covered.near, 3.5);
+  EXPECT_GT(range->covered.far, 80.25);
+  EXPECT_NEAR(range->covered.near, 3.5, 1e-4);
+  EXPECT_NEAR(range->covered.far, 80.25, 1e-3);
 }
 
 TEST(DepthRange, X18_NothingInViewGivesNoRange) {
@@ -39,21 +39,21 @@ TEST(DepthRange, X21_ManualIsMeasuredFromTheNearPlane) {
   view.near = 0.5;
   const auto range = depthRangeOf(view, receiversBetween(1, 2), manualRange(2, 30));
   ASSERT_TRUE(range);
-  EXPECT_DOUBLE_EQ(range->near, 2.5);
-  EXPECT_DOUBLE_EQ(range->far, 30.5);
+  EXPECT_DOUBLE_EQ(range->covered.near, 2.5);
+  EXPECT_DOUBLE_EQ(range->covered.far, 30.5);
   DepthRange defaults;
   defaults.mode = DepthRangeMode::manual;
-  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->near, 0.5);
-  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->far, 50.5);
+  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->covered.near, 0.5);
+  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->covered.far, 50.5);
 }
 
 TEST(DepthRange, X18_APlaneThatFacesTheCameraGetsARangeWithALength) {
   for (const float depth : {1e-3f, 1.0f, 7.0f, 1e6f}) {
     const auto range = depthRangeOf(CameraView{}, receiversBetween(depth, depth), {});
     ASSERT_TRUE(range);
-    EXPECT_LT(range->near, depth);
-    EXPECT_GT(range->far, depth);
-    EXPECT_LT(range->far - range->near, 1e-4 * depth);
+    EXPECT_LT(range->covered.near, depth);
+    EXPECT_GT(range->covered.far, depth);
+    EXPECT_LT(range->covered.far - range->covered.near, 1e-4 * depth);
   }
   CameraView orthographic;
   orthographic.perspective = false;
@@ -61,8 +61,8 @@ TEST(DepthRange, X18_APlaneThatFacesTheCameraGetsARangeWithALength) {
   orthographic.far = 10;
   for (const float depth : {-3.0f, 0.0f}) {
     const auto range = depthRangeOf(orthographic, receiversBetween(depth, depth), {});
-    EXPECT_LT(range->near, depth);
-    EXPECT_GT(range->far, depth);
+    EXPECT_LT(range->covered.near, depth);
+    EXPECT_GT(range->covered.far, depth);
   }
 }
 
@@ -70,8 +70,8 @@ TEST(DepthRange, X21_AManualRangeTooThinForFloatsIsWidened) {
   CameraView view;
   view.near = 1000;
   const auto range = depthRangeOf(view, receiversBetween(1, 2), manualRange(0, 1e-300));
-  EXPECT_GT(range->far, range->near);
-  EXPECT_LT(range->far - range->near, 0.1);
+  EXPECT_GT(range->covered.far, range->covered.near);
+  EXPECT_LT(range->covered.far - range->covered.near, 0.1);
 }
 
 } // namespace

@@ -100,6 +100,11 @@ inline Shadow randomShadow(Dice& dice) {
     shadow.depthRange.min = dice.chance(0.3) ? 0.0 : dice.between(0, 20);
     shadow.depthRange.max = *shadow.depthRange.min + dice.between(0.1, 300);
   }
+  if (shadow.depthRange.mode == DepthRangeMode::automatic && dice.chance(0.4)) {
+    const double near = dice.between(-5, 100);
+    shadow.depthRange.previous = PreviousRange{near, near + dice.between(0.1, 500)};
+    if (dice.chance(0.7)) shadow.depthRange.guardDistance = dice.between(0, 20);
+  }
   shadow.stabilization = static_cast<Stabilization>(dice.below(3));
   shadow.blendCascades = dice.chance(0.7);
   shadow.filter.type = dice.chance(0.5) ? FilterType::pcf : static_cast<FilterType>(dice.below(5));

@@ -253,6 +253,27 @@ TEST(ShadowPlan, X24_StabilizationIsIgnoredInAnAutomaticRangeAndTheNoteSaysSo) {
   }
 }
 
+TEST(ShadowPlan, X24_X20_WithAPreviousRangeStabilizationIsHonoured) {
+  PlanInput input = simplePlan(1, 50);
+  Shadow& shadow = input.casters[0].shadow;
+  const auto base = planShadows(input).lights[0].depthRange;
+  ASSERT_TRUE(base);
+  shadow.depthRange.previous = PreviousRange{base->near, base->far};
+  shadow.stabilization = Stabilization::projectionSnapping;
+  const ShadowPlan first = planShadows(input);
+  EXPECT_EQ(first.lights[0].note, "");
+  PlanInput next = input;
+  for (DepthSpan& block : next.receivers.blocks) block.farthest = std::max(block.nearest, block.farthest - 0.7f);
+  next.receivers.range.farthest -= 0.7f;
+  next.view.eye += glm::dvec3(0.3, 0.1, 0);
+  const ShadowPlan second = planShadows(next);
+  ASSERT_EQ(second.tiles.size(), first.tiles.size());
+  for (std::size_t i = 0; i < first.tiles.size(); ++i) {
+    EXPECT_EQ(second.tiles[i].far, first.tiles[i].far);
+    EXPECT_EQ(second.tiles[i].space.fit.texelSize, first.tiles[i].space.fit.texelSize) << i;
+  }
+}
+
 TEST(ShadowPlan, X18_ACascadeWithoutASurfaceIsNotDrawn) {
   PlanInput input = simplePlan(1, 50);
   for (std::size_t i = 0; i < input.receivers.blocks.size(); ++i) {

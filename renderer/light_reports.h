@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/frame_report.h"
+#include "renderer/shadow/predicted_error.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// What a plan decided about the spec's lights: everything but counts and times.
+std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
+                                      const glm::dvec3& eye);
+
+/// Fills in the sums over a light's tiles.
+void addSums(LightReport& light);
+
+} // namespace gnomon

@@ -1,0 +1,59 @@
+#include "renderer/check_device.h"
+#include "renderer/light_reports.h"
+#include "renderer/passes/box_depths.h"
+#include "renderer/passes/frame_geometry.h"
+#include "renderer/passes/tile_casters.h"
+#include "renderer/plan_input.h"
+#include "renderer/render.h"
+#include "renderer/resolve_frame.h"
+
+namespace gnomon {
+namespace {
+
+void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene& scene, const FrameGeometry& geometry,
+                std::vector<LightReport>& lights) {
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
+  for (const PlannedLight& planned : plan.lights) {
+    LightReport& light = lights[static_cast<std::size_t>(planned.light)];
+    for (std::size_t i = 0; i < light.cascades.size(); ++i) {
+      const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(planned.firstTile) + i];
+      if (tile.rect.width == 0) continue;
+      const Light& caster = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
+      const TileCasters casters = castersInto(tile, caster, view, geometry, frame.nodes);
+      const DrawList draws = buildDrawList(scene, view, geometry, casters.use, casters.slots);
+      light.cascades[i].casterTriangles = draws.triangles;
+      light.cascades[i].culledTriangles = view.triangles - draws.triangles;
+      light.cascades[i].drawCalls = draws.commands.size();
+    }
+    addSums(light);
+  }
+}
+
+} // namespace
+
+Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const RendererInfo& device) {
+  const auto frame = resolveFrame(scene, spec);
+  if (!frame) return frame.problems();
+  if (const Status able = checkDevice(spec, device); !able) return able.problems();
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
+  const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye);
+  std::vector<std::uint8_t> seen(geometry.slotCount(), 1);
+  keepNodes(
+      frame->nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, seen);
+  const ReceiverDepths receivers =
+      boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
+  const ShadowPlan plan = planShadows(planInput(*frame, view, receivers, device.maxTextureSize));
+  const PredictedErrors errors = predictErrors(frame->view, receivers, plan);
+
+  PlanReport report;
+  report.spec = frame->spec;
+  if (!receivers.range.empty()) report.depthRange = {receivers.range.nearest, receivers.range.farthest};
+  report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
+  report.lights = lightReports(frame->spec, plan, errors, frame->view.eye);
+  addCasters(plan, *frame, scene, geometry, report.lights);
+  report.predictedError = errors.all;
+  report.warnings = frame->warnings;
+  return report;
+}
+
+} // namespace gnomon

@@ -1,0 +1,77 @@
+// What a plan says, held against the frame.
+#include "protocol/json_codec.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+using testing::renderJson;
+
+const char* const kThreeLights = R"({"width":96,"height":64,"views":["color","shadow"],"lights":[
+    {"sun":{"azimuthDegrees":120,"elevationDegrees":35}},
+    {"type":"spot","position":[3,4,2],"direction":[-3,-4,-2],"range":20,"shadow":{"size":"Small"}},
+    {"type":"point","position":[-2,3,1],"range":15}]})";
+
+TEST(FramePlans, HoldWhatTheFrameHolds) {
+  for (const char* name : {"box_on_plane", "long_row", "thin_slats"}) {
+    const ScenePtr scene = testing::generatedScene(name);
+    const auto spec = decodeFrameSpec(kThreeLights);
+    ASSERT_TRUE(spec);
+    const Frame frame = renderJson(scene, kThreeLights);
+    const auto plan = planFrame(*scene, *spec, testing::sharedRenderer().info());
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->spec, frame.report.spec);
+    EXPECT_LE(plan->depthRange[0], frame.report.depthRange[0]) << name;
+    EXPECT_GE(plan->depthRange[1], frame.report.depthRange[1]) << name;
+    for (std::size_t i = 0; i < plan->lights.size(); ++i) {
+      const LightReport& planned = plan->lights[i];
+      const LightReport& drawn = frame.report.lights[i];
+      EXPECT_EQ(planned.askedTileSize, drawn.askedTileSize);
+      EXPECT_GE(planned.shadowed, drawn.shadowed);
+      EXPECT_FALSE(planned.cpuMilliseconds || planned.gpuMilliseconds);
+      if (i == 0 || !drawn.shadowed) continue; // faces, other than cascades, lie where the frame's do
+      ASSERT_EQ(planned.cascades.size(), drawn.cascades.size());
+      EXPECT_GE(planned.casterTriangles, drawn.casterTriangles) << name << i;
+      for (std::size_t tile = 0; tile < drawn.cascades.size(); ++tile) {
+        EXPECT_TRUE(planned.cascades[tile].matrix || !drawn.cascades[tile].matrix) << "a superset of the tiles";
+      }
+    }
+  }
+}
+
+TEST(FramePlans, RefuseWhatTheFrameRefuses) {
+  const ScenePtr scene = testing::generatedScene("box_on_plane");
+  for (const char* text : {R"({"scene":7})", R"({"camera":{"node":"nobody"}})"}) {
+    const auto spec = decodeFrameSpec(text);
+    ASSERT_TRUE(spec);
+    const auto plan = planFrame(*scene, *spec, testing::sharedRenderer().info());
+    ASSERT_FALSE(plan) << text;
+    EXPECT_EQ(plan.problems()[0].pointer, testing::refusedJson(scene, text)[0].pointer);
+  }
+}
+
+TEST(FramePlans, X8_TheDeviceBoundsTheAtlas) {
+  const ScenePtr scene = testing::generatedScene("box_on_plane");
+  RendererInfo device;
+  device.maxTextureSize = 512;
+  device.maxSamples = 1;
+  const auto plan = planFrame(*scene, FrameSpec{}, device);
+  ASSERT_TRUE(plan);
+  EXPECT_LE(plan->atlasSize[0], 512);
+  EXPECT_LT(plan->lights[0].grantedTileSize, plan->lights[0].askedTileSize);
+  EXPECT_NE(plan->lights[0].note.find("is full"), std::string::npos) << plan->lights[0].note;
+}
+
+TEST(FramePlans, D4_TheDeviceMustHaveTheSamples) {
+  FrameSpec spec;
+  spec.atlas.samples = 4;
+  RendererInfo device;
+  device.maxTextureSize = 512;
+  device.maxSamples = 1;
+  const auto plan = planFrame(*testing::generatedScene("box_on_plane"), spec, device);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.problems()[0].pointer, "/atlas/samples");
+}
+
+} // namespace
+} // namespace gnomon
