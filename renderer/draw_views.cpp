@@ -12,10 +12,11 @@ Surfaces depthOnly() {
 
 } // namespace
 
-Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading) {
+Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading, const ShadowPlan& plan,
+                             const PlannedLight* shown) {
   DrawnViews drawn;
   for (const View view : shading.spec.views) {
-    if (view == View::atlas) {
+    if (view == View::atlas || view == View::tile) {
       drawn.views.emplace_back();
       continue;
     }
@@ -26,8 +27,13 @@ Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading
       if (!surfaces) return surfaces.problems();
       drawn.surfaces.emplace(samples, std::move(*surfaces));
     }
-    auto made = surveyed ? drawView(inputs, shading, depthOnly(), view)
-                         : drawView(inputs, shading, drawn.surfaces.at(samples), view);
+    if (view == View::casterIds) {
+      auto casters = drawCasterNodes(inputs, plan, shown);
+      if (!casters) return casters.problems();
+      drawn.casters = std::move(*casters);
+    }
+    auto made = surveyed ? drawView(inputs, shading, depthOnly(), {}, view)
+                         : drawView(inputs, shading, drawn.surfaces.at(samples), drawn.casters, view);
     if (!made) return made.problems();
     drawn.views.push_back(std::move(*made));
   }

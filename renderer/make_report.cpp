@@ -56,7 +56,7 @@ FrameReport makeReport(const ResolvedFrame& frame, const SceneView& scene, const
     report.counts.shadedTriangles += surfaces.triangles;
     report.counts.drawCalls += surfaces.drawCalls;
   }
-  report.counts.drawCalls += drawn.views.size();
+  report.counts.drawCalls += drawn.casters.drawCalls + drawn.views.size();
   report.stages = std::move(stages);
   report.warnings = frame.warnings;
   return report;

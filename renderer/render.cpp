@@ -17,6 +17,7 @@
 #include "renderer/passes/read_back.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/survey_pass.h"
+#include "renderer/resolve_debug.h"
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
 
@@ -85,14 +86,15 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
 }
 
 Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
-                                         const ShadowAtlas& atlas) {
+                                         const ShadowAtlas& atlas, const ShadowPlan& plan, const ShadowTile* tile) {
   const bool encoded = frame.spec.output.format == ImageFormat::png;
   const bool opaque = frame.spec.background.alpha >= 1;
   std::vector<ViewImage> images;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const View view = frame.spec.views[i];
-    images.push_back(
-        {view, view == View::atlas ? readAtlas(atlas, encoded) : readView(drawn[i], view, encoded, opaque)});
+    images.push_back({view, view == View::atlas  ? readAtlas(atlas, plan, encoded)
+                            : view == View::tile ? readTile(atlas, *tile, encoded)
+                                                 : readView(drawn[i], view, encoded, opaque)});
   }
   return images;
 }
@@ -152,22 +154,20 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
     data.depthRange.y = survey->receivers.range.farthest;
     frameBuffer.update(0, gl::bytesOfValue(data));
   }
-  if (plan.atlasWidth == 0 &&
-      std::find(effective.views.begin(), effective.views.end(), View::atlas) != effective.views.end()) {
-    return Problem{ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "",
-                   "atlas"};
-  }
+  const auto subject = debugSubject(effective, plan);
+  if (!subject) return subject.problems();
   clock.finish("plan");
 
   const auto atlas = castShadows(inputs, plan, effective.atlas.samples);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 
-  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective});
+  const auto drawn =
+      drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective, subject->light}, plan, subject->planned);
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 
-  auto images = readViews(*resolved, drawn->views, *atlas);
+  auto images = readViews(*resolved, drawn->views, *atlas, plan, subject->tile);
   if (!images) return images.problems();
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();

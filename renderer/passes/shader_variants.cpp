@@ -15,16 +15,29 @@ const char* viewDefine(View view) {
   switch (view) {
     case View::color:
       return "VIEW_COLOR";
-    case View::cascades:
-      return "VIEW_CASCADES";
     case View::depth:
       return "VIEW_DEPTH";
     case View::normal:
       return "VIEW_NORMAL";
+    case View::cascades:
+      return "VIEW_CASCADES";
     case View::shadow:
       return "VIEW_SHADOW";
-    default:
-      break;
+    case View::texelGrid:
+      return "VIEW_TEXEL_GRID";
+    case View::texelDensity:
+      return "VIEW_TEXEL_DENSITY";
+    case View::blendWeight:
+      return "VIEW_BLEND_WEIGHT";
+    case View::bias:
+      return "VIEW_BIAS";
+    case View::casterIds:
+      return "VIEW_CASTER_IDS";
+    case View::lightContribution:
+      return "VIEW_LIGHT_CONTRIBUTION";
+    case View::atlas:
+    case View::tile:
+      break; // read from the atlas, not drawn
   }
   return "VIEW_COLOR";
 }
@@ -59,6 +72,16 @@ gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked)
   return {std::move(vertexShader), masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)};
 }
 
+gl::ProgramSource castProgram(const Material* masked) {
+  return depthProgram("shadow_cast.vert", masked);
+}
+
+gl::ProgramSource casterNodeProgram(const Material* masked) {
+  gl::ProgramSource source{"shadow_cast.vert", "masked_depth.frag", "", maskDefines(masked)};
+  source.defines.emplace_back("CASTER_NODE");
+  return source;
+}
+
 gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant) {
   struct Slot {
     const std::optional<TextureUse>* use;
@@ -88,6 +111,27 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   return {"surface.vert", "surface.frag", "", std::move(defines)};
 }
 
+bool showsOneLight(View view) {
+  switch (view) {
+    case View::cascades:
+    case View::shadow:
+    case View::texelGrid:
+    case View::texelDensity:
+    case View::blendWeight:
+    case View::bias:
+    case View::casterIds:
+    case View::lightContribution:
+      return true;
+    case View::color:
+    case View::depth:
+    case View::normal:
+    case View::atlas:
+    case View::tile:
+      return false;
+  }
+  return false;
+}
+
 gl::ProgramSource viewProgram(const ViewVariant& variant) {
   std::vector<std::string> defines{viewDefine(variant.view)};
   defines.push_back("SAMPLES " + std::to_string(variant.samples));
@@ -96,6 +140,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (showsOneLight(variant.view)) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

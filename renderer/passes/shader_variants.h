@@ -14,6 +14,12 @@ std::vector<std::string> maskDefines(const Material* material);
 /// Draws depth alone with a vertex shader; `masked` as in maskDefines.
 gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked);
 
+/// Draws casters as a light sees them: their depth.
+gl::ProgramSource castProgram(const Material* masked);
+
+/// The same, and the index of each one's node as a color.
+gl::ProgramSource casterNodeProgram(const Material* masked);
+
 struct SurfaceVariant {
   bool tangents = false; ///< the primitive brings its own
   bool emission = false; ///< something in the scene glows: every program writes what it gives off
@@ -29,6 +35,9 @@ struct ShadowSampling {
   bool manualBias = false; ///< of some light
   int atlasSamples = 1;
 };
+
+/// True for views of one light, debug.light.
+bool showsOneLight(View view);
 
 /// What lighting the surfaces needs, and no more.
 struct ViewVariant {

@@ -19,7 +19,15 @@ std::vector<std::uint8_t> castersOf(const ShadowTile& tile, const FrameGeometry&
   return keep;
 }
 
-Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer) {
+} // namespace
+
+DrawBatch castersInto(const PassInputs& inputs, const ShadowTile& tile) {
+  const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
+  return uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
+}
+
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer,
+                const CastProgram& programOf) {
   gl::PipelineState state;
   state.framebuffer = framebuffer;
   state.viewport = tile.rect;
@@ -28,13 +36,11 @@ Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatc
   state.multisample = true;
   state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
   return drawGroups(inputs, batch, state, [&](const DrawGroup&, const Material* masked) {
-    auto program = inputs.programs.get(depthProgram("shadow_cast.vert", masked));
+    auto program = inputs.programs.get(programOf(masked));
     if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromRelative));
     return program;
   });
 }
-
-} // namespace
 
 Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan, int samples) {
   ShadowAtlas atlas;
@@ -56,10 +62,9 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width == 0) continue;
-    const DrawUse use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
-    const DrawBatch batch =
-        uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, use, castersOf(tile, inputs.geometry)));
-    if (const Status drawn = drawTile(inputs, tile, batch, target->id()); !drawn) return drawn.problems();
+    const DrawBatch batch = castersInto(inputs, tile);
+    const Status drawn = drawTile(inputs, tile, batch, target->id(), castProgram);
+    if (!drawn) return drawn.problems();
     gl::submit(); // a software driver fills this tile while the next one is prepared
     atlas.tiles[i] = {batch.triangles, inputs.view.triangles - batch.triangles};
     atlas.drawCalls += batch.drawCalls;

@@ -1,11 +1,23 @@
 #pragma once
 
+#include <functional>
+
 #include "protocol/result.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
+
+/// The draws of everything that may throw a shadow into a tile.
+DrawBatch castersInto(const PassInputs& inputs, const ShadowTile& tile);
+
+/// The program that draws casters: of a masked material, or (null) of any opaque one.
+using CastProgram = std::function<gl::ProgramSource(const Material* masked)>;
+
+/// Draws casters into a tile's rectangle of `framebuffer`; the nearest to the light stays.
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer,
+                const CastProgram& programOf);
 
 /// What was drawn into one tile.
 struct TileCounts {

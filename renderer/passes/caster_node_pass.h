@@ -1,0 +1,20 @@
+#pragma once
+
+#include "protocol/result.h"
+#include "renderer/gl/texture.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// Which node stands nearest to a light, texel by texel. As large as the atlas, with the light's tiles in their places.
+struct CasterNodes {
+  gl::Texture nodes; ///< R32I: the node's index; -1 where nothing casts. Empty where the light has no tiles
+  gl::Texture depth; ///< D32F: that node's depth, as in the atlas
+  std::size_t drawCalls = 0;
+};
+
+/// Draws the casters of one light once more; `light` is one of the plan's, or null for none.
+Result<CasterNodes> drawCasterNodes(const PassInputs& inputs, const ShadowPlan& plan, const PlannedLight* light);
+
+} // namespace gnomon
