@@ -188,7 +188,7 @@ vec4 debugData(Receiver receiver) {
   int node = casterNode(receiver);
 #ifdef ENCODED
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(receiver.relative) : -frame.forward.xyz;
-  vec3 lit = vec3(0.15 + 0.25 * abs(dot(receiver.normal, toEye)));
+  vec3 lit = vec3(0.25 + 0.35 * abs(dot(receiver.normal, toEye)));
   return vec4(node < 0 ? lit : nodeColor(node), 1.0);
 #else
   return vec4(float(node));
