@@ -107,8 +107,10 @@ vec4 data(Sample seen) {
 #if defined(VIEW_SHADOW)
   if (debugLight < 0) return vec4(1.0);
   return vec4(vec3(shadowVisibility(debugLight, receiver, towardsDebugLight(receiver), true)), 1.0);
-#else
+#elif defined(DEBUG_LIGHT)
   return debugData(receiver);
+#else
+  return vec4(0.0);
 #endif
 #endif
 }
