@@ -1,5 +1,7 @@
 #include "renderer/draw_views.h"
 
+#include "renderer/passes/atlas_depth_pass.h"
+
 namespace gnomon {
 namespace {
 
@@ -17,6 +19,11 @@ Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading
   DrawnViews drawn;
   for (const View view : shading.spec.views) {
     if (view == View::atlas || view == View::tile) {
+      if (drawn.flatAtlas.id() == 0) {
+        auto flat = flattenAtlas(inputs, shading.atlas.depth);
+        if (!flat) return flat.problems();
+        drawn.flatAtlas = std::move(*flat);
+      }
       drawn.views.emplace_back();
       continue;
     }

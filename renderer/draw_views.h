@@ -11,6 +11,7 @@ namespace gnomon {
 struct DrawnViews {
   std::map<int, Surfaces> surfaces; ///< by samples a pixel
   CasterNodes casters;              ///< empty where no view asks for them
+  gl::Texture flatAtlas;            ///< R32F; empty where the atlas can be read as it is, or no view asks for it
   std::vector<DrawnView> views;     ///< one a view of the spec, in its order; an empty one for atlas and tile
 };
 

@@ -1,6 +1,5 @@
 #include "renderer/render.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderer/core/vec3.h"
@@ -85,16 +84,17 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Su
   return input;
 }
 
-Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
-                                         const ShadowAtlas& atlas, const ShadowPlan& plan, const ShadowTile* tile) {
+std::vector<ViewImage> readViews(const ResolvedFrame& frame, const DrawnViews& drawn, const ShadowAtlas& atlas,
+                                 const ShadowPlan& plan, const ShadowTile* tile) {
   const bool encoded = frame.spec.output.format == ImageFormat::png;
   const bool opaque = frame.spec.background.alpha >= 1;
+  const gl::Texture& depths = drawn.flatAtlas.id() != 0 ? drawn.flatAtlas : atlas.depth;
   std::vector<ViewImage> images;
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
+  for (std::size_t i = 0; i < drawn.views.size(); ++i) {
     const View view = frame.spec.views[i];
-    images.push_back({view, view == View::atlas  ? readAtlas(atlas, plan, encoded)
-                            : view == View::tile ? readTile(atlas, *tile, encoded)
-                                                 : readView(drawn[i], view, encoded, opaque)});
+    images.push_back({view, view == View::atlas  ? readAtlas(depths, plan, encoded)
+                            : view == View::tile ? readTile(depths, *tile, encoded)
+                                                 : readView(drawn.views[i], view, encoded, opaque)});
   }
   return images;
 }
@@ -167,12 +167,11 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 
-  auto images = readViews(*resolved, drawn->views, *atlas, plan, subject->tile);
-  if (!images) return images.problems();
+  auto images = readViews(*resolved, *drawn, *atlas, plan, subject->tile);
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
-  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, *drawn, clock.take()), std::move(*images)};
+  return Frame{makeReport(*resolved, view, *survey, plan, *atlas, *drawn, clock.take()), std::move(images)};
 }
 
 } // namespace gnomon

@@ -54,12 +54,13 @@ std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t chann
 }
 
 /// A rectangle of the atlas, first row on top: grey when encoded, else the depths as they are.
-Image depthImage(const ShadowAtlas& atlas, const Rect& rect, bool encoded) {
+Image depthImage(const gl::Texture& atlas, const Rect& rect, bool encoded) {
   Image image{rect.width, rect.height, {encoded ? "Y" : "Z"}, {}};
   const auto width = static_cast<std::size_t>(rect.width);
   const auto height = static_cast<std::size_t>(rect.height);
   std::vector<float> depths(width * height);
-  atlas.depth.read(0, rect, {GL_DEPTH_COMPONENT, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
+  const GLenum format = atlas.shape().format == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT;
+  atlas.read(0, rect, {format, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
   std::vector<float> turned(depths.size());
   for (std::size_t y = 0; y < height; ++y) {
     std::copy_n(depths.data() + (height - 1 - y) * width, width, turned.data() + y * width);
@@ -87,13 +88,13 @@ Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
   return image;
 }
 
-Image readTile(const ShadowAtlas& atlas, const ShadowTile& tile, bool encoded) {
-  return depthImage(atlas, tile.rect, encoded);
+Image readTile(const gl::Texture& depths, const ShadowTile& tile, bool encoded) {
+  return depthImage(depths, tile.rect, encoded);
 }
 
-Image readAtlas(const ShadowAtlas& atlas, const ShadowPlan& plan, bool encoded) {
-  Image depths = depthImage(atlas, {0, 0, atlas.depth.width(), atlas.depth.height()}, encoded);
-  return encoded ? namedTiles(depths, plan) : depths;
+Image readAtlas(const gl::Texture& depths, const ShadowPlan& plan, bool encoded) {
+  Image image = depthImage(depths, {0, 0, depths.width(), depths.height()}, encoded);
+  return encoded ? namedTiles(image, plan) : image;
 }
 
 } // namespace gnomon

@@ -140,6 +140,23 @@ TEST(DebugLight, M15_ATileIsItsRectangleOfTheAtlas) {
   EXPECT_LT(*std::min_element(depths.begin(), depths.end()), 1.0f) << "something casts";
 }
 
+TEST(DebugLight, D4_FourDepthsATexelAreReadAsTheNearest) {
+  Json spec = exrOf({"atlas", "tile"});
+  spec["shadow"]["size"] = "Small";
+  const std::vector<float> one = floatsOf(renderJson(generatedScene("long_row"), spec.dump()), 1);
+  spec["atlas"]["samples"] = 4;
+  const std::vector<float> four = floatsOf(renderJson(generatedScene("long_row"), spec.dump()), 1);
+  ASSERT_EQ(four.size(), one.size());
+  std::size_t differ = 0;
+  std::size_t nearer = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    differ += std::abs(four[i] - one[i]) > 0.02f;
+    nearer += four[i] < one[i];
+  }
+  EXPECT_LT(differ, one.size() / 20) << "but for outlines they are the same";
+  EXPECT_GT(nearer, one.size() / 2) << "on a slope some sample is nearer than the middle";
+}
+
 TEST(DebugLight, M15_TheAtlasOutlinesEachTileInItsTint) {
   const Json spec = {{"width", 96},
                      {"height", 54},

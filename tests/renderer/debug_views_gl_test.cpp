@@ -163,6 +163,20 @@ TEST(DebugViews, H4_BiasIsTheOffsetThatThePlanAsksFor) {
   EXPECT_LT(valueAt(renderJson(scene, fromAbove({"bias"}, kNoon).dump()), 0.5, 0.5), 1e-3);
 }
 
+TEST(DebugViews, AManualBiasIsShownAsItIsAsked) {
+  const ScenePtr scene = testing::sceneOf(ground());
+  const auto shown = [&](const Json& bias) {
+    Json spec = fromAbove({"bias"}, kSlanted); // 45 degrees: a tangent of 1
+    spec["shadow"]["bias"] = bias;
+    spec["shadow"]["bias"]["mode"] = "manual";
+    return valueAt(renderJson(scene, spec.dump()), 0.5, 0.5);
+  };
+  EXPECT_NEAR(shown({{"depth", 0.05}}), 0.05, 1e-4);
+  EXPECT_NEAR(shown({{"depth", 0.05}, {"slope", 0.02}}), 0.07, 1e-4);
+  // 0.05 m towards the light and 0.1 m along the normal, 45 degrees apart.
+  EXPECT_NEAR(shown({{"depth", 0.05}, {"normalOffsetScale", 2}}), std::sqrt(0.0125 + 0.01 * std::sqrt(0.5)), 1e-4);
+}
+
 TEST(DebugViews, H4_ASpotMovesAPointByItsDistance) {
   // 45 degrees to the ground, which it meets 4 m away along its axis at the origin.
   const double high = 4 * std::sqrt(0.5);
