@@ -41,7 +41,7 @@ template <>
 inline constexpr auto kRows<Debug> =
     rows("Debug", "What the debug views show.",
          field("light", &Debug::light,
-               {.says = "Index of the light; absent = the first that casts a shadow in this frame.",
+               {.says = "Index of the light; absent = the first that casts a shadow in this frame, or else the first.",
                 .range = {0, kLimits.maxLights - 1.0}}),
          field("tile", &Debug::tile,
                {.says = "Which of its tiles the view `tile` shows: a cascade or a face.",

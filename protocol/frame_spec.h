@@ -28,7 +28,7 @@ struct Background {
 
 /// What the debug views show.
 struct Debug {
-  std::optional<int> light{}; ///< index into the lights; absent = the first that casts a shadow in this frame
+  std::optional<int> light{}; ///< index into the lights; absent = the first that casts in this frame, or else the first
   int tile = 0;               ///< of that light: a cascade, or a face
 
   bool operator==(const Debug&) const = default;

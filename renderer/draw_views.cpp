@@ -1,5 +1,7 @@
 #include "renderer/draw_views.h"
 
+#include "renderer/passes/atlas_depth_pass.h"
+
 namespace gnomon {
 namespace {
 
@@ -12,10 +14,16 @@ Surfaces depthOnly() {
 
 } // namespace
 
-Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading) {
+Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading, const ShadowPlan& plan,
+                             const PlannedLight* shown) {
   DrawnViews drawn;
   for (const View view : shading.spec.views) {
-    if (view == View::atlas) {
+    if (view == View::atlas || view == View::tile) {
+      if (drawn.flatAtlas.id() == 0) {
+        auto flat = flattenAtlas(inputs, shading.atlas.textures->depth);
+        if (!flat) return flat.problems();
+        drawn.flatAtlas = std::move(*flat);
+      }
       drawn.views.emplace_back();
       continue;
     }
@@ -26,8 +34,13 @@ Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading
       if (!surfaces) return surfaces.problems();
       drawn.surfaces.emplace(samples, std::move(*surfaces));
     }
-    auto made = surveyed ? drawView(inputs, shading, depthOnly(), view)
-                         : drawView(inputs, shading, drawn.surfaces.at(samples), view);
+    if (view == View::casterIds) {
+      auto casters = drawCasterNodes(inputs, plan, shown, *shading.spec.lights);
+      if (!casters) return casters.problems();
+      drawn.casters = std::move(*casters);
+    }
+    auto made = surveyed ? drawView(inputs, shading, depthOnly(), {}, view)
+                         : drawView(inputs, shading, drawn.surfaces.at(samples), drawn.casters, view);
     if (!made) return made.problems();
     drawn.views.push_back(std::move(*made));
   }

@@ -61,6 +61,7 @@ FrameCounts countsOf(const FrameStages& stages, const std::vector<PassReport>& p
   counts.surveyedTriangles = stages.survey.triangles;
   for (const TileCounts& tile : stages.atlas.tiles) counts.casterTriangles += tile.casterTriangles;
   for (const auto& [samples, surfaces] : stages.drawn.surfaces) counts.shadedTriangles += surfaces.triangles;
+  counts.drawCalls = stages.drawn.casters.drawCalls;
   for (const PassReport& pass : passes) counts.drawCalls += pass.drawCalls;
   return counts;
 }

@@ -5,6 +5,7 @@
 #include "renderer/passes/tile_casters.h"
 #include "renderer/plan_input.h"
 #include "renderer/render.h"
+#include "renderer/resolve_debug.h"
 #include "renderer/resolve_frame.h"
 
 namespace gnomon {
@@ -43,6 +44,7 @@ Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const Re
   const ReceiverDepths receivers =
       boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
   const ShadowPlan plan = planShadows(planInput(*frame, view, receivers, device.maxTextureSize));
+  if (const auto subject = debugSubject(frame->spec, plan); !subject) return subject.problems();
   const PredictedErrors errors = predictErrors(frame->view, receivers, plan);
 
   PlanReport report;

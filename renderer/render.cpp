@@ -1,6 +1,5 @@
 #include "renderer/render.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderer/check_device.h"
@@ -19,6 +18,7 @@
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/survey_pass.h"
 #include "renderer/plan_input.h"
+#include "renderer/resolve_debug.h"
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
 #include "renderer/shadow/predicted_error.h"
@@ -61,15 +61,17 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   return data;
 }
 
-Result<std::vector<ViewImage>> readViews(const ResolvedFrame& frame, const std::vector<DrawnView>& drawn,
-                                         const ShadowAtlas& atlas) {
+std::vector<ViewImage> readViews(const ResolvedFrame& frame, const DrawnViews& drawn, const ShadowAtlas& atlas,
+                                 const ShadowPlan& plan, const ShadowTile* tile) {
   const bool encoded = frame.spec.output.format == ImageFormat::png;
   const bool opaque = frame.spec.background.alpha >= 1;
+  const gl::Texture& depths = drawn.flatAtlas.id() != 0 ? drawn.flatAtlas : atlas.textures->depth;
   std::vector<ViewImage> images;
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
+  for (std::size_t i = 0; i < drawn.views.size(); ++i) {
     const View view = frame.spec.views[i];
-    images.push_back(
-        {view, view == View::atlas ? readAtlas(atlas, encoded) : readView(drawn[i], view, encoded, opaque)});
+    images.push_back({view, view == View::atlas  ? readAtlas(depths, plan, encoded)
+                            : view == View::tile ? readTile(depths, *tile, encoded)
+                                                 : readView(drawn.views[i], view, encoded, opaque)});
   }
   return images;
 }
@@ -139,28 +141,25 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
     data.depthRange.y = survey->receivers.range.farthest;
     frameBuffer.update(0, gl::bytesOfValue(data));
   }
-  if (plan.atlasWidth == 0 &&
-      std::find(effective.views.begin(), effective.views.end(), View::atlas) != effective.views.end()) {
-    return Problem{ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "",
-                   "atlas"};
-  }
+  const auto subject = debugSubject(effective, plan);
+  if (!subject) return subject.problems();
   clock.finish("plan");
 
   const auto atlas = castShadows(inputs, plan, effective, impl_->tiles);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 
-  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective});
+  const auto drawn =
+      drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective, subject->light}, plan, subject->planned);
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 
-  auto images = readViews(*resolved, drawn->views, *atlas);
-  if (!images) return images.problems();
+  auto images = readViews(*resolved, *drawn, *atlas, plan, subject->tile);
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
   return Frame{makeReport({*resolved, view, gpu, *survey, plan, errors, *atlas, *drawn}, clock.take()),
-               std::move(*images)};
+               std::move(images)};
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "protocol/limits.h"
 #include "renderer/resolve_camera.h"
+#include "renderer/resolve_debug.h"
 #include "renderer/resolve_nodes.h"
 
 namespace gnomon {
@@ -60,6 +61,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
     if (!light.shadow) light.shadow = spec.shadow;
     if (!light.shadow->size) light.shadow->size = usualSize(light.type);
   }
+  if (const Status known = checkDebugLight(spec.debug, frame.spec.lights->size()); !known) return known.problems();
 
   auto nodes = resolveNodes(spec.nodes, scene);
   if (!nodes) return nodes.problems();

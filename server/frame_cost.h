@@ -13,8 +13,9 @@ inline std::size_t frameBytes(const FrameSpec& spec) {
   std::size_t pixels = 0;
   for (const View view : spec.views) {
     const auto side = static_cast<std::size_t>(spec.atlas.size);
-    pixels += view == View::atlas ? side * side
-                                  : static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+    pixels += view == View::atlas || view == View::tile
+                  ? side * side
+                  : static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   }
   return pixels * bytesPerPixel;
 }

@@ -48,7 +48,9 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
       ->excludes(camera)
       ->group("Picture");
   command
-      .add_option("--view", arguments.views, "What to show: color, cascades, shadow, depth, normal, atlas. Repeatable")
+      .add_option("--view", arguments.views,
+                  "What to show: color, depth, normal, cascades, shadow, atlas, tile, texelGrid, texelDensity, "
+                  "blendWeight, bias, casterIds, lightContribution. Repeatable")
       ->type_name("NAME")
       ->take_all()
       ->group("Picture");

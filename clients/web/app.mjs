@@ -5,7 +5,7 @@ import { createCameraPanel } from './camera_panel.mjs';
 import { choices, createControl } from './controls.mjs';
 import { fromHash, toHash } from './deep_link.mjs';
 import { element } from './dom.mjs';
-import { kSections, kViews } from './fields.mjs';
+import { kDebugViews, kSections, kViews } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
 import { lightsWithSun } from './light_math.mjs';
 import { fitOrbit, kFovYDegrees, orbitInForce } from './orbit_math.mjs';
@@ -136,9 +136,16 @@ for (const section of kSections) {
 // ---- views
 
 const views = choices({ label: 'View', choices: kViews, choose: (view) => store.update({ view }) }, store, 'view');
-byId('views').append(views.node);
+const debugViews = element(
+  'select',
+  { 'aria-label': 'Debug view', onchange: () => debugViews.value && store.update({ view: debugViews.value }) },
+  element('option', { value: '' }, 'Debug view …'),
+  ...kDebugViews.map(([value, text, says]) => element('option', { value, title: says }, text)),
+);
+byId('views').append(views.node, debugViews);
 store.subscribe(({ view, summary }) => {
   views.show(view);
+  debugViews.value = kDebugViews.some(([name]) => name === view) ? view : '';
   document.body.classList.toggle('no-scene', !summary);
   for (const part of document.querySelectorAll('.panel > :not(.scene)')) part.inert = !summary;
 });

@@ -2,6 +2,8 @@
 // the number beside it takes any value, and the server says what it refuses.
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
+// Views of one light, chosen by debug.light.
+const showsOneLight = ({ state: { view } }) => ['cascades', 'shadow'].includes(view) || kDebugViews.some(([name]) => name === view);
 const one = (path, value) => (store) => store.effective(path) === value;
 
 // A manual range needs both its ends, an automatic one takes none.
@@ -52,6 +54,8 @@ export const kSections = [
     fields: [
       { path: 'size', label: 'Size', sizes: [[640, 360], [1280, 720], [1920, 1080]] },
       { path: 'antialiasing', label: 'Antialiasing', choices: [['none', 'None'], ['msaa4x', 'MSAA 4×']] },
+      { path: 'debug.light', label: 'Light shown', says: 'By its index; unset: the first that casts a shadow', needs: showsOneLight },
+      { path: 'debug.tile', label: 'Tile shown', says: 'A cascade or a face of that light', needs: ({ state }) => state.view === 'tile' },
     ],
   },
 ];
@@ -62,7 +66,18 @@ export const kViews = [
   ['shadow', 'Shadow', 'Share of the light that arrives'],
   ['depth', 'Depth', 'Distance along the view axis'],
   ['normal', 'Normal', 'World-space shading normal'],
-  ['atlas', 'Atlas', 'The shadow atlas, depth as grey'],
+  ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
+];
+
+// What helps to tune one light's shadow.
+export const kDebugViews = [
+  ['texelGrid', 'Texel grid', 'The shadow map’s texels as a checkerboard on the surfaces'],
+  ['texelDensity', 'Texel density', 'Pixels that a texel of the shadow map spans: blue 1/16, green 1, red 16'],
+  ['blendWeight', 'Blend weight', 'Share of the next cascade'],
+  ['bias', 'Bias', 'How far a surface is moved before it is looked up: blue 0.1 mm, green 1 cm, red 1 m'],
+  ['casterIds', 'Caster ids', 'A colour for each node that throws a shadow'],
+  ['lightContribution', 'Light', 'The scene in one light alone'],
+  ['tile', 'Tile', 'One tile of the atlas, depth as grey'],
 ];
 
 // One hue a stage, in the order of the work.

@@ -20,8 +20,8 @@ struct ExrPart {
 };
 
 /// Groups layers into parts, in the order in which their sizes first appear. Colour is multiplied by its alpha, since
-/// EXR's is associated by convention and ours is straight. Depth (a channel called Z) stays float whatever
-/// `pixelType` says: half keeps 11 bits, which is decimetres at a hundred metres.
+/// EXR's is associated by convention and ours is straight. Depth (a channel called Z) and indices (id)
+/// stay float whatever `pixelType` says: half keeps 11 bits, which is decimetres at a hundred metres.
 Result<std::vector<ExrPart>> exrParts(std::span<const ImageLayer> layers, ExrPixelType pixelType);
 
 } // namespace gnomon

@@ -14,6 +14,8 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) 
     const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
     attributes.push_back({GNOMON_INSTANCE_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
   }
+  const auto lastRow = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + 2 * sizeof(glm::vec4));
+  attributes.push_back({GNOMON_NODE, 2, 4, GL_FLOAT, false, false, lastRow});
   SceneVertices vertices;
   vertices.positions = {streams, attributes, &scene.welded, "scene positions"};
 
@@ -25,7 +27,7 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) 
       {GNOMON_COLOR, 1, 4, GL_UNSIGNED_SHORT, true, false, offsetof(VertexAttributes, color)},
   }};
   attributes.insert(attributes.end(), shaded.begin(), shaded.end());
-  for (GLuint row = 0; row < 3; ++row) {
+  for (GLuint row = 0; row < 2; ++row) {
     const auto offset = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + row * sizeof(glm::vec4));
     attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
   }

@@ -16,7 +16,7 @@ glm::dmat3 normalMatrix(const glm::dmat3& m) {
   return glm::determinant(m) < 0 ? -1.0 * cofactors : cofactors;
 }
 
-shared::InstanceData instanceData(const glm::dmat4& relativeFromLocal) {
+shared::InstanceData instanceData(const glm::dmat4& relativeFromLocal, int node) {
   const glm::dmat3 linear(relativeFromLocal);
   glm::dmat3 normals = normalMatrix(linear);
   const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
@@ -26,6 +26,7 @@ shared::InstanceData instanceData(const glm::dmat4& relativeFromLocal) {
     data.relativeFromLocal[row] = rowOf(relativeFromLocal, row);
     data.normalFromLocal[row] = glm::vec4(normals[0][row], normals[1][row], normals[2][row], 0.0);
   }
+  data.normalFromLocal[2].w = static_cast<float>(node); // exact: there are no more than kLimits.maxNodes
   return data;
 }
 
@@ -40,7 +41,7 @@ FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm
   for (const Instance& instance : view.instances) {
     glm::dmat4 relativeFromLocal = instance.worldFromLocal;
     relativeFromLocal[3] -= glm::dvec4(eye, 0.0);
-    shared::InstanceData data = instanceData(relativeFromLocal);
+    shared::InstanceData data = instanceData(relativeFromLocal, instance.node);
     if (!groups.empty()) data.normalFromLocal[0].w = groups[geometry.instances.size()];
     geometry.instances.push_back(data);
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];

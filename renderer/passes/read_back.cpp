@@ -3,18 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/passes/named_tiles.h"
+
 namespace gnomon {
 namespace {
 
 std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
+  if (isPicture(view)) {
+    return opaque ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"R", "G", "B", "A"};
+  }
   switch (view) {
-    case View::color:
-    case View::cascades:
-      return opaque ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"R", "G", "B", "A"};
     case View::normal:
       return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"X", "Y", "Z"};
+    case View::texelDensity:
+    case View::bias:
+      return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
+    case View::casterIds:
+      return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"id"};
     case View::depth:
-    case View::atlas:
       return {encoded ? "Y" : "Z"};
     default:
       return {"Y"};
@@ -47,26 +53,14 @@ std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t chann
   return picked(rgba, width, height, channels);
 }
 
-} // namespace
-
-Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
-  Image image{drawn.color.width(), drawn.color.height(), channelsOf(view, encoded, opaque), {}};
-  if (encoded) {
-    image.pixels = readPicked<std::uint8_t>(drawn, GL_UNSIGNED_BYTE, image.channels.size());
-  } else {
-    image.pixels = readPicked<float>(drawn, GL_FLOAT, image.channels.size());
-  }
-  return image;
-}
-
-Image readAtlas(const ShadowAtlas& atlas, bool encoded) {
-  Image image{
-      atlas.textures->depth.width(), atlas.textures->depth.height(), channelsOf(View::atlas, encoded, true), {}};
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
+/// A rectangle of the atlas, first row on top: grey when encoded, else the depths as they are.
+Image depthImage(const gl::Texture& atlas, const Rect& rect, bool encoded) {
+  Image image{rect.width, rect.height, {encoded ? "Y" : "Z"}, {}};
+  const auto width = static_cast<std::size_t>(rect.width);
+  const auto height = static_cast<std::size_t>(rect.height);
   std::vector<float> depths(width * height);
-  atlas.textures->depth.read(0, {0, 0, image.width, image.height}, {GL_DEPTH_COMPONENT, GL_FLOAT},
-                             std::as_writable_bytes(std::span(depths)));
+  const GLenum format = atlas.shape().format == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT;
+  atlas.read(0, rect, {format, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
   std::vector<float> turned(depths.size());
   for (std::size_t y = 0; y < height; ++y) {
     std::copy_n(depths.data() + (height - 1 - y) * width, width, turned.data() + y * width);
@@ -80,6 +74,27 @@ Image readAtlas(const ShadowAtlas& atlas, bool encoded) {
                  [](float depth) { return static_cast<std::uint8_t>(std::lround(depth * 255.0f)); });
   image.pixels = std::move(grey);
   return image;
+}
+
+} // namespace
+
+Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
+  Image image{drawn.color.width(), drawn.color.height(), channelsOf(view, encoded, opaque), {}};
+  if (encoded) {
+    image.pixels = readPicked<std::uint8_t>(drawn, GL_UNSIGNED_BYTE, image.channels.size());
+  } else {
+    image.pixels = readPicked<float>(drawn, GL_FLOAT, image.channels.size());
+  }
+  return image;
+}
+
+Image readTile(const gl::Texture& depths, const ShadowTile& tile, bool encoded) {
+  return depthImage(depths, tile.rect, encoded);
+}
+
+Image readAtlas(const gl::Texture& depths, const ShadowPlan& plan, bool encoded) {
+  Image image = depthImage(depths, {0, 0, depths.width(), depths.height()}, encoded);
+  return encoded ? namedTiles(image, plan) : image;
 }
 
 } // namespace gnomon

@@ -15,16 +15,29 @@ const char* viewDefine(View view) {
   switch (view) {
     case View::color:
       return "VIEW_COLOR";
-    case View::cascades:
-      return "VIEW_CASCADES";
     case View::depth:
       return "VIEW_DEPTH";
     case View::normal:
       return "VIEW_NORMAL";
+    case View::cascades:
+      return "VIEW_CASCADES";
     case View::shadow:
       return "VIEW_SHADOW";
-    default:
-      break;
+    case View::texelGrid:
+      return "VIEW_TEXEL_GRID";
+    case View::texelDensity:
+      return "VIEW_TEXEL_DENSITY";
+    case View::blendWeight:
+      return "VIEW_BLEND_WEIGHT";
+    case View::bias:
+      return "VIEW_BIAS";
+    case View::casterIds:
+      return "VIEW_CASTER_IDS";
+    case View::lightContribution:
+      return "VIEW_LIGHT_CONTRIBUTION";
+    case View::atlas:
+    case View::tile:
+      break; // read from the atlas, not drawn
   }
   return "VIEW_COLOR";
 }
@@ -66,6 +79,13 @@ gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended) {
   return source;
 }
 
+gl::ProgramSource casterNodeProgram(const Material* masked, BlendedCasters blended) {
+  gl::ProgramSource source = castProgram(masked, blended);
+  source.fragment = "masked_depth.frag";
+  source.defines.emplace_back("CASTER_NODE");
+  return source;
+}
+
 gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant& variant) {
   struct Slot {
     const std::optional<TextureUse>* use;
@@ -96,6 +116,27 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   return {"surface.vert", "surface.frag", "", std::move(defines)};
 }
 
+bool showsOneLight(View view) {
+  switch (view) {
+    case View::cascades:
+    case View::shadow:
+    case View::texelGrid:
+    case View::texelDensity:
+    case View::blendWeight:
+    case View::bias:
+    case View::casterIds:
+    case View::lightContribution:
+      return true;
+    case View::color:
+    case View::depth:
+    case View::normal:
+    case View::atlas:
+    case View::tile:
+      return false;
+  }
+  return false;
+}
+
 gl::ProgramSource viewProgram(const ViewVariant& variant) {
   std::vector<std::string> defines{viewDefine(variant.view)};
   defines.push_back("SAMPLES " + std::to_string(variant.samples));
@@ -105,6 +146,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   addShadowDefines(variant.shadows, defines);
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  if (showsOneLight(variant.view)) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

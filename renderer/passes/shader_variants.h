@@ -18,6 +18,9 @@ gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked)
 /// Draws casters into a tile; `masked` as in maskDefines.
 gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
 
+/// The same, and the index of each one's node as a color.
+gl::ProgramSource casterNodeProgram(const Material* masked, BlendedCasters blended);
+
 struct SurfaceVariant {
   bool tangents = false;       ///< the primitive brings its own
   bool emission = false;       ///< something in the scene glows: every program writes what it gives off
@@ -34,6 +37,9 @@ struct ShadowSampling {
   bool manualBias = false; ///< of some light
   int atlasSamples = 1;
 };
+
+/// True for views of one light, debug.light.
+bool showsOneLight(View view);
 
 /// What lighting the surfaces needs, and no more.
 struct ViewVariant {

@@ -6,10 +6,9 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/passes/draw_batch.h"
 #include "renderer/passes/moments_pass.h"
 #include "renderer/passes/shader_variants.h"
-#include "renderer/passes/tile_casters.h"
+#include "renderer/passes/tile_draw.h"
 #include "renderer/passes/tile_key.h"
 
 namespace gnomon {
@@ -34,22 +33,6 @@ std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& 
     contents.push_back(std::move(content));
   }
   return contents;
-}
-
-Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const Light& light, const DrawBatch& batch,
-                GLuint framebuffer) {
-  gl::PipelineState state;
-  state.framebuffer = framebuffer;
-  state.viewport = tile.rect;
-  state.scissor = tile.rect;
-  state.depth = {true, true, GL_LESS};
-  state.multisample = true;
-  state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
-  return drawGroups(inputs, inputs.anchored, batch, state, [&](const DrawGroup&, const Material* masked) {
-    auto program = inputs.programs.get(castProgram(masked, light.shadow->blendedCasters));
-    if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromAnchored));
-    return program;
-  });
 }
 
 /// An empty atlas of the plan's size; a framebuffer over it is to be cleared.
@@ -101,17 +84,17 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   for (const TileContent& content : contents) {
     const ShadowTile& tile = plan.tiles[content.index];
     TileCounts& counts = atlas.tiles[content.index];
-    if (const auto drawn = cache.find(content.key)) {
-      textures->depth.copyFrom(drawn->depth, tile.rect);
-      if (isBlurred(tile)) textures->moments.copyFrom(drawn->moments, tile.rect);
+    if (const auto kept = cache.find(content.key)) {
+      textures->depth.copyFrom(kept->depth, tile.rect);
+      if (isBlurred(tile)) textures->moments.copyFrom(kept->moments, tile.rect);
       counts.reused = true;
       continue;
     }
-    const DrawBatch batch = uploadDraws(
-        buildDrawList(inputs.scene, inputs.view, inputs.geometry, content.casters.use, content.casters.slots));
-    if (const Status drawn = drawTile(inputs, tile, content.light, batch, target->id()); !drawn) {
-      return drawn.problems();
-    }
+    const DrawBatch batch = uploadCasters(inputs, content.casters);
+    const BlendedCasters blended = content.light.shadow->blendedCasters;
+    const Status drawn = drawTile(inputs, tile, batch, target->id(),
+                                  [&](const Material* masked) { return castProgram(masked, blended); });
+    if (!drawn) return drawn.problems();
     timer.stop();
     gl::Timer next = gl::Timer::start(); // before the tile is submitted: see Timer
     gl::submit();                        // a software driver fills this tile while the next one is prepared

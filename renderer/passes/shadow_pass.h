@@ -15,7 +15,7 @@ struct TileCounts {
   std::uint64_t culledTriangles = 0;
   std::size_t drawCalls = 0;
   bool reused = false; ///< an earlier frame's tile serves; nothing was drawn
-  gl::Timer timer;     ///< of finding the casters and drawing them; of the first tile, of clearing the atlas too
+  gl::Timer timer;     ///< of drawing; the first tile's brings finding all casters and clearing the atlas
 };
 
 /// Every light's tiles, drawn.

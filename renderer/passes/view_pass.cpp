@@ -62,10 +62,11 @@ void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint 
 } // namespace
 
 bool isPicture(View view) {
-  return view == View::color || view == View::cascades;
+  return view == View::color || view == View::cascades || view == View::texelGrid || view == View::lightContribution;
 }
 
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
+Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+                           const CasterNodes& casters, View view) {
   const ViewVariant variant = variantFor(inputs, shading, surfaces, view);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
@@ -97,6 +98,13 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   bindTexture(surfaces.emission, samplers.texels, GNOMON_EMISSION_UNIT);
   bindTexture(shading.atlas.textures->depth, samplers.compare, GNOMON_ATLAS_UNIT);
   bindTexture(shading.atlas.textures->moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
+  bindTexture(casters.nodes, samplers.texels, GNOMON_CASTER_NODE_UNIT);
+  bindTexture(casters.depth, samplers.texels, GNOMON_CASTER_DEPTH_UNIT);
+  if (showsOneLight(view)) {
+    (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
+    (*program)->set(GNOMON_ATLAS_SIZE,
+                    glm::vec2(shading.atlas.textures->depth.width(), shading.atlas.textures->depth.height()));
+  }
   for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
   }

@@ -6,6 +6,7 @@
 #include "protocol/result.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/timer.h"
+#include "renderer/passes/caster_node_pass.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/shadow_pass.h"
 #include "renderer/passes/surface_pass.h"
@@ -26,13 +27,16 @@ struct ViewInputs {
   std::span<const shared::TileData> tiles;   ///< the plan's
   std::span<const std::uint32_t> lightLists; ///< empty = every light is tried at every pixel
   const FrameSpec& spec;                     ///< effective
+  int debugLight = -1;                       ///< what views of one light show; -1 = there is none
 };
 
-/// Pictures (color, cascades) are antialiased as the spec asks; data (depth, normal, shadow) is never averaged: it
-/// belongs to the surface at the pixel's centre.
+/// Pictures (color, cascades, texelGrid, lightContribution) are antialiased as the spec asks; all else is data and
+/// never averaged: it belongs to the surface at the pixel's centre.
 bool isPicture(View view);
 
-/// Lights the surfaces of every pixel for any view but the atlas. Data wants surfaces of one sample.
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view);
+/// Lights the surfaces of every pixel for any view but atlas and tile. Data wants surfaces of one sample; `casters` is
+/// read by the view casterIds.
+Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+                           const CasterNodes& casters, View view);
 
 } // namespace gnomon

@@ -100,11 +100,11 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   return mix(1.0, visibility, strength);
 }
 
-// Green, blue, purple, red, orange, cyan, yellow, pink: the cascades from near to far, or a light's faces; white beyond.
+// The cascades from near to far, or a light's faces; white beyond.
+const vec3 kTints[8] = vec3[8](GNOMON_TINTS_0_3, GNOMON_TINTS_4_7);
+
 vec3 cascadeTint(int light, Receiver receiver, vec3 toLight) {
-  const vec3 tints[8] = vec3[8](vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3),
-                                vec3(1.0, 0.65, 0.2), vec3(0.3, 0.95, 0.95), vec3(1.0, 0.95, 0.3), vec3(1.0, 0.5, 0.75));
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return vec3(1.0);
-  return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0), choice.fade);
+  return mix(mix(kTints[choice.first], kTints[choice.second], choice.blend), vec3(1.0), choice.fade);
 }

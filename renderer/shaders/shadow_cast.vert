@@ -4,7 +4,15 @@
 
 layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromAnchored;
 
+#ifdef CASTER_NODE
+layout(location = GNOMON_NODE) in vec4 nodeRow;
+flat out int casterNode;
+#endif
+
 void main() {
   gl_Position = clipFromAnchored * vec4(relativeFromLocal(position), 1.0);
   passMask();
+#ifdef CASTER_NODE
+  casterNode = int(nodeRow.w);
+#endif
 }

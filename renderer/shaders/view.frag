@@ -6,30 +6,31 @@
 #include "common_light.glsl"
 #include "common_light_lists.glsl"
 #include "common_tone.glsl"
+#ifdef DEBUG_LIGHT
+#include "common_debug.glsl"
+#endif
 
 layout(location = 0) out vec4 target;
 
-vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlusion) {
-  vec3 sum = emission + frame.ambient.rgb * ambientReflectance(s) * occlusion;
-  uvec2 list = lightList();
-  for (uint k = list.x; k < list.y; ++k) {
-    int i = listedLight(k);
+vec3 radianceFrom(int light, SurfacePoint s, Receiver receiver) {
 #ifdef RECEIVER_GROUPS
-    if ((lights[i].groups.x & receiver.groupBit) == 0u) continue;
+  if ((lights[light].groups.x & receiver.groupBit) == 0u) return vec3(0.0);
 #endif
-    vec3 toLight;
-    vec3 arriving = irradiance(lights[i], receiver.relative, toLight);
-    vec3 reflected = reflectedRadiance(s, toLight) * arriving;
-    sum += reflected * shadowVisibility(i, receiver, toLight, reflected != vec3(0.0));
-  }
-  return sum;
+  vec3 toLight;
+  vec3 arriving = irradiance(lights[light], receiver.relative, toLight);
+  vec3 reflected = reflectedRadiance(s, toLight) * arriving;
+  return reflected * shadowVisibility(light, receiver, toLight, reflected != vec3(0.0));
 }
 
-int firstShadowed() {
-  for (int i = 0; i < lights.length(); ++i) {
-    if (lights[i].tiles.x > 0u) return i;
-  }
-  return -1;
+vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlusion) {
+#ifdef VIEW_LIGHT_CONTRIBUTION
+  return debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
+#else
+  vec3 sum = emission + frame.ambient.rgb * ambientReflectance(s) * occlusion;
+  uvec2 list = lightList();
+  for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
+  return sum;
+#endif
 }
 
 Receiver receiverOf(Sample seen, vec3 face) {
@@ -41,19 +42,22 @@ Receiver receiverOf(Sample seen, vec3 face) {
 }
 
 vec4 picture(Sample seen) {
+#ifdef VIEW_LIGHT_CONTRIBUTION
+  if (!seen.hit) return vec4(vec3(0.0), frame.background.a);
+#else
   if (!seen.hit) return frame.background;
+#endif
   Surface surface = unpackedSurface(seen.bits);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
   SurfacePoint s = surfacePoint(surface, toEye);
-  vec3 radiance = radianceToEye(s, receiverOf(seen, surface.face), emissionAt(seen.index), surface.occlusion);
+  Receiver receiver = receiverOf(seen, surface.face);
+  vec3 radiance = radianceToEye(s, receiver, emissionAt(seen.index), surface.occlusion);
   vec3 shown = toneMapped(radiance * frame.depthRange.z);
-#ifdef VIEW_CASCADES
-  int tinted = firstShadowed();
-  if (tinted >= 0) {
-    vec3 toLight;
-    irradiance(lights[tinted], seen.relative, toLight);
-    shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * cascadeTint(tinted, receiverOf(seen, surface.face), toLight);
-  }
+#if defined(VIEW_CASCADES)
+  vec3 tint = hasTiles() ? cascadeTint(debugLight, receiver, towardsDebugLight(receiver)) : vec3(1.0);
+  shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * tint;
+#elif defined(VIEW_TEXEL_GRID)
+  shown = texelGrid(shown, receiver);
 #endif
   return vec4(shown, 1.0);
 }
@@ -76,7 +80,7 @@ vec4 antialiased() {
 vec4 antialiased() { return picture(sampleAt(0)); }
 #endif
 
-#if defined(VIEW_COLOR) || defined(VIEW_CASCADES)
+#if defined(VIEW_COLOR) || defined(VIEW_CASCADES) || defined(VIEW_TEXEL_GRID) || defined(VIEW_LIGHT_CONTRIBUTION)
 void main() { target = antialiased(); }
 #else
 vec4 background() {
@@ -84,6 +88,8 @@ vec4 background() {
   return vec4(uintBitsToFloat(0x7f800000u)); // infinity
 #elif defined(VIEW_SHADOW)
   return vec4(1.0);
+#elif defined(VIEW_CASTER_IDS) && !defined(ENCODED)
+  return vec4(-1.0);
 #else
   return vec4(0.0);
 #endif
@@ -104,11 +110,15 @@ vec4 data(Sample seen) {
 #endif
   return vec4(n, 1.0);
 #else
-  int shadowed = firstShadowed();
-  if (shadowed < 0) return vec4(1.0);
-  vec3 toLight;
-  irradiance(lights[shadowed], seen.relative, toLight);
-  return vec4(vec3(shadowVisibility(shadowed, receiverOf(seen, unpackedSurface(seen.bits).face), toLight, true)), 1.0);
+  Receiver receiver = receiverOf(seen, unpackedSurface(seen.bits).face);
+#if defined(VIEW_SHADOW)
+  if (debugLight < 0) return vec4(1.0);
+  return vec4(vec3(shadowVisibility(debugLight, receiver, towardsDebugLight(receiver), true)), 1.0);
+#elif defined(DEBUG_LIGHT)
+  return debugData(receiver);
+#else
+  return vec4(0.0);
+#endif
 #endif
 }
 

@@ -21,6 +21,8 @@ TEST(FrameCost, TheAtlasHasItsOwnSize) {
   spec.views = {View::atlas};
   spec.atlas.size = 2048;
   EXPECT_EQ(frameBytes(spec), 2048u * 2048 * 4);
+  spec.views = {View::tile};
+  EXPECT_EQ(frameBytes(spec), 2048u * 2048 * 4) << "no larger than the atlas";
 }
 
 TEST(FrameCost, TheLargestDoesNotOverflow) {

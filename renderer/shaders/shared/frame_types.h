@@ -5,6 +5,7 @@
 namespace gnomon::shared {
 using glm::mat4;
 using glm::uvec4;
+using glm::vec3;
 using glm::vec4;
 #else
 // Samples of a pixel in the target that is drawn or read.
@@ -32,6 +33,7 @@ using glm::vec4;
 #define GNOMON_COLOR 5
 #define GNOMON_INSTANCE_ROWS 6 // three: InstanceData::relativeFromLocal
 #define GNOMON_NORMAL_ROWS 9   // three: InstanceData::normalFromLocal
+#define GNOMON_NODE 11         // w: the node's index; the last of those three
 
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
@@ -49,6 +51,8 @@ using glm::vec4;
 #define GNOMON_SAMPLE_POSITIONS 1 // as many as there are samples
 #define GNOMON_MOMENT_TILE 1
 #define GNOMON_MOMENT_BLUR 2
+#define GNOMON_DEBUG_LIGHT 16
+#define GNOMON_ATLAS_SIZE 17
 
 // Texture units.
 #define GNOMON_BASE_COLOR_UNIT 0
@@ -61,6 +65,8 @@ using glm::vec4;
 #define GNOMON_SURFACE_UNIT 7
 #define GNOMON_EMISSION_UNIT 8
 #define GNOMON_MOMENTS_UNIT 9
+#define GNOMON_CASTER_NODE_UNIT 12
+#define GNOMON_CASTER_DEPTH_UNIT 13
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
@@ -70,6 +76,10 @@ using glm::vec4;
 
 // Tiles of a light, at most.
 #define GNOMON_LIGHT_TILES 8
+
+// What a light's tiles are tinted with, linear RGB: green, blue, purple, red, orange, cyan, yellow, pink.
+#define GNOMON_TINTS_0_3 vec3(0.35, 1.0, 0.35), vec3(0.35, 0.5, 1.0), vec3(0.8, 0.35, 1.0), vec3(1.0, 0.3, 0.3)
+#define GNOMON_TINTS_4_7 vec3(1.0, 0.65, 0.2), vec3(0.3, 0.95, 0.95), vec3(1.0, 0.95, 0.3), vec3(1.0, 0.5, 0.75)
 
 // LightData.type
 #define GNOMON_DIRECTIONAL 0
@@ -97,7 +107,7 @@ struct FrameData {
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.
 struct InstanceData {
   vec4 relativeFromLocal[3]; // rows of the affine matrix
-  vec4 normalFromLocal[3];   // rows; xyz; the first one's w: receiver group
+  vec4 normalFromLocal[3];   // rows; xyz; w of the first: receiver group, of the last: the node's index
 };
 
 struct MaterialData {

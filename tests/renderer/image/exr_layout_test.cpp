@@ -23,6 +23,12 @@ TEST(ExrLayout, PutsLayersOfOneSizeSideBySide) {
   EXPECT_EQ(part.pixels, (std::vector<float>{1, 2, 3, 7, 4, 5, 6, 8}));
 }
 
+TEST(ExrLayout, IndicesStayExact) {
+  const Image ids = floats(1, 1, {"id"}, {99999});
+  const std::vector<ImageLayer> layers{{"casterIds", &ids}};
+  EXPECT_EQ(exrParts(layers, ExrPixelType::half)->front().half, std::vector<bool>{false});
+}
+
 TEST(ExrLayout, GivesAnotherSizeAPartOfItsOwn) {
   const Image color = floats(2, 1, {"R"}, {1, 2});
   const Image atlas = floats(1, 1, {"Z"}, {3});

@@ -77,5 +77,22 @@ TEST(ShaderVariants, FiltersThatDifferAreChosenInTheShader) {
   EXPECT_THAT(viewProgram({}).defines, Contains("NO_SHADOWS"));
 }
 
+TEST(ShaderVariants, OnlyViewsOfOneLightReadWhichItIs) {
+  EXPECT_THAT(viewProgram({.view = View::color}).defines, Not(Contains("DEBUG_LIGHT")));
+  for (const View view : {View::cascades, View::shadow, View::texelGrid, View::texelDensity, View::blendWeight,
+                          View::bias, View::casterIds, View::lightContribution}) {
+    EXPECT_THAT(viewProgram({.view = view}).defines, Contains("DEBUG_LIGHT"));
+  }
+}
+
+TEST(ShaderVariants, CastersAreNamedOnlyWhereTheirNodesAreAskedFor) {
+  Material masked;
+  masked.alphaMode = AlphaMode::mask;
+  EXPECT_TRUE(castProgram(nullptr).fragment.empty());
+  EXPECT_THAT(castProgram(&masked).defines, Not(Contains("CASTER_NODE")));
+  EXPECT_THAT(casterNodeProgram(nullptr).defines, Contains("CASTER_NODE"));
+  EXPECT_THAT(casterNodeProgram(&masked).defines, Contains("ALPHA_MASK"));
+}
+
 } // namespace
 } // namespace gnomon

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "protocol/frame_spec.h"
+#include "protocol/result.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// What a frame's debug views show, settled on its plan.
+struct DebugSubject {
+  int light = -1;                ///< index into the effective lights; -1 = the frame has none
+  const PlannedLight* planned{}; ///< of the plan; null where the light asks for no shadow
+  const ShadowTile* tile{};      ///< of the plan: debug.tile; null where no view shows it
+};
+
+/// A problem at /debug/light where a frame of `lightCount` lights has none of that index.
+Status checkDebugLight(const Debug& debug, std::size_t lightCount);
+
+/// Refuses views of an atlas or a tile that the plan does not draw. The plan outlives the subject.
+Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan);
+
+} // namespace gnomon

@@ -1,0 +1,237 @@
+// What the views of one light's texels show, held against what can be worked out without them.
+#include <cmath>
+#include <numeric>
+
+#include "protocol/json_codec.h"
+#include "renderer/shadow/bias.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+using testing::floatsOf;
+using testing::renderJson;
+using testing::valueAt;
+
+/// A ground of 40 m at y = 0.
+testing::GlbBuilder ground() {
+  testing::GlbBuilder builder = testing::plane();
+  builder.json["nodes"][0]["scale"] = {20, 1, 20};
+  return builder;
+}
+
+/// Straight down on 10 m of it, 10 pixels a metre, -Z upwards.
+Json fromAbove(const std::vector<std::string>& views, const Json& light) {
+  return {
+      {"width", 100},
+      {"height", 100},
+      {"camera", {{"eye", {0, 8, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"orthographic", {{"height", 10}}}}},
+      {"lights", {light}},
+      {"shadow", {{"cascadeCount", 1}}},
+      {"antialiasing", "none"},
+      {"views", views},
+      {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+}
+
+const Json kNoon = {{"type", "directional"}, {"direction", {0, -1, 0}}};
+const Json kSlanted = {{"type", "directional"}, {"direction", {1, -1, 0}}};
+const Json kStable = {{"mode", "manual"}, {"min", 0}, {"max", 20}};
+
+TEST(DebugViews, H9_TexelDensityIsAsManyPixelsAsATexelSpans) {
+  const ScenePtr scene = testing::sceneOf(ground());
+  std::vector<float> centres;
+  for (const char* size : {"Large", "XLarge"}) {
+    Json spec = fromAbove({"texelDensity"}, kNoon);
+    spec["width"] = spec["height"] = 400;
+    spec["shadow"]["size"] = size;
+    const Frame frame = renderJson(scene, spec.dump());
+    // 400 pixels lie in the tile but for its border and the bias's room.
+    const int texels = frame.report.lights[0].grantedTileSize;
+    centres.push_back(valueAt(frame, 0.5, 0.5));
+    EXPECT_GE(centres.back(), 400.0 / texels);
+    EXPECT_LE(centres.back(), 400.0 / (texels - 20));
+    EXPECT_NEAR(valueAt(frame, 0.1, 0.9), centres.back(), 1e-3) << "the same everywhere";
+  }
+  EXPECT_NEAR(centres[0] / centres[1], 2.0, 0.05) << "a tile twice as wide has texels half as large";
+}
+
+TEST(DebugViews, H9_ASlantStretchesTexelsByItsCosine) {
+  Json spec = fromAbove({"texelDensity"}, kSlanted);
+  spec["shadow"]["depthRange"] = kStable;
+  spec["shadow"]["stabilization"] = "projectionSnapping"; // square texels
+  const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
+  const double texel = frame.report.lights[0].cascades.at(0).texelSize[0];
+  EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 10 * texel * std::sqrt(2.0), 1e-3 * texel);
+}
+
+TEST(DebugViews, H9_TexelDensityFollowsThePictureSPerspective) {
+  Json spec = fromAbove({"texelDensity"}, kNoon);
+  spec["camera"] = {{"eye", {0, 8, 0}}, {"up", {0, 0, -1}}, {"perspective", {{"fovYDegrees", 60}}}};
+  spec["shadow"]["depthRange"] = kStable;
+  spec["shadow"]["stabilization"] = "projectionSnapping";
+  const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
+  const double texel = frame.report.lights[0].cascades.at(0).texelSize[0];
+  const double pixels = 100 / (2 * 8 * std::tan(3.14159265358979 / 6)); // a metre of ground
+  EXPECT_NEAR(valueAt(frame, 0.5, 0.5), pixels * texel, 1e-3 * pixels * texel);
+  EXPECT_NEAR(valueAt(frame, 0.05, 0.95), pixels * texel, 1e-3 * pixels * texel) << "one depth, one scale";
+}
+
+TEST(DebugViews, H9_TexelsOfASpotGrowWithTheDistanceFromIt) {
+  const Json spot = {{"type", "spot"}, {"position", {0, 5, 0}}, {"direction", {0, -1, 0}}, {"outerConeDegrees", 30}};
+  testing::GlbBuilder scene = ground();
+  scene.addRoot({{"mesh", 0}, {"translation", {-1.5, 2.5, 0}}}); // 2 m across, halfway up
+  const Frame frame = renderJson(testing::sceneOf(scene), fromAbove({"texelDensity"}, spot).dump());
+  const CascadeReport& face = frame.report.lights[0].cascades.at(0);
+  const double tangent = std::max(face.texelSize[0], face.texelSize[1]) / face.far;
+  EXPECT_NEAR(valueAt(frame, 0.6, 0.5), 10 * 5 * tangent, 1e-2 * 50 * tangent) << "on the ground";
+  EXPECT_NEAR(valueAt(frame, 0.4, 0.5), 10 * 2.5 * tangent, 1e-2 * 25 * tangent) << "on the plate";
+  EXPECT_EQ(valueAt(frame, 0.02, 0.02), 0.0f) << "outside of the cone there are no texels";
+}
+
+TEST(DebugViews, H9_GrazingLightGivesFiniteNumbers) {
+  const ScenePtr scene = testing::sceneOf(ground());
+  for (const double down : {0.0, 1e-7, 1e-3}) {
+    const Json light = {{"type", "directional"}, {"direction", {1, -down, 0}}};
+    const Frame frame = renderJson(scene, fromAbove({"texelDensity", "bias", "texelGrid"}, light).dump());
+    for (const std::size_t view : {0u, 1u, 2u}) {
+      for (const float value : floatsOf(frame, view)) ASSERT_TRUE(std::isfinite(value) && value <= 65504.0f) << down;
+    }
+  }
+}
+
+TEST(DebugViews, H9_TheTexelGridHasASquareForEachTexel) {
+  Json spec = fromAbove({"texelGrid"}, kNoon);
+  spec["width"] = spec["height"] = 1000;
+  spec["shadow"]["size"] = "XSmall";
+  const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
+  const auto& texel = frame.report.lights[0].cascades.at(0).texelSize; // its axes are the picture's
+  const auto row = floatsOf(frame).begin() + 505 * 1000 * 3;
+  float darkest = row[1];
+  float lightest = row[1];
+  for (int column = 0; column < 1000; ++column) {
+    darkest = std::min(darkest, row[column * 3 + 1]);
+    lightest = std::max(lightest, row[column * 3 + 1]);
+  }
+  EXPECT_GT(lightest, 3 * darkest) << "the squares can be told apart";
+  const float middle = 0.5f * (darkest + lightest);
+  int edges = 0;
+  for (int column = 1; column < 1000; ++column) {
+    edges += (row[column * 3 + 1] > middle) != (row[column * 3 - 2] > middle);
+  }
+  EXPECT_NEAR(edges, 10.0 / texel[0], 1.0);
+  EXPECT_NEAR(texel[0], texel[1], 0.01 * texel[0]) << "whichever of them lies across";
+}
+
+TEST(DebugViews, X15_BlendWeightRisesFromNoneToAllAcrossASplit) {
+  Json spec = fromAbove({"depth", "blendWeight"}, kSlanted);
+  // A split at 10.5 m, blended over the last fifth of the 10 m before it.
+  spec["camera"] = {{"eye", {0, 1.5, 19}}, {"target", {0, 0, 9}}, {"perspective", {{"near", 0.5}}}};
+  spec["shadow"]["cascadeCount"] = 2;
+  spec["shadow"]["depthRange"] = kStable;
+  spec["shadow"]["partition"] = {{"mode", "manual"}, {"splits", {0.5, 1}}};
+  const ScenePtr scene = testing::sceneOf(ground());
+  const Frame frame = renderJson(scene, spec.dump());
+  const auto& depths = floatsOf(frame, 0);
+  const auto& weights = floatsOf(frame, 1);
+  int between = 0;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const double t = std::clamp((depths[i] - 8.5) / 2.0, 0.0, 1.0);
+    if (std::abs(depths[i] - 10.5f) < 1e-3f) continue; // either side of the split
+    const double expected = depths[i] < 10.5f ? t * t * (3 - 2 * t) : 0.0;
+    ASSERT_NEAR(weights[i], expected, 1e-3) << depths[i];
+    between += weights[i] > 0.05f && weights[i] < 0.95f;
+  }
+  EXPECT_GT(between, 100);
+
+  spec["shadow"]["blendCascades"] = false;
+  const Frame hard = renderJson(scene, spec.dump());
+  for (const float weight : floatsOf(hard, 1)) ASSERT_EQ(weight, 0.0f);
+}
+
+TEST(DebugViews, H4_BiasIsTheOffsetThatThePlanAsksFor) {
+  const ScenePtr scene = testing::sceneOf(ground());
+  for (const char* text : {R"({"type":"hard"})", R"({"type":"pcf","size":7})"}) {
+    Json spec = fromAbove({"bias"}, kSlanted);
+    spec["shadow"]["filter"] = Json::parse(text);
+    const Frame frame = renderJson(scene, spec.dump());
+    const auto& texel = frame.report.lights[0].cascades.at(0).texelSize;
+    const double reach = biasReach(kernelOf(frame.report.spec.lights->at(0).shadow->filter));
+    const double expected = reach * std::hypot(texel[0], texel[1]) * std::sqrt(0.5);
+    EXPECT_NEAR(valueAt(frame, 0.5, 0.5), expected, 0.01 * expected) << text;
+  }
+  // Along the normal nothing needs to be moved but for rounding.
+  EXPECT_LT(valueAt(renderJson(scene, fromAbove({"bias"}, kNoon).dump()), 0.5, 0.5), 1e-3);
+}
+
+TEST(DebugViews, AManualBiasIsShownAsItIsAsked) {
+  const ScenePtr scene = testing::sceneOf(ground());
+  const auto shown = [&](const Json& bias) {
+    Json spec = fromAbove({"bias"}, kSlanted); // 45 degrees: a tangent of 1
+    spec["shadow"]["bias"] = bias;
+    spec["shadow"]["bias"]["mode"] = "manual";
+    return valueAt(renderJson(scene, spec.dump()), 0.5, 0.5);
+  };
+  EXPECT_NEAR(shown({{"depth", 0.05}}), 0.05, 1e-4);
+  EXPECT_NEAR(shown({{"depth", 0.05}, {"slope", 0.02}}), 0.07, 1e-4);
+  // 0.05 m towards the light and 0.1 m along the normal, 45 degrees apart.
+  EXPECT_NEAR(shown({{"depth", 0.05}, {"normalOffsetScale", 2}}), std::sqrt(0.0125 + 0.01 * std::sqrt(0.5)), 1e-4);
+}
+
+TEST(DebugViews, H4_ASpotMovesAPointByItsDistance) {
+  // 45 degrees to the ground, which it meets 4 m away along its axis at the origin.
+  const double high = 4 * std::sqrt(0.5);
+  const Json spot = {
+      {"type", "spot"}, {"position", {-high, high, 0}}, {"direction", {1, -1, 0}}, {"outerConeDegrees", 30}};
+  const Frame frame = renderJson(testing::sceneOf(ground()), fromAbove({"bias"}, spot).dump());
+  const CascadeReport& face = frame.report.lights[0].cascades.at(0);
+  const glm::dvec2 tangents(face.texelSize[0] / face.far, face.texelSize[1] / face.far);
+  const double each = punctualNormalOffset(biasReach(kernelOf(Filter{})), tangents);
+  EXPECT_NEAR(valueAt(frame, 0.501, 0.501), each * 4 * std::sqrt(0.5), 0.03 * each * 4);
+}
+
+/// Plates of 1 m, 1 m above the ground, as nodes 3 and 2054; their shadows fall 1 m towards +Z.
+testing::GlbBuilder twoPlates() {
+  testing::GlbBuilder builder = ground();
+  const auto plate = [&](double x) {
+    builder.addRoot({{"mesh", 0}, {"translation", {x, 1, -2}}, {"scale", {0.5, 0.5, 0.5}}});
+  };
+  builder.addRoot({{"name", "nothing"}});
+  builder.addRoot({{"name", "nothing"}});
+  plate(-3);
+  for (int i = 0; i < 2050; ++i) builder.addRoot({{"name", "nothing"}});
+  plate(3);
+  return builder;
+}
+
+TEST(DebugViews, H9_CasterIdsNameTheNodesThatThrowTheShadows) {
+  const Json light = {{"type", "directional"}, {"direction", {0, -1, 1}}};
+  const Frame frame = renderJson(testing::sceneOf(twoPlates()), fromAbove({"casterIds", "shadow"}, light).dump());
+  EXPECT_EQ(valueAt(frame, 0.2, 0.4), 3.0f);
+  EXPECT_EQ(valueAt(frame, 0.8, 0.4), 2054.0f);
+  EXPECT_EQ(valueAt(frame, 0.5, 0.4), -1.0f) << "between them";
+  EXPECT_EQ(valueAt(frame, 0.2, 0.3), -1.0f) << "on the plate itself";
+  const auto& ids = floatsOf(frame, 0);
+  const auto& visibility = floatsOf(frame, 1);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const bool agree = visibility[i] == 0.0f ? ids[i] >= 0.0f : visibility[i] < 1.0f || ids[i] == -1.0f;
+    ASSERT_TRUE(agree) << "at pixel " << i << ": " << ids[i] << " where " << visibility[i] << " of the light arrives";
+  }
+  EXPECT_EQ(frame.images[0].image.channels, std::vector<std::string>{"id"});
+}
+
+TEST(DebugViews, H9_CastersAreNamedInTheFacesOfAPointLight) {
+  // 1 m above the plates: they shadow the ground from 5 to 7 m on either side.
+  Json spec = fromAbove({"casterIds"}, {{"type", "point"}, {"position", {0, 2, -2}}});
+  spec["width"] = spec["height"] = 400;
+  spec["shadow"]["size"] = "XLarge";                                // so that no bias lifts the ground over the plates
+  const double half = std::atan(10.0 / 8) * 180 / 3.14159265358979; // 20 m of ground
+  spec["camera"] = {{"eye", {0, 8, 0}}, {"up", {0, 0, -1}}, {"perspective", {{"fovYDegrees", 2 * half}}}};
+  const Frame frame = renderJson(testing::sceneOf(twoPlates()), spec.dump());
+  EXPECT_EQ(valueAt(frame, 0.5 - 6.0 / 20, 0.5 - 2.0 / 20), 3.0f);
+  EXPECT_EQ(valueAt(frame, 0.5 + 6.0 / 20, 0.5 - 2.0 / 20), 2054.0f);
+  EXPECT_EQ(valueAt(frame, 0.5, 0.5 - 2.0 / 20), -1.0f) << "under the light";
+  EXPECT_EQ(valueAt(frame, 0.5 - 6.0 / 20, 0.5 + 2.0 / 20), -1.0f) << "beside";
+}
+
+} // namespace
+} // namespace gnomon
