@@ -114,8 +114,9 @@ class Glb:
         return self._add("textures", {"source": image, "sampler": 0})
 
     def material(self, name, color=(1, 1, 1, 1), metallic=0.0, roughness=0.9, texture=None, normal=None, mask=None,
-                 double_sided=False, emissive=None):
-        """`color` is linear; `texture` and `normal` are indices of textures; `mask` is an alpha cutoff."""
+                 double_sided=False, emissive=None, blend=False):
+        """`color` is linear; `texture` and `normal` are indices of textures; `mask` is an alpha cutoff, `blend` lets the
+        alpha mix what is seen with what is behind."""
         surface = {"baseColorFactor": list(color), "metallicFactor": metallic, "roughnessFactor": roughness}
         if texture is not None:
             surface["baseColorTexture"] = {"index": texture}
@@ -124,6 +125,8 @@ class Glb:
             material["normalTexture"] = {"index": normal}
         if mask is not None:
             material["alphaMode"], material["alphaCutoff"] = "MASK", mask
+        if blend:
+            material["alphaMode"] = "BLEND"
         if double_sided:
             material["doubleSided"] = True
         if emissive is not None:
