@@ -110,12 +110,13 @@ def write(picture, colors=144):
             c = (row[i], row[i + 1], row[i + 2])
             counts[c] = counts.get(c, 0) + 1
     index_of, palette = _palette(counts, colors)
-    lines = b"".join(
-        b"\0" + bytes(index_of[(row[i], row[i + 1], row[i + 2])] for i in range(0, len(row), 3)) for row in picture.rows)
+    lines = bytearray()
+    for row in picture.rows:
+        lines += b"\0" + bytes(index_of[tuple(row[i : i + 3])] for i in range(0, len(row), 3))
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
     head = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 3, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"PLTE", b"".join(palette)) +
-            chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+            chunk(b"IDAT", zlib.compress(bytes(lines), 9)) + chunk(b"IEND", b""))
