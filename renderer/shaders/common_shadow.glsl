@@ -37,11 +37,12 @@ struct TileChoice {
   bool covered;
 };
 
-// The first cascade that reaches as far as the view depth.
+// The first cascade that reaches as far as the view depth; none before the first one begins.
 TileChoice chooseCascade(int light, float viewDepth) {
   int last = int(lights[light].tiles.x) - 1;
   int index = 0;
   vec3 interval = tiles[lights[light].tiles.z].interval.xyz;
+  bool begun = viewDepth >= interval.x;
   for (int i = 1; i < TILE_COUNT; ++i) {
     if (i <= last && viewDepth > interval.z) {
       index = i;
@@ -50,8 +51,8 @@ TileChoice chooseCascade(int light, float viewDepth) {
   }
   float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
   bool fades = lights[light].cone.w > 0.0;
-  if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, true);
-  return TileChoice(index, index, 0.0, fades ? zone : 0.0, !fades || viewDepth <= interval.z);
+  if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, begun);
+  return TileChoice(index, index, 0.0, fades ? zone : 0.0, begun && (!fades || viewDepth <= interval.z));
 }
 
 #ifdef PUNCTUAL

@@ -115,7 +115,8 @@ class Glb:
 
     def material(self, name, color=(1, 1, 1, 1), metallic=0.0, roughness=0.9, texture=None, normal=None, mask=None,
                  double_sided=False, emissive=None, blend=False):
-        """`color` is linear; `texture` and `normal` are indices of textures; `mask` is an alpha cutoff; `blend` = alphaMode BLEND."""
+        """`color` is linear; `texture` and `normal` are indices of textures; `mask` is an alpha cutoff, `blend` lets the
+        alpha mix what is seen with what is behind."""
         surface = {"baseColorFactor": list(color), "metallicFactor": metallic, "roughnessFactor": roughness}
         if texture is not None:
             surface["baseColorTexture"] = {"index": texture}

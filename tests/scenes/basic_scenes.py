@@ -86,6 +86,15 @@ def _ell():
         lathe([(0.2, 0), (0, 0.7)], 24), (1.2, 0.6, 0))
 
 
+def panes():
+    stage = Stage(10.0, eye=(-1.2, 3.8, 5.4), target=(-0.1, 0.6, 0.4))
+    pane = box(1.2, 1.6, 0.06)
+    for i, alpha in enumerate((0.0, 0.3, 0.7, 1.0)):
+        material = stage.glb.material(f"alpha {alpha}", (0.1, 0.3, 0.6, alpha), blend=True)
+        stage.add(f"pane {alpha}", pane, material=material, translation=[1.5 * (i - 1.5), 0.3, 0.0])
+    return stage.finish()
+
+
 def mirrored_node():
     stage = Stage(eye=(0, 3.5, 8), target=(0, 1, 0))
     shape = stage.glb.mesh("ell", (_ell(), stage.glb.material("ell", BLUE)))

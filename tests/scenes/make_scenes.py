@@ -13,7 +13,7 @@ import basic_scenes  # noqa: E402
 import city  # noqa: E402
 
 SCENES = {scene.__name__: scene for scene in (
-    basic_scenes.box_on_plane, basic_scenes.tilted_planes, basic_scenes.mask_leaf, basic_scenes.blended_pane,
+    basic_scenes.box_on_plane, basic_scenes.tilted_planes, basic_scenes.mask_leaf, basic_scenes.blended_pane, basic_scenes.panes,
     basic_scenes.mirrored_node,
     basic_scenes.caster_behind_camera, basic_scenes.long_row, basic_scenes.thin_slats, basic_scenes.vertex_colors,
     basic_scenes.double_sided, basic_scenes.normal_mapped, basic_scenes.multi_scene, basic_scenes.cameras,

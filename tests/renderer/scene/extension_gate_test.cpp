@@ -29,6 +29,19 @@ TEST(ExtensionGate, RefusesEveryOtherRequiredExtension) {
   EXPECT_THAT(problems[1].detail, HasSubstr("ACME_nope"));
 }
 
+TEST(ExtensionGate, X30_NothingIsTranslucentSoThatNoThicknessIsEverAskedFor) {
+  for (const char* extension : {"KHR_materials_transmission", "KHR_materials_volume",
+                                "KHR_materials_diffuse_transmission", "KHR_materials_subsurface"}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.json["extensionsUsed"] = {extension};
+    EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr(extension)));
+    builder.json["extensionsRequired"] = {extension};
+    const Problems problems = problemsOf(builder);
+    EXPECT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/extensionsRequired/0")));
+    EXPECT_THAT(problems[0].detail, HasSubstr(extension));
+  }
+}
+
 TEST(ExtensionGate, WarnsOfUsedExtensions) {
   testing::GlbBuilder builder = testing::cube();
   builder.json["extensionsUsed"] = {"KHR_texture_transform", "ACME_nope"};

@@ -1,5 +1,6 @@
 #include "renderer/scene/lights.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/renderer/scene/geometry.h"
@@ -37,7 +38,7 @@ TEST(Lights, ReadsDirectionalLights) {
   EXPECT_EQ(scene.summary.lights.at(0).type, "directional");
 }
 
-TEST(Lights, ReadsSpotLights) {
+TEST(Lights, G1_ReadsSpotLightsWhoseConesAreHalfAngles) {
   const Light light =
       load(lit({{"type", "spot"}, {"range", 7}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}))
           .scenes[0]
@@ -52,7 +53,22 @@ TEST(Lights, ReadsSpotLights) {
   EXPECT_EQ(light.intensity, 1);
 }
 
-TEST(Lights, ReadsPointLights) {
+TEST(Lights, X31_AShearedNodeTurnsASpotButDoesNotBendIt) {
+  // Scaled by its parent after it is turned, the node's axes no longer meet at right angles.
+  testing::GlbBuilder builder;
+  builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}};
+  const double half = std::numbers::pi / 12; // 30 degrees around Y: the light looks along (-1/2, 0, -sqrt(3)/2)
+  builder.addRoot({{"scale", {4, 1, 1}}, {"children", {1}}});
+  builder.add("nodes", {{"rotation", {0, std::sin(half), 0, std::cos(half)}},
+                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  const Light light = load(builder).scenes[0].lights.at(0).light;
+  const double length = std::hypot(2, std::sqrt(0.75));
+  expectNear(toDvec3(light.direction.value()), {-2 / length, 0, -std::sqrt(0.75) / length});
+  EXPECT_NEAR(light.outerConeDegrees, 0.5 * 180 / std::numbers::pi, 1e-12);
+}
+
+TEST(Lights, G1_ReadsPointLightsWithoutARange) {
   const Light light = load(lit({{"type", "point"}})).scenes[0].lights.at(0).light;
   EXPECT_EQ(light.type, LightType::point);
   EXPECT_FALSE(light.direction);
