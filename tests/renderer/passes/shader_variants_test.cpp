@@ -88,10 +88,10 @@ TEST(ShaderVariants, OnlyViewsOfOneLightReadWhichItIs) {
 TEST(ShaderVariants, CastersAreNamedOnlyWhereTheirNodesAreAskedFor) {
   Material masked;
   masked.alphaMode = AlphaMode::mask;
-  EXPECT_TRUE(castProgram(nullptr).fragment.empty());
-  EXPECT_THAT(castProgram(&masked).defines, Not(Contains("CASTER_NODE")));
-  EXPECT_THAT(casterNodeProgram(nullptr).defines, Contains("CASTER_NODE"));
-  EXPECT_THAT(casterNodeProgram(&masked).defines, Contains("ALPHA_MASK"));
+  EXPECT_TRUE(castProgram(nullptr, BlendedCasters::dither).fragment.empty());
+  EXPECT_THAT(castProgram(&masked, BlendedCasters::dither).defines, Not(Contains("CASTER_NODE")));
+  EXPECT_THAT(casterNodeProgram(nullptr, BlendedCasters::dither).defines, Contains("CASTER_NODE"));
+  EXPECT_THAT(casterNodeProgram(&masked, BlendedCasters::dither).defines, Contains("ALPHA_MASK"));
 }
 
 } // namespace
