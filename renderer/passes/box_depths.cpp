@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/block_strips.h"
 #include "renderer/core/frustum.h"
 #include "renderer/passes/footprint.h"
 #include "renderer/shaders/shared/frame_types.h"
@@ -10,24 +11,6 @@
 
 namespace gnomon {
 namespace {
-
-/// Least and greatest of a world coordinate that the picture adds, over a column or row of blocks.
-struct Bounds {
-  glm::dvec3 low{0};
-  glm::dvec3 high{0};
-};
-
-std::vector<Bounds> strips(int count, int blockSize, int pixels, const glm::dvec3& axis) {
-  constexpr double kMargin = 0.5; // pixels: rasterizers move vertices by a fraction of one
-  const auto at = [&](double pixel) { return axis * (2.0 * pixel / pixels - 1.0); };
-  std::vector<Bounds> result;
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 first = at(i * blockSize - kMargin);
-    const glm::dvec3 last = at(std::min((i + 1) * blockSize, pixels) + kMargin);
-    result.push_back({glm::min(first, last), glm::max(first, last)});
-  }
-  return result;
-}
 
 /// The depths d with least <= d and d <= greatest, made narrower by conditions of the form factor * d >= bound.
 struct Depths {
@@ -47,7 +30,7 @@ struct Depths {
 
 /// The depths at which a block's piece of the view may meet the box. Each coordinate by itself: at depth d it runs from
 /// d * low to d * high (perspective), or from d * forward + low to d * forward + high.
-Depths depthsIn(const CameraView& view, const Aabb& box, const Bounds& column, const Bounds& row) {
+Depths depthsIn(const CameraView& view, const Aabb& box, const BlockStrip& column, const BlockStrip& row) {
   const glm::dvec3 low = column.low + row.low;
   const glm::dvec3 high = column.high + row.high;
   const double center = glm::dot(box.center(), view.forward);
@@ -89,8 +72,8 @@ ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::spa
                          std::span<const std::uint8_t> drawn) {
   ReceiverDepths grid = emptyDepths(width, height);
   grid.blocks.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-  const auto columns = strips(grid.columns, grid.blockSize, width, view.right * view.halfSize.x);
-  const auto rows = strips(grid.rows, grid.blockSize, height, view.up * -view.halfSize.y); // from the top
+  const auto columns = blockStrips(grid.columns, grid.blockSize, width, view.right * view.halfSize.x);
+  const auto rows = blockStrips(grid.rows, grid.blockSize, height, view.up * -view.halfSize.y); // from the top
   const Frustum frustum = frustumOf(view);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (drawn[i] == 0 || boxes[i].empty() || !mayIntersect(frustum, boxes[i])) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/block_strips.h"
+#include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/light_coverage.h"
 
 namespace gnomon {
@@ -10,21 +12,22 @@ namespace {
 
 constexpr int kBlocksAcross = GNOMON_REGION_SIZE / GNOMON_BLOCK_SIZE;
 
-/// The surfaces of one block, as a box relative to the eye.
-Aabb blockBox(const CameraView& view, const ReceiverDepths& receivers, int column, int row) {
-  const DepthSpan& span = receivers.blocks[static_cast<std::size_t>(row) * receivers.columns + column];
-  if (span.empty()) return {};
-  constexpr double kMargin = 0.5; // pixels
-  Aabb box;
-  for (int corner = 0; corner < 8; ++corner) {
-    const double x = (column + (corner & 1)) * receivers.blockSize + ((corner & 1) != 0 ? kMargin : -kMargin);
-    const double y = (row + (corner >> 1 & 1)) * receivers.blockSize + ((corner & 2) != 0 ? kMargin : -kMargin);
-    const double depth = (corner & 4) != 0 ? span.farthest * (1 + 1e-5) : span.nearest * (1 - 1e-5);
-    const glm::dvec3 across = view.right * (view.halfSize.x * (2 * x / receivers.width - 1)) -
-                              view.up * (view.halfSize.y * (2 * y / receivers.height - 1));
-    box.add(view.forward * depth + across * (view.perspective ? depth : 1.0));
+/// The surfaces of every block, as boxes relative to the eye; empty where there are none.
+std::vector<Aabb> blockBoxes(const CameraView& view, const ReceiverDepths& receivers) {
+  const auto columns =
+      blockStrips(receivers.columns, receivers.blockSize, receivers.width, view.right * view.halfSize.x);
+  const auto rows = blockStrips(receivers.rows, receivers.blockSize, receivers.height, view.up * -view.halfSize.y);
+  std::vector<Aabb> boxes;
+  for (const BlockStrip& row : rows) {
+    for (const BlockStrip& column : columns) {
+      const DepthSpan& span = receivers.blocks[boxes.size()];
+      boxes.push_back(span.empty() ? Aabb{}
+                                   : blockPiece(view.perspective, view.forward, column, row,
+                                                span.nearest - depthSlack(view, span.nearest),
+                                                span.farthest + depthSlack(view, span.farthest)));
+    }
   }
-  return box;
+  return boxes;
 }
 
 /// What a light reaches; a negative radius stands for everything.
@@ -60,6 +63,7 @@ std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDept
   const int columns = (receivers.columns + kBlocksAcross - 1) / kBlocksAcross;
   const int rows = (receivers.rows + kBlocksAcross - 1) / kBlocksAcross;
   std::vector<std::uint32_t> lists(2 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  const std::vector<Aabb> blocks = blockBoxes(view, receivers);
   std::vector<Aabb> boxes;
   for (int region = 0; region < columns * rows; ++region) {
     boxes.clear();
@@ -68,7 +72,7 @@ std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDept
     const int firstRow = region / columns * kBlocksAcross;
     for (int row = firstRow; row < std::min(firstRow + kBlocksAcross, receivers.rows); ++row) {
       for (int column = firstColumn; column < std::min(firstColumn + kBlocksAcross, receivers.columns); ++column) {
-        boxes.push_back(blockBox(view, receivers, column, row));
+        boxes.push_back(blocks[static_cast<std::size_t>(row * receivers.columns + column)]);
         whole.add(boxes.back());
       }
     }
