@@ -11,6 +11,7 @@ struct Limits {
   int maxFrameSide = 8192;                  ///< pixels
   std::int64_t maxFramePixels = 33'554'432; ///< width x height
   int maxAtlasSide = 8192;                  ///< texels; the device may allow less
+  std::int64_t maxAtlasBytes = 536'870'912; ///< of the shadow atlas, with all its samples and moments
   int maxLights = 256;                      ///< lights in one frame
   int maxCascades = 8;                      ///< cascades of one light
   int maxLayers = 16;                       ///< layers of nodes

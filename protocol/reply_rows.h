@@ -72,6 +72,8 @@ inline constexpr auto kRows<Limits> = replyRows(
     field("maxFramePixels", &Limits::maxFramePixels, {.says = "Width times height of a frame.", .unit = "pixels"}),
     field("maxAtlasSide", &Limits::maxAtlasSide,
           {.says = "Side of the shadow atlas; the device may allow less.", .unit = "texels"}),
+    field("maxAtlasBytes", &Limits::maxAtlasBytes,
+          {.says = "The shadow atlas, with all its samples and moments.", .unit = "bytes"}),
     field("maxLights", &Limits::maxLights, {.says = "Lights in one frame."}),
     field("maxCascades", &Limits::maxCascades, {.says = "Cascades of one light."}),
     field("maxLayers", &Limits::maxLayers, {.says = "Layers of nodes."}),

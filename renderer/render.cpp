@@ -131,6 +131,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   clock.finish("survey");
 
   const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, info().maxTextureSize));
+  if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight);
   const auto tiles = tileData(plan);

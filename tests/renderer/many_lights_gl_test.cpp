@@ -71,5 +71,17 @@ TEST(ManyLights, X11_AsManyShadowedLightsAsAFrameMayHaveAreEachDrawnOrExplained)
   EXPECT_GT(drawn, 20);
 }
 
+TEST(ManyLights, AnAtlasBeyondAFramesMemoryIsRefused) {
+  Json spec = frameSpec(Json::array({{{"type", "directional"}, {"sun", Json::object()}}}));
+  spec["atlas"] = {{"size", 8192}, {"baseSize", 4096}};
+  spec["width"] = 2560;
+  spec["shadow"] = {{"filter", {{"type", "msm"}}}};
+  const Problems problems = testing::refusedJson(testing::generatedScene("long_row"), spec.dump());
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].code, ProblemCode::tooLarge);
+  EXPECT_EQ(problems[0].pointer, "/atlas/size");
+  EXPECT_EQ(problems[0].limit, "536870912 bytes");
+}
+
 } // namespace
 } // namespace gnomon

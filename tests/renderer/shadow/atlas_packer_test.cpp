@@ -114,6 +114,33 @@ TEST(AtlasPacker, X11_GrantsFitAreNeverLargerThanAskedAndSmallestAtWorst) {
   }));
 }
 
+TEST(AtlasPacker, X9_X11_WhatFillsUpTo95PercentIsGrantedInFullAndFits) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    Dice dice(seed);
+    const int side = 1 << (9 + dice.below(4));
+    const std::int64_t room = std::int64_t{side} * side * 95 / 100;
+    std::vector<TileRequest> requests;
+    std::vector<TileSquare> squares;
+    std::int64_t area = 0;
+    for (int misses = 0; misses < 20;) {
+      const int size = 1 << (5 + dice.below(8));
+      const int tiles = 1 + dice.below(6);
+      if (size > side || area + std::int64_t{tiles} * size * size > room) {
+        ++misses;
+        continue;
+      }
+      area += std::int64_t{tiles} * size * size;
+      const int light = static_cast<int>(requests.size());
+      requests.push_back({light, tiles, size, static_cast<ShadowImportance>(dice.below(3))});
+      for (int tile = 0; tile < tiles; ++tile) squares.push_back({light, tile, size});
+    }
+    const auto sizes = grantTileSizes(requests, side);
+    for (std::size_t i = 0; i < requests.size(); ++i) RC_ASSERT(sizes[i] == requests[i].size);
+    const AtlasLayout layout = packSquares(squares);
+    RC_ASSERT(layout.width <= side && layout.height <= side);
+  }));
+}
+
 TEST(AtlasPacker, NothingNeedsNoAtlas) {
   const AtlasLayout layout = packSquares({});
   EXPECT_EQ(layout.width, 0);
