@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "protocol/json_codec.h"
 #include "renderer/render.h"
@@ -50,8 +51,11 @@ std::vector<Row>& rows() {
   return all;
 }
 
+/// Bytes of shadow atlases that the renderer keeps: none, so that each request casts its shadows, or the default.
+std::size_t tileCacheBytes = 0;
+
 Renderer& renderer() {
-  static Renderer made = *Renderer::create({});
+  static Renderer made = *Renderer::create({.backend = {}, .tileCacheBytes = tileCacheBytes});
   return made;
 }
 
@@ -132,6 +136,11 @@ int main(int argc, char** argv) {
           ->Unit(benchmark::kMillisecond)
           ->MinTime(4);
     }
+  }
+  if (argc > 1 && std::string_view(argv[1]) == "--keep-tiles") {
+    tileCacheBytes = gnomon::RendererOptions{}.tileCacheBytes;
+    std::rotate(argv + 1, argv + 2, argv + argc);
+    --argc;
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
