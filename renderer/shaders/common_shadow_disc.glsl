@@ -36,8 +36,10 @@ float discVisibility(TileData tile, Receiver receiver, Lookup at, float radius, 
     // Vogel's spiral: equal areas.
     float angle = turn + float(i) * 2.39996323;
     vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(kDiscTaps)));
-    vec2 place = clamp(at.coordinate.xy + step * tile.bias.zw, tile.bounds.xy, tile.bounds.zw);
-    sum += tapVisibility(vec3(place, clamp(at.coordinate.z + dot(slope, step), 0.0, 1.0)));
+    vec2 place = at.coordinate.xy + step * tile.bias.zw;
+    bool outside = any(lessThan(place, tile.bounds.xy)) || any(greaterThan(place, tile.bounds.zw));
+    float depth = clamp(at.coordinate.z + dot(slope, step), 0.0, 1.0);
+    sum += outside ? 1.0 : tapVisibility(vec3(place, depth));
   }
   return sum / float(kDiscTaps);
 }

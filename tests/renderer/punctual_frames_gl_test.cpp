@@ -56,6 +56,23 @@ TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
   }
 }
 
+TEST(PunctualFrames, X24_H4_NoAcneWhereFacesAreStabilized) {
+  const Json lights = Json::parse(R"([
+      {"type":"point","position":[1,3,2]},
+      {"type":"spot","position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40,"range":12},
+      {"type":"spot","position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":85}])");
+  for (const double degrees : {0.0, 30.0, 60.0}) {
+    const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
+    for (const Json& light : lights) {
+      for (const Json& filter : testing::everyFilter()) {
+        Json spec = planeSpec(degrees, light, filter, "Large");
+        spec["shadow"]["stabilization"] = "projectionSnapping";
+        EXPECT_EQ(darkPixels(renderJson(scene, spec.dump()), 0.999f), 0) << degrees << ' ' << light << ' ' << filter;
+      }
+    }
+  }
+}
+
 TEST(PunctualFrames, G5_H4_NoAcneUnderAnOrthographicCameraOfGreatDepth) {
   const ScenePtr scene = testing::sceneOf(tiltedPlane(0));
   for (const Json& light :
