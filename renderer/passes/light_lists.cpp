@@ -72,7 +72,7 @@ std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDept
     const int firstRow = region / columns * kBlocksAcross;
     for (int row = firstRow; row < std::min(firstRow + kBlocksAcross, receivers.rows); ++row) {
       for (int column = firstColumn; column < std::min(firstColumn + kBlocksAcross, receivers.columns); ++column) {
-        boxes.push_back(blocks[static_cast<std::size_t>(row * receivers.columns + column)]);
+        boxes.push_back(blocks[static_cast<std::size_t>(row) * receivers.columns + column]);
         whole.add(boxes.back());
       }
     }

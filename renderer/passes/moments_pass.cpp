@@ -68,8 +68,8 @@ Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*
   const int samples = std::max(1, atlas.depth.shape().samples);
   for (const ShadowTile* tile : tiles) {
     const Rect alone{0, 0, tile->rect.width, tile->rect.height};
-    if (const Status along = blur(inputs, *tile, samples, {true, atlas.depth, *between, alone}); !along) return along;
-    if (const Status up = blur(inputs, *tile, samples, {false, rows, *target, tile->rect}); !up) return up;
+    if (Status along = blur(inputs, *tile, samples, {true, atlas.depth, *between, alone}); !along) return along;
+    if (Status up = blur(inputs, *tile, samples, {false, rows, *target, tile->rect}); !up) return up;
   }
   return Done{};
 }

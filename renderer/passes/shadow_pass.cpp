@@ -65,6 +65,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   gl::Timer timer = gl::Timer::start(); // of the first tile: it brings the clear
   const std::vector<TileContent> contents = contentsOf(inputs, plan, spec);
   std::vector<TileKey> keys;
+  keys.reserve(contents.size());
   for (const TileContent& content : contents) keys.push_back(content.key);
 
   if (auto same = cache.findAll(keys);

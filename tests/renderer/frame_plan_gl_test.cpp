@@ -50,12 +50,17 @@ TEST(FramePlans, RefuseWhatTheFrameRefuses) {
   }
 }
 
-TEST(FramePlans, X8_TheDeviceBoundsTheAtlas) {
+TEST(FramePlans, X8_AnAtlasBeyondTheDeviceIsRefusedAndOneThatIsFullSaysSo) {
   const ScenePtr scene = testing::generatedScene("box_on_plane");
   RendererInfo device;
   device.maxTextureSize = 512;
   device.maxSamples = 1;
-  const auto plan = planFrame(*scene, FrameSpec{}, device);
+  FrameSpec spec;
+  const auto refused = planFrame(*scene, spec, device);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].pointer, "/atlas/size");
+  spec.atlas.size = spec.atlas.baseSize = 512;
+  const auto plan = planFrame(*scene, spec, device);
   ASSERT_TRUE(plan);
   EXPECT_LE(plan->atlasSize[0], 512);
   EXPECT_LT(plan->lights[0].grantedTileSize, plan->lights[0].askedTileSize);
