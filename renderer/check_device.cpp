@@ -4,7 +4,7 @@
 
 #include "protocol/limits.h"
 #include "protocol/problem_list.h"
-#include "renderer/shadow/bias.h"
+#include "renderer/passes/moments_pass.h"
 
 namespace gnomon {
 
@@ -25,9 +25,7 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
 Status checkAtlas(const ShadowPlan& plan, int samples) {
   constexpr std::int64_t kDepthBytes = 4;
   constexpr std::int64_t kMomentBytes = 16;
-  const bool moments = std::any_of(plan.tiles.begin(), plan.tiles.end(), [](const ShadowTile& tile) {
-    return tile.rect.width > 0 && kernelOf(tile.filter).moments;
-  });
+  const bool moments = std::any_of(plan.tiles.begin(), plan.tiles.end(), isBlurred);
   const std::int64_t texels = std::int64_t{plan.atlasWidth} * plan.atlasHeight;
   const std::int64_t bytes = texels * (kDepthBytes * samples + (moments ? kMomentBytes : 0));
   if (bytes <= kLimits.maxAtlasBytes) return Done{};

@@ -24,6 +24,12 @@ struct Aabb {
   }
 };
 
+/// From a point to the nearest one of a box; 0 inside. REQUIRES: the box is not empty.
+inline double squaredDistance(const Aabb& box, const glm::dvec3& point) {
+  const glm::dvec3 away = glm::max(glm::max(box.min - point, point - box.max), glm::dvec3(0.0));
+  return glm::dot(away, away);
+}
+
 /// The box around `box` after an affine transform (Arvo, Graphics Gems 1990).
 inline Aabb transformed(const glm::dmat4& matrix, const Aabb& box) {
   if (box.empty()) return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "renderer/core/block_strips.h"
 #include "renderer/shadow/depth_range.h"
@@ -30,9 +31,9 @@ std::vector<Aabb> blockBoxes(const CameraView& view, const ReceiverDepths& recei
   return boxes;
 }
 
-/// What a light reaches; a negative radius stands for everything.
-Sphere reachOf(const shared::LightData& light) {
-  if (light.direction.w == GNOMON_DIRECTIONAL || light.position.w <= 0) return {{}, -1};
+/// What a light reaches; absent = everything.
+std::optional<Sphere> reachOf(const shared::LightData& light) {
+  if (light.direction.w == GNOMON_DIRECTIONAL || light.position.w <= 0) return std::nullopt;
   ShadowCaster caster;
   caster.type = light.direction.w == GNOMON_SPOT ? LightType::spot : LightType::point;
   caster.position = glm::dvec3(light.position);
@@ -46,19 +47,17 @@ Sphere reachOf(const shared::LightData& light) {
   return sphere;
 }
 
-bool touches(const Sphere& sphere, const Aabb& box) {
+bool reaches(const std::optional<Sphere>& sphere, const Aabb& box) {
   if (box.empty()) return false;
-  if (sphere.radius < 0) return true;
-  const glm::dvec3 away = glm::max(glm::max(box.min - sphere.center, sphere.center - box.max), glm::dvec3(0.0));
-  return glm::dot(away, away) <= sphere.radius * sphere.radius;
+  return !sphere || squaredDistance(box, sphere->center) <= sphere->radius * sphere->radius;
 }
 
 } // namespace
 
 std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDepths& receivers,
                                       std::span<const shared::LightData> lights) {
-  std::vector<Sphere> reaches;
-  std::transform(lights.begin(), lights.end(), std::back_inserter(reaches),
+  std::vector<std::optional<Sphere>> spheres;
+  std::transform(lights.begin(), lights.end(), std::back_inserter(spheres),
                  [](const shared::LightData& light) { return reachOf(light); });
   const int columns = (receivers.columns + kBlocksAcross - 1) / kBlocksAcross;
   const int rows = (receivers.rows + kBlocksAcross - 1) / kBlocksAcross;
@@ -77,8 +76,8 @@ std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDept
       }
     }
     lists[2 * static_cast<std::size_t>(region)] = static_cast<std::uint32_t>(lists.size());
-    for (std::uint32_t i = 0; i < reaches.size(); ++i) {
-      const auto reached = [&](const Aabb& box) { return touches(reaches[i], box); };
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+      const auto reached = [&](const Aabb& box) { return reaches(spheres[i], box); };
       if (reached(whole) && std::any_of(boxes.begin(), boxes.end(), reached)) lists.push_back(i);
     }
     lists[2 * static_cast<std::size_t>(region) + 1] = static_cast<std::uint32_t>(lists.size());

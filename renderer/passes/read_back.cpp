@@ -25,7 +25,6 @@ std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
     default:
       return {"Y"};
   }
-  return {};
 }
 
 /// The first `channels` of four, rows turned over.

@@ -19,7 +19,6 @@ struct TileContent {
   std::size_t index = 0; ///< into the plan's tiles
   const Light& light;
   TileCasters casters;
-  TileKey key;
 };
 
 std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& plan, const FrameSpec& spec) {
@@ -28,9 +27,7 @@ std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& 
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (tile.rect.width <= 0) continue;
-    TileContent content{i, *lightOf[i], castersInto(tile, *lightOf[i], inputs.view, inputs.geometry, inputs.nodes), {}};
-    content.key = tileKey(inputs, tile, content.light, content.casters, spec.atlas.samples);
-    contents.push_back(std::move(content));
+    contents.push_back({i, *lightOf[i], castersInto(tile, *lightOf[i], inputs.view, inputs.geometry, inputs.nodes)});
   }
   return contents;
 }
@@ -66,7 +63,9 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   const std::vector<TileContent> contents = contentsOf(inputs, plan, spec);
   std::vector<TileKey> keys;
   keys.reserve(contents.size());
-  for (const TileContent& content : contents) keys.push_back(content.key);
+  for (const TileContent& content : contents) {
+    keys.push_back(tileKey(inputs, plan.tiles[content.index], content.light, content.casters, spec.atlas.samples));
+  }
 
   if (auto same = cache.findAll(keys);
       same && same->depth.width() == plan.atlasWidth && same->depth.height() == plan.atlasHeight) {
@@ -82,10 +81,11 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   clearDepths(textures->depth, *target);
   bindInputs(inputs);
   std::vector<const ShadowTile*> toBlur;
-  for (const TileContent& content : contents) {
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    const TileContent& content = contents[i];
     const ShadowTile& tile = plan.tiles[content.index];
     TileCounts& counts = atlas.tiles[content.index];
-    if (const auto kept = cache.find(content.key)) {
+    if (const auto kept = cache.find(keys[i])) {
       textures->depth.copyFrom(kept->depth, tile.rect);
       if (isBlurred(tile)) textures->moments.copyFrom(kept->moments, tile.rect);
       counts.reused = true;

@@ -8,7 +8,7 @@ std::size_t AtlasTextures::bytes() const {
   return depth.bytes() + moments.bytes();
 }
 
-std::shared_ptr<const AtlasTextures> TileCache::findAll(const std::vector<TileKey>& keys) {
+std::shared_ptr<const AtlasTextures> TileCache::findAll(std::span<const TileKey> keys) {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return std::all_of(keys.begin(), keys.end(), [&](const TileKey& key) {
       return std::binary_search(entry.keys.begin(), entry.keys.end(), key);
@@ -20,7 +20,7 @@ std::shared_ptr<const AtlasTextures> TileCache::findAll(const std::vector<TileKe
 }
 
 std::shared_ptr<const AtlasTextures> TileCache::find(const TileKey& key) {
-  return findAll({key});
+  return findAll(std::span(&key, 1));
 }
 
 void TileCache::keep(std::vector<TileKey> keys, std::shared_ptr<const AtlasTextures> textures) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <list>
-#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +29,7 @@ class TileCache {
   explicit TileCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
   /// An atlas that holds all of these tiles; null where none does.
-  std::shared_ptr<const AtlasTextures> findAll(const std::vector<TileKey>& keys);
+  std::shared_ptr<const AtlasTextures> findAll(std::span<const TileKey> keys);
   /// An atlas that holds the tile; null where none does.
   std::shared_ptr<const AtlasTextures> find(const TileKey& key);
   void keep(std::vector<TileKey> keys, std::shared_ptr<const AtlasTextures> textures);

@@ -7,11 +7,6 @@
 namespace gnomon {
 namespace {
 
-double squaredDistance(const Aabb& box, const glm::dvec3& point) {
-  const glm::dvec3 away = glm::max(glm::max(box.min - point, point - box.max), glm::dvec3(0.0));
-  return glm::dot(away, away);
-}
-
 /// True where a part of the box (light space) lies in the face's pyramid.
 bool mayLieIn(const Aabb& box, double tanHalf) {
   const double reach = tanHalf * box.max.z;
