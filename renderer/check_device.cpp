@@ -4,7 +4,7 @@
 
 #include "protocol/limits.h"
 #include "protocol/problem_list.h"
-#include "renderer/passes/moments_pass.h"
+#include "renderer/passes/tiles/moments_pass.h"
 
 namespace gnomon {
 

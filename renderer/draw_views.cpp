@@ -1,6 +1,6 @@
 #include "renderer/draw_views.h"
 
-#include "renderer/passes/atlas_depth_pass.h"
+#include "renderer/passes/tiles/atlas_depth_pass.h"
 
 namespace gnomon {
 namespace {

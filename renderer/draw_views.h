@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "renderer/passes/view_pass.h"
+#include "renderer/passes/views/view_pass.h"
 
 namespace gnomon {
 

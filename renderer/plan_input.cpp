@@ -1,7 +1,7 @@
 #include "renderer/plan_input.h"
 
+#include "renderer/core/light_direction.h"
 #include "renderer/core/vec3.h"
-#include "renderer/passes/light_data.h"
 
 namespace gnomon {
 

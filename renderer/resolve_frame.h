@@ -6,7 +6,7 @@
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/core/camera_view.h"
-#include "renderer/passes/node_switches.h"
+#include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

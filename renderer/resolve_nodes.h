@@ -6,7 +6,7 @@
 #include "protocol/light.h"
 #include "protocol/node_options.h"
 #include "protocol/result.h"
-#include "renderer/passes/node_switches.h"
+#include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "renderer/core/aabb.h"
+#include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shaders/shared/frame_types.h"
 
@@ -23,5 +25,10 @@ struct FrameGeometry {
 /// `groups`: the receiver group of each instance (node_switches.h); none = 0 for all.
 FrameGeometry frameGeometry(const Scene& scene, const SceneView& view, const glm::dvec3& eye,
                             std::span<const std::uint8_t> groups = {});
+
+/// Clears the slots (a byte each) of the nodes that don't pass. `nodes`: one a node of the file; empty = every node has
+/// the defaults.
+void keepNodes(std::span<const NodeSwitches> nodes, const SceneView& view, const FrameGeometry& geometry,
+               const std::function<bool(const NodeSwitches&)>& pass, std::vector<std::uint8_t>& slots);
 
 } // namespace gnomon

@@ -11,8 +11,8 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
-#include "renderer/passes/node_switches.h"
 #include "renderer/passes/program_cache.h"
+#include "renderer/scene/node_switches.h"
 
 namespace gnomon {
 

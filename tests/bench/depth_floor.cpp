@@ -7,7 +7,7 @@
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/pass_inputs.h"
-#include "renderer/passes/survey_pass.h"
+#include "renderer/passes/survey/survey_pass.h"
 #include "renderer/resolve_frame.h"
 
 namespace gnomon::bench {

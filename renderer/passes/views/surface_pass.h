@@ -1,0 +1,26 @@
+#pragma once
+
+#include "protocol/result.h"
+#include "renderer/gl/texture.h"
+#include "renderer/gl/timer.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/survey/survey_pass.h"
+
+namespace gnomon {
+
+/// What each sample of the picture shows, before any light falls on it. Views are made from it, pixel by pixel.
+struct Surfaces {
+  gl::Texture bits;                       ///< RGBA32UI: a packed Surface (shaders/common_surface.glsl)
+  gl::Texture emission;                   ///< RGBA16F; empty where nothing in the scene glows
+  gl::Texture ownDepth;                   ///< only where the survey has other samples
+  std::vector<glm::vec2> samplePositions; ///< within a pixel, 0..1 from its lower left corner; one a sample
+  std::uint64_t triangles = 0;
+  std::size_t drawCalls = 0;
+  gl::Timer timer;
+};
+
+/// Draws the surfaces that the survey found, `samples` a pixel (1 or 4). With the survey's own samples its depth and
+/// its visible clusters are exact; else depth is drawn anew.
+Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples);
+
+} // namespace gnomon

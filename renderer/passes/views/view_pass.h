@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+
+#include "protocol/frame_spec.h"
+#include "protocol/result.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/timer.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/tiles/caster_node_pass.h"
+#include "renderer/passes/tiles/shadow_pass.h"
+#include "renderer/passes/views/surface_pass.h"
+
+namespace gnomon {
+
+/// One view, drawn: a single-sample color target.
+struct DrawnView {
+  gl::Texture color; ///< RGBA8 or SRGB8_ALPHA8 when encoded, else RGBA32F
+  gl::Framebuffer framebuffer;
+  gl::Timer timer;
+};
+
+struct ViewInputs {
+  const Survey& survey;
+  const ShadowAtlas& atlas;
+  std::span<const shared::LightData> lights; ///< the spec's
+  std::span<const shared::TileData> tiles;   ///< the plan's
+  std::span<const std::uint32_t> lightLists; ///< empty = every light is tried at every pixel
+  const FrameSpec& spec;                     ///< effective
+  int debugLight = -1;                       ///< what views of one light show; -1 = there is none
+};
+
+/// Pictures (color, cascades, texelGrid, lightContribution) are antialiased as the spec asks; all else is data and
+/// never averaged: it belongs to the surface at the pixel's centre.
+bool isPicture(View view);
+
+/// Lights the surfaces of every pixel for any view but atlas and tile. Data wants surfaces of one sample; `casters` is
+/// read by the view casterIds.
+Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+                           const CasterNodes& casters, View view);
+
+} // namespace gnomon

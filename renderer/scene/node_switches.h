@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "protocol/light.h"
+
+namespace gnomon {
+
+/// A node's switches (protocol/node_options.h), nothing left open.
+struct NodeSwitches {
+  bool visible = true;
+  bool castShadow = true;
+  bool receiveShadow = true;
+  int layers = 1; ///< one bit a layer
+};
+
+/// A light lights the nodes that share a layer with it, and only they cast from it.
+inline bool isLitBy(const Light& light, const NodeSwitches& node) {
+  return (light.cullingMask & node.layers) != 0;
+}
+inline bool castsFrom(const Light& light, const NodeSwitches& node) {
+  return node.castShadow && isLitBy(light, node);
+}
+
+/// The layers of what casts, and of what is seen and receives.
+struct LayersInUse {
+  int casting = 1;
+  int receiving = 1;
+};
+
+/// What one light does to the receiver groups, a bit a group; bits of no group are set.
+struct LitGroups {
+  std::uint32_t lit = ~0u;
+  std::uint32_t shadowed = ~0u; ///< of those that it lights: where it throws shadows
+
+  bool operator==(const LitGroups&) const = default;
+};
+
+/// Visible nodes that agree in layers and receiveShadow are one group, so that a pixel only has to know its group.
+struct ReceiverGroups {
+  std::vector<std::uint8_t> ofInstance; ///< index of the group, one an instance of the view; empty = one group for all
+  std::vector<LitGroups> ofLight;       ///< one a light; empty = every light lights and shadows all
+
+  /// Some light makes a difference between them.
+  bool matter() const;
+};
+
+} // namespace gnomon

@@ -1,0 +1,68 @@
+#include "renderer/passes/views/light_data.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+TEST(LightData, OnlyPlannedLightsHaveTiles) {
+  Light sun;
+  sun.shadow = Shadow{};
+  sun.shadow->strength = 0.5;
+  sun.shadow->filter = {FilterType::hard, 5};
+  Light lamp;
+  lamp.type = LightType::point;
+  lamp.position = Vec3{1, 2, 3};
+  ShadowPlan plan;
+  plan.lights.push_back({.light = 1, .firstTile = 2, .tileCount = 3, .fadeOut = true, .note = ""});
+  const std::vector<Light> lights{lamp, sun};
+  const auto data = lightData(lights, plan, {1, 1, 1});
+  ASSERT_EQ(data.size(), 2u);
+  EXPECT_EQ(data[0].tiles.x, 0u);
+  EXPECT_EQ(glm::vec3(data[0].position), glm::vec3(0, 1, 2));
+  EXPECT_EQ(data[0].position.w, 0.0f) << "no range is infinite";
+  EXPECT_EQ(data[1].tiles, glm::uvec4(3, 1, 2, 0));
+  EXPECT_EQ(data[1].cone.z, 0.5f);
+  EXPECT_EQ(data[1].cone.w, 1.0f);
+}
+
+TEST(LightData, X14_LightsHoldTheGroupsThatTheyLight) {
+  const std::vector<Light> lights(2);
+  const std::vector<LitGroups> groups{{~0u, ~0u}, {5u, 4u}};
+  const auto data = lightData(lights, {}, {0, 0, 0}, groups);
+  EXPECT_EQ(data[0].groups, glm::uvec4(~0u, ~0u, 0, 0));
+  EXPECT_EQ(data[1].groups, glm::uvec4(5, 4, 0, 0));
+  EXPECT_EQ(lightData(lights, {}, {0, 0, 0})[1].groups, glm::uvec4(~0u, ~0u, 0, 0));
+}
+
+TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
+  ShadowPlan plan;
+  plan.atlasWidth = 256;
+  plan.atlasHeight = 128;
+  ShadowTile tile;
+  tile.rect = {64, 32, 64, 32};
+  tile.border = 4;
+  tile.clipFromRelative = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0.25, 0, 0), glm::dvec4(0, 0, 0.125, 0),
+                                     glm::dvec4(0.5, -0.5, 0.25, 1));
+  plan.tiles.push_back(tile);
+  plan.lights.push_back({.light = 2, .firstTile = 0, .tileCount = 1, .note = ""});
+  const shared::TileData data = tileData(plan).at(0);
+  const glm::vec4 p(1, 1, 2, 1);
+  const glm::dvec4 clip = tile.clipFromRelative * glm::dvec4(p);
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[0], p), static_cast<float>((64 + (clip.x * 0.5 + 0.5) * 64) / 256));
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[1], p), static_cast<float>((32 + (clip.y * 0.5 + 0.5) * 32) / 128));
+  EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[2], p), static_cast<float>(clip.z));
+  EXPECT_EQ(data.bounds, glm::vec4(67.0f / 256, 35.0f / 128, 125.0f / 256, 61.0f / 128)) << "room for the filter";
+}
+
+TEST(LightData, ATileWithoutTexelsHoldsNoLookup) {
+  ShadowPlan plan;
+  plan.atlasWidth = plan.atlasHeight = 64;
+  plan.tiles.push_back({});
+  plan.lights.push_back({.light = 0, .firstTile = 0, .tileCount = 1, .note = ""});
+  const shared::TileData data = tileData(plan)[0];
+  EXPECT_GT(data.bounds.x, data.bounds.z);
+}
+
+} // namespace
+} // namespace gnomon
