@@ -15,6 +15,19 @@ inline constexpr std::array kSpellings<LightType>{
 static_assert(spellsAll<LightType>());
 
 template <>
+inline constexpr std::array kSpellings<ShadowTechnique>{
+    spelling(ShadowTechnique::shadowMap, "shadowMap",
+             "depths seen from the light, filtered: fast, and as exact as its texels"),
+    spelling(ShadowTechnique::hybrid, "hybrid",
+             "shadow maps where they are sure, rays where they are not: exact and sharp"),
+    spelling(ShadowTechnique::shadowVolume, "shadowVolume",
+             "stencilled shadow volumes: exact and sharp, drawn by the device"),
+    spelling(ShadowTechnique::rayTraced, "rayTraced",
+             "rays for every pixel: exact, and soft where the light has a size"),
+};
+static_assert(spellsAll<ShadowTechnique>());
+
+template <>
 inline constexpr std::array kSpellings<ShadowSize>{
     spelling(ShadowSize::XSmall, "XSmall", "an eighth of atlas.baseSize"),
     spelling(ShadowSize::Small, "Small", "a quarter of atlas.baseSize"),
@@ -108,6 +121,13 @@ inline constexpr std::array kSpellings<View>{
              "the node that throws the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
     spelling(View::lightContribution, "lightContribution",
              "the shaded scene in nothing but `debug.light`: no other light, surroundings, glow or background"),
+    spelling(View::reference, "reference",
+             "the share of `debug.light` that each pixel really sees, traced by rays; 1 where it is no receiver"),
+    spelling(View::error, "error",
+             "red where the shadow of `debug.light` is false, blue where its light is; or shadow less reference"),
+    spelling(View::edgeDistance, "edgeDistance",
+             "pixels from each edge of the shadow of `debug.light` to the nearest true one: a heat map (0 to 16), or "
+             "numbers; -1 = no edge"),
 };
 static_assert(spellsAll<View>());
 

@@ -38,6 +38,18 @@ inline constexpr auto kRows<Output> =
 static_assert(kRowsAreComplete<Output>);
 
 template <>
+inline constexpr auto kRows<Quality> =
+    rows("Quality", "A target for the shadows: an error or a time.",
+         field("maxError", &Quality::maxError,
+               {.says = "Share of misclassified receivers at most: the cheapest settings that hold it on this view.",
+                .range = kUnitRange}),
+         field("maxMilliseconds", &Quality::maxMilliseconds,
+               {.says = "Time of a whole warm frame at most, encoding apart: the most exact settings that fit.",
+                .unit = "milliseconds",
+                .range = {0, 1e6, true, false}}));
+static_assert(kRowsAreComplete<Quality>);
+
+template <>
 inline constexpr auto kRows<Debug> =
     rows("Debug", "What the debug views show.",
          field("light", &Debug::light,
@@ -77,6 +89,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
            .maxCount = kSpellings<View>.size(),
            .distinct = true}),
     field("debug", &FrameSpec::debug, {.says = "What the debug views show."}),
+    field("quality", &FrameSpec::quality,
+          {.says = "A target for the shadows; their technique, filter, cascades and sizes are then chosen for it."}),
     field("output", &FrameSpec::output, {.says = "The picture's file."}));
 static_assert(kRowsAreComplete<FrameSpec>);
 

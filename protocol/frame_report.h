@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "protocol/error_metrics.h"
 #include "protocol/frame_spec.h"
+#include "protocol/quality.h"
 
 namespace gnomon {
 
@@ -14,16 +16,6 @@ namespace gnomon {
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
-};
-
-/// How large shadow texels show in the picture: Lloyd's m over the blocks of 8 x 8 pixels that show a surface, each at
-/// the nearest surface in it. m is the largest extent in pixels of the texel under a point, on a surface there that
-/// faces the light (Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006); a surface that the light
-/// grazes shows a larger one.
-struct PredictedError {
-  double median = 0; ///< pixels
-  double p95 = 0;    ///< pixels: 95 % of the blocks have no more
-  double max = 0;    ///< pixels
 };
 
 /// One tile: a cascade, or a face of a spot or point light. What has no meaning for a tile without a surface in it,
@@ -102,6 +94,8 @@ struct FrameReport {
   std::array<int, 2> atlasSize{};     ///< texels that the atlas really took; 0 0 = no atlas
   std::vector<LightReport> lights{};
   std::optional<PredictedError> predictedError{}; ///< over all tiles; absent = none is drawn
+  std::optional<ErrorMetrics> error{};    ///< of debug.light; present where a view shows an error or a reference
+  std::optional<QualityReport> quality{}; ///< present where the spec names a target
   FrameCounts counts{};
   MemoryReport memory{};
   std::vector<PassReport> passes{};

@@ -6,6 +6,7 @@
 #include "protocol/camera.h"
 #include "protocol/light.h"
 #include "protocol/output_options.h"
+#include "protocol/quality.h"
 #include "protocol/shadow_options.h"
 
 namespace gnomon {
@@ -52,6 +53,7 @@ struct FrameSpec {
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color}; ///< at least one, each once
   Debug debug;
+  std::optional<Quality> quality; ///< technique, cascades, sizes and filters are chosen so that it holds
   Output output;
 
   bool operator==(const FrameSpec&) const = default;

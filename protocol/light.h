@@ -21,12 +21,15 @@ struct Sun {
 
 struct Light {
   LightType type = LightType::directional;
-  std::optional<Vec3> direction{};           ///< where the light travels; directional and spot. Not zero
-  std::optional<Sun> sun{};                  ///< directional only, instead of direction
-  std::optional<Vec3> position{};            ///< metres; spot and point
-  std::optional<double> range{};             ///< metres; spot and point; absent = infinite
-  double innerConeDegrees = 0;               ///< half angle; spot
-  double outerConeDegrees = 45;              ///< half angle; spot, > inner, < 90
+  std::optional<Vec3> direction{}; ///< where the light travels; directional and spot. Not zero
+  std::optional<Sun> sun{};        ///< directional only, instead of direction
+  std::optional<Vec3> position{};  ///< metres; spot and point
+  std::optional<double> range{};   ///< metres; spot and point; absent = infinite
+  double innerConeDegrees = 0;     ///< half angle; spot
+  double outerConeDegrees = 45;    ///< half angle; spot, > inner, < 90
+  /// Directional: the angle that its disc spans in the sky; absent = 0. The sun's is 0.53.
+  std::optional<double> angularDiameterDegrees{};
+  std::optional<double> radius{};            ///< metres, of a shining ball; spot and point; absent = 0
   std::optional<Vec3> color{};               ///< linear RGB, 0..1; absent = white, or by temperatureKelvin
   std::optional<double> temperatureKelvin{}; ///< of a black body that glows in the light's color; instead of color
   double intensity = 3;                      ///< lux (directional) or candela (spot, point)

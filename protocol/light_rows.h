@@ -42,6 +42,16 @@ inline constexpr auto kRows<Light> =
                 .range = {0, 90, false, true}}),
          field("outerConeDegrees", &Light::outerConeDegrees,
                {.says = "Half angle at which a spot ends.", .unit = "degrees", .range = {0, 90, true, true}}),
+         field("angularDiameterDegrees", &Light::angularDiameterDegrees,
+               {.says = "Angle that the light's disc spans in the sky, 0.53 for the sun; directional only; absent = 0. "
+                        "Technique rayTraced softens its shadow by it, and references do; the others draw it sharp.",
+                .unit = "degrees",
+                .range = {0, 90}}),
+         field("radius", &Light::radius,
+               {.says = "Radius of the ball that shines; spot and point; absent = 0. Technique rayTraced softens its "
+                        "shadow by it, and references do; the others draw it sharp.",
+                .unit = "metres",
+                .range = {0, 1e6}}),
          field("color", &Light::color,
                {.says = "Linear red, green and blue; absent = white, or by `temperatureKelvin`.", .range = kUnitRange}),
          field("temperatureKelvin", &Light::temperatureKelvin,

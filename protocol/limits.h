@@ -8,15 +8,21 @@ namespace gnomon {
 /// Every bound that a request or a scene meets. A problem that quotes a limit quotes one of these.
 struct Limits {
   // Frames
-  int maxFrameSide = 8192;                  ///< pixels
-  std::int64_t maxFramePixels = 33'554'432; ///< width x height
-  int maxAtlasSide = 8192;                  ///< texels; the device may allow less
-  std::int64_t maxAtlasBytes = 536'870'912; ///< of the shadow atlas, with all its samples and moments
-  int maxLights = 256;                      ///< lights in one frame
-  int maxCascades = 8;                      ///< cascades of one light
-  int maxLayers = 16;                       ///< layers of nodes
-  int maxNodeOptions = 4096;                ///< entries of a frame's `nodes`
-  int maxReceiverGroups = 32;               ///< different pairs of layers and receiveShadow in one frame
+  int maxFrameSide = 8192;                       ///< pixels
+  std::int64_t maxFramePixels = 33'554'432;      ///< width x height
+  int maxAtlasSide = 8192;                       ///< texels; the device may allow less
+  std::int64_t maxAtlasBytes = 536'870'912;      ///< of the shadow atlas, with all its samples and moments
+  int maxLights = 256;                           ///< lights in one frame
+  int maxCascades = 8;                           ///< cascades of one light
+  int maxRaySamples = 1024;                      ///< rays a pixel and light
+  std::int64_t maxVisibilityBytes = 536'870'912; ///< of what rays and volumes say of every pixel and light
+  int maxLayers = 16;                            ///< layers of nodes
+  int maxNodeOptions = 4096;                     ///< entries of a frame's `nodes`
+  int maxReceiverGroups = 32;                    ///< different pairs of layers and receiveShadow in one frame
+
+  // Evaluations
+  std::size_t maxVariants = 128;   ///< variants of one evaluation
+  std::size_t maxPathFrames = 600; ///< cameras along a path
 
   // Requests
   std::size_t maxSpecBytes = 1 << 20;     ///< a FrameSpec's JSON

@@ -6,19 +6,22 @@ namespace gnomon {
 
 /// What a picture shows.
 enum class View {
-  color,            ///< the shaded scene
-  depth,            ///< distance along the view axis: metres in EXR, near-to-far grey in PNG
-  normal,           ///< world-space shading normal: -1..1 in EXR, 0..1 in PNG
-  cascades,         ///< the shaded scene tinted by cascade: green, blue, purple, red; grey where no tile serves
-  shadow,           ///< share of debug.light that arrives, 0..1; 1 where it casts none
-  atlas,            ///< the shadow atlas at its own size: grey with tiles outlined and named, or raw depth (EXR)
-  tile,             ///< depths of one tile, debug.tile of debug.light, at its own size
-  texelGrid,        ///< the shaded scene with the texels of debug.light as a checkerboard; grey where it has none
-  texelDensity,     ///< pixels that a texel of debug.light spans at most: heat map, or the number (EXR); 0 = no texel
-  blendWeight,      ///< share of debug.light's next cascade, 0..1
-  bias,             ///< metres that a point is moved for debug.light: heat map, or the number (EXR); 0 = no tile
-  casterIds,        ///< node that throws the shadow of debug.light: a color for each, or its index (EXR), -1 = none
-  lightContribution ///< the shaded scene in nothing but debug.light, not even the background
+  color,             ///< the shaded scene
+  depth,             ///< distance along the view axis: metres in EXR, near-to-far grey in PNG
+  normal,            ///< world-space shading normal: -1..1 in EXR, 0..1 in PNG
+  cascades,          ///< the shaded scene tinted by cascade: green, blue, purple, red; grey where no tile serves
+  shadow,            ///< share of debug.light that arrives, 0..1; 1 where it casts none
+  atlas,             ///< the shadow atlas at its own size: grey with tiles outlined and named, or raw depth (EXR)
+  tile,              ///< depths of one tile, debug.tile of debug.light, at its own size
+  texelGrid,         ///< the shaded scene with the texels of debug.light as a checkerboard; grey where it has none
+  texelDensity,      ///< pixels that a texel of debug.light spans at most: heat map, or the number (EXR); 0 = no texel
+  blendWeight,       ///< share of debug.light's next cascade, 0..1
+  bias,              ///< metres that a point is moved for debug.light: heat map, or the number (EXR); 0 = no tile
+  casterIds,         ///< node that throws the shadow of debug.light: a color for each, or its index (EXR), -1 = none
+  lightContribution, ///< the shaded scene in nothing but debug.light, not even the background
+  reference,         ///< exact share of debug.light, traced; 1 where it is no receiver
+  error,             ///< false shadow red, false light blue; or shadow less reference (EXR), 0 where no receiver
+  edgeDistance       ///< pixels from an edge of debug.light's shadow to the nearest true one (EXR: -1 = no edge)
 };
 
 enum class ImageFormat { png, exr };

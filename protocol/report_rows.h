@@ -3,19 +3,10 @@
 #include "protocol/field_rows.h"
 #include "protocol/fields.h"
 #include "protocol/frame_report.h"
+#include "protocol/metric_rows.h"
 
 /// The rows of a frame's and a plan's report; see field_rows.h. StageTime has none: the stages are one JSON object.
 namespace gnomon {
-
-template <>
-inline constexpr auto kRows<PredictedError> =
-    replyRows("PredictedError",
-              "How large shadow texels show in the picture: over its blocks of 8 x 8 pixels, the largest extent of the "
-              "texel under the nearest surface in the block, as if that faced the light.",
-              field("median", &PredictedError::median, {.says = "Half of the blocks have no more.", .unit = "pixels"}),
-              field("p95", &PredictedError::p95, {.says = "95 % of the blocks have no more.", .unit = "pixels"}),
-              field("max", &PredictedError::max, {.says = "Of the worst block.", .unit = "pixels"}));
-static_assert(kRowsAreComplete<PredictedError>);
 
 template <>
 inline constexpr auto kRows<CascadeReport> = replyRows(
@@ -142,6 +133,10 @@ inline constexpr auto kRows<FrameReport> = rows(
     field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
     field("predictedError", &FrameReport::predictedError,
           {.says = "How large the texels of all tiles show; absent = no tile is drawn."}),
+    field(
+        "error", &FrameReport::error,
+        {.says = "The shadow of `debug.light` held against rays; present where a view shows an error or a reference."}),
+    field("quality", &FrameReport::quality, {.says = "How the target was met; present where the spec names one."}),
     field("counts", &FrameReport::counts, {.says = "How much was drawn."}),
     field("memory", &FrameReport::memory, {.says = "What it takes on the device."}),
     field("passes", &FrameReport::passes, {.says = "Times and counts of each pass, in the order of drawing."}),

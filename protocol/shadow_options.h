@@ -5,6 +5,7 @@
 
 namespace gnomon {
 
+enum class ShadowTechnique { shadowMap, hybrid, shadowVolume, rayTraced };
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
 enum class ShadowLightPolicy { all, first };
 enum class ShadowImportance { low, medium, high };
@@ -65,6 +66,7 @@ struct Bias {
 
 struct Shadow {
   bool enabled = true;
+  ShadowTechnique technique = ShadowTechnique::shadowMap;
   double strength = 1; ///< 0 = no shadow, 1 = no direct light in shadow
   /// Of one tile: Large = atlas.baseSize, each step doubles. Absent = by the light: directional Large, spot Medium,
   /// point Small.
@@ -78,6 +80,7 @@ struct Shadow {
   Filter filter;
   Bias bias;
   BlendedCasters blendedCasters = BlendedCasters::dither;
+  int raySamples = 16; ///< rayTraced: rays a pixel towards a light that has a size; 1..1024
 
   bool operator==(const Shadow&) const = default;
 };

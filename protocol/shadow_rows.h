@@ -84,6 +84,8 @@ template <>
 inline constexpr auto kRows<Shadow> = rows(
     "Shadow", "The shadow of a light.",
     field("enabled", &Shadow::enabled, {.says = "False = the light throws no shadow."}),
+    field("technique", &Shadow::technique,
+          {.says = "How the shadow is found. Sizes, cascades, filter and bias belong to shadow maps."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
     field("size", &Shadow::size,
@@ -102,7 +104,11 @@ inline constexpr auto kRows<Shadow> = rows(
     field("blendCascades", &Shadow::blendCascades, {.says = "True = cross-fade over the last 20 % of each cascade."}),
     field("filter", &Shadow::filter, {.says = "How the shadow map is sampled."}),
     field("bias", &Shadow::bias, {.says = "How surfaces are kept from shadowing themselves."}),
-    field("blendedCasters", &Shadow::blendedCasters, {.says = "How materials of alphaMode BLEND cast."}));
+    field("blendedCasters", &Shadow::blendedCasters, {.says = "How materials of alphaMode BLEND cast."}),
+    field("raySamples", &Shadow::raySamples,
+          {.says = "Technique rayTraced: rays a pixel towards a light that has a size.",
+           .unit = "rays",
+           .range = {1, kLimits.maxRaySamples}}));
 static_assert(kRowsAreComplete<Shadow>);
 
 template <>

@@ -45,6 +45,16 @@ void appendDebugRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
                     {"/lights"}});
 }
 
+void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken) {
+  if (quality.maxError.has_value() != quality.maxMilliseconds.has_value()) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = "/quality",
+                     .detail = "A target is one of maxError and maxMilliseconds.",
+                     .limit = "maxError | maxMilliseconds",
+                     .actual = quality.maxError ? "both" : "neither"},
+                    {"/quality"}});
+}
+
 } // namespace
 
 std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
@@ -64,6 +74,7 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   appendAtlasRules(spec.atlas, broken);
   appendNodeRules(spec.nodes, broken);
   appendDebugRules(spec, broken);
+  if (spec.quality) appendQualityRules(*spec.quality, broken);
   return broken;
 }
 

@@ -121,6 +121,7 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
               "A light of type directional needs direction or sun.");
       forbid(light.position.has_value(), "position");
       forbid(light.range.has_value(), "range");
+      forbid(light.radius.has_value(), "radius");
       break;
     case LightType::spot:
       require(light.direction.has_value(), "direction", {pointer + "/direction"},
@@ -134,6 +135,7 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
     require(light.position.has_value(), "position", {pointer + "/position"},
             "A light of type " + type + " needs a position.");
     forbid(light.sun.has_value(), "sun");
+    forbid(light.angularDiameterDegrees.has_value(), "angularDiameterDegrees");
   }
   if (light.direction && length(*light.direction) < kShortest) {
     broken.push_back({invalid(pointer + "/direction", "This direction is zero.", "any direction of some length",

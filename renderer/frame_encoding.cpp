@@ -34,6 +34,12 @@ std::string layerName(View view) {
       return "casterIds";
     case View::lightContribution:
       return "lightContribution";
+    case View::reference:
+      return "reference";
+    case View::error:
+      return "error";
+    case View::edgeDistance:
+      return "edgeDistance";
   }
   return "";
 }

@@ -4,7 +4,7 @@
 usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
 
 Who may include whom, one way:
-  protocol <- renderer/core <- renderer/{image,scene,shadow,shaders} <- renderer/gl <- renderer/passes
+  protocol <- renderer/core <- renderer/{image,scene,shadow,shaders} <- renderer/gl <- renderer/{passes,reference}
            <- renderer/render.h <- server;  clients see protocol and renderer/render.h.
 """
 
@@ -25,10 +25,11 @@ MAY_INCLUDE = {
     "renderer/image": ["protocol", "renderer/core", "renderer/image"],
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
+    "renderer/reference": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/reference"],
     "renderer/shaders": ["renderer/shaders"],
     "renderer/gl": BELOW_GL + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": BELOW_DOOR,
-    "renderer": BELOW_DOOR + ["renderer"],
+    "renderer": BELOW_DOOR + ["renderer/reference", "renderer"],
     "server": ["protocol", "server"],
     "clients/cli": ["protocol", "clients/cli"],
     "clients/web": ["clients/web"],
@@ -51,6 +52,8 @@ KEPT_IN = {
     "glad/": ["renderer/gl", "renderer/passes"],
     "GL/": ["renderer/gl"],
     "EGL/": ["renderer/gl"],
+    "embree3/": ["renderer/reference"],
+    "tbb/": ["renderer/reference"],
 }
 
 

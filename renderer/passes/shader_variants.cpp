@@ -37,7 +37,10 @@ const char* viewDefine(View view) {
       return "VIEW_LIGHT_CONTRIBUTION";
     case View::atlas:
     case View::tile:
-      break; // read from the atlas, not drawn
+    case View::reference:
+    case View::error:
+    case View::edgeDistance:
+      break; // read from the atlas or made from rays, not drawn
   }
   return "VIEW_COLOR";
 }
@@ -126,6 +129,9 @@ bool showsOneLight(View view) {
     case View::bias:
     case View::casterIds:
     case View::lightContribution:
+    case View::reference:
+    case View::error:
+    case View::edgeDistance:
       return true;
     case View::color:
     case View::depth:

@@ -164,8 +164,10 @@ void mend(Light& light, const Atlas& atlas) {
     if (!light.direction && !light.sun) light.sun.emplace();
     light.position.reset();
     light.range.reset();
+    light.radius.reset();
   } else {
     light.sun.reset();
+    light.angularDiameterDegrees.reset();
     light.shadow.reset();
     light.position = light.position.value_or(Vec3{1, 2, 3});
     if (light.type == LightType::spot) light.direction = light.direction.value_or(down);
@@ -185,6 +187,10 @@ rc::Gen<FrameSpec> anySpec() {
     spec.height = std::max(spec.height, 1);
     spec.atlas.baseSize = std::min(spec.atlas.baseSize, spec.atlas.size);
     for (NodeOptions& node : spec.nodes) node.node = node.node.value_or(7);
+    if (spec.quality) {
+      keepOnly(pick(0, 1), spec.quality->maxError, spec.quality->maxMilliseconds);
+      if (!spec.quality->maxError && !spec.quality->maxMilliseconds) spec.quality->maxError = 0.25;
+    }
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {

@@ -117,6 +117,24 @@ TEST(Validate, SpotAndPointHaveAPlace) {
               ElementsAre("/lights/1/sun"));
 }
 
+TEST(Validate, ALightsSizeIsAnAngleInTheSkyOrARadius) {
+  EXPECT_THAT(wrongIn(Light{.sun = Sun{}, .angularDiameterDegrees = 0.5}), IsEmpty());
+  EXPECT_THAT(wrongIn(Light{.sun = Sun{}, .radius = 1}), ElementsAre("/lights/1/radius"));
+  EXPECT_THAT(wrongIn(Light{.type = LightType::point, .position = Vec3{}, .radius = 0.5}), IsEmpty());
+  EXPECT_THAT(wrongIn(Light{.type = LightType::point, .position = Vec3{}, .angularDiameterDegrees = 1}),
+              ElementsAre("/lights/1/angularDiameterDegrees"));
+}
+
+TEST(Validate, ATargetIsAnErrorOrATime) {
+  FrameSpec spec;
+  spec.quality = Quality{.maxError = 0.01};
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+  spec.quality->maxMilliseconds = 50;
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/quality"));
+  spec.quality = Quality{};
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/quality"));
+}
+
 TEST(Validate, TheInnerConeIsTheNarrower) {
   Light light{.type = LightType::spot, .direction = Vec3{0, -1, 0}, .position = Vec3{}};
   light.innerConeDegrees = light.outerConeDegrees = 30;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "protocol/error_metrics.h"
+#include "renderer/reference/reference.h"
+
+namespace gnomon {
+
+/// Metrics of shadows `shown` (S, one image a light of the reference, first row on top, full strength) against the
+/// truth. Several lights are pooled: their receivers count together.
+ErrorMetrics measureErrors(const Reference& truth, std::span<const std::vector<float>> shown);
+
+/// For one light of the reference: pixels from each edge pixel of S to the nearest edge pixel of V; -1 where S has no
+/// edge, infinity where V has none anywhere.
+std::vector<float> edgeDistances(const Reference& truth, std::size_t light, std::span<const float> shown);
+
+} // namespace gnomon

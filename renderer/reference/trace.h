@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "protocol/light.h"
+#include "renderer/core/camera_view.h"
+#include "renderer/reference/traced_scene.h"
+#include "renderer/scene/node_switches.h"
+
+/// Exact answers for single points, many at a time, on all cores. Any thread.
+namespace gnomon {
+
+/// What rays of one frame go by. All of it outlives the calls.
+struct TraceInput {
+  const TracedScene& traced;
+  const CameraView& camera;
+  int width = 0; ///< of the frame, pixels
+  int height = 0;
+  std::span<const Light> lights;       ///< effective
+  std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+};
+
+inline constexpr std::uint32_t kNoSurface = std::numeric_limits<std::uint32_t>::max();
+
+/// Where a camera ray first meets a surface that the camera sees: visible nodes, faces that are not culled, alpha that
+/// is not masked away.
+struct SurfacePoint {
+  glm::dvec3 position{0};              ///< relative to anchorOf(view)
+  glm::vec3 normal{0};                 ///< of the triangle itself, on the eye's side; unit length
+  std::uint32_t instance = kNoSurface; ///< index into SceneView::instances; kNoSurface = the ray meets nothing
+  std::uint32_t triangle = 0;          ///< of its primitive
+};
+
+/// The first hits of the camera rays through `places`: pixels from the picture's upper left corner, so that the centre
+/// of the first pixel is 0.5 0.5.
+std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm::vec2> places);
+
+/// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, and lies in its
+/// range and its cone.
+std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points);
+
+/// Share of light `light` that each point sees, 0..1, whatever the shadow's strength: 1 where there is no surface,
+/// where the surface receives no shadow or the light throws none; 0 where it is turned away from the light. `samples`
+/// rays for a light that has a size, stratified, the same for the same point in every call; one ray for one that has
+/// none. Blended casters let 1 - alpha through, or all or nothing by `blendedCasters`.
+std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
+                                   int samples);
+
+/// Metres from each point to what hides the light's middle from it, the nearest; infinity where nothing does.
+std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points);
+
+} // namespace gnomon
