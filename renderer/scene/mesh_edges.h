@@ -19,7 +19,8 @@ struct MeshEdge {
 };
 
 /// Every edge of a primitive, once for each pair of triangles that run along it in opposite ways; a triangle that finds
-/// no partner there has the edge alone. Triangles without an area have none.
+/// no partner there has the edge alone. Triangles with two corners at one place have none; those whose corners lie on
+/// one line keep theirs, so that they leave no gap in what is closed. Sorted by the lower vertex, then the higher one.
 std::vector<MeshEdge> meshEdges(const Scene& scene, const Primitive& primitive);
 
 } // namespace gnomon
