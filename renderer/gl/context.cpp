@@ -1,28 +1,23 @@
 #include "renderer/gl/context.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "renderer/core/cpu_quota.h"
 #include "renderer/gl/backend_problem.h"
 #include "renderer/gl/context_attempt.h"
-#include "renderer/gl/cpu_quota.h"
 
 namespace gnomon::gl {
 namespace {
 
 void setEnvironment() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-  std::ifstream in("/proc/self/cgroup");
-  const std::string membership{std::istreambuf_iterator<char>(in), {}};
-  const auto cores = coresGranted("/sys/fs/cgroup", membership);
-  if (!cores || *cores >= std::thread::hardware_concurrency()) return;
-  setenv("LP_NUM_THREADS", std::to_string(std::max(1, static_cast<int>(std::ceil(*cores)))).c_str(), 0);
+  const int cores = coresToUse();
+  if (cores >= static_cast<int>(std::thread::hardware_concurrency())) return;
+  setenv("LP_NUM_THREADS", std::to_string(cores).c_str(), 0);
 }
 
 } // namespace

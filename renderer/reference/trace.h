@@ -44,7 +44,8 @@ std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points);
 
 /// Share of light `light` that each point sees, 0..1, whatever the shadow's strength: 1 where there is no surface,
-/// where the surface receives no shadow or the light throws none; 0 where it is turned away from the light. `samples`
+/// where the surface receives no shadow or the light throws none; else 0 where it is turned away from the light, and 1
+/// where it faces it out of its range or its cone. `samples`
 /// rays for a light that has a size, stratified, the same for the same point in every call; one ray for one that has
 /// none. Blended casters let 1 - alpha through, or all or nothing by `blendedCasters`.
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace gnomon::gl {
+namespace gnomon {
 
 /// How many cores' time a control group may use, from its settings; empty = no limit, or not readable.
 /// `cpuMax`: the text of cgroup v2's cpu.max, "150000 100000" or "max 100000", in microseconds.
@@ -15,4 +15,7 @@ std::optional<double> coresOfCpuMax(std::string_view cpuMax);
 /// `root`: where control groups are mounted; `membership`: the text of /proc/self/cgroup. Knows versions 1 and 2.
 std::optional<double> coresGranted(const std::filesystem::path& root, std::string_view membership);
 
-} // namespace gnomon::gl
+/// Cores to keep busy: the machine's, or as many as this process is granted where that is fewer; at least 1.
+int coresToUse();
+
+} // namespace gnomon

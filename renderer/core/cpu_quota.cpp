@@ -1,11 +1,13 @@
-#include "renderer/gl/cpu_quota.h"
+#include "renderer/core/cpu_quota.h"
 
-#include <charconv>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <thread>
 
-namespace gnomon::gl {
+namespace gnomon {
 namespace {
 
 std::string textOf(const std::filesystem::path& file) {
@@ -56,4 +58,10 @@ std::optional<double> coresGranted(const std::filesystem::path& root, std::strin
   return least;
 }
 
-} // namespace gnomon::gl
+int coresToUse() {
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto granted = coresGranted("/sys/fs/cgroup", textOf("/proc/self/cgroup"));
+  return granted && *granted < machine ? std::max(1, static_cast<int>(std::ceil(*granted))) : machine;
+}
+
+} // namespace gnomon

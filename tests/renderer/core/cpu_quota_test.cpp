@@ -1,9 +1,9 @@
-#include "renderer/gl/cpu_quota.h"
+#include "renderer/core/cpu_quota.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace gnomon::gl {
+namespace gnomon {
 namespace {
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -49,4 +49,4 @@ TEST_F(CpuQuota, knowsVersionOne) {
 }
 
 } // namespace
-} // namespace gnomon::gl
+} // namespace gnomon

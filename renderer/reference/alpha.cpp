@@ -1,0 +1,56 @@
+#include "renderer/reference/alpha.h"
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+/// The texel that texture coordinates outside of the image mean (OpenGL 4.5, table 8.20).
+std::size_t wrapped(double texel, int size, Wrap wrap) {
+  const double n = size;
+  if (wrap == Wrap::repeat) texel -= std::floor(texel / n) * n;
+  if (wrap == Wrap::mirroredRepeat) {
+    texel -= std::floor(texel / (2 * n)) * (2 * n);
+    if (texel >= n) texel = 2 * n - 1 - texel;
+  }
+  if (!(texel > 0)) return 0; // not a number, too
+  return static_cast<std::size_t>(std::min(texel, n - 1));
+}
+
+} // namespace
+
+double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv) {
+  const auto& bytes = std::get<std::vector<std::uint8_t>>(image.pixels);
+  const auto texel = [&](double x, double y) {
+    const std::size_t column = wrapped(x, image.width, use.wrapS);
+    const std::size_t row = wrapped(y, image.height, use.wrapT);
+    return bytes[4 * (row * static_cast<std::size_t>(image.width) + column) + 3] / 255.0;
+  };
+  const glm::dvec2 place = uv * glm::dvec2(image.width, image.height);
+  if (use.nearest) return texel(std::floor(place.x), std::floor(place.y));
+  const glm::dvec2 low = glm::floor(place - 0.5);
+  const glm::dvec2 share = place - 0.5 - low;
+  return glm::mix(glm::mix(texel(low.x, low.y), texel(low.x + 1, low.y), share.x),
+                  glm::mix(texel(low.x, low.y + 1), texel(low.x + 1, low.y + 1), share.x), share.y);
+}
+
+double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const Barycentric& at) {
+  const Primitive& primitive = tree.primitive(instance);
+  const Material& material = tree.material(instance);
+  const std::uint32_t* corner = &tree.scene->indices[primitive.firstIndex + 3 * std::size_t{triangle}];
+  const VertexAttributes* vertices = &tree.scene->attributes[primitive.baseVertex];
+  const VertexAttributes& a = vertices[corner[0]];
+  const VertexAttributes& b = vertices[corner[1]];
+  const VertexAttributes& c = vertices[corner[2]];
+  double alpha = material.baseColorFactor.a;
+  if (material.hasVertexColors) alpha *= at.mix<double>(a.color.a, b.color.a, c.color.a) / 65535.0;
+  if (material.baseColor && material.baseColor->image >= 0) {
+    const TextureUse& use = *material.baseColor;
+    const auto uv = use.texCoord == 1 ? &VertexAttributes::uv1 : &VertexAttributes::uv0;
+    alpha *= textureAlpha(tree.scene->images[static_cast<std::size_t>(use.image)], use,
+                          at.mix(glm::dvec2(a.*uv), glm::dvec2(b.*uv), glm::dvec2(c.*uv)));
+  }
+  return alpha;
+}
+
+} // namespace gnomon

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "renderer/reference/tree.h"
+
+namespace gnomon {
+
+/// Alpha of the surface there, as the shaders find it: factor, vertex colour, and texture, filtered at its base level.
+/// Any material; opaque ones ignore it.
+double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const Barycentric& at);
+
+/// Alpha of a texture (0..1) at a place of it.
+double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv);
+
+} // namespace gnomon

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "protocol/light.h"
+#include "renderer/core/camera_view.h"
+
+namespace gnomon {
+
+/// A light as rays meet it; metres, relative to the scene's anchor.
+struct LightSource {
+  LightType type = LightType::directional;
+  glm::dvec3 axis{0};     ///< where it shines; unit length; directional and spot
+  glm::dvec3 position{0}; ///< spot and point
+  double range = 0;       ///< infinite where the light has none
+  double cosOuter = -1;   ///< of the cone's half angle; spot
+  /// Of the disc that shines: its radius as seen from 1 m for directional lights, else in metres; 0 = a point.
+  double radius = 0;
+};
+
+LightSource lightSource(const Light& light, const glm::dvec3& anchor);
+
+/// The way from a point to the middle of the light.
+struct WayToLight {
+  glm::dvec3 direction{0}; ///< unit length; zero where the point is the light's own
+  double length = 0;       ///< infinite for directional lights
+};
+
+WayToLight wayTo(const LightSource& light, const glm::dvec3& point);
+
+/// The way to a place on the light's disc, which faces the point; `place` lies in the unit disc.
+WayToLight wayTo(const LightSource& light, const glm::dvec3& point, glm::dvec2 place);
+
+/// Whether the light shines as far as the end of this way, and in its direction (KHR_lights_punctual).
+bool reaches(const LightSource& light, const WayToLight& way);
+
+/// Whether a surface of this normal (unit length, on the eye's side) takes light from there. A face along the light to
+/// within the renderer's stored normals is turned away, as it is when frames are shaded.
+bool faces(const glm::dvec3& normal, const WayToLight& way);
+
+} // namespace gnomon

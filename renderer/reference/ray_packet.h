@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <embree3/rtcore.h>
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace gnomon {
+
+inline constexpr unsigned kLanes = 16; ///< rays that are traced together
+
+/// Sets lane `lane` of a packet; all in the units of the tree (TracedScene::Tree::scale).
+inline void setRay(RTCRay16& packet, unsigned lane, const glm::dvec3& origin, const glm::dvec3& direction,
+                   double length) {
+  packet.org_x[lane] = static_cast<float>(origin.x);
+  packet.org_y[lane] = static_cast<float>(origin.y);
+  packet.org_z[lane] = static_cast<float>(origin.z);
+  packet.dir_x[lane] = static_cast<float>(direction.x);
+  packet.dir_y[lane] = static_cast<float>(direction.y);
+  packet.dir_z[lane] = static_cast<float>(direction.z);
+  packet.tnear[lane] = 0;
+  packet.tfar[lane] =
+      length <= std::numeric_limits<float>::max() ? static_cast<float>(length) : std::numeric_limits<float>::infinity();
+  packet.time[lane] = 0;
+  packet.mask[lane] = ~0u;
+  packet.id[lane] = lane;
+  packet.flags[lane] = 0;
+}
+
+/// Which rays of a packet are traced: -1, or 0 for those that are not.
+struct alignas(64) Lanes {
+  std::array<int, kLanes> active{};
+
+  bool any() const {
+    return std::any_of(active.begin(), active.end(), [](int lane) { return lane != 0; });
+  }
+};
+
+inline Lanes firstLanes(std::size_t count) {
+  Lanes lanes;
+  std::fill_n(lanes.active.begin(), std::min<std::size_t>(count, kLanes), -1);
+  return lanes;
+}
+
+/// Which lane of its packet a candidate of a filter belongs to, and what it is.
+struct Candidate {
+  unsigned lane = 0;
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  double u = 0, v = 0; ///< as Embree found them
+};
+
+/// For each candidate of a filter call: it stays where `accept` says so.
+template <class Accept>
+void filterCandidates(const RTCFilterFunctionNArguments& call, Accept accept) {
+  for (unsigned i = 0; i < call.N; ++i) {
+    if (call.valid[i] == 0) continue;
+    const Candidate candidate{RTCRayN_id(call.ray, call.N, i), RTCHitN_geomID(call.hit, call.N, i),
+                              RTCHitN_primID(call.hit, call.N, i), RTCHitN_u(call.hit, call.N, i),
+                              RTCHitN_v(call.hit, call.N, i)};
+    if (!accept(candidate)) call.valid[i] = 0;
+  }
+}
+
+} // namespace gnomon

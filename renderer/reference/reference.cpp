@@ -1,0 +1,89 @@
+#include "renderer/reference/reference.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <new>
+
+#include "renderer/reference/frame_nodes.h"
+
+namespace gnomon {
+namespace {
+
+/// Pixels that are traced between two words with whoever listens.
+std::size_t pixelsAtOnce(std::size_t lights, int samples) {
+  constexpr std::size_t kRays = std::size_t{1} << 22;
+  return std::max<std::size_t>(4096, kRays / (1 + lights * static_cast<std::size_t>(std::max(samples, 1))));
+}
+
+std::vector<glm::vec2> centresOf(int width, std::size_t first, std::size_t last) {
+  std::vector<glm::vec2> places;
+  places.reserve(last - first);
+  const auto columns = static_cast<std::size_t>(width);
+  for (std::size_t i = first; i < last; ++i) {
+    places.emplace_back(static_cast<float>(i % columns) + 0.5f, static_cast<float>(i / columns) + 0.5f);
+  }
+  return places;
+}
+
+/// Metres from one pixel to the next, up the picture, at the depth of a point.
+float pixelWidth(const TraceInput& input, const SurfacePoint& point) {
+  if (point.instance == kNoSurface) return 0;
+  const double atOneMetre = 2 * input.camera.halfSize.y / input.height;
+  if (!input.camera.perspective) return static_cast<float>(atOneMetre);
+  const glm::dvec3 eye = input.camera.eye - anchorOf(input.traced.view());
+  return static_cast<float>(atOneMetre * glm::dot(point.position - eye, input.camera.forward));
+}
+
+/// Adds the next pixels to what is known of a light.
+void traceLight(const TraceInput& input, std::span<const SurfacePoint> points, std::span<const float> widths,
+                int samples, LightReference& light) {
+  const std::vector<float> visibility = lightVisibility(input, light.light, points, samples);
+  std::vector<std::uint8_t> receiver = facesLight(input, light.light, points);
+  std::vector<SurfacePoint> hidden(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (receiver[i] != 0 && !switchesOf(input, points[i].instance).receiveShadow) receiver[i] = 0;
+    if (visibility[i] >= 0.5f) hidden[i] = {};
+  }
+  std::vector<float> distance = blockerDistances(input, light.light, hidden);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (widths[i] > 0) distance[i] /= widths[i];
+  }
+  light.visibility.insert(light.visibility.end(), visibility.begin(), visibility.end());
+  light.receiver.insert(light.receiver.end(), receiver.begin(), receiver.end());
+  light.blockerDistance.insert(light.blockerDistance.end(), distance.begin(), distance.end());
+}
+
+} // namespace
+
+Result<Reference> traceReference(const TraceInput& input, std::span<const int> lights, int samples,
+                                 const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  Reference reference;
+  reference.width = input.width;
+  reference.height = input.height;
+  reference.samples = samples;
+  for (const int light : lights) reference.lights.push_back({light, {}, {}, {}});
+  const std::size_t count = static_cast<std::size_t>(input.width) * static_cast<std::size_t>(input.height);
+  const std::size_t step = pixelsAtOnce(lights.size(), samples);
+  reference.surface.reserve(count);
+  reference.pixelWidth.reserve(count);
+  for (std::size_t first = 0; first < count; first += step) {
+    if (progress && !progress(static_cast<double>(first) / static_cast<double>(count))) {
+      return Problem{ProblemCode::unavailable, "", "the exact shadows were no longer wanted before they were traced"};
+    }
+    const std::vector<SurfacePoint> points =
+        firstHits(input, centresOf(input.width, first, std::min(count, first + step)));
+    std::vector<float> widths(points.size());
+    std::transform(points.begin(), points.end(), widths.begin(),
+                   [&](const SurfacePoint& point) { return pixelWidth(input, point); });
+    for (LightReference& light : reference.lights) traceLight(input, points, widths, samples, light);
+    reference.surface.insert(reference.surface.end(), points.begin(), points.end());
+    reference.pixelWidth.insert(reference.pixelWidth.end(), widths.begin(), widths.end());
+  }
+  if (progress) progress(1);
+  reference.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return reference;
+}
+
+} // namespace gnomon

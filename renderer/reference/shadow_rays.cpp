@@ -1,0 +1,144 @@
+#include "renderer/reference/shadow_rays.h"
+
+#include <cmath>
+
+#include "renderer/reference/alpha.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHalfUnit = 0x1p-24; ///< what rounding to a float changes at most, relative to the value
+
+/// How far two planes and a point in one of them may lie apart and yet be the same: the vertices of both were rounded
+/// when the file was written and when they were placed, which moves a plane by as much within its triangle (Higham,
+/// "Accuracy and Stability of Numerical Algorithms", 2.1 and 3.1), and twice as much a triangle's length beyond it.
+double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest) {
+  return 8 * kHalfUnit * glm::dot(glm::abs(normal), largest);
+}
+
+/// Where a ray is started for Embree: the point, moved off its surface by what is lost at most when it becomes a float
+/// (after Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019). It
+/// only spares candidates: `meets` decides.
+glm::dvec3 startOf(const Receiver& from) {
+  return from.position + from.normal * (2 * kHalfUnit * glm::dot(glm::abs(from.normal), glm::abs(from.position)));
+}
+
+/// Embree's context, and what its filters need of the rays.
+struct LightQuery {
+  RTCIntersectContext context;
+  const Casters* casters = nullptr;
+  std::span<const ShadowRay> rays;
+  std::array<float, kLanes> through{}; ///< of the light, past the casters met so far that let some of it through
+};
+
+/// The share of the light that the caster stops: 0 where it can't throw a shadow onto the ray's start.
+double opacityOf(const LightQuery& query, const Candidate& hit) {
+  const ShadowRay& ray = query.rays[hit.lane];
+  const Casters& casters = *query.casters;
+  if (casters.cast[hit.instance] == 0) return 0;
+  if (hit.instance == ray.from.instance && hit.triangle == ray.from.triangle) return 0;
+  const Triangle triangle = casters.tree.triangle(hit.instance, hit.triangle);
+  if (!meets(ray, triangle)) return 0;
+  const Material& material = casters.tree.material(hit.instance);
+  if (material.alphaMode == AlphaMode::opaque) return 1;
+  const Barycentric at = crossing(triangle, ray.from.position, ray.direction, {hit.u, hit.v});
+  const double alpha = alphaAt(casters.tree, hit.instance, hit.triangle, at);
+  const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
+  return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
+}
+
+LightQuery& queryOf(const RTCFilterFunctionNArguments* call) {
+  return *reinterpret_cast<LightQuery*>(call->context);
+}
+
+void keepOpaque(const RTCFilterFunctionNArguments* call) {
+  LightQuery& query = queryOf(call);
+  filterCandidates(*call, [&](const Candidate& hit) {
+    const double opacity = opacityOf(query, hit);
+    query.through[hit.lane] *= static_cast<float>(1 - opacity);
+    return opacity >= 1;
+  });
+}
+
+void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
+  const LightQuery& query = queryOf(call);
+  filterCandidates(*call, [&](const Candidate& hit) { return opacityOf(query, hit) > 0.5; });
+}
+
+LightQuery queryFor(const Casters& casters, std::span<const ShadowRay> rays, RTCFilterFunctionN filter) {
+  LightQuery query;
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  query.context.filter = filter;
+  query.casters = &casters;
+  query.rays = rays;
+  query.through.fill(1);
+  return query;
+}
+
+void setRays(const Casters& casters, std::span<const ShadowRay> rays, RTCRay16& packet) {
+  const double scale = casters.tree.scale;
+  for (unsigned i = 0; i < rays.size(); ++i) {
+    setRay(packet, i, startOf(rays[i].from) * scale, rays[i].direction, rays[i].length * scale);
+  }
+}
+
+} // namespace
+
+Receiver receiverAt(const TracedScene::Tree& tree, const SurfacePoint& point) {
+  const Triangle triangle = tree.triangle(point.instance, point.triangle);
+  const glm::dvec3 normal = unitAlong(triangle.area());
+  const double side = glm::dot(normal, glm::dvec3(point.normal)) < 0 ? -1.0 : 1.0;
+  return {point.position, side * normal, triangle.largest(), point.instance, point.triangle};
+}
+
+std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
+  const Receiver& from = ray.from;
+  const glm::dvec3 largest = glm::max(from.largest, caster.largest());
+  const double height =
+      std::max({glm::dot(from.normal, caster.a - from.position), glm::dot(from.normal, caster.b - from.position),
+                glm::dot(from.normal, caster.c - from.position)});
+  if (height <= roundingAlong(from.normal, largest)) return std::nullopt;
+  const glm::dvec3 normal = unitAlong(caster.area());
+  const double across = glm::dot(normal, ray.direction);
+  const double away = glm::dot(normal, caster.a - from.position);
+  const double distance = away / across;
+  if (!(distance > 0 && distance < ray.length)) return std::nullopt;
+  if (std::isinf(ray.length)) return distance;
+  // A light in the very plane of the caster shines past it.
+  const glm::dvec3 light = from.position + ray.direction * ray.length;
+  const double beyond = std::abs(ray.length * across - away);
+  if (beyond <= roundingAlong(normal, glm::max(caster.largest(), glm::abs(light)))) return std::nullopt;
+  return distance;
+}
+
+std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const ShadowRay> rays) {
+  LightQuery query = queryFor(casters, rays, keepOpaque);
+  RTCRay16 packet;
+  setRays(casters, rays, packet);
+  const Lanes lanes = firstLanes(rays.size());
+  rtcOccluded16(lanes.active.data(), casters.tree.rays.get(), &query.context, &packet);
+  std::array<float, kLanes> shares{};
+  for (unsigned i = 0; i < rays.size(); ++i) shares[i] = packet.tfar[i] < 0 ? 0.0f : query.through[i];
+  return shares;
+}
+
+std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const ShadowRay> rays) {
+  LightQuery query = queryFor(casters, rays, keepHalfOpaque);
+  RTCRayHit16 packet;
+  setRays(casters, rays, packet.ray);
+  std::fill_n(packet.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
+  const Lanes lanes = firstLanes(rays.size());
+  rtcIntersect16(lanes.active.data(), casters.tree.rays.get(), &query.context, &packet);
+  std::array<float, kLanes> distances{};
+  for (unsigned i = 0; i < rays.size(); ++i) {
+    const bool hidden = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    distances[i] = static_cast<float>(
+        hidden ? meets(rays[i], casters.tree.triangle(packet.hit.geomID[i], packet.hit.primID[i])).value_or(kInfinity)
+               : kInfinity);
+  }
+  return distances;
+}
+
+} // namespace gnomon

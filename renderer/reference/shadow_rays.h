@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "protocol/shadow_options.h"
+#include "renderer/reference/ray_packet.h"
+#include "renderer/reference/trace.h"
+#include "renderer/reference/tree.h"
+
+namespace gnomon {
+
+/// A point of a triangle as the start of rays.
+struct Receiver {
+  glm::dvec3 position{0};
+  glm::dvec3 normal{0};  ///< unit length, on the eye's side; zero where the triangle has no area
+  glm::dvec3 largest{0}; ///< of the triangle's coordinates
+  std::uint32_t instance = kNoSurface;
+  std::uint32_t triangle = 0;
+};
+
+Receiver receiverAt(const TracedScene::Tree& tree, const SurfacePoint& point);
+
+/// From a receiver towards a light, away from the side that the receiver turns its back to.
+struct ShadowRay {
+  Receiver from;
+  glm::dvec3 direction{0}; ///< unit length
+  double length = 0;       ///< metres to the light; infinite for directional ones
+};
+
+/// What throws shadows of a light.
+struct Casters {
+  const TracedScene::Tree& tree;
+  std::vector<std::uint8_t> cast; ///< one an instance
+  BlendedCasters blended = BlendedCasters::dither;
+};
+
+/// The share of the light that comes through, for up to kLanes rays.
+std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const ShadowRay> rays);
+
+/// Metres to the nearest caster that lets through less than half, for up to kLanes rays; infinity where none does.
+std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const ShadowRay> rays);
+
+/// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
+/// it does not rise over the plane of the receiver, or lies behind its point, or beyond the light. What vertices lose
+/// by being rounded decides for light: neither a coplanar triangle nor a neighbour in a flat mesh casts.
+std::optional<double> meets(const ShadowRay& ray, const Triangle& caster);
+
+} // namespace gnomon

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <embree3/rtcore.h>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/core/aabb.h"
+#include "renderer/reference/traced_scene.h"
+#include "renderer/reference/triangle.h"
+
+namespace gnomon {
+
+template <auto release>
+struct Release {
+  template <class T>
+  void operator()(T* owned) const {
+    release(owned);
+  }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcReleaseDevice>>;
+using RayScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>>;
+using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
+
+/// Embree's numbers: geometry = index into SceneView::instances, primitive = triangle of the scene's primitive.
+struct TracedScene::Tree {
+  std::shared_ptr<const Scene> scene;
+  const SceneView* view = nullptr;
+  glm::dvec3 anchor{0};
+
+  /// What the coordinates are multiplied by for Embree: the power of two that brings the largest to 1..2. Exact, and
+  /// keeps products of coordinates from running over or under in scenes of any size.
+  double scale = 1;
+  std::vector<glm::vec3> positions;       ///< times `scale`; one more at the end: Embree reads 16 bytes at once
+  std::vector<std::size_t> firstPosition; ///< of each instance
+  std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
+  Aabb bounds;                            ///< of the placed triangles, metres
+  std::atomic<std::int64_t> embreeBytes = 0;
+  std::atomic<RTCError> error = RTC_ERROR_NONE;
+  Device device;
+  RayScene rays; ///< after `device`: released first
+
+  const Instance& instance(std::uint32_t index) const { return view->instances[index]; }
+  const Primitive& primitive(std::uint32_t instanceIndex) const {
+    return scene->primitives[static_cast<std::size_t>(instance(instanceIndex).primitive)];
+  }
+  const Material& material(std::uint32_t instanceIndex) const {
+    return scene->materials[static_cast<std::size_t>(primitive(instanceIndex).material)];
+  }
+  Triangle triangle(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
+    const std::uint32_t* corner = &scene->indices[primitive(instanceIndex).firstIndex + 3 * std::size_t{triangleIndex}];
+    const glm::vec3* placed = &positions[firstPosition[instanceIndex]];
+    const double metres = 1.0 / scale;
+    return {glm::dvec3(placed[corner[0]]) * metres, glm::dvec3(placed[corner[1]]) * metres,
+            glm::dvec3(placed[corner[2]]) * metres};
+  }
+};
+
+} // namespace gnomon

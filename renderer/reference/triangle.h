@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace gnomon {
+
+/// A triangle where it is traced, relative to anchorOf(view), in metres.
+struct Triangle {
+  glm::dvec3 a{0}, b{0}, c{0};
+
+  glm::dvec3 area() const { return glm::cross(b - a, c - a); } ///< twice the area, along the normal
+  glm::dvec3 largest() const {                                 ///< of the coordinates' absolute values, by axis
+    return glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
+  }
+};
+
+/// Of unit length, whatever the size of `v`; zero where it has none.
+inline glm::dvec3 unitAlong(const glm::dvec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
+}
+
+/// A place in a triangle: its weights are 1 - u - v, u and v.
+struct Barycentric {
+  double u = 0;
+  double v = 0;
+
+  template <class T>
+  T mix(const T& a, const T& b, const T& c) const {
+    return a + u * (b - a) + v * (c - a);
+  }
+};
+
+/// Where the line origin + t direction crosses the triangle's plane, moved to the triangle's nearest side where
+/// rounding put it outside; `otherwise` where the line runs along the plane. (Moeller and Trumbore, "Fast, Minimum
+/// Storage Ray/Triangle Intersection", 1997.)
+inline Barycentric crossing(const Triangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction,
+                            const Barycentric& otherwise) {
+  const glm::dvec3 ab = triangle.b - triangle.a;
+  const glm::dvec3 ac = triangle.c - triangle.a;
+  const glm::dvec3 p = glm::cross(direction, ac);
+  const double determinant = glm::dot(ab, p);
+  if (determinant == 0) return otherwise;
+  const glm::dvec3 from = origin - triangle.a;
+  const double u = std::clamp(glm::dot(from, p) / determinant, 0.0, 1.0);
+  const double v = std::clamp(glm::dot(direction, glm::cross(from, ab)) / determinant, 0.0, 1.0 - u);
+  return {u, v};
+}
+
+} // namespace gnomon

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <limits>
+
+#include "renderer/reference/frame_nodes.h"
+#include "renderer/reference/light_samples.h"
+#include "renderer/reference/light_source.h"
+#include "renderer/reference/parallel.h"
+#include "renderer/reference/shadow_rays.h"
+#include "renderer/reference/trace.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kRays = 8192; ///< traced by one core at a time, about
+
+struct Lamp {
+  const Light& light;
+  LightSource source;
+  std::vector<std::uint8_t> lit;      ///< one an instance: shares a layer with the light
+  std::vector<std::uint8_t> shadowed; ///< of those: the light throws shadows on it
+  Casters casters;
+};
+
+Lamp lampOf(const TraceInput& input, int index) {
+  const Light& light = input.lights[static_cast<std::size_t>(index)];
+  const TracedScene::Tree& tree = input.traced.tree();
+  const Shadow shadow = light.shadow.value_or(Shadow{});
+  return {light,
+          lightSource(light, tree.anchor),
+          instancesWhere(input, [&](const NodeSwitches& node) { return isLitBy(light, node); }),
+          instancesWhere(
+              input,
+              [&](const NodeSwitches& node) { return shadow.enabled && node.receiveShadow && isLitBy(light, node); }),
+          {tree, instancesWhere(input, [&](const NodeSwitches& node) { return castsFrom(light, node); }),
+           shadow.blendedCasters}};
+}
+
+/// Rays of many points, traced kLanes at a time; what comes through is added up for each point.
+class RayQueue {
+ public:
+  RayQueue(const Casters& casters, std::span<float> sums) : casters_(casters), sums_(sums) {}
+
+  void add(const ShadowRay& ray, std::size_t point) {
+    rays_[count_] = ray;
+    points_[count_] = point;
+    if (++count_ == kLanes) trace();
+  }
+
+  void trace() {
+    const std::array<float, kLanes> shares = sharesThrough(casters_, std::span(rays_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) sums_[points_[i]] += shares[i];
+    count_ = 0;
+  }
+
+ private:
+  const Casters& casters_;
+  std::span<float> sums_;
+  std::array<ShadowRay, kLanes> rays_{};
+  std::array<std::size_t, kLanes> points_{};
+  std::size_t count_ = 0;
+};
+
+/// Rays to places all over the light's disc; none to those that the surface itself hides.
+void addSamples(const LightSource& source, const SurfacePoint& point, const Receiver& receiver, std::uint32_t samples,
+                std::size_t index, RayQueue& queue) {
+  const std::uint64_t seed = seedOf(point);
+  for (std::uint32_t k = 0; k < samples; ++k) {
+    const WayToLight way = wayTo(source, receiver.position, discSample(k, samples, seed));
+    if (glm::dot(way.direction, receiver.normal) > 0) queue.add({receiver, way.direction, way.length}, index);
+  }
+}
+
+} // namespace
+
+std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
+  const Lamp lamp = lampOf(input, light);
+  std::vector<std::uint8_t> reached(points.size());
+  std::transform(points.begin(), points.end(), reached.begin(), [&](const SurfacePoint& point) -> std::uint8_t {
+    if (point.instance == kNoSurface || lamp.lit[point.instance] == 0) return 0;
+    const WayToLight way = wayTo(lamp.source, point.position);
+    return reaches(lamp.source, way) && faces(receiverAt(lamp.casters.tree, point).normal, way) ? 1 : 0;
+  });
+  return reached;
+}
+
+std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
+                                   int samples) {
+  const Lamp lamp = lampOf(input, light);
+  const bool sized = lamp.source.radius > 0;
+  const auto rays = sized ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
+  std::vector<float> visibility(points.size(), 0.0f);
+  forEachPiece(points.size(), std::clamp<std::size_t>(kRays / rays, kLanes, 512),
+               [&](std::size_t first, std::size_t last) {
+                 RayQueue queue(lamp.casters, visibility);
+                 for (std::size_t i = first; i < last; ++i) {
+                   const SurfacePoint& point = points[i];
+                   const auto lit = static_cast<float>(rays);
+                   if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) {
+                     visibility[i] = lit;
+                     continue;
+                   }
+                   const Receiver receiver = receiverAt(lamp.casters.tree, point);
+                   const WayToLight way = wayTo(lamp.source, point.position);
+                   if (!faces(receiver.normal, way)) continue;
+                   if (!reaches(lamp.source, way)) {
+                     visibility[i] = lit;
+                   } else if (sized) {
+                     addSamples(lamp.source, point, receiver, rays, i, queue);
+                   } else {
+                     queue.add({receiver, way.direction, way.length}, i);
+                   }
+                 }
+                 queue.trace();
+                 for (std::size_t i = first; i < last; ++i) visibility[i] /= static_cast<float>(rays);
+               });
+  return visibility;
+}
+
+std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
+  const Lamp lamp = lampOf(input, light);
+  std::vector<float> distances(points.size(), std::numeric_limits<float>::infinity());
+  forEachPiece(points.size(), 512, [&](std::size_t first, std::size_t last) {
+    std::array<ShadowRay, kLanes> rays;
+    std::array<std::size_t, kLanes> of{};
+    std::size_t count = 0;
+    const auto trace = [&] {
+      const std::array<float, kLanes> found = blockersOf(lamp.casters, std::span(rays).first(count));
+      for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
+      count = 0;
+    };
+    for (std::size_t i = first; i < last; ++i) {
+      const SurfacePoint& point = points[i];
+      if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) continue;
+      const Receiver receiver = receiverAt(lamp.casters.tree, point);
+      const WayToLight way = wayTo(lamp.source, point.position);
+      if (!faces(receiver.normal, way)) {
+        distances[i] = 0;
+        continue;
+      }
+      if (!reaches(lamp.source, way)) continue;
+      rays[count] = {receiver, way.direction, way.length};
+      of[count] = i;
+      if (++count == kLanes) trace();
+    }
+    trace();
+  });
+  return distances;
+}
+
+} // namespace gnomon

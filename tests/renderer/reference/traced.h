@@ -1,0 +1,90 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "renderer/core/vec3.h"
+#include "renderer/reference/reference.h"
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon::testing {
+
+/// A scene ready for rays, with what else a frame of it needs.
+struct Traced {
+  explicit Traced(const GlbBuilder& builder) : Traced(load(builder)) {}
+  explicit Traced(const SceneBundle& bundle) : Traced(load(bundle)) {}
+  explicit Traced(Scene loaded)
+      : scene(TracedScene::build(std::make_shared<const Scene>(std::move(loaded)), 0).operator*()) {}
+
+  TraceInput input() const { return {scene, camera, width, height, lights, nodes}; }
+  glm::dvec3 anchor() const { return anchorOf(scene.view()); }
+
+  /// First hits of the centres of all pixels.
+  std::vector<SurfacePoint> surface() const {
+    std::vector<glm::vec2> places;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) places.emplace_back(float(x) + 0.5f, float(y) + 0.5f);
+    }
+    return firstHits(input(), places);
+  }
+
+  TracedScene scene;
+  CameraView camera;
+  int width = 64;
+  int height = 64;
+  std::vector<Light> lights{Light{}};
+  std::vector<NodeSwitches> nodes;
+};
+
+/// From `eye` along `forward`; orthographic `height` metres high, or perspective with `fovY` degrees.
+inline CameraView parallelView(const glm::dvec3& eye, const glm::dvec3& forward, double height, double far = 1e9) {
+  CameraView view;
+  view.eye = eye;
+  view.forward = glm::normalize(forward);
+  const glm::dvec3 up = std::abs(view.forward.y) > 0.9 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+  view.right = glm::normalize(glm::cross(view.forward, up));
+  view.up = glm::cross(view.right, view.forward);
+  view.perspective = false;
+  view.halfSize = glm::dvec2(0.5 * height);
+  view.near = 0;
+  view.far = far;
+  return view;
+}
+
+inline CameraView perspectiveView(const glm::dvec3& eye, const glm::dvec3& target, double fovYDegrees) {
+  CameraView view = parallelView(eye, target - eye, 1);
+  view.perspective = true;
+  view.halfSize = glm::dvec2(std::tan(0.5 * glm::radians(fovYDegrees)));
+  view.near = 1e-3 * glm::length(target - eye);
+  view.far = std::numeric_limits<double>::infinity();
+  return view;
+}
+
+inline Light sunAlong(const glm::dvec3& direction, double angularDiameterDegrees = 0) {
+  Light light;
+  light.direction = toTriple(direction);
+  if (angularDiameterDegrees > 0) light.angularDiameterDegrees = angularDiameterDegrees;
+  return light;
+}
+
+inline Light pointAt(const glm::dvec3& position, double radius = 0) {
+  Light light;
+  light.type = LightType::point;
+  light.position = toTriple(position);
+  if (radius > 0) light.radius = radius;
+  return light;
+}
+
+/// A flat quadrilateral of two triangles, at the root of the scene; returns its node.
+inline int addQuad(GlbBuilder& builder, const std::vector<Point>& corners) {
+  const int positions = builder.addPoints(corners);
+  const int indices = builder.addIndices({0, 1, 2, 0, 2, 3});
+  return builder.addMeshNode(builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}}));
+}
+
+/// A square of `half` metres around the y axis at height `y`, facing up.
+inline int addSquare(GlbBuilder& builder, float half, float y) {
+  return addQuad(builder, {{-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}});
+}
+
+} // namespace gnomon::testing
