@@ -53,6 +53,8 @@ struct LightReport {
   /// Directional: the view depths of its cascades without a guard, for the next frame's depthRange.previous.
   std::optional<PreviousRange> depthRange{};
   std::vector<CascadeReport> cascades{};
+  std::optional<std::uint64_t>
+      tracedPixels{}; ///< pixels that rays decided; techniques hybrid and rayTraced, not in a plan
   // Over its tiles:
   std::optional<PredictedError> predictedError{};
   std::uint64_t casterTriangles = 0;
@@ -61,8 +63,8 @@ struct LightReport {
   std::optional<double> gpuMilliseconds{};
 };
 
-/// One pass. Names and order: survey, shadow, surfaces and view as the views ask for them. Two `surfaces` have other
-/// samples a pixel.
+/// One pass. Names and order: survey, shadow; surfaces, visibility and view as the views ask for them. Two `surfaces`
+/// have other samples a pixel, and so have two `visibility`.
 struct PassReport {
   std::string pass{};
   std::optional<View> view{};              ///< of pass view
@@ -76,7 +78,7 @@ struct PassReport {
 struct MemoryReport {
   std::uint64_t scene = 0;   ///< geometry, materials and textures; kept between frames
   std::uint64_t atlas = 0;   ///< of this frame
-  std::uint64_t targets = 0; ///< depth, surfaces and views of this frame
+  std::uint64_t targets = 0; ///< depth, surfaces, visibility and views of this frame
 };
 
 struct FrameCounts {

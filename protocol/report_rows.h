@@ -57,30 +57,32 @@ inline constexpr auto kRows<CascadeReport> = replyRows(
 static_assert(kRowsAreComplete<CascadeReport>);
 
 template <>
-inline constexpr auto kRows<LightReport> =
-    replyRows("LightReport", "What was decided for one light.",
-              field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
-              field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
-              field("askedTileSize", &LightReport::askedTileSize,
-                    {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
-              field("grantedTileSize", &LightReport::grantedTileSize,
-                    {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
-              field("note", &LightReport::note,
-                    {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
-              field("depthRange", &LightReport::depthRange,
-                    {.says = "View depths of a directional light's cascades, without a guard: to be handed in as "
-                             "`shadow.depthRange.previous` of the next frame; absent = none was drawn."}),
-              field("cascades", &LightReport::cascades,
-                    {.says = "Its cascades, nearest first, or the faces of a spot or point light."}),
-              field("predictedError", &LightReport::predictedError,
-                    {.says = "How large its tiles' texels show; absent = none was drawn."}),
-              field("casterTriangles", &LightReport::casterTriangles, {.says = "Triangles drawn into its tiles."}),
-              field("drawCalls", &LightReport::drawCalls, {.says = "Draw calls into its tiles."}),
-              field("cpuMilliseconds", &LightReport::cpuMilliseconds,
-                    {.says = "Time of its tiles; absent where none is drawn, and in a plan.", .unit = "milliseconds"}),
-              field("gpuMilliseconds", &LightReport::gpuMilliseconds,
-                    {.says = "The same as the driver reports it for the device; absent where it has no timer, too.",
-                     .unit = "milliseconds"}));
+inline constexpr auto kRows<LightReport> = replyRows(
+    "LightReport", "What was decided for one light.",
+    field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
+    field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
+    field("askedTileSize", &LightReport::askedTileSize,
+          {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
+    field("grantedTileSize", &LightReport::grantedTileSize,
+          {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
+    field("note", &LightReport::note,
+          {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
+    field("depthRange", &LightReport::depthRange,
+          {.says = "View depths of a directional light's cascades, without a guard: to be handed in as "
+                   "`shadow.depthRange.previous` of the next frame; absent = none was drawn."}),
+    field("cascades", &LightReport::cascades,
+          {.says = "Its cascades, nearest first, or the faces of a spot or point light."}),
+    field("predictedError", &LightReport::predictedError,
+          {.says = "How large its tiles' texels show; absent = none was drawn."}),
+    field("tracedPixels", &LightReport::tracedPixels,
+          {.says = "Pixels that rays decided; techniques hybrid and rayTraced; absent in a plan.", .unit = "pixels"}),
+    field("casterTriangles", &LightReport::casterTriangles, {.says = "Triangles drawn into its tiles."}),
+    field("drawCalls", &LightReport::drawCalls, {.says = "Draw calls into its tiles."}),
+    field("cpuMilliseconds", &LightReport::cpuMilliseconds,
+          {.says = "Time of its tiles; absent where none is drawn, and in a plan.", .unit = "milliseconds"}),
+    field("gpuMilliseconds", &LightReport::gpuMilliseconds,
+          {.says = "The same as the driver reports it for the device; absent where it has no timer, too.",
+           .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<LightReport>);
 
 template <>
@@ -88,7 +90,7 @@ inline constexpr auto kRows<PassReport> = replyRows(
     "PassReport", "One pass of a frame.",
     field("pass", &PassReport::pass,
           {.says = "survey (what the camera sees), shadow (all tiles), surfaces (once for each number of samples a "
-                   "pixel that the views need) or view."}),
+                   "pixel that the views need), visibility (what rays and shadow volumes tell, alike) or view."}),
     field("view", &PassReport::view, {.says = "Which view; absent for other passes."}),
     field("cpuMilliseconds", &PassReport::cpuMilliseconds,
           {.says = "From its first call to its last, whether the device is done or not.", .unit = "milliseconds"}),
@@ -101,12 +103,13 @@ inline constexpr auto kRows<PassReport> = replyRows(
 static_assert(kRowsAreComplete<PassReport>);
 
 template <>
-inline constexpr auto kRows<MemoryReport> = replyRows(
-    "MemoryReport", "What a frame takes on the device; a driver's padding is not counted.",
-    field("scene", &MemoryReport::scene,
-          {.says = "Geometry, materials and textures, kept between frames.", .unit = "bytes"}),
-    field("atlas", &MemoryReport::atlas, {.says = "The shadow atlas.", .unit = "bytes"}),
-    field("targets", &MemoryReport::targets, {.says = "Depth, surfaces and views of this frame.", .unit = "bytes"}));
+inline constexpr auto kRows<MemoryReport> =
+    replyRows("MemoryReport", "What a frame takes on the device; a driver's padding is not counted.",
+              field("scene", &MemoryReport::scene,
+                    {.says = "Geometry, materials and textures, kept between frames.", .unit = "bytes"}),
+              field("atlas", &MemoryReport::atlas, {.says = "The shadow atlas.", .unit = "bytes"}),
+              field("targets", &MemoryReport::targets,
+                    {.says = "Depth, surfaces, visibility and views of this frame.", .unit = "bytes"}));
 static_assert(kRowsAreComplete<MemoryReport>);
 
 template <>

@@ -14,9 +14,11 @@ Surfaces depthOnly() {
 
 } // namespace
 
-Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading, const ShadowPlan& plan,
-                             const PlannedLight* shown) {
+Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading, const ExactInputs& exact,
+                             const ShadowPlan& plan, const PlannedLight* shown) {
   DrawnViews drawn;
+  const Surfaces noSurfaces = depthOnly();
+  const VisibilityLayers noLayers;
   for (const View view : shading.spec.views) {
     if (view == View::atlas || view == View::tile) {
       if (drawn.flatAtlas.id() == 0) {
@@ -39,8 +41,16 @@ Result<DrawnViews> drawViews(const PassInputs& inputs, const ViewInputs& shading
       if (!casters) return casters.problems();
       drawn.casters = std::move(*casters);
     }
-    auto made = surveyed ? drawView(inputs, shading, depthOnly(), {}, view)
-                         : drawView(inputs, shading, drawn.surfaces.at(samples), drawn.casters, view);
+    if (showsShadow(view) && !exact.lights.empty() && !drawn.exactShadows.contains(samples)) {
+      auto shadows = exactShadows(inputs, shading, exact, drawn.surfaces.at(samples));
+      if (!shadows) return shadows.problems();
+      drawn.exactShadows.emplace(samples, std::move(*shadows));
+    }
+    const auto layers = drawn.exactShadows.find(samples);
+    auto made = drawView(inputs, shading,
+                         {surveyed ? noSurfaces : drawn.surfaces.at(samples),
+                          layers == drawn.exactShadows.end() ? noLayers : layers->second.layers, drawn.casters},
+                         view);
     if (!made) return made.problems();
     drawn.views.push_back(std::move(*made));
   }

@@ -2,8 +2,10 @@
 
 #include <list>
 #include <memory>
+#include <optional>
 
 #include "renderer/passes/gpu_scene.h"
+#include "renderer/scene/edge_mesh.h"
 
 namespace gnomon {
 
@@ -14,13 +16,19 @@ class GpuSceneCache {
 
   /// The scene's upload, made now if need be; valid until the next call. The newest stays, whatever its size.
   const GpuScene& get(const std::shared_ptr<const Scene>& scene);
+  /// The edges of its meshes, found now if need be; alike.
+  const std::vector<EdgeMesh>& edges(const std::shared_ptr<const Scene>& scene);
 
  private:
   struct Entry {
     std::weak_ptr<const Scene> scene;
     GpuScene gpu;
+    std::optional<std::vector<EdgeMesh>> edges{};
+
+    std::size_t bytes() const { return gpu.bytes + (edges ? bytesOf(*edges) : 0); }
   };
 
+  Entry& entryOf(const std::shared_ptr<const Scene>& scene);
   void drop();
 
   std::size_t budgetBytes_;

@@ -1,5 +1,6 @@
 #include "renderer/light_reports.h"
 
+#include "protocol/enum_rows.h"
 #include "renderer/shadow/bias.h"
 
 namespace gnomon {
@@ -48,10 +49,17 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
   if (part) sum = sum.value_or(0.0) + *part;
 }
 
+/// What a light with a size loses to a technique that knows none.
+std::string sharpNote(const Light& light) {
+  const bool sized = light.angularDiameterDegrees.value_or(0) > 0 || light.radius.value_or(0) > 0;
+  if (!sized || light.shadow->technique == ShadowTechnique::rayTraced) return "";
+  return "its size is left out: technique " + std::string(spell(light.shadow->technique)) + " draws it without one";
+}
+
 } // namespace
 
 std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const glm::dvec3& eye) {
+                                      const glm::dvec3& eye, std::span<const int> layeredLights) {
   std::vector<LightReport> reports;
   for (std::size_t i = 0; i < spec.lights->size(); ++i) {
     LightReport report;
@@ -62,14 +70,20 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
                                          : "shadowLightPolicy is first, and this is not the first directional light";
     reports.push_back(std::move(report));
   }
+  for (const int layered : layeredLights) {
+    LightReport& report = reports[static_cast<std::size_t>(layered)];
+    report.shadowed = true;
+    report.note = sharpNote((*spec.lights)[static_cast<std::size_t>(layered)]);
+  }
   for (std::size_t i = 0; i < plan.lights.size(); ++i) {
     const PlannedLight& planned = plan.lights[i];
     LightReport& report = reports[static_cast<std::size_t>(planned.light)];
     const auto& shadow = (*spec.lights)[static_cast<std::size_t>(planned.light)].shadow;
-    report.shadowed = planned.tileCount > 0;
+    report.shadowed = report.shadowed || planned.tileCount > 0;
     report.askedTileSize = planned.askedTileSize;
     report.grantedTileSize = planned.grantedTileSize;
-    report.note = planned.note;
+    const std::string sharp = report.shadowed ? sharpNote((*spec.lights)[static_cast<std::size_t>(planned.light)]) : "";
+    report.note = planned.note + (planned.note.empty() || sharp.empty() ? "" : "; ") + sharp;
     report.predictedError = errors.lights[i];
     // A frame that sees nothing hands its predecessor's range on.
     report.depthRange = shadow->depthRange.previous;

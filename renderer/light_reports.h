@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "protocol/frame_report.h"
@@ -8,9 +9,10 @@
 
 namespace gnomon {
 
-/// What a plan decided about the spec's lights: everything but counts and times.
+/// What a plan decided about the spec's lights: everything but counts and times. `layeredLights`: those whose shadow
+/// comes from rays or shadow volumes, or also does.
 std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const glm::dvec3& eye);
+                                      const glm::dvec3& eye, std::span<const int> layeredLights);
 
 /// Fills in the sums over a light's tiles.
 void addSums(LightReport& light);

@@ -1,12 +1,14 @@
 #include "renderer/make_report.h"
 
 #include "renderer/light_reports.h"
+#include "renderer/plan_input.h"
 
 namespace gnomon {
 namespace {
 
 std::vector<LightReport> drawnLights(const FrameStages& stages) {
-  auto lights = lightReports(stages.frame.spec, stages.plan, stages.errors, stages.frame.view.eye);
+  auto lights =
+      lightReports(stages.frame.spec, stages.plan, stages.errors, stages.frame.view.eye, layeredLights(stages.frame));
   for (const PlannedLight& planned : stages.plan.lights) {
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
     for (std::size_t i = 0; i < light.cascades.size(); ++i) {
@@ -21,6 +23,13 @@ std::vector<LightReport> drawnLights(const FrameStages& stages) {
       tile.gpuMilliseconds = counts.timer.gpuMilliseconds();
     }
     addSums(light);
+  }
+  for (const auto& [samples, exact] : stages.drawn.exactShadows) {
+    for (const ExactShadow& shadow : exact.lights) {
+      LightReport& light = lights[static_cast<std::size_t>(shadow.light)];
+      light.tracedPixels = light.tracedPixels.value_or(0) + shadow.tracedPixels;
+      light.cpuMilliseconds = light.cpuMilliseconds.value_or(0) + shadow.milliseconds;
+    }
   }
   return lights;
 }
@@ -45,6 +54,9 @@ std::vector<PassReport> passReports(const FrameStages& stages) {
   }
   for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
     passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
+  }
+  for (const auto& [samples, exact] : stages.drawn.exactShadows) {
+    passes.push_back(passReport("visibility", exact.timer, 0, 0));
   }
   for (std::size_t i = 0; i < stages.drawn.views.size(); ++i) {
     const DrawnView& view = stages.drawn.views[i];
@@ -74,6 +86,7 @@ MemoryReport memoryOf(const FrameStages& stages) {
   for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
     memory.targets += surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes();
   }
+  for (const auto& [samples, exact] : stages.drawn.exactShadows) memory.targets += exact.layers.texture.bytes();
   for (const DrawnView& view : stages.drawn.views) memory.targets += view.color.bytes();
   return memory;
 }

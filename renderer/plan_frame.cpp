@@ -52,7 +52,7 @@ Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const Re
   report.spec = frame->spec;
   if (!receivers.range.empty()) report.depthRange = {receivers.range.nearest, receivers.range.farthest};
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame->spec, plan, errors, frame->view.eye);
+  report.lights = lightReports(frame->spec, plan, errors, frame->view.eye, layeredLights(*frame));
   addCasters(plan, *frame, scene, geometry, report.lights);
   report.predictedError = errors.all;
   report.warnings = frame->warnings;

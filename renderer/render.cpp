@@ -1,5 +1,6 @@
 #include "renderer/render.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/check_device.h"
@@ -22,6 +23,7 @@
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
 #include "renderer/shadow/predicted_error.h"
+#include "renderer/traced_scene_cache.h"
 
 namespace gnomon {
 
@@ -39,6 +41,7 @@ struct Renderer::Impl {
   ProgramCache programs;
   GpuSceneCache scenes;
   TileCache tiles;
+  TracedSceneCache traced;
 };
 
 namespace {
@@ -59,6 +62,12 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
   data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
   return data;
+}
+
+bool asksForEdges(const FrameSpec& spec, std::span<const int> layered) {
+  return std::any_of(layered.begin(), layered.end(), [&](int light) {
+    return (*spec.lights)[static_cast<std::size_t>(light)].shadow->technique != ShadowTechnique::rayTraced;
+  });
 }
 
 std::vector<ViewImage> readViews(const ResolvedFrame& frame, const DrawnViews& drawn, const ShadowAtlas& atlas,
@@ -86,8 +95,11 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   auto context = gl::createContext(options.backend);
   if (!context) return context.problems();
-  return Renderer(std::unique_ptr<Impl>(
-      new Impl{std::move(*context), {}, GpuSceneCache(options.gpuSceneBytes), TileCache(options.tileCacheBytes)}));
+  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*context),
+                                                 {},
+                                                 GpuSceneCache(options.gpuSceneBytes),
+                                                 TileCache(options.tileCacheBytes),
+                                                 TracedSceneCache(options.tracedSceneBytes)}));
 }
 
 const RendererInfo& Renderer::info() const {
@@ -110,19 +122,22 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   shared::FrameData data = frameData(*resolved);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{*scene,
-                          view,
-                          gpu,
-                          geometry,
-                          resolved->view,
-                          frameBuffer,
-                          vertices,
-                          anchored,
-                          impl_->programs,
-                          effective.width,
-                          effective.height,
-                          resolved->nodes,
-                          resolved->groups.matter()};
+  const std::vector<int> layered = layeredLights(*resolved);
+  const PassInputs inputs{
+      *scene,
+      view,
+      gpu,
+      geometry,
+      resolved->view,
+      frameBuffer,
+      vertices,
+      anchored,
+      impl_->programs,
+      effective.width,
+      effective.height,
+      resolved->nodes,
+      asksForEdges(effective, layered) ? std::span(impl_->scenes.edges(scene)) : std::span<const EdgeMesh>{},
+      resolved->groups.matter()};
   clock.finish("upload");
 
   const int samples = effective.antialiasing == Antialiasing::msaa4x ? 4 : 1;
@@ -133,7 +148,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, info().maxTextureSize));
   if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
-  const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight);
+  const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
                                                          : std::vector<std::uint32_t>{};
@@ -150,8 +165,9 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 
-  const auto drawn =
-      drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective, subject->light}, plan, subject->planned);
+  const ExactInputs exact{layered, [&] { return impl_->traced.get(scene, resolved->scene); }};
+  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective, subject->light}, exact, plan,
+                               subject->planned);
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 

@@ -44,7 +44,11 @@ Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::str
   setLabel(GL_FRAMEBUFFER, id, label);
   for (int i = 0; i < framebuffer.colors_; ++i) {
     const Attachment& color = attachments.color[static_cast<std::size_t>(i)];
-    glNamedFramebufferTexture(id, colorAttachment(i), color.texture->id(), color.level);
+    if (color.texture->shape().layers > 0) {
+      glNamedFramebufferTextureLayer(id, colorAttachment(i), color.texture->id(), color.level, color.layer);
+    } else {
+      glNamedFramebufferTexture(id, colorAttachment(i), color.texture->id(), color.level);
+    }
   }
   if (const Attachment& depth = attachments.depth; depth.texture) {
     glNamedFramebufferTexture(id, depthAttachment(depth.texture->shape().format), depth.texture->id(), depth.level);

@@ -16,6 +16,7 @@ namespace gnomon::gl {
 struct Attachment {
   const Texture* texture = nullptr;
   int level = 0;
+  int layer = 0; ///< of an array
 };
 
 /// What is drawn into. Color attachment i is the fragment shader's output location i.

@@ -7,11 +7,18 @@
 namespace gnomon::gl {
 namespace {
 
+GLenum targetOf(const TextureShape& shape) {
+  if (shape.layers > 0) return GL_TEXTURE_2D_ARRAY;
+  return shape.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+}
+
 GLuint makeTexture(const TextureShape& shape, std::string_view label) {
-  assert(shape.samples == 0 || shape.levels == 1);
+  assert((shape.samples == 0 && shape.layers == 0) || shape.levels == 1);
   GLuint id = 0;
-  glCreateTextures(shape.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id);
-  if (shape.samples > 0) {
+  glCreateTextures(targetOf(shape), 1, &id);
+  if (shape.layers > 0) {
+    glTextureStorage3D(id, 1, shape.format, shape.width, shape.height, shape.layers);
+  } else if (shape.samples > 0) {
     glTextureStorage2DMultisample(id, shape.samples, shape.format, shape.width, shape.height, GL_TRUE);
   } else {
     glTextureStorage2D(id, shape.levels, shape.format, shape.width, shape.height);
@@ -84,6 +91,16 @@ void Texture::write(int level, TexelLayout layout, std::span<const std::byte> te
   glTextureSubImage2D(id(), level, 0, 0, all.width, all.height, layout.format, layout.type, texels.data());
 }
 
+void Texture::writeRect(const Rect& rect, TexelLayout layout, std::span<const std::byte> texels) {
+  assert(texels.size() == bytesOf(rect, layout));
+  glTextureSubImage2D(id(), 0, rect.x, rect.y, rect.width, rect.height, layout.format, layout.type, texels.data());
+}
+
+void Texture::writeLayer(int layer, TexelLayout layout, std::span<const std::byte> texels) {
+  assert(layer >= 0 && layer < shape_.layers && texels.size() == bytesOf({0, 0, width(), height()}, layout));
+  glTextureSubImage3D(id(), 0, 0, 0, layer, width(), height(), 1, layout.format, layout.type, texels.data());
+}
+
 void Texture::read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
   assert(texels.size() >= bytesOf(rect, layout));
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT); // shaders may have written it
@@ -98,7 +115,7 @@ void Texture::clear(int level, TexelLayout layout, std::span<const std::byte> te
 
 void Texture::copyFrom(const Texture& source, const Rect& rect) {
   assert(source.shape_.format == shape_.format && source.shape_.samples == shape_.samples);
-  const GLenum target = shape_.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+  const GLenum target = targetOf(shape_);
   glCopyImageSubData(source.id(), target, 0, rect.x, rect.y, 0, id(), target, 0, rect.x, rect.y, 0, rect.width,
                      rect.height, 1);
 }
@@ -125,7 +142,7 @@ std::size_t Texture::bytes() const {
     texels +=
         static_cast<std::size_t>(sizeAt(shape_.width, level)) * static_cast<std::size_t>(sizeAt(shape_.height, level));
   }
-  return texels * static_cast<std::size_t>(std::max(1, shape_.samples)) * bitsPerTexel / 8;
+  return texels * static_cast<std::size_t>(std::max({1, shape_.samples, shape_.layers})) * bitsPerTexel / 8;
 }
 
 } // namespace gnomon::gl

@@ -16,6 +16,7 @@ struct TextureShape {
   int height = 1;           ///< texels
   int levels = 1;           ///< mip levels; must be 1 with samples
   int samples = 0;          ///< 0 = an ordinary 2D texture, else 2D multisample with fixed sample places
+  int layers = 0;           ///< 0 = no array; an array has neither samples nor levels
 
   bool operator==(const TextureShape&) const = default;
 };
@@ -33,7 +34,7 @@ struct TexelLayout {
 std::size_t bytesPerTexel(TexelLayout layout);
 std::size_t bytesOf(const Rect& rect, TexelLayout layout);
 
-/// An immutable-storage 2D texture. Its contents are undefined until written, cleared or drawn.
+/// An immutable-storage 2D texture, or an array of such. Its contents are undefined until written, cleared or drawn.
 class Texture {
  public:
   Texture() = default;
@@ -46,6 +47,10 @@ class Texture {
 
   /// Writes the whole of a level. REQUIRES: texels has exactly the level's bytes.
   void write(int level, TexelLayout layout, std::span<const std::byte> texels);
+  /// Writes a rectangle of the first level. REQUIRES: texels has exactly its bytes.
+  void writeRect(const Rect& rect, TexelLayout layout, std::span<const std::byte> texels);
+  /// Writes the whole of a layer. REQUIRES: an array; texels has exactly the layer's bytes.
+  void writeLayer(int layer, TexelLayout layout, std::span<const std::byte> texels);
   /// The texels of a rectangle of a level. Waits for the GPU. REQUIRES: texels has room for them.
   void read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
   void clear(int level, TexelLayout layout, std::span<const std::byte> texel);

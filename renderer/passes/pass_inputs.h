@@ -12,6 +12,7 @@
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/program_cache.h"
+#include "renderer/scene/edge_mesh.h"
 #include "renderer/scene/node_switches.h"
 
 namespace gnomon {
@@ -30,6 +31,7 @@ struct PassInputs {
   int width = 0; ///< of the frame, pixels
   int height = 0;
   std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  std::span<const EdgeMesh> edges;     ///< one a primitive; empty where no light's technique asks for them
   bool receiverGroups = false;         ///< some light tells receiver groups apart: surfaces say to which they belong
 };
 

@@ -150,6 +150,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
+  if (variant.visibilityLayers) defines.emplace_back("VISIBILITY_LAYERS");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (showsOneLight(variant.view)) defines.emplace_back("DEBUG_LIGHT");

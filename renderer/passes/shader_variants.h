@@ -54,6 +54,7 @@ struct ViewVariant {
   int tiles = 0;           ///< of the light that has most
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
+  bool visibilityLayers = false; ///< rays or shadow volumes serve some light
 };
 
 /// Makes a view from the surfaces.

@@ -3,6 +3,7 @@
 #include "common_shadow_filter.glsl"
 #include "common_shadow_disc.glsl"
 #include "common_shadow_moments.glsl"
+#include "common_shadow_choice.glsl"
 
 // Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
 // no lookup of it leaves the tile.
@@ -29,57 +30,40 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
   return kernelVisibility(at.coordinate, size);
 }
 
-struct TileChoice {
-  int first;   // among the light's tiles
-  int second;  // blended in; = first where there is none
-  float blend; // share of the second
-  float fade;  // share of "lit" at the far end of a manual range
-  bool covered;
-};
+// A face turned away from the light, or along it to within rounding, shadows itself.
+bool isTurnedAway(Receiver receiver, vec3 toLight) { return dot(receiver.normal, toLight) <= 1e-4; }
 
-// The first cascade that reaches as far as the view depth; none before the first one begins.
-TileChoice chooseCascade(int light, float viewDepth) {
-  int last = int(lights[light].tiles.x) - 1;
-  int index = 0;
-  vec3 interval = tiles[lights[light].tiles.z].interval.xyz;
-  bool begun = viewDepth >= interval.x;
-  for (int i = 1; i < TILE_COUNT; ++i) {
-    if (i <= last && viewDepth > interval.z) {
-      index = i;
-      interval = tiles[lights[light].tiles.z + i].interval.xyz;
-    }
-  }
-  float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
-  bool fades = lights[light].cone.w > 0.0;
-  if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, begun);
-  return TileChoice(index, index, 0.0, fades ? zone : 0.0, begun && (!fades || viewDepth <= interval.z));
+#ifdef VISIBILITY_LAYERS
+// What rays or shadow volumes say: a layer a light, a channel a sample of the pixel.
+layout(binding = GNOMON_VISIBILITY_UNIT) uniform sampler2DArray visibilityLayers;
+
+// The mean over `samples` of the pixel, a bit each.
+float layerValue(int light, uint samples) {
+  vec4 seen = texelFetch(visibilityLayers, ivec3(gl_FragCoord.xy, int(lights[light].tiles.w) - 1), 0);
+#if SAMPLES > 1
+  uvec4 bits = (uvec4(samples) >> uvec4(0u, 1u, 2u, 3u)) & 1u;
+  return dot(seen, vec4(bits)) / float(bitCount(samples));
+#else
+  return seen.r;
+#endif
 }
 
-#ifdef PUNCTUAL
-// The face that looks most nearly along the light's way to the point.
-TileChoice chooseFace(int light, vec3 toLight) {
-  int best = 0;
-  float most = -2.0;
-  for (int i = 0; i < TILE_COUNT; ++i) {
-    float along = -dot(tiles[lights[light].tiles.z + i].axis.xyz, toLight);
-    if (i < int(lights[light].tiles.x) && along > most) {
-      most = along;
-      best = i;
-    }
-  }
-  return TileChoice(best, best, 0.0, 0.0, true);
+float layerVisibility(int light, Receiver receiver, vec3 toLight) {
+#ifdef RECEIVER_GROUPS
+  if ((lights[light].groups.y & receiver.groupBit) == 0u) return 1.0;
+#endif
+  float visibility = layerValue(light, receiver.samples);
+  // Rays know which faces are turned away, shadow volumes don't.
+  if (lights[light].sampling.z > 0.0 && isTurnedAway(receiver, toLight)) visibility = 0.0;
+  return mix(1.0, visibility, lights[light].cone.z);
 }
 #endif
-
-TileChoice chooseTile(int light, Receiver receiver, vec3 toLight) {
-#ifdef PUNCTUAL
-  if (int(lights[light].direction.w) != GNOMON_DIRECTIONAL) return chooseFace(light, toLight);
-#endif
-  return chooseCascade(light, receiver.viewDepth);
-}
 
 // `needed` false spares the lookups where no light arrives anyway.
 float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
+#ifdef VISIBILITY_LAYERS
+  if (lights[light].tiles.w > 0u) return layerVisibility(light, receiver, toLight);
+#endif
 #ifdef NO_SHADOWS
   return 1.0;
 #endif
@@ -90,8 +74,7 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
   float strength = lights[light].cone.z;
-  // A face turned away from the light, or along it to within rounding, shadows itself.
-  bool turnedAway = dot(receiver.normal, toLight) <= 1e-4;
+  bool turnedAway = isTurnedAway(receiver, toLight);
   float visibility = 0.0;
   for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;

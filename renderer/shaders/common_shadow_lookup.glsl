@@ -9,6 +9,9 @@ struct Receiver {
 #ifdef RECEIVER_GROUPS
   uint groupBit;
 #endif
+#ifdef VISIBILITY_LAYERS
+  uint samples; // of the pixel that show it, a bit each
+#endif
 };
 
 // Where in the atlas a receiver is looked up in one tile.
@@ -55,4 +58,28 @@ Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight)
     at.inside = false;
   }
   return at;
+}
+
+bool isParallel(TileData tile) {
+#ifdef PUNCTUAL
+  return dot(tile.atlasFromRelative[3].xyz, tile.axis.xyz) == 0.0;
+#else
+  return true;
+#endif
+}
+
+// How the tile's depth changes on the receiver's plane with each length across: metres, or tangents from a point.
+vec2 receiverSlope(TileData tile, Receiver receiver, vec3 lightPosition) {
+  vec3 axis = tile.axis.xyz;
+  vec3 right = tile.atlasFromRelative[0].xyz;
+  vec3 up = tile.atlasFromRelative[1].xyz;
+  right = normalize(right - axis * dot(right, axis));
+  up = normalize(up - axis * dot(up, axis));
+  vec2 across = vec2(dot(receiver.normal, right), dot(receiver.normal, up));
+  if (isParallel(tile)) {
+    return across / -min(dot(receiver.normal, axis), -1e-4) * dot(tile.atlasFromRelative[2].xyz, axis);
+  }
+  // z is a line in 1 / distance, and so is 1 / distance in the tangents of a plane.
+  float plane = min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6);
+  return across * (-tile.interval.x * tile.interval.z / ((tile.interval.z - tile.interval.x) * plane));
 }

@@ -33,15 +33,22 @@ vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlu
 #endif
 }
 
-Receiver receiverOf(Sample seen, vec3 face) {
+// `samples`: those of the pixel that show it, a bit each.
+Receiver receiverOf(Sample seen, vec3 face, uint samples) {
+  Receiver receiver;
+  receiver.relative = seen.relative;
+  receiver.normal = face;
+  receiver.viewDepth = seen.viewDepth;
 #ifdef RECEIVER_GROUPS
-  return Receiver(seen.relative, face, seen.viewDepth, 1u << receiverGroup(seen.bits));
-#else
-  return Receiver(seen.relative, face, seen.viewDepth);
+  receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif
+#ifdef VISIBILITY_LAYERS
+  receiver.samples = samples;
+#endif
+  return receiver;
 }
 
-vec4 picture(Sample seen) {
+vec4 picture(Sample seen, uint samples) {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   if (!seen.hit) return vec4(vec3(0.0), frame.background.a);
 #else
@@ -50,7 +57,7 @@ vec4 picture(Sample seen) {
   Surface surface = unpackedSurface(seen.bits);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
   SurfacePoint s = surfacePoint(surface, toEye);
-  Receiver receiver = receiverOf(seen, surface.face);
+  Receiver receiver = receiverOf(seen, surface.face, samples);
   vec3 radiance = radianceToEye(s, receiver, emissionAt(seen.index), surface.occlusion);
   vec3 shown = toneMapped(radiance * frame.depthRange.z);
 #if defined(VIEW_CASCADES)
@@ -72,12 +79,12 @@ vec4 antialiased() {
     uint same;
     Sample seen = mergedSample(left, same);
     left &= ~same;
-    sum += float(bitCount(same)) * picture(seen);
+    sum += float(bitCount(same)) * picture(seen, same);
   }
   return sum / float(SAMPLES);
 }
 #else
-vec4 antialiased() { return picture(sampleAt(0)); }
+vec4 antialiased() { return picture(sampleAt(0), 1u); }
 #endif
 
 #if defined(VIEW_COLOR) || defined(VIEW_CASCADES) || defined(VIEW_TEXEL_GRID) || defined(VIEW_LIGHT_CONTRIBUTION)
@@ -87,6 +94,11 @@ vec4 background() {
 #if defined(VIEW_DEPTH) && !defined(ENCODED)
   return vec4(uintBitsToFloat(0x7f800000u)); // infinity
 #elif defined(VIEW_SHADOW)
+#ifdef VISIBILITY_LAYERS
+  // At the rim of a surface a ray may meet what no pixel's centre shows.
+  bool traced = debugLight >= 0 && lights[debugLight].tiles.w > 0u && lights[debugLight].sampling.z == 0.0;
+  if (traced) return vec4(vec3(mix(1.0, layerValue(debugLight, 1u), lights[debugLight].cone.z)), 1.0);
+#endif
   return vec4(1.0);
 #elif defined(VIEW_CASTER_IDS) && !defined(ENCODED)
   return vec4(-1.0);
@@ -110,7 +122,7 @@ vec4 data(Sample seen) {
 #endif
   return vec4(n, 1.0);
 #else
-  Receiver receiver = receiverOf(seen, unpackedSurface(seen.bits).face);
+  Receiver receiver = receiverOf(seen, unpackedSurface(seen.bits).face, 1u);
 #if defined(VIEW_SHADOW)
   if (debugLight < 0) return vec4(1.0);
   return vec4(vec3(shadowVisibility(debugLight, receiver, towardsDebugLight(receiver), true)), 1.0);

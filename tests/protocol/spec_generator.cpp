@@ -151,6 +151,7 @@ void mend(Shadow& shadow, const Atlas& atlas) {
   if (range.previous) order(range.previous->near, range.previous->far);
   if (shadow.filter.type == FilterType::hard) shadow.filter.radius.reset();
   if (shadow.bias.mode == BiasMode::automatic) shadow.bias = {};
+  if (atlas.samples != 1 && shadow.technique == ShadowTechnique::hybrid) shadow.technique = ShadowTechnique::rayTraced;
   while (shadow.size && tileSide(*shadow.size, atlas) > atlas.size) {
     shadow.size = static_cast<ShadowSize>(int(*shadow.size) - 1);
   }

@@ -22,6 +22,7 @@ TileKey tileKey(const PassInputs& inputs, const ShadowTile& tile, const Light& l
   append(key, samples);
   append(key, casters.use);
   append(key, light.shadow->blendedCasters);
+  append(key, light.shadow->technique);
   append(key, tile.filter.type);
   append(key, tile.filter.size);
   append(key, tile.space.fit.radius);

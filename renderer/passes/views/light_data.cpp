@@ -104,7 +104,7 @@ int filterKind(const Filter& filter) {
 }
 
 std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
-                                         std::span<const LitGroups> groups) {
+                                         std::span<const LitGroups> groups, std::span<const int> layered) {
   std::vector<shared::LightData> data;
   for (const Light& light : lights) {
     shared::LightData out{};
@@ -125,6 +125,12 @@ std::vector<shared::LightData> lightData(std::span<const Light> lights, const Sh
     out.bias = manualBias(shadow.bias);
     out.cone.z = static_cast<float>(shadow.strength);
     out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
+  }
+  for (std::size_t layer = 0; layer < layered.size(); ++layer) {
+    const auto light = static_cast<std::size_t>(layered[layer]);
+    data[light].tiles.w = static_cast<unsigned>(layer) + 1;
+    data[light].cone.z = static_cast<float>(lights[light].shadow->strength);
+    data[light].sampling.z = lights[light].shadow->technique == ShadowTechnique::shadowVolume ? 1.0f : 0.0f;
   }
   return data;
 }

@@ -29,6 +29,7 @@ ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, cons
   variant.lightLists = !shading.lightLists.empty();
   for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
+    variant.visibilityLayers = variant.visibilityLayers || (light.tiles.w > 0 && showsShadow(view));
     if (light.tiles.x == 0) continue;
     variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
     const int kind = static_cast<int>(light.sampling.x);
@@ -65,8 +66,12 @@ bool isPicture(View view) {
   return view == View::color || view == View::cascades || view == View::texelGrid || view == View::lightContribution;
 }
 
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
-                           const CasterNodes& casters, View view) {
+bool showsShadow(View view) {
+  return isPicture(view) || view == View::shadow;
+}
+
+Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view) {
+  const Surfaces& surfaces = sources.surfaces;
   const ViewVariant variant = variantFor(inputs, shading, surfaces, view);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
@@ -98,8 +103,9 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   bindTexture(surfaces.emission, samplers.texels, GNOMON_EMISSION_UNIT);
   bindTexture(shading.atlas.textures->depth, samplers.compare, GNOMON_ATLAS_UNIT);
   bindTexture(shading.atlas.textures->moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
-  bindTexture(casters.nodes, samplers.texels, GNOMON_CASTER_NODE_UNIT);
-  bindTexture(casters.depth, samplers.texels, GNOMON_CASTER_DEPTH_UNIT);
+  bindTexture(sources.visibility.texture, samplers.texels, GNOMON_VISIBILITY_UNIT);
+  bindTexture(sources.casters.nodes, samplers.texels, GNOMON_CASTER_NODE_UNIT);
+  bindTexture(sources.casters.depth, samplers.texels, GNOMON_CASTER_DEPTH_UNIT);
   if (showsOneLight(view)) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
     (*program)->set(GNOMON_ATLAS_SIZE,

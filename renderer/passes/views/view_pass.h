@@ -10,6 +10,7 @@
 #include "renderer/passes/tiles/caster_node_pass.h"
 #include "renderer/passes/tiles/shadow_pass.h"
 #include "renderer/passes/views/surface_pass.h"
+#include "renderer/passes/views/visibility_layers.h"
 
 namespace gnomon {
 
@@ -34,9 +35,17 @@ struct ViewInputs {
 /// never averaged: it belongs to the surface at the pixel's centre.
 bool isPicture(View view);
 
-/// Lights the surfaces of every pixel for any view but atlas and tile. Data wants surfaces of one sample; `casters` is
-/// read by the view casterIds.
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
-                           const CasterNodes& casters, View view);
+/// True for views that show a shadow.
+bool showsShadow(View view);
+
+/// What one view is made from besides the frame.
+struct ViewSources {
+  const Surfaces& surfaces;           ///< data wants one sample a pixel
+  const VisibilityLayers& visibility; ///< of the surfaces' samples; empty where no light has a layer
+  const CasterNodes& casters;         ///< read by the view casterIds
+};
+
+/// Lights the surfaces of every pixel for any view but atlas and tile.
+Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view);
 
 } // namespace gnomon

@@ -65,6 +65,8 @@ using glm::vec4;
 #define GNOMON_SURFACE_UNIT 7
 #define GNOMON_EMISSION_UNIT 8
 #define GNOMON_MOMENTS_UNIT 9
+#define GNOMON_VISIBILITY_UNIT 10
+#define GNOMON_OUTLINES_UNIT 11
 #define GNOMON_CASTER_NODE_UNIT 12
 #define GNOMON_CASTER_DEPTH_UNIT 13
 
@@ -73,6 +75,9 @@ using glm::vec4;
 
 // Pixels along a side of the squares of the picture that have a list of lights each; whole blocks.
 #define GNOMON_REGION_SIZE 64
+
+// Tangent of the angle to the light from which on a surface counts as steep: all of its edges are outlines then.
+#define GNOMON_STEEPEST 2.0
 
 // Tiles of a light, at most.
 #define GNOMON_LIGHT_TILES 8
@@ -121,8 +126,9 @@ struct LightData {
   vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
   vec4 radiance;  // rgb: colour times intensity
   vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
-  uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile
-  vec4 sampling;  // x: kind; y: radius in metres (disc)
+  uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile, visibility layer + 1 (0 = none)
+  vec4 sampling;  // x: kind; y: radius in metres (disc); z: 1 = its visibility layer leaves out which faces are turned
+                  // away
   vec4 bias;      // manual, metres: x towards the light; y the same times the slope; z along the normal; w: 1 = manual
   uvec4 groups;   // a bit a receiver group: x: those that it lights; y: of these, where it throws shadows
 };

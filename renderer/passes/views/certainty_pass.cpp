@@ -1,0 +1,57 @@
+#include "renderer/passes/views/certainty_pass.h"
+
+#include "renderer/gl/draw.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/sampler.h"
+
+namespace gnomon {
+
+Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+                                         int light) {
+  std::vector<Verdict> verdicts(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height),
+                                Verdict::unsure);
+  const bool mapped = shading.lights[static_cast<std::size_t>(light)].tiles.x > 0;
+  if (!mapped || shading.atlas.textures->outlines.id() == 0) return verdicts; // no tile, or nothing lies in one
+
+  std::vector<std::string> defines{"SAMPLES " + std::to_string(surfaces.samplePositions.size())};
+  if (shading.lights[static_cast<std::size_t>(light)].direction.w != GNOMON_DIRECTIONAL) {
+    defines.emplace_back("PUNCTUAL");
+  }
+  if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", "", std::move(defines)});
+  if (!program) return program.problems();
+
+  const gl::Texture color({GL_R8, inputs.width, inputs.height}, "certainty");
+  const auto target = gl::Framebuffer::create({{{&color}}, {}}, "certainty");
+  if (!target) return target.problems();
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  gl::apply(state);
+
+  bindInputs(inputs);
+  const gl::Buffer lights(std::as_bytes(shading.lights), "lights");
+  const gl::Buffer tiles(std::as_bytes(shading.tiles), "tiles");
+  lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  tiles.bindStorage(GNOMON_TILE_BUFFER);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
+  const auto bind = [&](const gl::Texture& texture, GLuint unit) {
+    texture.bind(unit);
+    texels.bind(unit);
+  };
+  bind(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, GNOMON_DEPTH_UNIT);
+  bind(surfaces.bits, GNOMON_SURFACE_UNIT);
+  bind(shading.atlas.textures->depth, GNOMON_ATLAS_UNIT);
+  bind(shading.atlas.textures->outlines, GNOMON_OUTLINES_UNIT);
+  (*program)->set(GNOMON_DEBUG_LIGHT, light);
+  for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
+    (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
+  }
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+  target->readColor(0, {0, 0, inputs.width, inputs.height}, {GL_RED, GL_UNSIGNED_BYTE},
+                    std::as_writable_bytes(std::span(verdicts)));
+  return verdicts;
+}
+
+} // namespace gnomon
