@@ -1,4 +1,4 @@
-#include "tests/renderer/reference/traced.h"
+#include "tests/renderer/reference/shapes.h"
 
 namespace gnomon {
 namespace {

@@ -1,40 +1,20 @@
-#include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 
-#include "tests/renderer/reference/traced.h"
+#include "tests/renderer/reference/shapes.h"
 
 namespace gnomon {
 namespace {
 
 using nlohmann::json;
+using testing::addGrid;
 using testing::addQuad;
-using testing::addSquare;
+using testing::addSphere;
 using testing::GlbBuilder;
 using testing::parallelView;
 using testing::perspectiveView;
 using testing::Point;
 using testing::sunAlong;
 using testing::Traced;
-
-/// A mesh of cells x cells squares over -half..half, bent by `place`.
-template <class Place>
-int addGrid(GlbBuilder& builder, int cells, Place place) {
-  std::vector<Point> points;
-  std::vector<std::uint32_t> indices;
-  for (int z = 0; z <= cells; ++z) {
-    for (int x = 0; x <= cells; ++x) {
-      const glm::dvec3 p = place(2.0 * x / cells - 1, 2.0 * z / cells - 1);
-      points.push_back({float(p.x), float(p.y), float(p.z)});
-      if (x == cells || z == cells) continue;
-      const auto at = std::uint32_t(z * (cells + 1) + x);
-      const std::uint32_t below = at + std::uint32_t(cells) + 1;
-      for (const std::uint32_t corner : {at, below, at + 1, at + 1, below, below + 1}) indices.push_back(corner);
-    }
-  }
-  const int positions = builder.addPoints(points);
-  return builder.addMeshNode(
-      builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", builder.addIndices(indices)}}));
-}
 
 glm::dvec3 tilted(const glm::dvec3& v, double degrees) {
   return glm::rotate(glm::rotate(v, glm::radians(degrees), glm::dvec3(1, 0, 0)), 0.4, glm::dvec3(0, 1, 0));
@@ -92,15 +72,6 @@ INSTANTIATE_TEST_SUITE_P(SelfIntersection, FlatMesh,
                          ::testing::Values(Placing{5, 0, false}, Placing{5, 0, true}, Placing{5, 1e6, false},
                                            Placing{5, 1e7, true}, Placing{1e-6, 0, false}, Placing{1e-6, 0, true},
                                            Placing{1e9, 0, false}, Placing{1e9, 0, true}));
-
-int addSphere(GlbBuilder& builder, const glm::dvec3& center, double radius, int cells) {
-  return addGrid(builder, cells, [&](double x, double z) {
-    const double polar = glm::pi<double>() * (0.5 + 0.5 * z);
-    const double around = -glm::pi<double>() * x;
-    return center +
-           radius * glm::dvec3(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
-  });
-}
 
 TEST(SelfIntersection, AConvexBodyNeverShadowsTheFacesThatFaceTheLight) {
   for (const double size : {1e-6, 1.0, 1e9}) {
