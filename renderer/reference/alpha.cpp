@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "renderer/reference/tree.h"
+
 namespace gnomon {
 namespace {
 

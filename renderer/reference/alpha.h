@@ -1,6 +1,7 @@
 #pragma once
 
-#include "renderer/reference/tree.h"
+#include "renderer/reference/traced_scene.h"
+#include "renderer/reference/triangle.h"
 
 namespace gnomon {
 

@@ -15,16 +15,6 @@ WayToLight wayAlong(const glm::dvec3& offset) {
   return {length > 0 ? offset / length : glm::dvec3(0), length};
 }
 
-/// Two unit vectors at right angles to the unit vector `n` and to each other (Duff et al., "Building an Orthonormal
-/// Basis, Revisited", JCGT 2017).
-void basisAround(const glm::dvec3& n, glm::dvec3& first, glm::dvec3& second) {
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1.0 / (sign + n.z);
-  const double b = n.x * n.y * a;
-  first = {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  second = {b, sign + n.y * n.y * a, -n.y};
-}
-
 } // namespace
 
 LightSource lightSource(const Light& light, const glm::dvec3& anchor) {
@@ -47,13 +37,25 @@ WayToLight wayTo(const LightSource& light, const glm::dvec3& point) {
   return wayAlong(light.position - point);
 }
 
-WayToLight wayTo(const LightSource& light, const glm::dvec3& point, glm::dvec2 place) {
-  const WayToLight middle = wayTo(light, point);
-  glm::dvec3 across, up;
-  basisAround(middle.direction, across, up);
-  const glm::dvec3 moved = (across * place.x + up * place.y) * light.radius;
-  if (light.type == LightType::directional) return {glm::normalize(middle.direction + moved), kInfinity};
-  return wayAlong(light.position - point + moved);
+LightDisc discFacing(const LightSource& light, const glm::dvec3& point) {
+  const WayToLight way = wayTo(light, point);
+  const glm::dvec3& n = way.direction;
+  // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1.0 / (sign + n.z);
+  const double b = n.x * n.y * a;
+  LightDisc disc;
+  disc.across = light.radius * glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+  disc.up = light.radius * glm::dvec3(b, sign + n.y * n.y * a, -n.y);
+  disc.atInfinity = light.type == LightType::directional;
+  disc.middle = disc.atInfinity ? n : light.position - point;
+  return disc;
+}
+
+WayToLight wayTo(const LightDisc& disc, glm::dvec2 place) {
+  WayToLight way = wayAlong(disc.middle + disc.across * place.x + disc.up * place.y);
+  if (disc.atInfinity) way.length = kInfinity;
+  return way;
 }
 
 bool reaches(const LightSource& light, const WayToLight& way) {
@@ -62,9 +64,9 @@ bool reaches(const LightSource& light, const WayToLight& way) {
   return light.type == LightType::point || glm::dot(light.axis, -way.direction) > light.cosOuter;
 }
 
-bool faces(const glm::dvec3& normal, const WayToLight& way) {
+bool faces(const glm::vec3& normal, const WayToLight& way) {
   constexpr double kLeastCosine = 1e-4; // as in renderer/shaders/common_shadow.glsl
-  return glm::dot(normal, way.direction) > kLeastCosine;
+  return glm::dot(glm::dvec3(normal), way.direction) > kLeastCosine;
 }
 
 } // namespace gnomon

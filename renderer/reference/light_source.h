@@ -26,14 +26,24 @@ struct WayToLight {
 
 WayToLight wayTo(const LightSource& light, const glm::dvec3& point);
 
-/// The way to a place on the light's disc, which faces the point; `place` lies in the unit disc.
-WayToLight wayTo(const LightSource& light, const glm::dvec3& point, glm::dvec2 place);
+/// A light's disc, turned to face a point.
+struct LightDisc {
+  glm::dvec3 middle{0}; ///< from the point, metres; unit length for directional lights
+  glm::dvec3 across{0}; ///< radii
+  glm::dvec3 up{0};
+  bool atInfinity = false;
+};
+
+LightDisc discFacing(const LightSource& light, const glm::dvec3& point);
+
+/// The way from the point to a place on the disc; `place` lies in the unit disc.
+WayToLight wayTo(const LightDisc& disc, glm::dvec2 place);
 
 /// Whether the light shines as far as the end of this way, and in its direction (KHR_lights_punctual).
 bool reaches(const LightSource& light, const WayToLight& way);
 
 /// Whether a surface of this normal (unit length, on the eye's side) takes light from there. A face along the light to
 /// within the renderer's stored normals is turned away, as it is when frames are shaded.
-bool faces(const glm::dvec3& normal, const WayToLight& way);
+bool faces(const glm::vec3& normal, const WayToLight& way);
 
 } // namespace gnomon

@@ -12,8 +12,8 @@ namespace {
 
 /// Pixels that are traced between two words with whoever listens.
 std::size_t pixelsAtOnce(std::size_t lights, int samples) {
-  constexpr std::size_t kRays = std::size_t{1} << 22;
-  return std::max<std::size_t>(4096, kRays / (1 + lights * static_cast<std::size_t>(std::max(samples, 1))));
+  constexpr std::size_t kRays = std::size_t{1} << 20; // some tens of milliseconds
+  return std::clamp<std::size_t>(kRays / (1 + lights * static_cast<std::size_t>(std::max(samples, 1))), 2048, 65536);
 }
 
 std::vector<glm::vec2> centresOf(int width, std::size_t first, std::size_t last) {

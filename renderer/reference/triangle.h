@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <glm/glm.hpp>
 
 namespace gnomon {
@@ -16,10 +15,10 @@ struct Triangle {
   }
 };
 
-/// Of unit length, whatever the size of `v`; zero where it has none.
+/// Of unit length; zero where `v` has no direction.
 inline glm::dvec3 unitAlong(const glm::dvec3& v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
+  const double length = glm::length(v);
+  return length > 0 ? v / length : glm::dvec3(0);
 }
 
 /// A place in a triangle: its weights are 1 - u - v, u and v.

@@ -11,13 +11,12 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kRays = 8192; ///< traced by one core at a time, about
+constexpr std::size_t kPoints = 512; ///< that one core has in hand at a time, at most
+constexpr std::size_t kRays = 8192;  ///< that it traces for them, about
 
 struct Lamp {
-  const Light& light;
   LightSource source;
-  std::vector<std::uint8_t> lit;      ///< one an instance: shares a layer with the light
-  std::vector<std::uint8_t> shadowed; ///< of those: the light throws shadows on it
+  std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
 };
 
@@ -25,14 +24,21 @@ Lamp lampOf(const TraceInput& input, int index) {
   const Light& light = input.lights[static_cast<std::size_t>(index)];
   const TracedScene::Tree& tree = input.traced.tree();
   const Shadow shadow = light.shadow.value_or(Shadow{});
-  return {light,
-          lightSource(light, tree.anchor),
-          instancesWhere(input, [&](const NodeSwitches& node) { return isLitBy(light, node); }),
-          instancesWhere(
-              input,
-              [&](const NodeSwitches& node) { return shadow.enabled && node.receiveShadow && isLitBy(light, node); }),
-          {tree, instancesWhere(input, [&](const NodeSwitches& node) { return castsFrom(light, node); }),
-           shadow.blendedCasters}};
+  const auto isShadowed = [&](const NodeSwitches& node) {
+    return shadow.enabled && node.receiveShadow && isLitBy(light, node);
+  };
+  const auto casts = [&](const NodeSwitches& node) { return castsFrom(light, node); };
+  return {lightSource(light, tree.anchor),
+          instancesWhere(input, isShadowed),
+          {tree, instancesWhere(input, casts), shadow.blendedCasters}};
+}
+
+/// What a point sees of the light where that takes no rays.
+std::optional<float> withoutRays(const Lamp& lamp, const SurfacePoint& point, const WayToLight& way) {
+  if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) return 1.0f;
+  if (!faces(point.normal, way)) return 0.0f;
+  if (!reaches(lamp.source, way)) return 1.0f;
+  return std::nullopt;
 }
 
 /// Rays of many points, traced kLanes at a time; what comes through is added up for each point.
@@ -64,8 +70,9 @@ class RayQueue {
 void addSamples(const LightSource& source, const SurfacePoint& point, const Receiver& receiver, std::uint32_t samples,
                 std::size_t index, RayQueue& queue) {
   const std::uint64_t seed = seedOf(point);
+  const LightDisc disc = discFacing(source, point.position);
   for (std::uint32_t k = 0; k < samples; ++k) {
-    const WayToLight way = wayTo(source, receiver.position, discSample(k, samples, seed));
+    const WayToLight way = wayTo(disc, discSample(k, samples, seed));
     if (glm::dot(way.direction, receiver.normal) > 0) queue.add({receiver, way.direction, way.length}, index);
   }
 }
@@ -73,12 +80,15 @@ void addSamples(const LightSource& source, const SurfacePoint& point, const Rece
 } // namespace
 
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
-  const Lamp lamp = lampOf(input, light);
+  const Light& of = input.lights[static_cast<std::size_t>(light)];
+  const LightSource source = lightSource(of, input.traced.tree().anchor);
+  const std::vector<std::uint8_t> lit =
+      instancesWhere(input, [&](const NodeSwitches& node) { return isLitBy(of, node); });
   std::vector<std::uint8_t> reached(points.size());
   std::transform(points.begin(), points.end(), reached.begin(), [&](const SurfacePoint& point) -> std::uint8_t {
-    if (point.instance == kNoSurface || lamp.lit[point.instance] == 0) return 0;
-    const WayToLight way = wayTo(lamp.source, point.position);
-    return reaches(lamp.source, way) && faces(receiverAt(lamp.casters.tree, point).normal, way) ? 1 : 0;
+    if (point.instance == kNoSurface || lit[point.instance] == 0) return 0;
+    const WayToLight way = wayTo(source, point.position);
+    return reaches(source, way) && faces(point.normal, way) ? 1 : 0;
   });
   return reached;
 }
@@ -89,37 +99,33 @@ std::vector<float> lightVisibility(const TraceInput& input, int light, std::span
   const bool sized = lamp.source.radius > 0;
   const auto rays = sized ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
   std::vector<float> visibility(points.size(), 0.0f);
-  forEachPiece(points.size(), std::clamp<std::size_t>(kRays / rays, kLanes, 512),
-               [&](std::size_t first, std::size_t last) {
-                 RayQueue queue(lamp.casters, visibility);
-                 for (std::size_t i = first; i < last; ++i) {
-                   const SurfacePoint& point = points[i];
-                   const auto lit = static_cast<float>(rays);
-                   if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) {
-                     visibility[i] = lit;
-                     continue;
-                   }
-                   const Receiver receiver = receiverAt(lamp.casters.tree, point);
-                   const WayToLight way = wayTo(lamp.source, point.position);
-                   if (!faces(receiver.normal, way)) continue;
-                   if (!reaches(lamp.source, way)) {
-                     visibility[i] = lit;
-                   } else if (sized) {
-                     addSamples(lamp.source, point, receiver, rays, i, queue);
-                   } else {
-                     queue.add({receiver, way.direction, way.length}, i);
-                   }
-                 }
-                 queue.trace();
-                 for (std::size_t i = first; i < last; ++i) visibility[i] /= static_cast<float>(rays);
-               });
+  const auto trace = [&](std::size_t first, std::size_t last) {
+    RayQueue queue(lamp.casters, visibility);
+    for (std::size_t i = first; i < last; ++i) {
+      const SurfacePoint& point = points[i];
+      const WayToLight way = wayTo(lamp.source, point.position);
+      if (const auto plain = withoutRays(lamp, point, way)) {
+        visibility[i] = *plain * static_cast<float>(rays);
+        continue;
+      }
+      const Receiver receiver = receiverAt(lamp.casters.tree, point);
+      if (sized) {
+        addSamples(lamp.source, point, receiver, rays, i, queue);
+      } else {
+        queue.add({receiver, way.direction, way.length}, i);
+      }
+    }
+    queue.trace();
+    for (std::size_t i = first; i < last; ++i) visibility[i] /= static_cast<float>(rays);
+  };
+  forEachPiece(points.size(), std::clamp<std::size_t>(kRays / rays, kLanes, kPoints), trace);
   return visibility;
 }
 
 std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
   const Lamp lamp = lampOf(input, light);
   std::vector<float> distances(points.size(), std::numeric_limits<float>::infinity());
-  forEachPiece(points.size(), 512, [&](std::size_t first, std::size_t last) {
+  forEachPiece(points.size(), kPoints, [&](std::size_t first, std::size_t last) {
     std::array<ShadowRay, kLanes> rays;
     std::array<std::size_t, kLanes> of{};
     std::size_t count = 0;
@@ -129,16 +135,12 @@ std::vector<float> blockerDistances(const TraceInput& input, int light, std::spa
       count = 0;
     };
     for (std::size_t i = first; i < last; ++i) {
-      const SurfacePoint& point = points[i];
-      if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) continue;
-      const Receiver receiver = receiverAt(lamp.casters.tree, point);
-      const WayToLight way = wayTo(lamp.source, point.position);
-      if (!faces(receiver.normal, way)) {
-        distances[i] = 0;
+      const WayToLight way = wayTo(lamp.source, points[i].position);
+      if (const auto plain = withoutRays(lamp, points[i], way)) {
+        if (*plain == 0) distances[i] = 0;
         continue;
       }
-      if (!reaches(lamp.source, way)) continue;
-      rays[count] = {receiver, way.direction, way.length};
+      rays[count] = {receiverAt(lamp.casters.tree, points[i]), way.direction, way.length};
       of[count] = i;
       if (++count == kLanes) trace();
     }

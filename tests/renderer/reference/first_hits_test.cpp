@@ -1,4 +1,4 @@
-#include "tests/renderer/reference/traced.h"
+#include "tests/renderer/reference/shapes.h"
 
 namespace gnomon {
 namespace {
@@ -31,6 +31,83 @@ TEST(FirstHits, AnEmptySceneHasNone) {
   Traced traced{GlbBuilder{}};
   traced.camera = perspectiveView({1, 4, 3}, {0, 0, 0}, 40);
   for (const SurfacePoint& point : traced.surface()) EXPECT_EQ(point.instance, kNoSurface);
+}
+
+/// Squares at heights 0, 1, 2 and 3, seen straight from above.
+Traced floors() {
+  GlbBuilder builder;
+  for (const float y : {0.0f, 1.0f, 2.0f, 3.0f}) addSquare(builder, 5, y);
+  Traced traced(builder);
+  traced.width = traced.height = 2;
+  return traced;
+}
+
+TEST(FirstHits, LieBetweenTheNearAndTheFarPlane) {
+  Traced traced = floors();
+  for (const bool perspective : {false, true}) {
+    traced.camera = perspective ? perspectiveView({0.1, 10, 0.1}, {0.1, 0, 0.1}, 1) //
+                                : parallelView({0.1, 10, 0.1}, {0, -1, 0}, 0.1);
+    const auto height = [&](double near, double far) {
+      traced.camera.near = near;
+      traced.camera.far = far;
+      const SurfacePoint point = traced.surface()[0];
+      return point.instance == kNoSurface ? -1.0 : point.position.y + traced.anchor().y;
+    };
+    EXPECT_EQ(height(0.1, 1e6), 3);
+    EXPECT_EQ(height(7.001, 1e6), 2);
+    EXPECT_EQ(height(6.999, 1e6), 3);
+    EXPECT_EQ(height(8.5, 8.9), -1);
+    EXPECT_EQ(height(8.5, 8.999), -1);
+    EXPECT_EQ(height(8.5, 9.001), 1);
+    EXPECT_EQ(height(11, 1e6), -1) << "everything lies before the near plane";
+  }
+}
+
+TEST(FirstHits, NothingBehindTheEyeIsSeenUnlessTheNearPlaneIs) {
+  Traced traced = floors();
+  traced.camera = perspectiveView({0.1, 1.5, 0.1}, {0.1, 0, 0.1}, 20);
+  EXPECT_EQ(traced.surface()[0].position.y + traced.anchor().y, 1);
+  traced.camera = parallelView({0.1, 1.5, 0.1}, {0, -1, 0}, 0.1);
+  EXPECT_EQ(traced.surface()[0].position.y + traced.anchor().y, 1);
+  traced.camera.near = -10; // orthographic views may begin behind the eye
+  EXPECT_EQ(traced.surface()[0].position.y + traced.anchor().y, 3);
+  traced.camera = perspectiveView({0.1, 4, 0.1}, {0.1, 8, 0.1}, 20);
+  EXPECT_EQ(traced.surface()[0].instance, kNoSurface);
+}
+
+TEST(FirstHits, TheEyesDistanceTakesNothingFromTheirPrecision) {
+  Traced traced = floors();
+  for (const double distance : {1e2, 1e6, 1e9}) {
+    traced.camera = perspectiveView({0.3, distance, 0.2}, {0.3, 0, 0.2}, glm::degrees(2 / distance));
+    const SurfacePoint point = traced.surface()[0];
+    ASSERT_EQ(point.instance, 3u);
+    EXPECT_NEAR(point.position.x, 0.3 - 0.5, 3.0 / distance + 1e-6);
+    EXPECT_EQ(point.position.y + traced.anchor().y, 3);
+  }
+}
+
+TEST(FirstHits, ASceneFarFromTheOriginIsSeenAsAtTheOrigin) {
+  for (const double distance : {1e6, 1e7}) {
+    GlbBuilder builder;
+    testing::addSphere(builder, {0.25, 0.5, -0.125}, 1, 30);
+    Traced here(builder);
+    builder.json["nodes"][0]["translation"] = {distance, -distance, distance};
+    Traced there(builder);
+    here.camera = there.camera = perspectiveView({1, 2, 3}, {0, 0, 0}, 50);
+    there.camera.eye += there.anchor() - here.anchor();
+    here.lights = there.lights = {testing::sunAlong({1, -2, 0.5})};
+    const std::vector<SurfacePoint> expected = here.surface();
+    const std::vector<SurfacePoint> found = there.surface();
+    int seen = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(found[i].instance, expected[i].instance);
+      if (expected[i].instance == kNoSurface) continue;
+      ++seen;
+      EXPECT_LT(glm::length(found[i].position - expected[i].position), 1e-5);
+    }
+    EXPECT_GT(seen, 500);
+    EXPECT_EQ(lightVisibility(there.input(), 0, found, 1), lightVisibility(here.input(), 0, expected, 1));
+  }
 }
 
 } // namespace

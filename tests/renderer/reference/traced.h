@@ -75,16 +75,4 @@ inline Light pointAt(const glm::dvec3& position, double radius = 0) {
   return light;
 }
 
-/// A flat quadrilateral of two triangles, at the root of the scene; returns its node.
-inline int addQuad(GlbBuilder& builder, const std::vector<Point>& corners) {
-  const int positions = builder.addPoints(corners);
-  const int indices = builder.addIndices({0, 1, 2, 0, 2, 3});
-  return builder.addMeshNode(builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}}));
-}
-
-/// A square of `half` metres around the y axis at height `y`, facing up.
-inline int addSquare(GlbBuilder& builder, float half, float y) {
-  return addQuad(builder, {{-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}});
-}
-
 } // namespace gnomon::testing
