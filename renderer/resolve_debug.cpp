@@ -17,11 +17,13 @@ const PlannedLight* plannedOf(const ShadowPlan& plan, int light) {
 }
 
 /// debug.light, else the first that casts, else the first.
-int lightToShow(const FrameSpec& spec, const ShadowPlan& plan) {
+int lightToShow(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
   if (spec.debug.light) return *spec.debug.light;
-  const auto casting = std::find_if(plan.lights.begin(), plan.lights.end(),
-                                    [](const PlannedLight& planned) { return planned.tileCount > 0; });
-  if (casting != plan.lights.end()) return casting->light;
+  for (int light = 0; light < static_cast<int>(spec.lights->size()); ++light) {
+    const PlannedLight* planned = plannedOf(plan, light);
+    const bool layered = std::find(layeredLights.begin(), layeredLights.end(), light) != layeredLights.end();
+    if (layered || (planned != nullptr && planned->tileCount > 0)) return light;
+  }
   return spec.lights->empty() ? -1 : 0;
 }
 
@@ -65,9 +67,9 @@ Status checkDebugLight(const Debug& debug, std::size_t lightCount) {
                  lightCount == 0 ? "no lights" : upTo(static_cast<int>(lightCount)), std::to_string(*debug.light)};
 }
 
-Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan) {
+Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
   DebugSubject subject;
-  subject.light = lightToShow(spec, plan);
+  subject.light = lightToShow(spec, plan, layeredLights);
   subject.planned = plannedOf(plan, subject.light);
   if (plan.atlasWidth == 0 && shows(spec, View::atlas)) return noAtlas("atlas");
   if (shows(spec, View::tile)) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "protocol/frame_spec.h"
 #include "protocol/result.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -17,6 +19,8 @@ struct DebugSubject {
 Status checkDebugLight(const Debug& debug, std::size_t lightCount);
 
 /// Refuses views of an atlas or a tile that the plan does not draw. The plan outlives the subject.
-Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan);
+/// `layeredLights`: those whose shadow rays or shadow volumes find.
+Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan,
+                                  std::span<const int> layeredLights = {});
 
 } // namespace gnomon
