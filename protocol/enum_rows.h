@@ -121,8 +121,9 @@ inline constexpr std::array kSpellings<View>{
              "the node that throws the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
     spelling(View::lightContribution, "lightContribution",
              "the shaded scene in nothing but `debug.light`: no other light, surroundings, glow or background"),
-    spelling(View::reference, "reference",
-             "the share of `debug.light` that each pixel really sees, traced by rays; 1 where it is no receiver"),
+    spelling(
+        View::reference, "reference",
+        "the share of `debug.light` that each pixel really sees, traced by rays; 1 where nothing receives its shadow"),
     spelling(View::error, "error",
              "red where the shadow of `debug.light` is false, blue where its light is; or shadow less reference"),
     spelling(View::edgeDistance, "edgeDistance",

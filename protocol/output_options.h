@@ -19,7 +19,7 @@ enum class View {
   bias,              ///< metres that a point is moved for debug.light: heat map, or the number (EXR); 0 = no tile
   casterIds,         ///< node that throws the shadow of debug.light: a color for each, or its index (EXR), -1 = none
   lightContribution, ///< the shaded scene in nothing but debug.light, not even the background
-  reference,         ///< exact share of debug.light, traced; 1 where it is no receiver
+  reference,         ///< share of debug.light that is really seen, traced; 1 where nothing receives its shadow
   error,             ///< false shadow red, false light blue; or shadow less reference (EXR), 0 where no receiver
   edgeDistance       ///< pixels from an edge of debug.light's shadow to the nearest true one (EXR: -1 = no edge)
 };

@@ -14,7 +14,10 @@ struct DrawnViews {
   std::map<int, ExactShadows> exactShadows; ///< alike; only where a light asks for them and a view shows them
   CasterNodes casters;                      ///< empty where no view asks for them
   gl::Texture flatAtlas;        ///< R32F; empty where the atlas can be read as it is, or no view asks for it
-  std::vector<DrawnView> views; ///< one a view of the spec, in its order; an empty one for atlas and tile
+  std::vector<DrawnView> views; ///< one a view of the spec, in its order; an empty one for what is not drawn
+  /// What views of errors are made from: the debug light's shadow at full strength, as floats, and the color behind the
+  /// picture, where no view is that already.
+  std::map<View, DrawnView> besides;
 };
 
 /// Draws the surfaces once for each number of samples that the views want, and every view from them. `shown` is the

@@ -64,6 +64,10 @@ std::vector<PassReport> passReports(const FrameStages& stages) {
     passes.push_back(passReport("view", view.timer, 1, 1));
     passes.back().view = stages.frame.spec.views[i];
   }
+  for (const auto& [name, view] : stages.drawn.besides) {
+    passes.push_back(passReport("view", view.timer, 1, 1));
+    passes.back().view = name;
+  }
   return passes;
 }
 
@@ -88,6 +92,7 @@ MemoryReport memoryOf(const FrameStages& stages) {
   }
   for (const auto& [samples, exact] : stages.drawn.exactShadows) memory.targets += exact.layers.texture.bytes();
   for (const DrawnView& view : stages.drawn.views) memory.targets += view.color.bytes();
+  for (const auto& [name, view] : stages.drawn.besides) memory.targets += view.color.bytes();
   return memory;
 }
 
@@ -101,6 +106,7 @@ FrameReport makeReport(const FrameStages& stages, std::vector<StageTime> times) 
   report.atlasSize = {stages.plan.atlasWidth, stages.plan.atlasHeight};
   report.lights = drawnLights(stages);
   report.predictedError = stages.errors.all;
+  report.error = stages.error;
   report.passes = passReports(stages);
   report.counts = countsOf(stages, report.passes);
   report.memory = memoryOf(stages);

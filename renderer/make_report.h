@@ -17,6 +17,7 @@ struct FrameStages {
   const PredictedErrors& errors;
   const ShadowAtlas& atlas;
   const DrawnViews& drawn;
+  std::optional<ErrorMetrics> error; ///< where a view holds a shadow against rays
 };
 
 /// What happened, told from what the stages returned. Reads the timers, so that it waits for the device if that is not

@@ -11,14 +11,15 @@
 #include "renderer/gl/stage_clock.h"
 #include "renderer/gpu_scene_cache.h"
 #include "renderer/make_report.h"
+#include "renderer/measured_shadow.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
 #include "renderer/passes/tiles/shadow_pass.h"
 #include "renderer/passes/views/light_data.h"
 #include "renderer/passes/views/light_lists.h"
-#include "renderer/passes/views/read_back.h"
 #include "renderer/plan_input.h"
+#include "renderer/read_views.h"
 #include "renderer/resolve_debug.h"
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
@@ -68,21 +69,6 @@ bool asksForEdges(const FrameSpec& spec, std::span<const int> layered) {
   return std::any_of(layered.begin(), layered.end(), [&](int light) {
     return (*spec.lights)[static_cast<std::size_t>(light)].shadow->technique != ShadowTechnique::rayTraced;
   });
-}
-
-std::vector<ViewImage> readViews(const ResolvedFrame& frame, const DrawnViews& drawn, const ShadowAtlas& atlas,
-                                 const ShadowPlan& plan, const ShadowTile* tile) {
-  const bool encoded = frame.spec.output.format == ImageFormat::png;
-  const bool opaque = frame.spec.background.alpha >= 1;
-  const gl::Texture& depths = drawn.flatAtlas.id() != 0 ? drawn.flatAtlas : atlas.textures->depth;
-  std::vector<ViewImage> images;
-  for (std::size_t i = 0; i < drawn.views.size(); ++i) {
-    const View view = frame.spec.views[i];
-    images.push_back({view, view == View::atlas  ? readAtlas(depths, plan, encoded)
-                            : view == View::tile ? readTile(depths, *tile, encoded)
-                                                 : readView(drawn.views[i], view, encoded, opaque)});
-  }
-  return images;
 }
 
 } // namespace
@@ -171,11 +157,25 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!drawn) return drawn.problems();
   clock.finish("shade");
 
-  auto images = readViews(*resolved, *drawn, *atlas, plan, subject->tile);
+  std::optional<MeasuredShadow> measured;
+  if (drawn->besides.contains(View::shadow)) {
+    auto traced = impl_->traced.get(scene, resolved->scene);
+    if (!traced) return traced.problems();
+    auto made = measureShadow(*resolved, **traced, subject->light, readFullShadow(*drawn));
+    if (!made) return made.problems();
+    measured = std::move(*made);
+    if (subject->planned != nullptr) {
+      measured->errors.predicted = errors.lights[static_cast<std::size_t>(subject->planned - plan.lights.data())];
+    }
+    clock.finish("reference");
+  }
+
+  auto images = readViews({effective, *drawn, *atlas, plan, subject->tile, measured ? &*measured : nullptr});
   clock.finish("readback");
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
 
-  return Frame{makeReport({*resolved, view, gpu, *survey, plan, errors, *atlas, *drawn}, clock.take()),
+  const auto error = measured ? std::optional(measured->errors) : std::nullopt;
+  return Frame{makeReport({*resolved, view, gpu, *survey, plan, errors, *atlas, *drawn, error}, clock.take()),
                std::move(images)};
 }
 

@@ -2,17 +2,21 @@
 
 #include <list>
 #include <memory>
+#include <mutex>
+#include <vector>
 
+#include "protocol/result.h"
 #include "renderer/reference/traced_scene.h"
 
 namespace gnomon {
 
-/// Scenes sorted for rays, the least recently used dropped first once they take more than a budget.
+/// Scenes sorted for rays, the least recently used dropped first once they take more than a budget, and those that
+/// nobody else holds any more. Any thread; one that asks for a scene waits while another is made.
 class TracedSceneCache {
  public:
   explicit TracedSceneCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
-  /// One of the scene's glTF scenes, sorted now if need be. The newest stays, whatever its size.
+  /// Made now if need be. `index` into Scene::scenes. The newest stays, whatever its size.
   Result<std::shared_ptr<const TracedScene>> get(const std::shared_ptr<const Scene>& scene, int index);
 
  private:
@@ -22,7 +26,11 @@ class TracedSceneCache {
     std::shared_ptr<const TracedScene> traced;
   };
 
+  std::vector<const Scene*> outOfUse() const;
+  void drop();
+
   std::size_t budgetBytes_;
+  std::mutex mutex_;
   std::list<Entry> entries_; ///< most recently used first
 };
 

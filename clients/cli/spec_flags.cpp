@@ -50,7 +50,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
   command
       .add_option("--view", arguments.views,
                   "What to show: color, depth, normal, cascades, shadow, atlas, tile, texelGrid, texelDensity, "
-                  "blendWeight, bias, casterIds, lightContribution. Repeatable")
+                  "blendWeight, bias, casterIds, lightContribution, reference, error, edgeDistance. Repeatable")
       ->type_name("NAME")
       ->take_all()
       ->group("Picture");

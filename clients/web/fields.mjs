@@ -86,6 +86,9 @@ export const kDebugViews = [
   ['casterIds', 'Caster ids', 'A colour for each node that throws a shadow'],
   ['lightContribution', 'Light', 'The scene in one light alone'],
   ['tile', 'Tile', 'One tile of the atlas, depth as grey'],
+  ['reference', 'Reference', 'The share of the light that rays find'],
+  ['error', 'Error', 'Against rays: false shadow red, false light blue'],
+  ['edgeDistance', 'Edge distance', 'How far the shadow’s edges lie from the true ones: violet 0, green 8, red 16 pixels'],
 ];
 
 // One hue a stage, in the order of the work.
@@ -97,6 +100,7 @@ export const kStageColors = {
   plan: '#36c2ae',
   shadow: '#f6b73c',
   shade: '#6aa5ff',
+  reference: '#7ccf6b',
   readback: '#8fa3bf',
   encode: '#d97c6c',
 };

@@ -93,17 +93,7 @@ vec3 texelGrid(vec3 shown, Receiver receiver) {
 #endif
 
 #ifdef ENCODED
-// Turbo, from 0 to 1 (Mikhailov, "Turbo, An Improved Rainbow Colormap for Visualization", Google 2019), by Du's
-// polynomials of fifth degree. sRGB.
-vec3 heat(float at) {
-  float x = clamp(at, 0.0, 1.0);
-  vec3 c = vec3(59.28637943, 2.82956604, 27.34824973);
-  c = c * x + vec3(-152.94239396, 4.27729857, -89.90310912);
-  c = c * x + vec3(132.13108234, -14.18503333, 110.36276771);
-  c = c * x + vec3(-42.66032258, 4.84296658, -60.58204836);
-  c = c * x + vec3(4.61539260, 2.19418839, 12.64194608);
-  return clamp(c * x + vec3(0.13572138, 0.09140261, 0.10667330), 0.0, 1.0);
-}
+#include "shared/heat_map.h"
 #endif
 
 #ifdef VIEW_TEXEL_DENSITY
