@@ -45,15 +45,15 @@ std::uint8_t byteOf(float share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
 }
 
-/// Grey from 1/8 to 5/8: no color is lost on it.
-std::vector<std::uint8_t> dimmed(const Image& color) {
+/// What is seen in the picture, as grey from `darkest` to `lightest`, so that no color is lost on it.
+std::vector<std::uint8_t> dimmed(const Image& color, float darkest, float lightest) {
   const auto& from = std::get<std::vector<std::uint8_t>>(color.pixels);
   const std::size_t step = color.channels.size();
   std::vector<std::uint8_t> grey;
   grey.reserve(from.size() / step * 3);
   for (std::size_t i = 0; i < from.size(); i += step) {
-    const float luma = 0.2126f * from[i] + 0.7152f * from[i + 1] + 0.0722f * from[i + 2];
-    grey.insert(grey.end(), 3, byteOf(0.125f + luma / 510.0f));
+    const float luma = (0.2126f * from[i] + 0.7152f * from[i + 1] + 0.0722f * from[i + 2]) / 255.0f;
+    grey.insert(grey.end(), 3, byteOf(darkest + (lightest - darkest) * luma));
   }
   return grey;
 }
@@ -110,9 +110,10 @@ Image referencePicture(const MeasuredShadow& measured) {
 
 Image errorPicture(const MeasuredShadow& measured, View view, const Image& color) {
   Image image = imageOf(measured, {"R", "G", "B"});
-  std::vector<std::uint8_t> pixels = dimmed(color);
-  if (view == View::error) paintErrors(measured, pixels);
-  if (view == View::edgeDistance) paintDistances(measured, pixels);
+  const bool errors = view == View::error;
+  // Edges in the right place are black, and shall be seen.
+  std::vector<std::uint8_t> pixels = errors ? dimmed(color, 0.1f, 0.55f) : dimmed(color, 0.25f, 0.7f);
+  errors ? paintErrors(measured, pixels) : paintDistances(measured, pixels);
   image.pixels = std::move(pixels);
   return image;
 }

@@ -88,7 +88,7 @@ export const kDebugViews = [
   ['tile', 'Tile', 'One tile of the atlas, depth as grey'],
   ['reference', 'Reference', 'The share of the light that rays find'],
   ['error', 'Error', 'Against rays: false shadow red, false light blue'],
-  ['edgeDistance', 'Edge distance', 'How far the shadow’s edges lie from the true ones: violet 0, green 8, red 16 pixels'],
+  ['edgeDistance', 'Edge distance', 'How far the shadow’s edges lie from the true ones: black 0, green 8, red 16 pixels'],
 ];
 
 // One hue a stage, in the order of the work.

@@ -19,7 +19,7 @@ std::shared_ptr<const Scene> triangle() {
   scene.primitives.resize(1);
   Primitive& primitive = scene.primitives[0];
   primitive.vertexCount = primitive.indexCount = 3;
-  for (const glm::vec3& position : scene.positions) primitive.bounds.add(position);
+  for (const glm::vec3& position : scene.positions) primitive.bounds.add(glm::dvec3(position));
   scene.nodes.resize(1);
   SceneView view;
   view.instances.resize(1);
