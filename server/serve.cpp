@@ -98,7 +98,8 @@ int serve(const ServeOptions& options) {
   if (!store) {
     return failed(store.problems());
   }
-  auto queue = RenderQueue::start({options.backend, options.gpuSceneBytes, options.tileCacheBytes}, options.queueLimit);
+  auto queue = RenderQueue::start(
+      {options.backend, options.gpuSceneBytes, options.tileCacheBytes, options.tracedSceneBytes}, options.queueLimit);
   if (!queue) {
     return failed(queue.problems());
   }

@@ -19,8 +19,9 @@ struct ServeOptions {
 
   // What draws
   BackendOptions backend;
-  std::size_t gpuSceneBytes = 1u << 30;  ///< bytes of uploaded scenes that the renderer keeps
-  std::size_t tileCacheBytes = 1u << 28; ///< bytes of shadow atlases that the renderer keeps; 0 = none
+  std::size_t gpuSceneBytes = 1u << 30;    ///< bytes of uploaded scenes that the renderer keeps
+  std::size_t tileCacheBytes = 1u << 28;   ///< bytes of shadow atlases that the renderer keeps; 0 = none
+  std::size_t tracedSceneBytes = 1u << 30; ///< bytes of scenes sorted for rays that the renderer keeps
 
   // How much
   std::size_t queueLimit = 64;               ///< >= 1; frames that may wait; one more is told to come again (429)

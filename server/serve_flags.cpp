@@ -62,6 +62,8 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
            "Uploaded scenes that the renderer keeps; units are taken: 512MB, 2GB");
   addBytes(serve, "--tile-cache-bytes", "GNOMON_TILE_CACHE_BYTES", options.tileCacheBytes,
            "Shadow atlases kept for later frames; 0 = every tile is drawn anew");
+  addBytes(serve, "--traced-scene-bytes", "GNOMON_TRACED_SCENE_BYTES", options.tracedSceneBytes,
+           "Scenes kept sorted for rays, the least used dropped first");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
            "Loaded scenes kept in memory, the least used dropped first");
   addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes, "The largest upload");

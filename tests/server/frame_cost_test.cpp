@@ -25,6 +25,14 @@ TEST(FrameCost, TheAtlasHasItsOwnSize) {
   EXPECT_EQ(frameBytes(spec), 2048u * 2048 * 4) << "no larger than the atlas";
 }
 
+TEST(FrameCost, RaysTakeMemoryOncePerFrame) {
+  FrameSpec spec;
+  spec.width = 100;
+  spec.height = 50;
+  spec.views = {View::color, View::error, View::reference};
+  EXPECT_EQ(frameBytes(spec), 3u * 100 * 50 * 4 + 100 * 50 * kReferenceBytes);
+}
+
 TEST(FrameCost, TheLargestDoesNotOverflow) {
   FrameSpec spec;
   spec.width = spec.height = spec.atlas.size = 65536;
