@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 /// The color view as a picture, for what is drawn over it.
-Image readBackdrop(const FrameImages& sources) {
+Image readBackdrop(const PictureSources& sources) {
   const std::vector<View>& views = sources.spec.views;
   const auto shown = std::find(views.begin(), views.end(), View::color);
   const DrawnView& color = shown == views.end() ? sources.drawn.besides.at(View::color)
@@ -17,13 +17,13 @@ Image readBackdrop(const FrameImages& sources) {
   return readView(color, View::color, true, true);
 }
 
-Image readErrorView(const FrameImages& sources, View view) {
+Image readErrorView(const PictureSources& sources, View view) {
   if (sources.spec.output.format == ImageFormat::exr) return errorNumbers(*sources.measured, view);
   return hasBackdrop(view) ? errorPicture(*sources.measured, view, readBackdrop(sources))
                            : referencePicture(*sources.measured);
 }
 
-Image readImage(const FrameImages& sources, std::size_t index) {
+Image readImage(const PictureSources& sources, std::size_t index) {
   const View view = sources.spec.views[index];
   if (isErrorView(view)) return readErrorView(sources, view);
   const bool encoded = sources.spec.output.format == ImageFormat::png;
@@ -36,7 +36,7 @@ Image readImage(const FrameImages& sources, std::size_t index) {
 
 } // namespace
 
-std::vector<ViewImage> readViews(const FrameImages& sources) {
+std::vector<ViewImage> readViews(const PictureSources& sources) {
   std::vector<ViewImage> images;
   for (std::size_t i = 0; i < sources.spec.views.size(); ++i) {
     images.push_back({sources.spec.views[i], readImage(sources, i)});

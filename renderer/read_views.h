@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// What a frame's pictures are read from.
-struct FrameImages {
+struct PictureSources {
   const FrameSpec& spec; ///< effective
   const DrawnViews& drawn;
   const ShadowAtlas& atlas;
@@ -19,7 +19,7 @@ struct FrameImages {
 };
 
 /// The pictures of the spec's views, in their order.
-std::vector<ViewImage> readViews(const FrameImages& sources);
+std::vector<ViewImage> readViews(const PictureSources& sources);
 
 /// The debug light's shadow at full strength, a value a pixel, first row on top; drawn where a view needs it.
 std::vector<float> readFullShadow(const DrawnViews& drawn);

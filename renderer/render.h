@@ -31,8 +31,8 @@ Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const Re
 struct RendererOptions {
   BackendOptions backend;
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
+  std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, alike
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
-  std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, least recently used dropped first
 };
 
 /// One picture: 8-bit sRGB for PNG, linear float for EXR, as the frame's output asks.
