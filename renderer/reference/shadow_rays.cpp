@@ -86,11 +86,13 @@ void setRays(const Casters& casters, std::span<const ShadowRay> rays, RTCRay16& 
 
 } // namespace
 
-Receiver receiverAt(const TracedScene::Tree& tree, const SurfacePoint& point) {
+Receiver receiverAt(const TracedScene::Tree& tree, const glm::dvec3& eye, const SurfacePoint& point) {
   const Triangle triangle = tree.triangle(point.instance, point.triangle);
   const glm::dvec3 normal = unitAlong(triangle.area());
   const double side = glm::dot(normal, glm::dvec3(point.normal)) < 0 ? -1.0 : 1.0;
-  return {point.position, side * normal, triangle.largest(), point.instance, point.triangle};
+  // The ray began at the eye, or where it came near the scene.
+  const double sight = std::min(glm::length(point.position - eye), glm::length(2.0 * tree.bounds.halfExtent()));
+  return {point.position, side * normal, triangle.largest(), 4 * kHalfUnit * sight, point.instance, point.triangle};
 }
 
 std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
@@ -99,7 +101,7 @@ std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
   const double height =
       std::max({glm::dot(from.normal, caster.a - from.position), glm::dot(from.normal, caster.b - from.position),
                 glm::dot(from.normal, caster.c - from.position)});
-  if (height <= roundingAlong(from.normal, largest)) return std::nullopt;
+  if (height <= roundingAlong(from.normal, largest) + from.unsure) return std::nullopt;
   const glm::dvec3 normal = unitAlong(caster.area());
   const double across = glm::dot(normal, ray.direction);
   const double away = glm::dot(normal, caster.a - from.position);

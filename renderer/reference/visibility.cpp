@@ -16,6 +16,7 @@ constexpr std::size_t kRays = 8192;  ///< that it traces for them, about
 
 struct Lamp {
   LightSource source;
+  glm::dvec3 eye{0};                  ///< relative to the anchor
   std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
 };
@@ -29,6 +30,7 @@ Lamp lampOf(const TraceInput& input, int index) {
   };
   const auto casts = [&](const NodeSwitches& node) { return castsFrom(light, node); };
   return {lightSource(light, tree.anchor),
+          input.camera.eye - tree.anchor,
           instancesWhere(input, isShadowed),
           {tree, instancesWhere(input, casts), shadow.blendedCasters}};
 }
@@ -108,7 +110,7 @@ std::vector<float> lightVisibility(const TraceInput& input, int light, std::span
         visibility[i] = *plain * static_cast<float>(rays);
         continue;
       }
-      const Receiver receiver = receiverAt(lamp.casters.tree, point);
+      const Receiver receiver = receiverAt(lamp.casters.tree, lamp.eye, point);
       if (sized) {
         addSamples(lamp.source, point, receiver, rays, i, queue);
       } else {
@@ -140,7 +142,7 @@ std::vector<float> blockerDistances(const TraceInput& input, int light, std::spa
         if (*plain == 0) distances[i] = 0;
         continue;
       }
-      rays[count] = {receiverAt(lamp.casters.tree, points[i]), way.direction, way.length};
+      rays[count] = {receiverAt(lamp.casters.tree, lamp.eye, points[i]), way.direction, way.length};
       of[count] = i;
       if (++count == kLanes) trace();
     }

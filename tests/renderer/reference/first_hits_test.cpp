@@ -77,12 +77,22 @@ TEST(FirstHits, NothingBehindTheEyeIsSeenUnlessTheNearPlaneIs) {
 
 TEST(FirstHits, TheEyesDistanceTakesNothingFromTheirPrecision) {
   Traced traced = floors();
-  for (const double distance : {1e2, 1e6, 1e9}) {
-    traced.camera = perspectiveView({0.3, distance, 0.2}, {0.3, 0, 0.2}, glm::degrees(2 / distance));
-    const SurfacePoint point = traced.surface()[0];
-    ASSERT_EQ(point.instance, 3u);
-    EXPECT_NEAR(point.position.x, 0.3 - 0.5, 3.0 / distance + 1e-6);
-    EXPECT_EQ(point.position.y + traced.anchor().y, 3);
+  traced.width = traced.height = 40;
+  for (const double distance : {1e2, 1e5, 1e7}) {
+    traced.camera = perspectiveView({0, distance + 3, 0}, {0, 0, 0}, 90);
+    traced.camera.halfSize = glm::dvec2(5.1 / distance); // 10.2 m of the upper square's plane
+    const std::vector<SurfacePoint> points = traced.surface();
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 40; ++x) {
+        const SurfacePoint& point = points[std::size_t(40 * y + x)];
+        const glm::dvec2 place = 5.1 * glm::dvec2((2.0 * x + 1) / 40 - 1, (2.0 * y + 1) / 40 - 1);
+        const bool inside = std::max(std::abs(place.x), std::abs(place.y)) < 5;
+        ASSERT_EQ(point.instance, inside ? 3u : kNoSurface) << distance << ": " << x << " " << y;
+        if (!inside) continue;
+        EXPECT_NEAR(point.position.x, place.x, 1e-6);
+        EXPECT_NEAR(point.position.z, place.y, 1e-6);
+      }
+    }
   }
 }
 

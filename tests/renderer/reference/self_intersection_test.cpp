@@ -139,6 +139,48 @@ struct Corner : Traced {
   explicit Corner(double viewed) : Traced(shape()) { camera = parallelView({0.1, 2, 2}, {0, -1, -1}, viewed); }
 };
 
+TEST(SelfIntersection, NeitherDoesOneThatTheEyeCanNotTellFromItsReceiver) {
+  for (const float lift : {1e-16f, 1e-9f, 1e-7f}) {
+    GlbBuilder builder;
+    addSquare(builder, 50, 0);
+    addSquare(builder, 40, lift);
+    Traced traced(builder);
+    traced.width = traced.height = 200;
+    traced.camera = perspectiveView({3, 20, 30}, {0, 0, 0}, 60);
+    for (const glm::dvec3& light : {glm::dvec3(0, -1, 0), glm::dvec3(1, -0.01, 0.3)}) {
+      traced.lights = {sunAlong(light)};
+      int reached = 0;
+      EXPECT_EQ(falseShadows(traced, reached), 0) << lift;
+      EXPECT_GT(reached, 10000);
+    }
+  }
+}
+
+/// What one can stumble over is no rounding, even in the far corner of a wide view.
+TEST(SelfIntersection, LowCastersOfWideScenesKeepTheirShadows) {
+  GlbBuilder builder;
+  addSquare(builder, 500, 0);
+  addQuad(builder, {{99, 0, 100}, {101, 0, 100}, {101, 1e-3f, 100}, {99, 1e-3f, 100}});
+  Traced traced(builder);
+  traced.nodes = {{}, {false, true, true, 1}};
+  traced.camera = perspectiveView({100, 800, 600}, {100, 0, 100}, 1e-4);
+  traced.lights = {sunAlong({0, -1, 2})};
+  const std::vector<SurfacePoint> points = traced.surface();
+  const std::vector<float> visibility = lightVisibility(traced.input(), 0, points, 1);
+  int shadowed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double behind = points[i].position.z + traced.anchor().z - 100;
+    shadowed += visibility[i] == 0 ? 1 : 0;
+    if (behind > 1e-4 && behind < 1.9e-3) {
+      EXPECT_EQ(visibility[i], 0) << behind;
+    }
+    if (behind < -1e-4 || behind > 2.1e-3) {
+      EXPECT_EQ(visibility[i], 1) << behind;
+    }
+  }
+  EXPECT_GT(shadowed, 1000);
+}
+
 TEST(SelfIntersection, AConcaveCornerIsLitAndShadowedUpToItsEdge) {
   for (const double height : {4.0, 1e-2, 1e-4}) {
     Corner traced(height);
