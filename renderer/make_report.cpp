@@ -27,7 +27,7 @@ std::vector<LightReport> drawnLights(const FrameStages& stages) {
   for (const auto& [samples, exact] : stages.drawn.exactShadows) {
     for (const ExactShadow& shadow : exact.lights) {
       LightReport& light = lights[static_cast<std::size_t>(shadow.light)];
-      light.tracedPixels = light.tracedPixels.value_or(0) + shadow.tracedPixels;
+      if (shadow.tracedPixels) light.tracedPixels = light.tracedPixels.value_or(0) + *shadow.tracedPixels;
       light.cpuMilliseconds = light.cpuMilliseconds.value_or(0) + shadow.milliseconds;
     }
   }
@@ -56,7 +56,7 @@ std::vector<PassReport> passReports(const FrameStages& stages) {
     passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
   }
   for (const auto& [samples, exact] : stages.drawn.exactShadows) {
-    passes.push_back(passReport("visibility", exact.timer, 0, 0));
+    passes.push_back(passReport("visibility", exact.timer, exact.drawCalls, exact.triangles));
   }
   for (std::size_t i = 0; i < stages.drawn.views.size(); ++i) {
     const DrawnView& view = stages.drawn.views[i];
@@ -90,7 +90,9 @@ MemoryReport memoryOf(const FrameStages& stages) {
   for (const auto& [samples, surfaces] : stages.drawn.surfaces) {
     memory.targets += surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes();
   }
-  for (const auto& [samples, exact] : stages.drawn.exactShadows) memory.targets += exact.layers.texture.bytes();
+  for (const auto& [samples, exact] : stages.drawn.exactShadows) {
+    memory.targets += exact.layers.texture.bytes() + exact.countBytes;
+  }
   for (const DrawnView& view : stages.drawn.views) memory.targets += view.color.bytes();
   for (const auto& [name, view] : stages.drawn.besides) memory.targets += view.color.bytes();
   return memory;

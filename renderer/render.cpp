@@ -116,6 +116,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
       geometry,
       resolved->view,
       frameBuffer,
+      instances,
       vertices,
       anchored,
       impl_->programs,

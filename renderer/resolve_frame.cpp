@@ -4,6 +4,7 @@
 #include "renderer/resolve_camera.h"
 #include "renderer/resolve_debug.h"
 #include "renderer/resolve_nodes.h"
+#include "renderer/resolve_technique.h"
 
 namespace gnomon {
 namespace {
@@ -70,6 +71,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   auto groups = resolveReceiverGroups(view, frame.nodes, *frame.spec.lights);
   if (!groups) return groups.problems();
   frame.groups = std::move(*groups);
+  if (const Status able = checkTechniques(spec, scene, frame); !able) return able.problems();
   return frame;
 }
 

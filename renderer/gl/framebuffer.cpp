@@ -80,6 +80,10 @@ void Framebuffer::clearDepth(float depth) {
   glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
 }
 
+void Framebuffer::clearStencil(int value) {
+  glClearNamedFramebufferiv(id(), GL_STENCIL, 0, &value);
+}
+
 void Framebuffer::readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
   assert(attachment >= 0 && attachment < colors_ && texels.size() >= bytesOf(rect, layout));
   glNamedFramebufferReadBuffer(id(), colorAttachment(attachment));

@@ -39,6 +39,7 @@ class Framebuffer {
   void clearColor(int attachment, const glm::uvec4& color);
   void clearColor(int attachment, const glm::ivec4& color);
   void clearDepth(float depth);
+  void clearStencil(int value);
 
   /// The texels of a rectangle, lowest row first. Waits for the GPU. REQUIRES: texels has room for them.
   void readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;

@@ -8,10 +8,9 @@ void enable(GLenum what, bool on) {
 }
 
 void applyNeutral() {
-  for (const GLenum off :
-       {GL_BLEND, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_DITHER, GL_PRIMITIVE_RESTART,
-        GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE,
-        GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING}) {
+  for (const GLenum off : {GL_BLEND, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_DITHER, GL_PRIMITIVE_RESTART,
+                           GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE,
+                           GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING}) {
     glDisable(off);
   }
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -26,6 +25,15 @@ void applyDepth(const DepthState& depth) {
   glDepthMask(depth.write ? GL_TRUE : GL_FALSE);
 }
 
+void applyStencil(const std::optional<StencilState>& stencil) {
+  enable(GL_STENCIL_TEST, stencil.has_value());
+  const StencilState ops = stencil.value_or(StencilState{});
+  glStencilFunc(GL_ALWAYS, 0, ~0u);
+  glStencilMask(~0u);
+  glStencilOpSeparate(GL_FRONT, GL_KEEP, ops.frontDepthFail, GL_KEEP);
+  glStencilOpSeparate(GL_BACK, GL_KEEP, ops.backDepthFail, GL_KEEP);
+}
+
 } // namespace
 
 void apply(const PipelineState& state) {
@@ -36,6 +44,7 @@ void apply(const PipelineState& state) {
   enable(GL_SCISSOR_TEST, state.scissor.has_value());
   glScissor(scissor.x, scissor.y, scissor.width, scissor.height);
   applyDepth(state.depth);
+  applyStencil(state.stencil);
   enable(GL_DEPTH_CLAMP, state.depthClamp);
   enable(GL_CULL_FACE, state.cull != Cull::none);
   glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);

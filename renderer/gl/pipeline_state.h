@@ -16,11 +16,19 @@ struct DepthState {
   bool operator==(const DepthState&) const = default;
 };
 
+/// What a fragment that fails the depth test does to the stencil; nothing else changes it.
+struct StencilState {
+  GLenum frontDepthFail = GL_KEEP; ///< by the facing of its triangle
+  GLenum backDepthFail = GL_KEEP;
+
+  bool operator==(const StencilState&) const = default;
+};
+
 enum class Cull { none, back, front };
 enum class FrontFace { counterClockwise, clockwise };
 
 /// Everything that stands between a draw and its target. Also clears and copies depend on `scissor` and the masks.
-/// What has no member is always off or at its neutral value: blending, stencil, polygon offset, logic operation,
+/// What has no member is always off or at its neutral value: blending, polygon offset, logic operation,
 /// dithering, primitive restart, rasterizer discard, depth range 0..1, window origin lower left,
 /// clip depth 0..1.
 struct PipelineState {
@@ -28,6 +36,7 @@ struct PipelineState {
   Rect viewport;
   std::optional<Rect> scissor;
   DepthState depth;
+  std::optional<StencilState> stencil; ///< absent = off; clears of the stencil are never masked
   bool depthClamp = false;
   Cull cull = Cull::none;
   FrontFace frontFace = FrontFace::counterClockwise;

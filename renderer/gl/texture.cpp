@@ -124,6 +124,10 @@ void Texture::generateLevels() {
   glGenerateTextureMipmap(id());
 }
 
+void Texture::readStencil() {
+  glTextureParameteri(id(), GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
+}
+
 void Texture::bind(GLuint unit) const {
   glBindTextureUnit(unit, id());
 }

@@ -57,6 +57,8 @@ class Texture {
   /// Copies a rectangle to the same place. REQUIRES: one format, as many samples, and room in both.
   void copyFrom(const Texture& source, const Rect& rect);
   void generateLevels();
+  /// Shaders read its stencil from now on, not its depth. REQUIRES: a format with both.
+  void readStencil();
   void bind(GLuint unit) const;
 
   /// What its texels take on the device, of all levels and samples; 0 for a default-made one.

@@ -25,6 +25,7 @@ struct PassInputs {
   const FrameGeometry& geometry;
   const CameraView& camera;
   const gl::Buffer& frame;       ///< shared::FrameData
+  const gl::Buffer& instances;   ///< shared::InstanceData of geometry's instances
   const SceneVertices& vertices; ///< of the scene and of geometry's instances
   const SceneVertices& anchored; ///< the same, its instances relative to anchorOf(view) instead of the eye
   ProgramCache& programs;

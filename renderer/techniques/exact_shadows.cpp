@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/hybrid_shadow.h"
 #include "renderer/techniques/ray_traced_shadow.h"
 
@@ -11,6 +12,23 @@ namespace {
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Draws the next light's layer by shadow volumes; `counts` is made for the first of them.
+Status volumeShadow(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, const Light& light,
+                    std::optional<VolumeCounts>& counts, ExactShadows& shadows) {
+  if (!counts) {
+    auto made = volumeCounts(inputs, surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth);
+    if (!made) return made.problems();
+    counts = std::move(*made);
+    shadows.countBytes = counts->depthStencil.bytes();
+  }
+  const auto volumes =
+      drawVolumes(inputs, *counts, light, shadows.layers.texture, static_cast<int>(shadows.lights.size()));
+  if (!volumes) return volumes.problems();
+  shadows.triangles += volumes->triangles;
+  shadows.drawCalls += volumes->drawCalls;
+  return Done{};
 }
 
 } // namespace
@@ -25,11 +43,20 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const ViewInputs& sh
 
   const std::vector<Light>& lights = *shading.spec.lights;
   std::optional<std::vector<SurfacePoint>> centres;
+  std::optional<VolumeCounts> counts;
   for (const int light : exact.lights) {
     const auto start = std::chrono::steady_clock::now();
     const int layer = static_cast<int>(shadows.lights.size());
-    ExactShadow shadow{light, 0, 0};
+    ExactShadow shadow{light, 0, {}};
     const ShadowTechnique technique = lights[static_cast<std::size_t>(light)].shadow->technique;
+    if (technique == ShadowTechnique::shadowVolume) {
+      const Light& source = lights[static_cast<std::size_t>(light)];
+      const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows);
+      if (!drawn) return drawn.problems();
+      shadow.milliseconds = millisecondsSince(start);
+      shadows.lights.push_back(shadow);
+      continue;
+    }
     const auto traced = exact.traced();
     if (!traced) return traced.problems();
     const TraceInput rays{**traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes};

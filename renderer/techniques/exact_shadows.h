@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/passes/views/view_pass.h"
@@ -17,15 +18,18 @@ struct ExactInputs {
 
 /// One light's layer, and what it took.
 struct ExactShadow {
-  int light = 0;                  ///< index into the spec's lights
-  double milliseconds = 0;        ///< on the CPU's clock
-  std::uint64_t tracedPixels = 0; ///< that rays decided
+  int light = 0;                               ///< index into the spec's lights
+  double milliseconds = 0;                     ///< on the CPU's clock
+  std::optional<std::uint64_t> tracedPixels{}; ///< that rays decided; absent where none are asked
 };
 
 struct ExactShadows {
   VisibilityLayers layers;
   std::vector<ExactShadow> lights; ///< one a layer
   gl::Timer timer;                 ///< of all
+  std::uint64_t triangles = 0;     ///< of shadow volumes
+  std::size_t drawCalls = 0;       ///< alike
+  std::size_t countBytes = 0;      ///< of the stencil that they were counted in
 };
 
 /// The visibility of every light of `exact` at each sample of the surfaces.

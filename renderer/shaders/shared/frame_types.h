@@ -34,6 +34,7 @@ using glm::vec4;
 #define GNOMON_INSTANCE_ROWS 6 // three: InstanceData::relativeFromLocal
 #define GNOMON_NORMAL_ROWS 9   // three: InstanceData::normalFromLocal
 #define GNOMON_NODE 11         // w: the node's index; the last of those three
+#define GNOMON_PLACE_WEIGHT 12 // of shadow volumes: the position's fourth coordinate
 
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0

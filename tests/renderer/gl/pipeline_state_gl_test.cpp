@@ -36,9 +36,11 @@ constexpr std::array kSwitches{GL_BLEND,
 std::vector<double> stateOfDriver() {
   std::vector<double> state;
   for (const GLenum what : kSwitches) state.push_back(glIsEnabled(what));
-  for (const GLenum what : {GL_VIEWPORT, GL_SCISSOR_BOX, GL_DEPTH_FUNC, GL_DEPTH_WRITEMASK, GL_CULL_FACE_MODE,
-                            GL_FRONT_FACE, GL_COLOR_WRITEMASK, GL_DEPTH_RANGE, GL_DRAW_FRAMEBUFFER_BINDING,
-                            GL_READ_FRAMEBUFFER_BINDING, GL_CLIP_ORIGIN, GL_CLIP_DEPTH_MODE}) {
+  for (const GLenum what :
+       {GL_VIEWPORT, GL_SCISSOR_BOX, GL_DEPTH_FUNC, GL_DEPTH_WRITEMASK, GL_CULL_FACE_MODE, GL_FRONT_FACE,
+        GL_COLOR_WRITEMASK, GL_DEPTH_RANGE, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_CLIP_ORIGIN,
+        GL_CLIP_DEPTH_MODE, GL_STENCIL_FUNC, GL_STENCIL_WRITEMASK, GL_STENCIL_BACK_WRITEMASK,
+        GL_STENCIL_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_FAIL, GL_STENCIL_PASS_DEPTH_PASS}) {
     std::array<double, 4> values{};
     glGetDoublev(what, values.data());
     state.insert(state.end(), values.begin(), values.end());
@@ -62,6 +64,9 @@ void leaveAMess() {
   glDepthRange(0.75, 0.25);
   glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glStencilFunc(GL_NEVER, 3, 5);
+  glStencilMask(9);
+  glStencilOp(GL_ZERO, GL_INVERT, GL_REPLACE);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -76,6 +81,7 @@ PipelineState anyState(GLuint framebuffer) {
   state.viewport = anyRect();
   if (yes()) state.scissor = anyRect();
   state.depth = {yes(), yes(), *rc::gen::element<GLenum>(GL_GREATER, GL_LESS, GL_EQUAL, GL_GEQUAL)};
+  if (yes()) state.stencil = StencilState{*rc::gen::element<GLenum>(GL_KEEP, GL_INCR_WRAP), GL_DECR_WRAP};
   state.depthClamp = yes();
   state.cull = *rc::gen::element(Cull::none, Cull::back, Cull::front);
   state.frontFace = yes() ? FrontFace::clockwise : FrontFace::counterClockwise;
@@ -112,6 +118,7 @@ TEST_F(PipelineStates, sayWhatTheirMembersSay) {
   state.viewport = {10, 20, 30, 40};
   state.scissor = Rect{1, 2, 3, 4};
   state.depth = {.test = true, .write = false, .func = GL_LESS};
+  state.stencil = StencilState{.frontDepthFail = GL_DECR_WRAP, .backDepthFail = GL_INCR_WRAP};
   state.cull = Cull::front;
   state.frontFace = FrontFace::clockwise;
   state.colorMask = {true, false, true, false};
@@ -128,6 +135,9 @@ TEST_F(PipelineStates, sayWhatTheirMembersSay) {
   EXPECT_EQ(integers(GL_DEPTH_FUNC)[0], GL_LESS);
   EXPECT_EQ(integers(GL_CULL_FACE_MODE)[0], GL_FRONT);
   EXPECT_EQ(integers(GL_FRONT_FACE)[0], GL_CW);
+  EXPECT_EQ(integers(GL_STENCIL_PASS_DEPTH_FAIL)[0], GL_DECR_WRAP);
+  EXPECT_EQ(integers(GL_STENCIL_BACK_PASS_DEPTH_FAIL)[0], GL_INCR_WRAP);
+  EXPECT_TRUE(glIsEnabled(GL_STENCIL_TEST));
   EXPECT_TRUE(glIsEnabled(GL_SCISSOR_TEST));
   EXPECT_TRUE(glIsEnabled(GL_CULL_FACE));
   EXPECT_TRUE(glIsEnabled(GL_CLIP_DISTANCE3));

@@ -1,0 +1,184 @@
+#include "renderer/passes/views/volume_pass.h"
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/gl/draw.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/sampler.h"
+#include "renderer/passes/shader_variants.h"
+#include "renderer/passes/views/volume_mesh.h"
+#include "renderer/scene/silhouette.h"
+
+namespace gnomon {
+namespace {
+
+int samplesOf(const VolumeCounts& counts) {
+  return std::max(1, counts.depthStencil.shape().samples);
+}
+
+std::vector<std::string> samplesDefine(int samples) {
+  return {"SAMPLES " + std::to_string(samples)};
+}
+
+/// Index lists on the device, with the vertices that they go over.
+struct UploadedDraws {
+  gl::Buffer indices;
+  gl::Buffer commands;
+  gl::VertexArray vertices;
+  std::size_t count = 0;
+};
+
+using Streams = std::array<gl::VertexStream, 2>; ///< positions, then instances
+
+UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool weighted) {
+  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0}};
+  for (GLuint row = 0; row < 3; ++row) {
+    const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
+    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 1, 4, GL_FLOAT, false, false, offset});
+  }
+  if (weighted) attributes.push_back({GNOMON_PLACE_WEIGHT, 0, 1, GL_FLOAT, false, false, sizeof(glm::vec3)});
+  UploadedDraws uploaded;
+  uploaded.indices = gl::Buffer(gl::bytesOf(draws.indices), "shadow volume indices");
+  uploaded.commands = gl::Buffer(gl::bytesOf(draws.commands), "shadow volume commands");
+  uploaded.vertices = gl::VertexArray(streams, attributes, &uploaded.indices, "shadow volumes");
+  uploaded.count = draws.commands.size();
+  return uploaded;
+}
+
+/// Draws parts of volumes into the stencil: +1 for each back face behind the surface, -1 for each front face. Equal
+/// depth is behind, so that no surface is in the volume that begins at it.
+class VolumeDraws {
+ public:
+  VolumeDraws(const PassInputs& inputs, const VolumeCounts& counts, DrawnVolumes& drawn)
+      : inputs_(inputs), drawn_(drawn) {
+    state_.framebuffer = counts.framebuffer.id();
+    state_.viewport = {0, 0, inputs.width, inputs.height};
+    state_.depth = {true, false, GL_GREATER};
+    state_.stencil = gl::StencilState{GL_DECR_WRAP, GL_INCR_WRAP};
+    state_.colorMask = {false, false, false, false};
+    state_.multisample = samplesOf(counts) > 1;
+  }
+
+  /// What would be behind the far plane is flattened onto it.
+  Status walls(const VolumeMesh& mesh) {
+    const gl::Buffer places(gl::bytesOf(mesh.places), "shadow volume places");
+    gl::PipelineState state = state_;
+    state.depthClamp = true;
+    return draw(mesh.walls, {{{&places, sizeof(glm::vec4), 0, 0}, instances()}}, true, {"volume.vert", "", "", {}},
+                state);
+  }
+
+  /// The near ends are drawn as the survey drew them, bit by bit: what it clipped is clipped. Before the near plane,
+  /// nothing counts; behind the far one, `beyond` draws the rest.
+  Status caps(const IndexedDraws& caps, gl::FrontFace frontFace, bool beyond) {
+    gl::ProgramSource program = depthProgram("survey.vert", nullptr);
+    if (beyond) program.defines.emplace_back("BEYOND_FAR");
+    gl::PipelineState state = state_;
+    state.frontFace = frontFace;
+    state.depthClamp = beyond;
+    state.clipDistances = beyond ? 1 : 0;
+    return draw(caps, {{{&inputs_.gpu.positions, sizeof(glm::vec3), 0, 0}, instances()}}, false, program, state);
+  }
+
+ private:
+  gl::VertexStream instances() const { return {&inputs_.instances, sizeof(shared::InstanceData), 0, 1}; }
+
+  Status draw(const IndexedDraws& draws, const Streams& streams, bool weighted, const gl::ProgramSource& source,
+              const gl::PipelineState& state) {
+    if (draws.commands.empty()) return Done{};
+    const auto program = inputs_.programs.get(source);
+    if (!program) return program.problems();
+    const UploadedDraws uploaded = upload(draws, streams, weighted);
+    gl::apply(state);
+    gl::drawIndirect(**program, uploaded.vertices, uploaded.commands, 0, uploaded.count);
+    drawn_.triangles += draws.indices.size() / 3;
+    drawn_.drawCalls += uploaded.count;
+    return Done{};
+  }
+
+  const PassInputs& inputs_;
+  DrawnVolumes& drawn_;
+  gl::PipelineState state_;
+};
+
+Status countVolumes(const PassInputs& inputs, const VolumeCounts& counts, const VolumeMesh& mesh, DrawnVolumes& drawn) {
+  bindInputs(inputs);
+  VolumeDraws draws(inputs, counts, drawn);
+  if (const Status done = draws.walls(mesh); !done) return done;
+  for (const int side : {0, 1}) {
+    const auto frontFace = side == 0 ? gl::FrontFace::counterClockwise : gl::FrontFace::clockwise;
+    if (const Status done = draws.caps(mesh.caps[side], frontFace, false); !done) return done;
+    if (const Status done = draws.caps(mesh.capsBeyond[side], frontFace, true); !done) return done;
+  }
+  return Done{};
+}
+
+Status writeVisibility(const PassInputs& inputs, const VolumeCounts& counts, const gl::Texture& visibility, int layer) {
+  const auto program =
+      inputs.programs.get({"fullscreen.vert", "volume_visibility.frag", "", samplesDefine(samplesOf(counts))});
+  if (!program) return program.problems();
+  const auto target = gl::Framebuffer::create({{{&visibility, 0, layer}}, {}}, "visibility");
+  if (!target) return target.problems();
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  gl::apply(state);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "volume counts");
+  texels.bind(0);
+  counts.depthStencil.bind(0);
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+  return Done{};
+}
+
+} // namespace
+
+Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& depth) {
+  VolumeCounts counts;
+  const int stored = depth.shape().samples;
+  counts.depthStencil =
+      gl::Texture({GL_DEPTH32F_STENCIL8, inputs.width, inputs.height, 1, stored}, "shadow volume counts");
+  counts.depthStencil.readStencil();
+  auto target = gl::Framebuffer::create({{}, {&counts.depthStencil}}, "shadow volume counts");
+  if (!target) return target.problems();
+  counts.framebuffer = std::move(*target);
+  const auto program =
+      inputs.programs.get({"fullscreen.vert", "volume_depth.frag", "", samplesDefine(samplesOf(counts))});
+  if (!program) return program.problems();
+
+  gl::PipelineState state;
+  state.framebuffer = counts.framebuffer.id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  state.depth.write = true;
+  state.multisample = stored > 0;
+  gl::apply(state);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surveyed depth");
+  texels.bind(0);
+  depth.bind(0);
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+  return counts;
+}
+
+Result<DrawnVolumes> drawVolumes(const PassInputs& inputs, VolumeCounts& counts, const Light& light,
+                                 const gl::Texture& visibility, int layer) {
+  DrawnVolumes drawn;
+  drawn.timer = gl::Timer::start();
+  const std::vector<VolumeCaster> casters =
+      volumeCasters(inputs.scene, inputs.view, inputs.geometry, inputs.camera, light, inputs.nodes);
+  drawn.casters = casters.size();
+  const VolumeMesh mesh = volumeMesh(inputs.scene, inputs.view, inputs.camera, placeOf(light), casters, inputs.edges);
+
+  gl::PipelineState clear;
+  clear.framebuffer = counts.framebuffer.id();
+  clear.viewport = {0, 0, inputs.width, inputs.height};
+  gl::apply(clear);
+  counts.framebuffer.clearStencil(0);
+  if (const Status counted = countVolumes(inputs, counts, mesh, drawn); !counted) return counted.problems();
+  if (const Status written = writeVisibility(inputs, counts, visibility, layer); !written) return written.problems();
+  drawn.timer.stop();
+  return drawn;
+}
+
+} // namespace gnomon
