@@ -97,6 +97,17 @@ std::uint64_t flipsOf(Watched& watched, const std::vector<float>& visibility) {
   return flips;
 }
 
+bool isMap(const ResolvedFrame& frame, int light) {
+  return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique == ShadowTechnique::shadowMap;
+}
+
+/// Lights whose shadows come from no map need no tiles.
+void dropExact(FrameSpec& spec) {
+  for (Light& light : *spec.lights) {
+    light.shadow->enabled = light.shadow->enabled && light.shadow->technique == ShadowTechnique::shadowMap;
+  }
+}
+
 /// The next frame of a sequence starts from this one's depth ranges, where it asks for a previous one.
 void passRangesOn(const ShadowPlan& plan, FrameSpec& next) {
   for (const PlannedLight& planned : plan.lights) {
@@ -137,8 +148,6 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
   const auto lights = lightData(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
   const auto tiles = tileData(probed.plan);
   for (Watched& light : watched) {
-    // What is traced is the same for a point, whoever looks at it.
-    if ((*spec.lights)[static_cast<std::size_t>(light.light)].shadow->technique != ShadowTechnique::shadowMap) continue;
     const auto visibility = probeShadow(inputs, {*survey, *atlas, lights, tiles, {}, spec, light.light},
                                         probesOf(frame, anchorOf(view), light));
     if (!visibility) return visibility.problems();
@@ -166,7 +175,11 @@ Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& scene,
   Shimmer shimmer;
   shimmer.steps = path.size() - 1;
   for (const Watched& light : *watched) shimmer.points += light.points.size();
+  // What is exact is so for a point, whoever looks at it: it never flips.
+  std::erase_if(*watched, [&](const Watched& light) { return !isMap(frames->front(), light.light); });
+  if (watched->empty()) return shimmer;
   for (std::size_t i = 0; i < frames->size(); ++i) {
+    dropExact((*frames)[i].spec);
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames->size()))) return stopped();
     const auto probed = probeFrame(tools, scene, (*frames)[i], *watched);
     if (!probed) return probed.problems();
