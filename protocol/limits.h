@@ -8,7 +8,7 @@ namespace gnomon {
 /// Every bound that a request or a scene meets. A problem that quotes a limit quotes one of these.
 struct Limits {
   // Frames
-  int maxFrameSide = 8192;                       ///< pixels
+  int maxFrameSide = 16384;                      ///< pixels; the device may allow less
   std::int64_t maxFramePixels = 33'554'432;      ///< width x height
   int maxAtlasSide = 8192;                       ///< texels; the device may allow less
   std::int64_t maxAtlasBytes = 536'870'912;      ///< of the shadow atlas, with all its samples and moments

@@ -1,6 +1,7 @@
 #include "renderer/check_device.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "protocol/limits.h"
 #include "protocol/problem_list.h"
@@ -10,6 +11,11 @@ namespace gnomon {
 
 Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   ProblemList problems;
+  for (const auto& [side, place] : {std::pair(spec.width, "/width"), std::pair(spec.height, "/height")}) {
+    if (side <= device.maxTextureSize) continue;
+    problems.add({ProblemCode::invalidValue, place, "the device has no pictures as large as that",
+                  "at most " + std::to_string(device.maxTextureSize), std::to_string(side)});
+  }
   if (spec.atlas.samples > device.maxSamples) {
     problems.add({ProblemCode::invalidValue, "/atlas/samples", "the device has no depth textures of so many samples",
                   "at most " + std::to_string(device.maxSamples), std::to_string(spec.atlas.samples)});

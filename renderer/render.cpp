@@ -1,11 +1,10 @@
 #include "renderer/render.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/check_device.h"
-#include "renderer/core/vec3.h"
 #include "renderer/draw_views.h"
+#include "renderer/frame_data.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/gl/stage_clock.h"
@@ -24,6 +23,7 @@
 #include "renderer/resolve_frame.h"
 #include "renderer/scene/gltf_loader.h"
 #include "renderer/shadow/predicted_error.h"
+#include "renderer/shimmer.h"
 #include "renderer/traced_scene_cache.h"
 
 namespace gnomon {
@@ -46,24 +46,6 @@ struct Renderer::Impl {
 };
 
 namespace {
-
-shared::FrameData frameData(const ResolvedFrame& frame) {
-  const CameraView& view = frame.view;
-  const Vec3& ambient = frame.spec.ambient.color;
-  const double intensity = frame.spec.ambient.intensity;
-  shared::FrameData data{};
-  data.clipFromRelative = glm::mat4(clipFromView(view) * viewFromRelative(view));
-  const glm::dmat4 clip = clipFromView(view);
-  const Background& background = frame.spec.background;
-  data.forward = glm::vec4(view.forward, view.perspective ? 1.0 : 0.0);
-  data.right = glm::vec4(view.right * view.halfSize.x, 0.0);
-  data.up = glm::vec4(view.up * view.halfSize.y, 2.0 * view.halfSize.y / frame.spec.height);
-  data.lens = glm::vec4(clip[2][2], clip[3][2], 2.0 / frame.spec.width, 2.0 / frame.spec.height);
-  data.background = glm::vec4(toVector(background.color), background.alpha);
-  data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
-  data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
-  return data;
-}
 
 bool asksForEdges(const FrameSpec& spec, std::span<const int> layered) {
   return std::any_of(layered.begin(), layered.end(), [&](int light) {
@@ -90,6 +72,12 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
 
 const RendererInfo& Renderer::info() const {
   return impl_->context->info();
+}
+
+Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
+                                  const Progress& progress) {
+  return measureShimmer({impl_->scenes, impl_->programs, impl_->tiles, impl_->traced, info()}, scene, spec, path,
+                        progress);
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {

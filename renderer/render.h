@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "protocol/capabilities.h"
@@ -9,6 +10,7 @@
 #include "protocol/limits.h"
 #include "protocol/result.h"
 #include "protocol/scene_summary.h"
+#include "renderer/core/progress.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/scene_bundle.h"
 
@@ -47,6 +49,18 @@ struct Frame {
   std::vector<ViewImage> images; ///< in the order of the spec's views
 };
 
+/// How a frame's shadows hold still on surfaces along a path of cameras.
+struct Shimmer {
+  std::size_t points = 0;  ///< watched: world-fixed points of surfaces, counted for every light that they face
+  std::size_t steps = 0;   ///< from one camera of the path to the next
+  std::uint64_t flips = 0; ///< points that went from lit (S >= 0.5) to shadowed or back in one step
+
+  /// Flips in 1,000 points and a frame. The truth has none to take off: neither surfaces nor lights move.
+  double perThousand() const {
+    return 1000.0 * static_cast<double>(flips) / (static_cast<double>(points) * static_cast<double>(steps));
+  }
+};
+
 /// Owns a graphics context. Everything but `info` only on the thread that made it.
 class Renderer {
  public:
@@ -59,6 +73,14 @@ class Renderer {
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
   Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec);
+
+  /// Shimmer of `spec`, its camera replaced by each one of the path in turn (at least two); each frame is surveyed,
+  /// planned and cast as for a picture. Where a depth range has a `previous`, each frame takes the one before it for
+  /// that. Points: a few thousand that the first camera sees, face the light, and are in sight of every other camera.
+  /// Shadows are taken at full strength. Techniques that trace are the same for a point from wherever it is seen.
+  /// A problem where there is no such point or no light that casts; `unavailable` where `progress` asked to stop.
+  Result<Shimmer> shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
+                          const Progress& progress = {});
 
  private:
   struct Impl;

@@ -161,4 +161,13 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   return {"fullscreen.vert", "view.frag", "", std::move(defines)};
 }
 
+gl::ProgramSource probeProgram(const ViewVariant& variant) {
+  std::vector<std::string> defines;
+  if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
+  if (variant.punctual) defines.emplace_back("PUNCTUAL");
+  addShadowDefines(variant.shadows, defines);
+  if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  return {"fullscreen.vert", "probe.frag", "", std::move(defines)};
+}
+
 } // namespace gnomon

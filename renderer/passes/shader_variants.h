@@ -60,4 +60,7 @@ struct ViewVariant {
 /// Makes a view from the surfaces.
 gl::ProgramSource viewProgram(const ViewVariant& variant);
 
+/// Asks single points for their light; of `variant` what tells of lights and shadows counts.
+gl::ProgramSource probeProgram(const ViewVariant& variant);
+
 } // namespace gnomon

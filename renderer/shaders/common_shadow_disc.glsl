@@ -4,9 +4,14 @@
 #ifdef FILTER_DISC
 const int kDiscTaps = 32;
 
+// Where the picture shows the receiver.
+#ifndef SHADED_PIXEL
+#define SHADED_PIXEL gl_FragCoord.xy
+#endif
+
 // Turns the taps by pixel, so that their pattern shows as fine noise and not as bands.
 // (Jimenez, "Next Generation Post Processing in Call of Duty", 2014: interleaved gradient noise.)
-float discTurn() { return 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
+float discTurn() { return 6.2831853 * fract(52.9829189 * fract(dot(SHADED_PIXEL, vec2(0.06711056, 0.00583715)))); }
 
 float discVisibility(TileData tile, Receiver receiver, Lookup at, float radius, vec3 lightPosition) {
   vec2 slope = receiverSlope(tile, receiver, lightPosition);

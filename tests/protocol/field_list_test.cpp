@@ -34,7 +34,7 @@ TEST(FieldList, TellsTypeBoundsUnitAndDefault) {
   const std::vector<FieldEntry> entries = frameFields();
   const FieldEntry& width = entryAt(entries, "width");
   EXPECT_EQ(width.type, "whole number");
-  EXPECT_EQ(width.allowed, "1..8192");
+  EXPECT_EQ(width.allowed, "1..16384");
   EXPECT_EQ(width.unit, "pixels");
   EXPECT_EQ(width.preset, "1280");
   EXPECT_EQ(entryAt(entries, "shadow.filter.type").type, "hard | pcf | vsm | evsm | msm");

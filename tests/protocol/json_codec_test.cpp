@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
     OutOfRange, EachRefusal,
     testing::Values(
         Refused{R"({"width":0})", "/width"}, Refused{R"({"width":-1})", "/width"},
-        Refused{R"({"width":8193})", "/width"}, Refused{R"({"width":4294967297})", "/width"},
+        Refused{R"({"width":16385})", "/width"}, Refused{R"({"width":4294967297})", "/width"},
         Refused{R"({"width":18446744073709551615})", "/width"}, Refused{R"({"width":18446744073709551616})", "/width"},
         Refused{R"({"width":-9223372036854775809})", "/width"}, Refused{R"({"width":1e300})", "/width"},
         Refused{R"({"width":1e999})", "/width"}, Refused{R"({"exposure":1e999})", "/exposure"},
@@ -167,7 +167,7 @@ TEST(DecodeFrameSpec, AProblemQuotesTheLimitAndTheValue) {
   const Result<FrameSpec> spec = decodeFrameSpec(R"({"width":100000,"shadow":{"filter":{"size":4}},"exposure":1e30})");
   ASSERT_FALSE(spec);
   ASSERT_EQ(spec.problems().size(), 3u);
-  EXPECT_EQ(spec.problems()[0].limit, "1..8192");
+  EXPECT_EQ(spec.problems()[0].limit, "1..16384");
   EXPECT_EQ(spec.problems()[0].actual, "100000");
   EXPECT_EQ(spec.problems()[1].limit, "3, 5 or 7");
   EXPECT_EQ(spec.problems()[1].actual, "4");

@@ -62,7 +62,7 @@ TEST(JsonSchema, EveryObjectIsClosed) {
 TEST(JsonSchema, SaysWhatTheRowsSay) {
   const Json& spec = schemaNamed("FrameSpec")["properties"];
   EXPECT_EQ(spec["width"].dump(),
-            R"({"type":"integer","minimum":1,"maximum":8192,)"
+            R"({"type":"integer","minimum":1,"maximum":16384,)"
             R"("description":"Width of the picture. Unit: pixels.","x-unit":"pixels","default":1280})");
   EXPECT_EQ(spec["views"]["uniqueItems"], true);
   EXPECT_EQ(spec["views"]["minItems"], 1);

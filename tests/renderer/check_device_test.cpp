@@ -24,6 +24,23 @@ TEST(CheckDevice, D4_X8_WhatTheDeviceLacksIsAProblemWithItsPlaceAndLimit) {
   EXPECT_EQ(refused.problems()[1].actual, "8192");
 }
 
+TEST(CheckDevice, APictureIsNoLargerThanTheDevicesTextures) {
+  FrameSpec spec;
+  spec.width = 16384;
+  spec.height = 2048;
+  RendererInfo device;
+  device.maxTextureSize = 16384;
+  device.maxSamples = 4;
+  EXPECT_TRUE(checkDevice(spec, device));
+  device.maxTextureSize = 8192;
+  const Status refused = checkDevice(spec, device);
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.problems().size(), 1u);
+  EXPECT_EQ(refused.problems()[0].pointer, "/width");
+  EXPECT_EQ(refused.problems()[0].limit, "at most 8192");
+  EXPECT_EQ(refused.problems()[0].actual, "16384");
+}
+
 TEST(CheckDevice, AnAtlasIsAsLargeAsItsTilesSamplesAndMoments) {
   ShadowPlan plan;
   plan.atlasWidth = plan.atlasHeight = 8192;

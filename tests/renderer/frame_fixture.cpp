@@ -31,16 +31,22 @@ const Json& everyFilter() {
   return filters;
 }
 
-ScenePtr sceneOf(const GlbBuilder& builder) {
-  auto scene = loadScene(builder.bundle());
+ScenePtr sceneOf(Bytes glb) {
+  auto scene = loadScene({std::move(glb), {}});
   EXPECT_TRUE(scene) << told(scene.problems());
   return scene ? *scene : nullptr;
 }
 
+ScenePtr sceneOf(const GlbBuilder& builder) {
+  return sceneOf(builder.glb());
+}
+
+Bytes generatedGlb(const std::string& name) {
+  return readFile(std::string(GNOMON_TEST_SCENES "/") + name + ".glb");
+}
+
 ScenePtr generatedScene(const std::string& name) {
-  auto scene = loadScene({readFile(std::string(GNOMON_TEST_SCENES "/") + name + ".glb"), {}});
-  EXPECT_TRUE(scene) << told(scene.problems());
-  return scene ? *scene : nullptr;
+  return sceneOf(generatedGlb(name));
 }
 
 Frame renderJson(const ScenePtr& scene, const std::string& json) {

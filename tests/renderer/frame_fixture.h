@@ -16,7 +16,9 @@ Renderer& sharedRenderer();
 const Json& everyFilter();
 
 ScenePtr sceneOf(const GlbBuilder& builder);
+ScenePtr sceneOf(Bytes glb);
 ScenePtr generatedScene(const std::string& name); ///< of tests/scenes
+Bytes generatedGlb(const std::string& name);
 
 /// Renders a FrameSpec given as JSON; a failed expectation and an empty frame when it is refused.
 Frame renderJson(const ScenePtr& scene, const std::string& spec);

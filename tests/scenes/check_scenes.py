@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Holds GLB files to what the generators promise: sound buffers and indices, true bounds, unit normals that agree with
-counter-clockwise fronts, and the number of triangles. Exit status 1 tells what is wrong.
+counter-clockwise fronts, and the number of triangles. Meshes called "faulty ..." may hold triangles without an area or
+without places. Exit status 1 tells what is wrong.
 
 usage: check_scenes.py FILE.glb[=TRIANGLES]...      TRIANGLES is of the default scene: a number, or FROM-TO
 """
@@ -43,7 +44,7 @@ def accessor_values(asset, binary, index):
     return accessor, values
 
 
-def check_primitive(asset, binary, primitive):
+def check_primitive(asset, binary, primitive, may_be_faulty):
     accessor, p = accessor_values(asset, binary, primitive["attributes"]["POSITION"])
     for i in range(3):
         assert min(p[i::3]) == accessor["min"][i] and max(p[i::3]) == accessor["max"][i], "bounds of POSITION"
@@ -53,6 +54,8 @@ def check_primitive(asset, binary, primitive):
         assert abs(math.sqrt(n[i] ** 2 + n[i + 1] ** 2 + n[i + 2] ** 2) - 1) < 1e-4, "normals of unit length"
     _, indices = accessor_values(asset, binary, primitive["indices"])
     assert len(indices) % 3 == 0 and max(indices) < accessor["count"], "indices in range"
+    if may_be_faulty:
+        return
     for t in range(0, len(indices), 3):
         a, b, c = indices[t] * 3, indices[t + 1] * 3, indices[t + 2] * 3
         ux, uy, uz = p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]
@@ -75,7 +78,7 @@ def check(argument):
     for mesh in asset.get("meshes", []):
         for primitive in mesh["primitives"]:
             try:
-                check_primitive(asset, binary, primitive)
+                check_primitive(asset, binary, primitive, mesh["name"].startswith("faulty"))
             except AssertionError as error:
                 raise AssertionError(f"mesh {mesh['name']}: {error}") from None
     triangles = sum(triangles_of(asset, node) for node in asset["scenes"][asset["scene"]].get("nodes", []))

@@ -4,8 +4,7 @@
 
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
-#include "renderer/passes/shader_variants.h"
+#include "renderer/passes/views/shadow_bindings.h"
 
 namespace gnomon {
 namespace {
@@ -17,19 +16,28 @@ GLenum formatOf(View view, bool encoded) {
 
 /// A variant that holds no more than these lights and surfaces need.
 ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
-  ViewVariant variant;
+  ViewVariant variant = lightVariant(inputs, shading);
   variant.view = view;
   variant.encoded = shading.spec.output.format == ImageFormat::png;
   variant.toneMapping = shading.spec.toneMapping;
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
+  variant.visibilityLayers =
+      showsShadow(view) && std::any_of(shading.lights.begin(), shading.lights.end(),
+                                       [](const shared::LightData& light) { return light.tiles.w > 0; });
+  return variant;
+}
+
+} // namespace
+
+ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading) {
+  ViewVariant variant;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;
   variant.receiverGroups = inputs.receiverGroups;
   variant.lights = static_cast<int>(shading.spec.lights->size());
   variant.lightLists = !shading.lightLists.empty();
   for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
-    variant.visibilityLayers = variant.visibilityLayers || (light.tiles.w > 0 && showsShadow(view));
     if (light.tiles.x == 0) continue;
     variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
     const int kind = static_cast<int>(light.sampling.x);
@@ -39,28 +47,6 @@ ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, cons
   }
   return variant;
 }
-
-/// Lights and tiles on the device.
-struct LightBuffers {
-  gl::Buffer lights;
-  gl::Buffer tiles;
-  gl::Buffer lists;
-};
-
-struct Samplers {
-  gl::Sampler texels{{GL_NEAREST, GL_NEAREST}, "surface texels"};
-  gl::Sampler compare{{GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE, GL_LEQUAL, {0, 0, 0, 0}},
-                      "shadow compare"};
-  gl::Sampler blurred{{GL_LINEAR, GL_LINEAR}, "shadow moments"};
-};
-
-void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
-  if (texture.id() == 0) return;
-  texture.bind(unit);
-  sampler.bind(unit);
-}
-
-} // namespace
 
 bool isPicture(View view) {
   return view == View::color || view == View::cascades || view == View::texelGrid || view == View::lightContribution;
@@ -90,22 +76,16 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
   gl::apply(state);
 
   bindInputs(inputs);
-  const LightBuffers buffers{{std::as_bytes(shading.lights), "lights"},
-                             {std::as_bytes(shading.tiles), "tiles"},
-                             {std::as_bytes(shading.lightLists), "light lists"}};
-  buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
-  buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
-  buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
-  const Samplers samplers;
-  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, samplers.texels,
-              GNOMON_DEPTH_UNIT);
-  bindTexture(surfaces.bits, samplers.texels, GNOMON_SURFACE_UNIT);
-  bindTexture(surfaces.emission, samplers.texels, GNOMON_EMISSION_UNIT);
-  bindTexture(shading.atlas.textures->depth, samplers.compare, GNOMON_ATLAS_UNIT);
-  bindTexture(shading.atlas.textures->moments, samplers.blurred, GNOMON_MOMENTS_UNIT);
-  bindTexture(sources.visibility.texture, samplers.texels, GNOMON_VISIBILITY_UNIT);
-  bindTexture(sources.casters.nodes, samplers.texels, GNOMON_CASTER_NODE_UNIT);
-  bindTexture(sources.casters.depth, samplers.texels, GNOMON_CASTER_DEPTH_UNIT);
+  const ShadowBindings shadows(shading);
+  const gl::Buffer lists(std::as_bytes(shading.lightLists), "light lists");
+  lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
+  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, texels, GNOMON_DEPTH_UNIT);
+  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
+  bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
+  bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
+  bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);
   if (showsOneLight(view)) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
     (*program)->set(GNOMON_ATLAS_SIZE,

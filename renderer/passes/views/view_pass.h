@@ -7,6 +7,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/caster_node_pass.h"
 #include "renderer/passes/tiles/shadow_pass.h"
 #include "renderer/passes/views/surface_pass.h"
@@ -44,6 +45,9 @@ struct ViewSources {
   const VisibilityLayers& visibility; ///< of the surfaces' samples; empty where no light has a layer
   const CasterNodes& casters;         ///< read by the view casterIds
 };
+
+/// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults.
+ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading);
 
 /// Lights the surfaces of every pixel for any view but atlas and tile.
 Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view);

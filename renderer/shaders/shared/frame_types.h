@@ -44,6 +44,7 @@ using glm::vec4;
 #define GNOMON_LIGHT_BUFFER 1
 #define GNOMON_TILE_BUFFER 2
 #define GNOMON_LIGHT_LIST_BUFFER 3
+#define GNOMON_PROBE_BUFFER 7
 
 // Uniform locations.
 #define GNOMON_MATERIAL 0
@@ -79,6 +80,9 @@ using glm::vec4;
 
 // Tangent of the angle to the light from which on a surface counts as steep: all of its edges are outlines then.
 #define GNOMON_STEEPEST 2.0
+
+// Probes in a row of their target.
+#define GNOMON_PROBE_COLUMNS 256
 
 // Tiles of a light, at most.
 #define GNOMON_LIGHT_TILES 8
@@ -140,6 +144,12 @@ struct TileData {
   vec4 interval; // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
   vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor; zw: atlas u v of a length across, 1
   vec4 axis;     // xyz: where the light travels in the tile's middle
+};
+
+// A point of a surface, of which the light is asked.
+struct ProbeData {
+  vec4 relative; // xyz; w: view depth, metres
+  vec4 normal;   // xyz: of the triangle, on the eye's side, unit length; w: receiver group
 };
 
 #ifdef __cplusplus

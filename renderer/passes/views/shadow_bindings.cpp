@@ -1,0 +1,22 @@
+#include "renderer/passes/views/shadow_bindings.h"
+
+namespace gnomon {
+
+ShadowBindings::ShadowBindings(const ViewInputs& shading)
+    : lights_(std::as_bytes(shading.lights), "lights"),
+      tiles_(std::as_bytes(shading.tiles), "tiles"),
+      compare_({GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE, GL_LEQUAL, {0, 0, 0, 0}}, "shadow compare"),
+      blurred_({GL_LINEAR, GL_LINEAR}, "shadow moments") {
+  lights_.bindStorage(GNOMON_LIGHT_BUFFER);
+  tiles_.bindStorage(GNOMON_TILE_BUFFER);
+  bindTexture(shading.atlas.textures->depth, compare_, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.textures->moments, blurred_, GNOMON_MOMENTS_UNIT);
+}
+
+void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
+  if (texture.id() == 0) return;
+  texture.bind(unit);
+  sampler.bind(unit);
+}
+
+} // namespace gnomon
