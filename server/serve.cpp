@@ -98,8 +98,11 @@ int serve(const ServeOptions& options) {
   if (!store) {
     return failed(store.problems());
   }
-  auto queue = RenderQueue::start(
-      {options.backend, options.gpuSceneBytes, options.tileCacheBytes, options.tracedSceneBytes}, options.queueLimit);
+  auto queue = RenderQueue::start({.backend = options.backend,
+                                   .gpuSceneBytes = options.gpuSceneBytes,
+                                   .tracedSceneBytes = options.tracedSceneBytes,
+                                   .tileCacheBytes = options.tileCacheBytes},
+                                  options.queueLimit);
   if (!queue) {
     return failed(queue.problems());
   }

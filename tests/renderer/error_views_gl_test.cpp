@@ -210,6 +210,18 @@ TEST(ErrorViews, H1_LightsOfEveryKindAreMeasured) {
   EXPECT_LT(receivers[3], receivers[2]) << "nor beyond a light's range";
 }
 
+TEST(ErrorViews, H1_ExactTechniquesHaveHardlyAnyError) {
+  for (const char* technique : {"hybrid", "rayTraced"}) {
+    Json spec = specOf({"error", "color"}, "png");
+    spec["shadow"]["technique"] = technique;
+    spec["shadow"]["strength"] = 0.5;
+    const ErrorMetrics errors = errorsOf("box_on_plane", spec);
+    EXPECT_GT(errors.receivers, 320 * 180 / 4) << technique;
+    EXPECT_LT(errors.misclassified, 1e-4) << technique;
+    EXPECT_LT(errors.rms, 1e-2) << technique << ": measured at full strength";
+  }
+}
+
 TEST(ErrorViews, AntialiasingDoesNotChangeWhatIsMeasured) {
   Json spec = specOf({"error", "reference", "shadow"});
   spec["antialiasing"] = "none";
