@@ -47,8 +47,8 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   const glm::mat4 clipFromRelative(clipFromView(frame.view) * viewFromRelative(frame.view));
   data.clipFromRelative = clipFromRelative;
   p.frame.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{scene,      view,       p.gpu,      geometry,   frame.view,  p.frame,
-                          p.vertices, p.vertices, p.programs, spec.width, spec.height, {}};
+  const PassInputs inputs{scene,      view,       p.gpu,      geometry,   frame.view,  p.frame, p.instances,
+                          p.vertices, p.vertices, p.programs, spec.width, spec.height, {},      {}};
   const Survey survey = valueOf(surveyScene(inputs, samples));
   p.batch = uploadDraws(buildDrawList(scene, view, geometry, DrawUse::survey, survey.inView));
   p.depth = gl::Texture({GL_DEPTH_COMPONENT32F, spec.width, spec.height, 1, samples > 1 ? samples : 0}, "floor depth");
