@@ -134,9 +134,9 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
   const shared::FrameData data = frameData(frame);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{
-      *scene,   view,           gpu,        geometry,    frame.view,  frameBuffer, vertices,
-      anchored, tools.programs, spec.width, spec.height, frame.nodes, {},          frame.groups.matter()};
+  const PassInputs inputs{*scene,      view,        gpu,         geometry, frame.view,
+                          frameBuffer, instances,   vertices,    anchored, tools.programs,
+                          spec.width,  spec.height, frame.nodes, {},       frame.groups.matter()};
 
   const auto survey = surveyScene(inputs, 1);
   if (!survey) return survey.problems();

@@ -14,9 +14,10 @@ from pathlib import Path
 
 BEGIN, END = "<!-- seed rows -->\n\n", "\n<!-- /seed rows -->"
 CASE = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
-ID = re.compile(r"(?:^|_)([XMDGH]\d+)(?=_)")
+ID = re.compile(r"(?:^|_)([XMDGHN]\d+)(?=_)")
 
-# X: Xenko's shadows. M: the MonoGame article. D: Met.3D's cascades. G: what glTF brings with it.
+# X: Xenko's shadows. M: the MonoGame article. D: Met.3D's cascades. G: what glTF brings with it. N: a lecture's notes on
+# shadows.
 MUST_HAVE_TESTS = {
     "X1": "which lights cast", "X2": "factors of the five sizes", "X3": "a directional light covers the whole frame",
     "X4": "the size formula", "X5": "importance", "X6": "what a spot covers", "X7": "what a point light covers",
@@ -49,6 +50,9 @@ MAY_HAVE_TESTS = {
     "H5": "the same bytes again", "H6": "shimmer", "H7": "report on the atlas", "H8": "a plan without a picture",
     "H9": "debug views as files", "H10": "times of passes", "H11": "techniques side by side", "H12": "large worlds",
     "H13": "tiles kept between requests",
+    "N1": "umbra and penumbra", "N2": "equal depth is lit", "N3": "shadow volumes",
+    "N4": "light falls where no volume is", "N6": "soft shadows against a reference",
+    "N7": "volumes and rays agree",
 }
 ROWS = {**MUST_HAVE_TESTS, **MAY_HAVE_TESTS}
 
