@@ -61,18 +61,15 @@ Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std:
   for (std::size_t i = 1; i < frames.size(); ++i) keepInSight(traceInput(traced, frames[i]), seen);
 
   std::vector<Watched> watched;
-  bool casts = false;
-  for (std::size_t i = 0; i < first.lights.size(); ++i) {
-    if (!first.lights[i].shadow->enabled || first.lights[i].intensity <= 0) continue;
-    casts = true;
-    const int light = static_cast<int>(i);
+  const std::vector<int> casting = shadowingLights(frames.front());
+  for (const int light : casting) {
     std::vector<SurfacePoint> points = receiversOf(first, light, seen);
     if (!points.empty()) watched.push_back({light, std::move(points), {}});
   }
   if (!watched.empty()) return watched;
   return Problem{ProblemCode::invalidValue, "/path",
-                 casts ? "no surface that faces a light is in sight of every camera of the path"
-                       : "no light of this frame casts a shadow"};
+                 casting.empty() ? "no light of this frame casts a shadow"
+                                 : "no surface that faces a light is in sight of every camera of the path"};
 }
 
 std::vector<shared::ProbeData> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {
