@@ -131,9 +131,21 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
   const shared::FrameData data = frameData(frame);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{
-      *scene,   view,           gpu,        geometry,    frame.view,  frameBuffer, vertices,
-      anchored, tools.programs, spec.width, spec.height, frame.nodes, {},          frame.groups.matter()};
+  const PassInputs inputs{.scene = *scene,
+                          .view = view,
+                          .gpu = gpu,
+                          .geometry = geometry,
+                          .camera = frame.view,
+                          .frame = frameBuffer,
+                          .instances = instances,
+                          .vertices = vertices,
+                          .anchored = anchored,
+                          .programs = tools.programs,
+                          .width = spec.width,
+                          .height = spec.height,
+                          .nodes = frame.nodes,
+                          .edges = {},
+                          .receiverGroups = frame.groups.matter()};
 
   const auto survey = surveyScene(inputs, 1);
   if (!survey) return survey.problems();
