@@ -61,18 +61,15 @@ Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std:
   for (std::size_t i = 1; i < frames.size(); ++i) keepInSight(traceInput(traced, frames[i]), seen);
 
   std::vector<Watched> watched;
-  bool casts = false;
-  for (std::size_t i = 0; i < first.lights.size(); ++i) {
-    if (!first.lights[i].shadow->enabled || first.lights[i].intensity <= 0) continue;
-    casts = true;
-    const int light = static_cast<int>(i);
+  const std::vector<int> casting = shadowingLights(frames.front());
+  for (const int light : casting) {
     std::vector<SurfacePoint> points = receiversOf(first, light, seen);
     if (!points.empty()) watched.push_back({light, std::move(points), {}});
   }
   if (!watched.empty()) return watched;
   return Problem{ProblemCode::invalidValue, "/path",
-                 casts ? "no surface that faces a light is in sight of every camera of the path"
-                       : "no light of this frame casts a shadow"};
+                 casting.empty() ? "no light of this frame casts a shadow"
+                                 : "no surface that faces a light is in sight of every camera of the path"};
 }
 
 std::vector<shared::ProbeData> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {
@@ -134,9 +131,21 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
   const shared::FrameData data = frameData(frame);
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{*scene,      view,        gpu,         geometry, frame.view,
-                          frameBuffer, instances,   vertices,    anchored, tools.programs,
-                          spec.width,  spec.height, frame.nodes, {},       frame.groups.matter()};
+  const PassInputs inputs{.scene = *scene,
+                          .view = view,
+                          .gpu = gpu,
+                          .geometry = geometry,
+                          .camera = frame.view,
+                          .frame = frameBuffer,
+                          .instances = instances,
+                          .vertices = vertices,
+                          .anchored = anchored,
+                          .programs = tools.programs,
+                          .width = spec.width,
+                          .height = spec.height,
+                          .nodes = frame.nodes,
+                          .edges = {},
+                          .receiverGroups = frame.groups.matter()};
 
   const auto survey = surveyScene(inputs, 1);
   if (!survey) return survey.problems();
