@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // A choice more needs a flag more, below. The page is no choice; `backend` has two flags.
-static_assert(memberCount<ServeOptions>() == 16);
+static_assert(memberCount<ServeOptions>() == 17);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
