@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -32,15 +35,19 @@ bool checkEnumerator(int value, std::size_t count, const Place& place, ProblemLi
 template <class T>
 bool checkDistinct(const std::vector<T>& list, const Notes& notes, const Place& place, ProblemList& problems) {
   bool good = true;
-  for (std::size_t i = 0; notes.distinct && i < list.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!(list[i] == list[j])) continue;
+  if constexpr (std::equality_comparable<T>) {
+    for (std::size_t i = 0; notes.distinct && i < list.size(); ++i) {
+      if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) ==
+          list.begin() + static_cast<std::ptrdiff_t>(i)) {
+        continue;
+      }
       problems.add({.code = ProblemCode::invalidValue,
                     .pointer = Place(place, i).pointer(),
                     .detail = "This stands in its list more than once."});
       good = false;
-      break;
     }
+  } else {
+    assert(!notes.distinct); // what replies hold, of which no list need be distinct
   }
   return good;
 }

@@ -1,6 +1,7 @@
 #include "protocol/field_decode.h"
 
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -54,8 +55,13 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
     addWrongType(node, "a whole number", place, problems);
     return false;
   }
-  // Every row of an int has a range that int holds, so what passes converts exactly.
   if (!checkNumber(*value, notes, place, problems)) return false;
+  constexpr double kMost =
+      std::numeric_limits<int>::max(); // rows of requests have narrower ranges; those of replies none
+  if (std::abs(*value) > kMost) {
+    addWrongType(node, "a whole number of 32 bits", place, problems);
+    return false;
+  }
   out = static_cast<int>(*value);
   return true;
 }

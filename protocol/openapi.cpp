@@ -1,45 +1,16 @@
 #include "protocol/openapi.h"
 
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "protocol/field_list.h"
+#include "protocol/openapi_parts.h"
 
 namespace gnomon {
 namespace {
 
-Json reference(const std::string& place) {
-  return {{"$ref", "#/components/" + place}};
-}
-
-Json schemaContent(const std::string& schema) {
-  return {{"schema", reference("schemas/" + schema)}};
-}
-
-/// Bytes of a media type have no schema of their own in OpenAPI 3.1.
-Json bytesContent() {
-  return Json::object();
-}
-
-Json success(const char* description, Json content, std::initializer_list<const char*> headers = {}) {
-  Json response = {{"description", description}, {"headers", Json::object()}};
-  response["headers"]["X-Request-ID"] = reference("headers/X-Request-ID");
-  for (const char* header : headers) response["headers"][header] = reference(std::string("headers/") + header);
-  if (!content.empty()) response["content"] = std::move(content);
-  return response;
-}
-
-/// A route's replies: `good`, and the refusals of these statuses.
-Json replies(Json good, std::initializer_list<const char*> statuses) {
-  for (const char* status : statuses) good[status] = reference(std::string("responses/") + status);
-  return good;
-}
-
-Json operation(const char* id, const char* summary, Json responses) {
-  return {{"operationId", id}, {"summary", summary}, {"responses", std::move(responses)}};
-}
+using namespace openapi;
 
 Json textPart(const char* description) {
   return {{"type", "string"}, {"description", description}};
@@ -131,16 +102,6 @@ Json queryParameters() {
   return parameters;
 }
 
-Json withScene(Json operation) {
-  operation["parameters"] = Json::array({reference("parameters/sceneId")});
-  return operation;
-}
-
-Json withBody(Json operation, Json body) {
-  operation["requestBody"] = std::move(body);
-  return operation;
-}
-
 Json jsonReply(const char* description, const char* schema) {
   return {{"200", success(description, {{"application/json", schemaContent(schema)}})}};
 }
@@ -209,6 +170,7 @@ Json paths() {
   paths["/v1/scenes/{id}/frames"] = framesRoute();
   paths["/v1/scenes/{id}/frame"] = frameRoute();
   paths["/v1/scenes/{id}/plan"] = planRoute();
+  paths["/v1/scenes/{id}/evaluations"] = evaluationsRoute();
   paths["/v1/render"] = renderRoute();
   paths["/v1/capabilities"] =
       getRoute("capabilities", "What this server can do", jsonReply("Its renderer and limits.", "Capabilities"));

@@ -10,4 +10,8 @@ Json openApi();
 /// The document's components: schemas, responses, headers and parameters that the routes refer to.
 Json openApiComponents();
 
+/// The path item of evaluations, and the schemas that it refers to.
+Json evaluationsRoute();
+void addEvaluationSchemas(Json& components);
+
 } // namespace gnomon

@@ -21,10 +21,10 @@ constexpr std::array kRefusals{
     Refusal{"413", "A limit on bytes, pixels, triangles or nodes was passed."},
     Refusal{"415", "The route takes no body of that type."},
     Refusal{"422", "The scene breaks the rules of glTF, needs what Gnomon does not have, or is not the one named."},
-    Refusal{"429", "The render queue is full; Retry-After says when to come again."},
+    Refusal{"429", "The server has enough to do; Retry-After says when to come again."},
     Refusal{"500", "The server made a mistake, or its graphics context failed."},
     Refusal{"503", "The server is starting or shutting down."},
-    Refusal{"504", "The frame was not finished in its time."},
+    Refusal{"504", "The work was not finished in its time."},
 };
 
 Json header(const char* description) {
@@ -78,6 +78,7 @@ Json schemas() {
   schemaOf<PlanReport>(Notes{}, components);
   schemaOf<SceneList>(Notes{}, components);
   schemaOf<Capabilities>(Notes{}, components);
+  addEvaluationSchemas(components);
   components["Problem"] = problemSchema();
   return components;
 }

@@ -2,55 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "protocol/svg.h"
 
 namespace gnomon::bench {
 namespace {
 
+using namespace svg;
+
 constexpr double kWidth = 720, kHeight = 400;
 constexpr double kLeft = 64, kRight = 16, kTop = 64, kBottom = 56; // around the axes
-
-// Colors are written out, not held in variables, which some viewers do not know.
-constexpr const char* kStyle = R"(<style>
-  text { font: 13px sans-serif; fill: #24292f } .title { font-size: 16px; font-weight: bold }
-  .grid { stroke: #d0d7de } .axis { stroke: #24292f } polyline { fill: none; stroke-width: 2 }
-  .fill0 { fill: #0969da } .fill1 { fill: #cf222e } .fill2 { fill: #1a7f37 } .fill3 { fill: #8250df }
-  .line0 { stroke: #0969da } .line1 { stroke: #cf222e } .line2 { stroke: #1a7f37 } .line3 { stroke: #8250df }
-  @media (prefers-color-scheme: dark) {
-    text { fill: #e6edf3 } .grid { stroke: #3d444d } .axis { stroke: #e6edf3 }
-    .fill0 { fill: #58a6ff } .fill1 { fill: #ff7b72 } .fill2 { fill: #56d364 } .fill3 { fill: #d2a8ff }
-    .line0 { stroke: #58a6ff } .line1 { stroke: #ff7b72 } .line2 { stroke: #56d364 } .line3 { stroke: #d2a8ff }
-  }
-</style>
-)";
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
-
-std::string text(double x, double y, const std::string& anchor, const std::string& words,
-                 const std::string& more = "") {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" +
-         escaped(words) + "</text>\n";
-}
-
-std::string line(const std::string& kind, double x1, double y1, double x2, double y2) {
-  return "<line class=\"" + kind + "\" x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) +
-         "\" y2=\"" + number(y2) + "\"/>\n";
-}
-
-/// The class of a line's color.
-std::string colored(const std::string& kind, std::size_t index) {
-  return "class=\"" + kind + std::to_string(index % 4) + "\"";
-}
 
 /// 1, 2 or 5 times a power of ten: the step of about five marks up to `highest`.
 double markStep(double highest) {
@@ -154,10 +115,7 @@ std::string linesOf(const Plot& plot, const Axes& axes) {
 
 std::string svgOf(const Plot& plot) {
   const Axes axes = axesOf(plot);
-  const std::string size = number(kWidth) + " " + number(kHeight);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\" width=\"" + number(kWidth) +
-         "\" height=\"" + number(kHeight) + "\">\n" + kStyle + frameOf(plot, axes) +
-         (axes.bars ? barsOf(plot, axes) : linesOf(plot, axes)) + "</svg>\n";
+  return document(kWidth, kHeight, frameOf(plot, axes) + (axes.bars ? barsOf(plot, axes) : linesOf(plot, axes)));
 }
 
 } // namespace gnomon::bench

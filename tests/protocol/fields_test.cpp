@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "protocol/evaluation_rows.h"
 #include "protocol/field_rows.h"
 #include "protocol/reply_rows.h"
 
@@ -68,7 +69,7 @@ constexpr bool isNumeric<std::variant<Kinds...>> = true;
 
 TEST(Fields, EveryNumberOfARequestIsBoundedOnBothSides) {
   int count = 0;
-  forEachRowWithin<FrameSpec>([&]<class F>(const std::string& owner, const F& field) {
+  forEachRowWithin<EvaluationRequest>([&]<class F>(const std::string& owner, const F& field) {
     if constexpr (isNumeric<typename F::Member>) {
       ++count;
       EXPECT_TRUE(std::isfinite(field.notes.range.min) && std::isfinite(field.notes.range.max)) << owner << field.name;
@@ -90,7 +91,8 @@ TEST(Fields, EveryRowSaysWhatItIsInASentence) {
     ASSERT_FALSE(field.notes.says.empty()) << owner << "." << field.name;
     EXPECT_TRUE(field.notes.says.ends_with('.')) << owner << "." << field.name;
   };
-  forEachRowWithin<FrameSpec>(check);
+  forEachRowWithin<EvaluationRequest>(check);
+  forEachRowWithin<EvaluationReport>(check);
   forEachRowWithin<FrameReport>(check);
   forEachRowWithin<SceneList>(check);
   forEachRowWithin<Capabilities>(check);

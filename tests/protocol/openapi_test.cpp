@@ -50,8 +50,9 @@ TEST(OpenApi, HasEveryRoute) {
   EXPECT_EQ(operations,
             (std::set<std::string>{"post /v1/scenes", "get /v1/scenes", "put /v1/scenes/{id}", "get /v1/scenes/{id}",
                                    "head /v1/scenes/{id}", "delete /v1/scenes/{id}", "post /v1/scenes/{id}/frames",
-                                   "get /v1/scenes/{id}/frame", "post /v1/scenes/{id}/plan", "post /v1/render",
-                                   "get /v1/capabilities", "get /openapi.json", "get /livez", "get /readyz", "get /"}));
+                                   "get /v1/scenes/{id}/frame", "post /v1/scenes/{id}/plan",
+                                   "post /v1/scenes/{id}/evaluations", "post /v1/render", "get /v1/capabilities",
+                                   "get /openapi.json", "get /livez", "get /readyz", "get /"}));
 }
 
 TEST(OpenApi, EveryOperationHasItsOwnIdASummaryAndAGoodReply) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "protocol/evaluation.h"
+
+namespace gnomon {
+
+/// Speed against error as an SVG file: misclassified share (logarithmic; 0 on a floor of its own) over milliseconds
+/// (logarithmic). Rows on the Pareto front are joined by steps; each point's number leads to its name beside the chart.
+/// Rows without figures stand below the others, with why.
+std::string evaluationChart(const EvaluationReport& report);
+
+} // namespace gnomon
