@@ -80,7 +80,7 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
                         progress);
 }
 
-Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
+Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tileUse) {
   auto resolved = resolveFrame(*scene, spec);
   if (!resolved) return resolved.problems();
   if (const Status able = checkDevice(spec, info()); !able) return able.problems();
@@ -136,7 +136,8 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec) {
   if (!subject) return subject.problems();
   clock.finish("plan");
 
-  const auto atlas = castShadows(inputs, plan, effective, impl_->tiles);
+  TileCache noTiles(0);
+  const auto atlas = castShadows(inputs, plan, effective, tileUse == TileUse::kept ? impl_->tiles : noTiles);
   if (!atlas) return atlas.problems();
   clock.finish("shadow");
 

@@ -11,6 +11,7 @@
 #include "protocol/result.h"
 #include "protocol/scene_summary.h"
 #include "renderer/core/progress.h"
+#include "renderer/evaluate.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/scene_bundle.h"
 
@@ -61,6 +62,9 @@ struct Shimmer {
   }
 };
 
+/// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
+enum class TileUse { kept, drawnAnew };
+
 /// Owns a graphics context. Everything but `info` only on the thread that made it.
 class Renderer {
  public:
@@ -72,7 +76,7 @@ class Renderer {
   const RendererInfo& info() const;
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
-  Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec);
+  Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept);
 
   /// Shimmer of `spec`, its camera replaced by each one of the path in turn (at least two); each frame is surveyed,
   /// planned and cast as for a picture. Where a depth range has a `previous`, each frame takes the one before it for

@@ -1,0 +1,193 @@
+// Whole evaluations, drawn and traced.
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include "protocol/evaluation_json.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+constexpr const char* kSpec = R"({"width": 320, "height": 180, "camera": {"node": "camera"},
+    "lights": [{"sun": {"azimuthDegrees": 130, "elevationDegrees": 35}}], "atlas": {"baseSize": 512}})";
+
+Evaluation evaluationOf(const std::string& rest, const std::string& spec = kSpec) {
+  auto evaluation = decodeEvaluation(R"({"repeats": 2, "spec": )" + spec + ", " + rest + "}");
+  EXPECT_TRUE(evaluation) << evaluation.problems()[0].pointer << evaluation.problems()[0].detail;
+  return evaluation ? *evaluation : Evaluation{};
+}
+
+Result<EvaluationReport> evaluated(const ScenePtr& scene, const Evaluation& evaluation,
+                                   const EvaluationListener& listener = {}) {
+  Renderer& renderer = testing::sharedRenderer();
+  EvaluationTools tools;
+  tools.draw = [&](const FrameSpec& spec) { return renderer.render(scene, spec, TileUse::drawnAnew); };
+  tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
+    const auto shimmer = renderer.shimmer(scene, spec, path, goOn);
+    if (!shimmer) return shimmer.problems();
+    return shimmer->perThousand();
+  };
+  return evaluate(scene, evaluation, renderer.info(), tools, listener);
+}
+
+const EvaluationRow& rowOf(const EvaluationReport& report, const std::string& name) {
+  const auto found =
+      std::find_if(report.rows.begin(), report.rows.end(), [&](const EvaluationRow& row) { return row.name == name; });
+  EXPECT_NE(found, report.rows.end()) << name;
+  return *found;
+}
+
+TEST(Evaluate, ASweepMeasuresEveryFilterAgainstOneReference) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const auto report = evaluated(box, evaluationOf(R"("sweep": "filters")"));
+  ASSERT_TRUE(report) << report.problems()[0].detail;
+  ASSERT_EQ(report->rows.size(), 13u);
+  EXPECT_EQ(report->reference.frames, 1);
+  EXPECT_GT(report->reference.milliseconds, 0);
+  EXPECT_GT(report->reference.buildMilliseconds, 0);
+  EXPECT_EQ(report->renderer.renderer, testing::sharedRenderer().info().renderer);
+  std::set<std::uint64_t> receivers;
+  for (const EvaluationRow& row : report->rows) {
+    ASSERT_TRUE(row.metrics && row.milliseconds && row.pareto) << row.name;
+    receivers.insert(row.metrics->receivers);
+    EXPECT_GT(*row.milliseconds, 0) << row.name;
+    EXPECT_GT(row.memoryBytes, 512u * 512 * 4) << row.name;
+    EXPECT_EQ(row.stages.front().stage, "upload");
+    EXPECT_TRUE(row.metrics->predicted) << row.name;
+    // A box of one piece and texels of two pixels: wrong along its edges, and nowhere else.
+    EXPECT_LT(row.metrics->misclassified, 0.02) << row.name;
+    EXPECT_NEAR(row.metrics->misclassified, row.metrics->falseShadow + row.metrics->falseLit, 1e-12);
+  }
+  EXPECT_EQ(receivers.size(), 1u) << "all see the same receivers";
+  EXPECT_GT(*receivers.begin(), 10'000u);
+  EXPECT_GT(rowOf(*report, "hard").metrics->misclassified, 0);
+  EXPECT_TRUE(std::any_of(report->rows.begin(), report->rows.end(), [](const auto& row) { return *row.pareto; }));
+}
+
+TEST(Evaluate, MoreTexelsAreLessWrong) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const auto report = evaluated(box, evaluationOf(R"("sweep": "sizes")"));
+  ASSERT_TRUE(report);
+  const auto wrong = [&](const char* name) { return rowOf(*report, name).metrics->misclassified; };
+  EXPECT_GT(wrong("hard 1 x XSmall"), 2 * wrong("hard 1 x Large"));
+  EXPECT_GT(wrong("hard 1 x XSmall"), wrong("hard 4 x XSmall"));
+}
+
+TEST(Evaluate, StrengthAndAntialiasingOfThePictureDoNotChangeTheError) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const auto report = evaluated(
+      box, evaluationOf(R"("variants": [{}, {"shadow": {"strength": 0.2}}, {"antialiasing": "none", "exposure": 2},
+                                        {"views": ["normal"], "output": {"format": "exr"}}])"));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->reference.frames, 1);
+  for (const EvaluationRow& row : report->rows) {
+    EXPECT_EQ(row.metrics->misclassified, report->rows[0].metrics->misclassified) << row.name;
+    EXPECT_EQ(row.metrics->receivers, report->rows[0].metrics->receivers) << row.name;
+  }
+}
+
+TEST(Evaluate, EveryShadowedLightCounts) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const std::string lamp = R"({"type": "point", "position": [3, 4, 2], "intensity": 20})";
+  const std::string sun = R"({"sun": {"azimuthDegrees": 130, "elevationDegrees": 35}})";
+  const auto report = evaluated(
+      box, evaluationOf(R"("variants": [{}, {"lights": [)" + sun + "," + lamp + R"(]}, {"lights": [)" + lamp + "]}]"));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->reference.frames, 3);
+  EXPECT_EQ(report->rows[1].metrics->receivers,
+            report->rows[0].metrics->receivers + report->rows[2].metrics->receivers);
+}
+
+TEST(Evaluate, AVariantThatCanNotBeDrawnIsARowWithItsProblem) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  std::vector<std::size_t> told;
+  EvaluationListener listener;
+  listener.row = [&](std::size_t index, const EvaluationRow& row) {
+    told.push_back(index);
+    EXPECT_TRUE(row.metrics || row.problems);
+    EXPECT_FALSE(row.milliseconds || row.pareto);
+  };
+  EvaluationStep last;
+  listener.step = [&](const EvaluationStep& step) {
+    EXPECT_GE(step.done, last.done);
+    EXPECT_LT(step.done, step.of);
+    last = step;
+    return true;
+  };
+  const auto report = evaluated(
+      box, evaluationOf(R"("variants": [{"camera": {"node": "nobody"}}, {}, {"shadow": {"enabled": false}}])"),
+      listener);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(told, (std::vector<std::size_t>{0, 2, 1}));
+  EXPECT_EQ(last.of, 1 + 1 + 1 + 2);
+  EXPECT_EQ(last.done, last.of - 1);
+  EXPECT_EQ(report->rows[0].problems->front().pointer, "/camera/node");
+  EXPECT_EQ(report->rows[0].pareto, false);
+  EXPECT_FALSE(report->rows[0].metrics || report->rows[2].metrics);
+  EXPECT_EQ(report->rows[1].pareto, true);
+}
+
+TEST(Evaluate, ASpecThatTheSceneCanNotMeetIsTheRequestsProblem) {
+  const auto report = evaluated(testing::generatedScene("box_on_plane"),
+                                evaluationOf(R"("sweep": "techniques")", R"({"camera": {"node": "nobody"}})"));
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.problems()[0].pointer, "/spec/camera/node");
+}
+
+TEST(Evaluate, StopsWhenItIsAskedTo) {
+  int steps = 0;
+  EvaluationListener listener;
+  listener.step = [&](const EvaluationStep& step) {
+    ++steps;
+    return step.done < 4;
+  };
+  const auto report = evaluated(testing::generatedScene("box_on_plane"), evaluationOf(R"("sweep": "sizes")"), listener);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.problems()[0].code, ProblemCode::unavailable);
+  EXPECT_GT(steps, 4);
+}
+
+TEST(Evaluate, H6_ShimmerIsMeasuredAlongAPathOfSmallSteps) {
+  const ScenePtr row = testing::generatedScene("long_row");
+  const auto report = evaluated(row, evaluationOf(R"("path": {"step": [0.013, 0, 0.007], "frames": 8}, "variants": [
+        {"shadow": {"stabilization": "none"}},
+        {"shadow": {"stabilization": "projectionSnapping", "depthRange": {"mode": "manual", "min": 0, "max": 60}}}])"));
+  ASSERT_TRUE(report) << report.problems()[0].detail;
+  ASSERT_TRUE(report->rows[0].metrics && report->rows[1].metrics);
+  EXPECT_GT(report->rows[0].metrics->shimmer.value(), 0);
+  EXPECT_EQ(report->rows[1].metrics->shimmer.value(), 0);
+}
+
+TEST(Evaluate, NothingInViewIsNoErrorAndNoProblem) {
+  const auto report =
+      evaluated(testing::generatedScene("empty"), evaluationOf(R"("variants": [{}])", R"({"width": 64})"));
+  ASSERT_TRUE(report) << report.problems()[0].detail;
+  EXPECT_EQ(report->rows[0].metrics->receivers, 0u);
+  EXPECT_EQ(report->rows[0].metrics->misclassified, 0);
+}
+
+TEST(Evaluate, H13_TilesThatAreKeptDoNotMakeLaterRoundsCheaper) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  const auto spec = decodeFrameSpec(kSpec);
+  ASSERT_TRUE(spec);
+  std::vector<std::uint64_t> casters;
+  std::thread([&] { // a context of its own needs a thread of its own
+    auto renderer = Renderer::create({});
+    ASSERT_TRUE(renderer);
+    for (const TileUse use : {TileUse::kept, TileUse::drawnAnew, TileUse::drawnAnew, TileUse::kept}) {
+      const auto frame = renderer->render(box, *spec, use);
+      ASSERT_TRUE(frame);
+      casters.push_back(frame->report.counts.casterTriangles);
+    }
+  })
+      .join();
+  ASSERT_EQ(casters.size(), 4u);
+  EXPECT_GT(casters[0], 0u);
+  EXPECT_EQ(casters[1], casters[0]);
+  EXPECT_EQ(casters[2], casters[0]);
+  EXPECT_EQ(casters[3], 0u) << "what the first left is still there";
+}
+
+} // namespace
+} // namespace gnomon

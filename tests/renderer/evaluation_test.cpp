@@ -1,0 +1,193 @@
+// What an evaluation decides without drawing: the front, medians, who shares a reference, and when to stop.
+#include <gtest/gtest.h>
+
+#include "protocol/evaluation_json.h"
+#include "renderer/camera_path.h"
+#include "renderer/evaluation_times.h"
+#include "renderer/evaluation_truth.h"
+#include "renderer/pareto.h"
+#include "renderer/render.h"
+
+namespace gnomon {
+namespace {
+
+EvaluationRow row(double milliseconds, double misclassified) {
+  EvaluationRow made;
+  made.milliseconds = milliseconds;
+  made.metrics.emplace();
+  made.metrics->misclassified = misclassified;
+  return made;
+}
+
+std::vector<bool> frontOf(std::vector<EvaluationRow> rows) {
+  markPareto(rows);
+  std::vector<bool> front;
+  for (const EvaluationRow& each : rows) front.push_back(each.pareto.value());
+  return front;
+}
+
+TEST(Pareto, NothingFasterAndNoMoreWrongIsBesideTheFront) {
+  EXPECT_EQ(frontOf({row(10, 0.03), row(20, 0.02), row(20, 0.025), row(30, 0.02), row(40, 0), row(41, 0)}),
+            (std::vector<bool>{true, true, false, false, true, false}));
+}
+
+TEST(Pareto, EqualRowsAreBothOnItAndRowsWithoutFiguresNever) {
+  EvaluationRow untimed = row(1, 0);
+  untimed.milliseconds.reset();
+  EXPECT_EQ(frontOf({row(10, 0.1), row(10, 0.1), EvaluationRow{}, untimed}),
+            (std::vector<bool>{true, true, false, false}));
+  EXPECT_TRUE(frontOf({}).empty());
+}
+
+TEST(Median, IsTheMiddleWhateverTheOrder) {
+  EXPECT_EQ(median({3}), 3);
+  EXPECT_EQ(median({9, 1, 5}), 5);
+  EXPECT_EQ(median({4, 1, 100, 2}), 3);
+}
+
+Scene emptyScene() {
+  Scene scene;
+  scene.scenes.resize(1);
+  return scene;
+}
+
+std::vector<Subject> subjectsOf(const Scene& scene, const char* request) {
+  const auto evaluation = decodeEvaluation(request);
+  EXPECT_TRUE(evaluation) << evaluation.problems()[0].detail;
+  std::vector<Subject> subjects;
+  for (std::size_t i = 0; i < evaluation->variants.size(); ++i) {
+    auto subject = subjectOf(scene, evaluation->variants[i], i);
+    EXPECT_TRUE(subject) << i;
+    if (subject) subjects.push_back(std::move(*subject));
+  }
+  return subjects;
+}
+
+TEST(EvaluationTruth, VariantsThatSeeTheSameShareAReference) {
+  const Scene scene = emptyScene();
+  const auto groups = shareReferences(subjectsOf(scene, R"({"variants": [
+      {}, {"shadow": {"filter": {"type": "hard"}, "cascadeCount": 1}}, {"width": 99}, {"exposure": 3},
+      {"lights": [{"sun": {}, "intensity": 9}]}, {"lights": [{"sun": {"elevationDegrees": 10}}]},
+      {"shadow": {"technique": "rayTraced"}, "width": 99}, {"shadow": {"blendedCasters": "threshold"}},
+      {"camera": {"orbit": {"azimuthDegrees": 3}}}, {"views": ["depth"], "antialiasing": "none"}]})"));
+  EXPECT_EQ(groups, (std::vector<std::vector<std::size_t>>{{0, 1, 3, 4, 9}, {2, 6}, {5}, {7}, {8}}));
+}
+
+TEST(EvaluationTruth, OnlyLightsThatCastAreMeasured) {
+  const Scene scene = emptyScene();
+  const auto subjects = subjectsOf(scene, R"({"spec": {"lights": [
+        {"sun": {}, "intensity": 0}, {"sun": {}, "shadow": {"enabled": false}}, {"sun": {}},
+        {"type": "point", "position": [0, 1, 0]}, {"sun": {}, "shadow": {"strength": 0}}]}, "variants": [{}]})");
+  ASSERT_EQ(subjects.size(), 1u);
+  EXPECT_EQ(subjects[0].lights, (std::vector<int>{2, 3}));
+}
+
+TEST(EvaluationTruth, WhereNoLightCastsThereIsNothingToMeasure) {
+  const Scene scene = emptyScene();
+  const auto evaluation = decodeEvaluation(R"({"variants": [{"shadow": {"enabled": false}}]})");
+  const auto subject = subjectOf(scene, evaluation->variants[0], 0);
+  ASSERT_FALSE(subject);
+  EXPECT_EQ(subject.problems()[0].pointer, "/shadow");
+}
+
+TEST(CameraPaths, StepsMoveTheEyeAndWhatItLooksAtAlikeAndAreNotSummedUp) {
+  Camera start;
+  start.lookAt = EyeTarget{{1e6, 2, 3}, {1e6, 2, 0}, {0, 1, 0}};
+  start.perspective = Perspective{30, 0.1, std::nullopt};
+  CameraPath path;
+  path.step = Vec3{0.1, 0, -0.2};
+  EXPECT_EQ(camerasAlong(path, start).size(), 16u);
+  path.frames = 5;
+  const auto cameras = camerasAlong(path, start);
+  ASSERT_EQ(cameras.size(), 5u);
+  EXPECT_EQ(cameras[0], start);
+  EXPECT_EQ(cameras[4].lookAt->eye, (Vec3{1e6 + 4 * 0.1, 2, 3 - 4 * 0.2}));
+  EXPECT_EQ(cameras[4].lookAt->target, (Vec3{1e6 + 4 * 0.1, 2, 0 - 4 * 0.2}));
+  EXPECT_EQ(cameras[4].perspective, start.perspective);
+  path = {};
+  path.cameras = {start, Camera{}};
+  EXPECT_EQ(camerasAlong(path, Camera{}), *path.cameras);
+}
+
+/// A frame of one stage for each variant: its index + 1 milliseconds.
+struct Clockwork {
+  std::vector<int> drawn; ///< widths, which tell the variants apart
+
+  DrawFrame draw() {
+    return [this](const FrameSpec& spec) -> Result<Frame> {
+      drawn.push_back(spec.width);
+      if (spec.width == 3) return Problem{ProblemCode::unsupportedFeature, "/shadow", "Not this one.", "", ""};
+      if (spec.width == 4) return Problem{ProblemCode::deadlineExceeded, "", "Too late.", "", ""};
+      Frame frame;
+      frame.report.stages = {{"shadow", static_cast<double>(drawn.size())}, {"shade", 1.0 * spec.width}};
+      frame.report.memory = {1, 2, 4};
+      return frame;
+    };
+  }
+};
+
+Evaluation widths(int count, int repeats) {
+  Evaluation evaluation;
+  evaluation.repeats = repeats;
+  for (int i = 1; i <= count; ++i) {
+    evaluation.variants.emplace_back();
+    evaluation.variants.back().spec.width = i;
+  }
+  return evaluation;
+}
+
+TEST(EvaluationTimes, VariantsTakeTurnsAndTheFirstRoundDoesNotCount) {
+  Clockwork clock;
+  EvaluationSteps steps({}, 8);
+  const std::vector<std::size_t> both{0, 1};
+  const auto times = timeVariants(widths(2, 3), both, clock.draw(), steps);
+  ASSERT_TRUE(times);
+  EXPECT_EQ(clock.drawn, (std::vector<int>{1, 2, 1, 2, 1, 2, 1, 2}));
+  EXPECT_EQ((*times)[0].milliseconds, 5 + 1); // of the frames 3 5 7
+  EXPECT_EQ((*times)[1].milliseconds, 6 + 2); // of the frames 4 6 8
+  EXPECT_EQ((*times)[1].stages[0].stage, "shadow");
+  EXPECT_EQ((*times)[1].stages[0].milliseconds, 6);
+  EXPECT_EQ((*times)[0].memoryBytes, 7u);
+}
+
+TEST(EvaluationTimes, AVariantThatFailsIsLeftOutAndNoOneElse) {
+  Clockwork clock;
+  int last = 0;
+  const EvaluationListener listener{[&](const EvaluationStep& step) {
+                                      last = step.done;
+                                      return true;
+                                    },
+                                    {}};
+  EvaluationSteps steps(listener, 9);
+  const std::vector<std::size_t> all{0, 1, 2};
+  const auto times = timeVariants(widths(3, 2), all, clock.draw(), steps);
+  ASSERT_TRUE(times);
+  EXPECT_EQ(clock.drawn, (std::vector<int>{1, 2, 3, 1, 2, 1, 2}));
+  EXPECT_EQ((*times)[2].problems[0].pointer, "/shadow");
+  EXPECT_TRUE((*times)[0].problems.empty());
+  EXPECT_EQ(last, 8) << "told before the last of 9";
+}
+
+TEST(EvaluationTimes, ADeadlineEndsItAll) {
+  Clockwork clock;
+  EvaluationSteps steps({}, 12);
+  const std::vector<std::size_t> all{0, 3, 1};
+  const auto times = timeVariants(widths(4, 2), all, clock.draw(), steps);
+  ASSERT_FALSE(times);
+  EXPECT_EQ(times.problems()[0].code, ProblemCode::deadlineExceeded);
+  EXPECT_EQ(clock.drawn.size(), 2u);
+}
+
+TEST(EvaluationTimes, WhoAsksToStopIsObeyedBeforeTheNextFrame) {
+  Clockwork clock;
+  const EvaluationListener listener{[&](const EvaluationStep& step) { return step.done < 3; }, {}};
+  EvaluationSteps steps(listener, 8);
+  const std::vector<std::size_t> both{0, 1};
+  const auto times = timeVariants(widths(2, 3), both, clock.draw(), steps);
+  ASSERT_FALSE(times);
+  EXPECT_EQ(times.problems()[0].code, ProblemCode::unavailable);
+  EXPECT_EQ(clock.drawn.size(), 3u);
+}
+
+} // namespace
+} // namespace gnomon
