@@ -139,7 +139,12 @@ class Connection {
     return reply;
   }
 
+  /// True where the client has it all and may ask again.
   bool send(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
+    if (reply.stream) {
+      sendStream(reply, record);
+      return false;
+    }
     const auto deadline = context_.limits.pace.deadline(Clock::now(), reply.body.size());
     std::string head = replyHead(reply, record.id, keepAlive);
     const bool withBody = !bodyless && reply.status != 204 && reply.status != 304;
@@ -154,6 +159,22 @@ class Connection {
     record.delivered = sent;
     logRequest(record, reply);
     return sent;
+  }
+
+  void sendStream(HttpReply& reply, RequestRecord& record) {
+    const auto sink = [&](std::string_view bytes) {
+      record.delivered =
+          record.delivered && sendAll(socket_.get(), bytes, context_.limits.pace.deadline(Clock::now(), bytes.size()));
+      return record.delivered;
+    };
+    if (sink(replyHead(reply, record.id, false))) {
+      try {
+        reply.stream(sink);
+      } catch (const std::exception& error) {
+        reply.note = error.what(); // its status is sent already: the body just ends
+      }
+    }
+    logRequest(record, reply);
   }
 
   FileDescriptor socket_;

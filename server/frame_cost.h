@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "protocol/evaluation.h"
 #include "protocol/frame_spec.h"
+#include "protocol/limits.h"
 
 namespace gnomon {
 
@@ -26,6 +28,24 @@ inline std::size_t frameBytes(const FrameSpec& spec) {
   }
   const bool traced = std::any_of(spec.views.begin(), spec.views.end(), needsReference);
   return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0);
+}
+
+/// What an evaluation takes besides: the largest frame of its variants, one reference, and what is known of every
+/// light. `sceneLights`: where a spec names none.
+inline std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights) {
+  constexpr std::size_t kLight = 13;            ///< what arrives at a pixel and what is shown there
+  constexpr std::size_t kShadowPicture = 4 * 4; ///< read back as four floats
+  std::size_t most = 0;
+  for (const Variant& variant : evaluation.variants) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(variant.spec.width) * static_cast<std::size_t>(variant.spec.height);
+    const std::size_t lights =
+        std::max<std::size_t>(variant.spec.lights ? variant.spec.lights->size() : sceneLights, 1);
+    const auto visibility = std::min(pixels * lights * kLight, static_cast<std::size_t>(kLimits.maxVisibilityBytes));
+    most = std::max(
+        most, std::max(frameBytes(variant.spec), pixels * kShadowPicture) + pixels * kReferenceBytes + visibility);
+  }
+  return most;
 }
 
 } // namespace gnomon

@@ -25,8 +25,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 1 a problem (told on standard error), 2 the command line is wrong.\n"
       "gnomon COMMAND --help says what a command takes.");
-  const std::array commands{addServeCommand(app), cli::addRenderCommand(app), cli::addPlanCommand(app),
-                            cli::addInspectCommand(app), cli::addHealthCommand(app)};
+  const std::array commands{addServeCommand(app),         cli::addRenderCommand(app),  cli::addPlanCommand(app),
+                            cli::addEvaluateCommand(app), cli::addInspectCommand(app), cli::addHealthCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

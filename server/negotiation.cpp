@@ -1,5 +1,6 @@
 #include "server/negotiation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string>
@@ -88,27 +89,34 @@ std::string_view mediaTypeOf(FrameForm form) {
   return "";
 }
 
-std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat) {
-  const FrameForm byDefault{ReplyForm::image, specFormat};
+std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers) {
   if (!accept || trimmed(*accept).empty()) {
-    return byDefault;
+    return 0;
   }
-  const ImageFormat other = specFormat == ImageFormat::png ? ImageFormat::exr : ImageFormat::png;
-  // In the order that settles a tie.
-  const std::array<FrameForm, 4> offers{
-      byDefault, {ReplyForm::image, other}, {ReplyForm::multipart, specFormat}, {ReplyForm::json, specFormat}};
   const std::vector<MediaRange> ranges = rangesOf(*accept);
-  std::optional<FrameForm> best;
+  std::optional<std::size_t> best;
   Liking most;
-  for (const FrameForm& offer : offers) {
-    const Liking liking = likingOf(ranges, mediaTypeOf(offer));
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    const Liking liking = likingOf(ranges, offers[i]);
     if (liking.quality > most.quality ||
         (liking.quality == most.quality && liking.quality > 0 && liking.how > most.how)) {
-      best = offer;
+      best = i;
       most = liking;
     }
   }
   return best;
+}
+
+std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat) {
+  const ImageFormat other = specFormat == ImageFormat::png ? ImageFormat::exr : ImageFormat::png;
+  const std::array<FrameForm, 4> forms{{{ReplyForm::image, specFormat},
+                                        {ReplyForm::image, other},
+                                        {ReplyForm::multipart, specFormat},
+                                        {ReplyForm::json, specFormat}}};
+  std::array<std::string_view, 4> offers;
+  std::transform(forms.begin(), forms.end(), offers.begin(), [](FrameForm form) { return mediaTypeOf(form); });
+  const auto best = preferred(accept, offers);
+  return best ? std::optional(forms[*best]) : std::nullopt;
 }
 
 } // namespace gnomon

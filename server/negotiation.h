@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "protocol/output_options.h"
@@ -21,6 +22,10 @@ struct FrameForm {
 
 std::string_view mediaTypeOf(ImageFormat format);
 std::string_view mediaTypeOf(FrameForm form); ///< without the boundary
+
+/// Which of the media types offered an Accept header likes best; of equals the first, which is also the choice where
+/// there is no such header. Nothing: none can be given.
+std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers);
 
 /// The form that Accept (RFC 9110, q-values included) likes best. An image type in Accept decides the format, also
 /// against the spec's; where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format stands.

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-using Answer = Result<QueuedFrame>;
-
 Problem ownMistake() {
   return {ProblemCode::internal, "", "The server made a mistake while it rendered.", "", ""};
 }
@@ -48,27 +46,26 @@ Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& o
   return queue;
 }
 
-std::variant<QueuedFrame, Problems, QueueFull> RenderQueue::render(FrameJob job) {
+template <class T>
+std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline, std::function<bool()> clientGone,
+                                                      std::function<Result<T>(Renderer&, double)> work) {
   // Shared with the queue's thread: the caller may have left when the job's turn comes.
   struct Slip {
     std::mutex mutex;
     bool abandoned = false;
-    std::promise<Answer> answer;
+    std::promise<Result<T>> answer;
   };
   const auto slip = std::make_shared<Slip>();
   auto answer = slip->answer.get_future();
-  const auto deadline = job.deadline;
   Job queued;
   queued.deadline = deadline;
-  queued.wanted = [slip, gone = std::move(job.clientGone)] {
+  queued.wanted = [slip, gone = std::move(clientGone)] {
     const std::lock_guard lock(slip->mutex);
     return !slip->abandoned && !(gone && gone());
   };
-  queued.run = [this, slip, scene = std::move(job.scene), spec = std::move(job.spec)](double waitedMs) {
+  queued.run = [this, slip, work = std::move(work)](double waitedMs) {
     try {
-      auto frame = renderer_->render(scene, spec);
-      slip->answer.set_value(frame ? Answer(QueuedFrame{*std::move(frame), waitedMs})
-                                   : Answer(std::move(frame).problems()));
+      slip->answer.set_value(work(*renderer_, waitedMs));
     } catch (const std::exception& error) {
       logEvent("renderer", error.what());
       slip->answer.set_value(ownMistake());
@@ -83,11 +80,35 @@ std::variant<QueuedFrame, Problems, QueueFull> RenderQueue::render(FrameJob job)
     slip->abandoned = true;
     return Problems{{ProblemCode::deadlineExceeded, "", "The frame took longer than a request may.", "", ""}};
   }
-  auto drawn = answer.get();
-  if (!drawn) {
-    return std::move(drawn).problems();
+  auto answered = answer.get();
+  if (!answered) {
+    return std::move(answered).problems();
   }
-  return *std::move(drawn);
+  return *std::move(answered);
+}
+
+std::variant<QueuedFrame, Problems, QueueFull> RenderQueue::render(FrameJob job) {
+  return ask<QueuedFrame>(job.deadline, std::move(job.clientGone),
+                          [scene = std::move(job.scene), spec = std::move(job.spec), tiles = job.tiles](
+                              Renderer& renderer, double waitedMs) -> Result<QueuedFrame> {
+                            auto frame = renderer.render(scene, spec, tiles);
+                            if (!frame) {
+                              return std::move(frame).problems();
+                            }
+                            return QueuedFrame{*std::move(frame), waitedMs};
+                          });
+}
+
+std::variant<double, Problems, QueueFull> RenderQueue::shimmer(ShimmerJob job) {
+  const auto gone = job.clientGone;
+  return ask<double>(job.deadline, gone, [job = std::move(job)](Renderer& renderer, double) -> Result<double> {
+    const auto goOn = [&](double) { return Clock::now() < job.deadline && !(job.clientGone && job.clientGone()); };
+    const auto shimmer = renderer.shimmer(job.scene, job.spec, job.path, goOn);
+    if (!shimmer) {
+      return shimmer.problems();
+    }
+    return shimmer->perThousand();
+  });
 }
 
 bool RenderQueue::hasRoom() const {

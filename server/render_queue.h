@@ -14,6 +14,16 @@ struct FrameJob {
   FrameSpec spec;
   Clock::time_point deadline;
   std::function<bool()> clientGone;
+  TileUse tiles = TileUse::kept;
+};
+
+/// Shimmer that is wanted along a path of cameras. One job, whatever its length.
+struct ShimmerJob {
+  ScenePtr scene;
+  FrameSpec spec;
+  std::vector<Camera> path;
+  Clock::time_point deadline;
+  std::function<bool()> clientGone;
 };
 
 /// A frame and how long its job waited for its turn.
@@ -33,6 +43,9 @@ class RenderQueue {
   /// The frame, once it is drawn or its deadline has passed.
   std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
 
+  /// Flips in 1,000 points and a frame; the path is left early when the deadline has passed or the client is gone.
+  std::variant<double, Problems, QueueFull> shimmer(ShimmerJob job);
+
   /// True while a new job would not wait long: the queue is less than three quarters full.
   bool hasRoom() const;
   std::size_t waiting() const { return jobs_.waiting(); }
@@ -43,6 +56,11 @@ class RenderQueue {
 
  private:
   explicit RenderQueue(std::size_t limit);
+
+  /// What `work` gives on the queue's thread, told how long it waited.
+  template <class T>
+  std::variant<T, Problems, QueueFull> ask(Clock::time_point deadline, std::function<bool()> clientGone,
+                                           std::function<Result<T>(Renderer&, double waitedMs)> work);
 
   std::optional<Renderer> renderer_; ///< touched on the queue's thread only
   RendererInfo info_;

@@ -81,7 +81,7 @@ std::string replyHead(const HttpReply& reply, std::string_view requestId, bool k
   if (!reply.contentType.empty()) {
     addHeader(head, "Content-Type", reply.contentType);
   }
-  if (reply.status != 204 && reply.status != 304 && !reply.bodyOmitted) {
+  if (reply.status != 204 && reply.status != 304 && !reply.bodyOmitted && !reply.stream) {
     addHeader(head, "Content-Length", std::to_string(reply.body.size()));
   }
   for (const auto& [name, value] : reply.headers) {
@@ -91,7 +91,7 @@ std::string replyHead(const HttpReply& reply, std::string_view requestId, bool k
     addHeader(head, "Content-Security-Policy", "default-src 'none'");
   }
   addHeader(head, "X-Content-Type-Options", "nosniff");
-  addHeader(head, "Connection", keepAlive ? "keep-alive" : "close");
+  addHeader(head, "Connection", keepAlive && !reply.stream ? "keep-alive" : "close");
   head.append("\r\n");
   return head;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "server/ascii.h"
+#include "server/evaluation_handlers.h"
 #include "server/frame_handlers.h"
 #include "server/info_handlers.h"
 #include "server/plan_handlers.h"
@@ -83,6 +84,7 @@ std::vector<Route> makeRoutes(Services& services) {
       {"POST", "/v1/scenes/{id}/frames", json, {"application/json"}, bind(postFrame)},
       {"GET", "/v1/scenes/{id}/frame", none, {}, bind(getFrame)},
       {"POST", "/v1/scenes/{id}/plan", json, {"application/json"}, bind(postPlan)},
+      {"POST", "/v1/scenes/{id}/evaluations", json, {"application/json"}, bind(postEvaluation)},
       {"POST", "/v1/render", oneShot, {"multipart/form-data"}, bind(renderOnce)},
       {"GET", "/v1/capabilities", none, {}, bind(getCapabilities)},
       {"GET", "/openapi.json", none, {}, bind(getOpenApi)},

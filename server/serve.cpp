@@ -115,7 +115,9 @@ int serve(const ServeOptions& options) {
                     std::chrono::seconds(options.requestTimeoutSeconds),
                     options.frameMemoryBytes,
                     ByteBudget(options.frameMemoryBytes),
-                    options.page};
+                    options.page,
+                    std::chrono::seconds(options.evaluationTimeoutSeconds),
+                    std::counting_semaphore<>(options.maxEvaluations)};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

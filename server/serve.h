@@ -31,9 +31,11 @@ struct ServeOptions {
   std::size_t frameMemoryBytes =
       4ull << 30;                ///< pictures that are drawn or encoded at once (429), or in one frame (413)
   std::size_t httpThreads = 128; ///< >= 1; connections served at once; probes have a lane of their own
+  int maxEvaluations = 1;        ///< >= 1; at once; times are fairest when there is one (429)
 
   // How long
-  int requestTimeoutSeconds = 60; ///< >= 1; from the request's arrival to its frame, else 504
+  int requestTimeoutSeconds = 60;     ///< >= 1; from the request's arrival to its frame, else 504
+  int evaluationTimeoutSeconds = 600; ///< >= 1; from the arrival of an evaluation to its report, else 504
   int drainSeconds = 0;  ///< after SIGTERM, answer on with a failing /readyz, so that balancers turn away first
   int graceSeconds = 30; ///< then, for what runs and waits; what is left after it is refused with 503
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // A choice more needs a flag more, below. The page is no choice; `backend` has two flags.
-static_assert(memberCount<ServeOptions>() == 17);
+static_assert(memberCount<ServeOptions>() == 19);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
@@ -80,6 +80,12 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
       ->envname("GNOMON_HTTP_THREADS")
       ->check(CLI::Range(std::size_t{1}, std::size_t{4'096}))
       ->group("How much");
+  serve
+      .add_option("--max-evaluations", options.maxEvaluations,
+                  "Evaluations at once, one more is told to come again (429); times are fairest when there is one")
+      ->envname("GNOMON_MAX_EVALUATIONS")
+      ->check(CLI::Range(1, 64))
+      ->group("How much");
 }
 
 void addHowLong(CLI::App& serve, ServeOptions& options) {
@@ -92,6 +98,8 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
   };
   add("--request-timeout", "GNOMON_REQUEST_TIMEOUT", options.requestTimeoutSeconds, 1,
       "From a request's arrival to its frame, else 504");
+  add("--evaluation-timeout", "GNOMON_EVALUATION_TIMEOUT", options.evaluationTimeoutSeconds, 1,
+      "From an evaluation's arrival to its report, else 504");
   add("--drain", "GNOMON_DRAIN", options.drainSeconds, 0,
       "After SIGTERM, answer on with a failing /readyz, so that balancers turn away first");
   add("--grace", "GNOMON_GRACE", options.graceSeconds, 0, "Then, for what runs and waits; what is left gets a 503");

@@ -21,8 +21,10 @@ struct Services {
   std::size_t frameMemoryBytes = 4ull << 30;        ///< the whole of `frameBytes`
   ByteBudget frameBytes;                            ///< left for pictures that are drawn or encoded at once
   std::vector<StaticFile> page;
-  std::counting_semaphore<> plans{2}; ///< made at once: each takes memory by the picture's size
-  std::atomic<bool> draining = false; ///< true from the first signal on: readyz says so
+  std::chrono::milliseconds evaluationTimeout{600'000}; ///< from the handler's start to the report
+  std::counting_semaphore<> evaluations{1};             ///< at once; one more is told to come again
+  std::counting_semaphore<> plans{2};                   ///< made at once: each takes memory by the picture's size
+  std::atomic<bool> draining = false;                   ///< true from the first signal on: readyz says so
 };
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "server/connection.h"
 
+#include <atomic>
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <sys/socket.h>
@@ -13,7 +14,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Echoes method, path and body; "/throw" throws, "/none" takes no body, "/probe" is a probe.
+/// Echoes method, path and body; "/throw" throws, "/stream" streams and then throws, "/none" takes no body, "/probe" is
+/// a probe.
 HttpService echoService() {
   HttpService service;
   service.admit = [](const HttpRequest& request) -> std::variant<BodyRule, HttpReply> {
@@ -28,6 +30,14 @@ HttpService echoService() {
     }
     HttpReply reply;
     reply.contentType = "text/plain";
+    if (request.path == std::vector<std::string>{"stream"}) {
+      reply.stream = [](const BodySink& sink) {
+        for (int i = 0; i < 3 && sink("piece "); ++i) {
+        }
+        throw std::runtime_error("secret");
+      };
+      return reply;
+    }
     reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(textOf(request.body));
     return reply;
   };
@@ -108,6 +118,35 @@ TEST_F(ConnectionTest, TellsNothingOfAnException) {
   EXPECT_TRUE(has(received, "HTTP/1.1 500 "));
   EXPECT_FALSE(has(received, "secret"));
   EXPECT_TRUE(has(received, "HTTP/1.1 200 OK"));
+}
+
+TEST_F(ConnectionTest, SendsAStreamPieceByPieceAndEndsWithIt) {
+  const std::string received = exchange("GET /stream HTTP/1.1\r\nHost: x\r\n\r\nGET /a HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_TRUE(received.starts_with("HTTP/1.1 200 OK\r\n"));
+  EXPECT_FALSE(has(received, "Content-Length"));
+  EXPECT_TRUE(has(received, "Connection: close\r\n"));
+  EXPECT_TRUE(received.ends_with("\r\n\r\npiece piece piece ")) << "and no second reply";
+  EXPECT_FALSE(has(received, "secret"));
+}
+
+TEST_F(ConnectionTest, AStreamLearnsThatItsClientIsGone) {
+  std::atomic<bool> told = false;
+  context_.service.handle = [&](HttpRequest, const std::function<bool()>&) {
+    HttpReply reply;
+    reply.stream = [&](const BodySink& sink) {
+      while (sink(std::string(4096, 'x'))) {
+      }
+      told = !sink("more");
+    };
+    return reply;
+  };
+  std::thread serving([this] { serveConnection(std::move(server_), context_); });
+  EXPECT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Clock::now() + 5s));
+  char first = 0;
+  EXPECT_EQ(::recv(client_.get(), &first, 1, 0), 1);
+  client_.reset();
+  serving.join();
+  EXPECT_TRUE(told);
 }
 
 TEST_F(ConnectionTest, InvitesABodyOnlyWhenItIsWanted) {
