@@ -35,11 +35,40 @@ httplib::ContentProvider bodyProvider(std::string_view body, const std::function
   };
 }
 
+/// A POST whose reply is given away piece by piece.
+httplib::Result sendAndStream(httplib::Client& client, const std::string& path, httplib::Headers headers,
+                              const HttpCall& call) {
+  int status = 0;
+  std::string refusal;
+  httplib::Request request;
+  request.method = "POST";
+  request.path = path;
+  request.headers = std::move(headers);
+  request.set_header("Content-Type", call.contentType);
+  request.body = call.body;
+  request.response_handler = [&](const httplib::Response& reply) {
+    status = reply.status;
+    return true;
+  };
+  request.content_receiver = [&](const char* bytes, std::size_t count, std::uint64_t, std::uint64_t) {
+    if (status == 200) {
+      call.onReceived({bytes, count});
+    } else {
+      refusal.append(bytes, count);
+    }
+    return true;
+  };
+  auto result = client.send(request);
+  if (result) result->body = std::move(refusal);
+  return result;
+}
+
 httplib::Result send(httplib::Client& client, const std::string& path, const HttpCall& call) {
   httplib::Headers headers;
   for (const auto& [name, value] : call.headers) headers.emplace(name, value);
   if (call.method == "HEAD") return client.Head(path, headers);
   if (call.method == "GET") return client.Get(path, headers);
+  if (call.onReceived) return sendAndStream(client, path, std::move(headers), call);
   return client.Post(path, headers, call.body.size(), bodyProvider(call.body, call.onSent), call.contentType);
 }
 

@@ -53,7 +53,7 @@ int runPlan(const PlanOptions& options) {
     if (!text) return printProblems(text.problems());
     specJson = std::move(*text);
   }
-  const auto [spec, origins] = resolveSpec(specJson, options.arguments);
+  const auto [spec, origins, json] = resolveSpec(specJson, options.arguments);
   if (!spec) return printProblems(spec.problems(), origins);
   auto progress = Progress::onTerminal();
   const auto plan = planScene(options, *spec, progress);

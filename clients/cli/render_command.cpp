@@ -56,7 +56,7 @@ int runRender(RenderOptions options) {
     specJson = std::move(*text);
   }
   if (options.output != "-") options.arguments.format = formatOf(options.output);
-  const auto [spec, origins] = resolveSpec(specJson, options.arguments);
+  const auto [spec, origins, json] = resolveSpec(specJson, options.arguments);
   if (!spec) return printProblems(spec.problems(), origins);
 
   auto progress = Progress::onTerminal();

@@ -104,12 +104,13 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments) {
   // First by itself: a duplicate key, say, would be gone once the flags are laid over it.
   auto given = decodeFrameSpec(specJson);
-  if (!given) return {given.problems(), {}};
+  if (!given) return {given.problems(), {}, "{}"};
   Json spec = Json::parse(specJson, nullptr, false);
   if (!spec.is_object()) spec = Json::object(); // an empty text is a spec, too
   FlagOrigins origins;
-  if (auto applied = applyFlags(spec, arguments, origins); !applied) return {applied.problems(), origins};
-  return {decodeFrameSpec(spec.dump()), origins};
+  if (auto applied = applyFlags(spec, arguments, origins); !applied) return {applied.problems(), origins, "{}"};
+  std::string json = spec.dump();
+  return {decodeFrameSpec(json), origins, json};
 }
 
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t least, std::size_t most) {

@@ -28,6 +28,7 @@ struct SpecArguments {
 struct ResolvedSpec {
   Result<FrameSpec> spec;
   FlagOrigins origins;
+  std::string json; ///< as it was written, the flags laid over it; "{}" where it can't be read
 };
 
 /// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above, then checked as the

@@ -143,7 +143,7 @@ TEST(SpecArguments, ASpecThatIsWrongByItselfIsRefused) {
 TEST(SpecArguments, AProblemNamesTheFlag) {
   SpecArguments flags;
   flags.sun = {10, 100};
-  const auto [spec, origins] = resolveSpec("{}", flags);
+  const auto [spec, origins, json] = resolveSpec("{}", flags);
   ASSERT_FALSE(spec);
   EXPECT_THAT(problemLine(spec.problems().front(), origins), HasSubstr("--sun (/lights/0/sun/elevationDegrees): "));
 }
