@@ -1,12 +1,12 @@
-#include "renderer/check_device.h"
-#include "renderer/light_reports.h"
+#include "renderer/frame/light_reports.h"
 #include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/survey/box_depths.h"
 #include "renderer/passes/tiles/tile_casters.h"
-#include "renderer/plan_input.h"
 #include "renderer/render.h"
-#include "renderer/resolve_debug.h"
-#include "renderer/resolve_frame.h"
+#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/plan_input.h"
+#include "renderer/resolve/resolve_debug.h"
+#include "renderer/resolve/resolve_frame.h"
 
 namespace gnomon {
 namespace {

@@ -11,15 +11,14 @@
 #include "protocol/result.h"
 #include "protocol/scene_summary.h"
 #include "renderer/core/progress.h"
-#include "renderer/evaluate.h"
+#include "renderer/evaluation/evaluate.h"
+#include "renderer/evaluation/quality.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/scene_bundle.h"
 
 /// The only door into the renderer.
 namespace gnomon {
-
-struct Scene;
-using ScenePtr = std::shared_ptr<const Scene>;
 
 /// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly.
 Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits);
@@ -36,30 +35,6 @@ struct RendererOptions {
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
   std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, alike
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
-};
-
-/// One picture: 8-bit sRGB for PNG, linear float for EXR, as the frame's output asks.
-struct ViewImage {
-  View view = View::color;
-  Image image;
-};
-
-/// A rendered frame, not yet encoded. Stages queue, load and encode are the caller's to add to the report.
-struct Frame {
-  FrameReport report;
-  std::vector<ViewImage> images; ///< in the order of the spec's views
-};
-
-/// How a frame's shadows hold still on surfaces along a path of cameras.
-struct Shimmer {
-  std::size_t points = 0;  ///< watched: world-fixed points of surfaces, counted for every light that they face
-  std::size_t steps = 0;   ///< from one camera of the path to the next
-  std::uint64_t flips = 0; ///< points that went from lit (S >= 0.5) to shadowed or back in one step
-
-  /// Flips in 1,000 points and a frame. The truth has none to take off: neither surfaces nor lights move.
-  double perThousand() const {
-    return 1000.0 * static_cast<double>(flips) / (static_cast<double>(points) * static_cast<double>(steps));
-  }
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.

@@ -5,7 +5,8 @@ usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if t
 
 Who may include whom, one way:
   protocol <- renderer/core <- renderer/{image,scene,shadow,shaders} <- renderer/gl <- renderer/{passes,reference}
-           <- renderer/techniques <- renderer/render.h <- server;  clients see protocol and renderer/render.h.
+           <- renderer/{techniques,resolve} <- renderer/frame <- renderer/evaluation <- renderer/render.h <- server;
+  clients see protocol and renderer/render.h.
 """
 
 import re
@@ -17,6 +18,8 @@ ROOMS = ("protocol", "renderer", "server", "clients")
 
 BELOW_GL = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
 BELOW_DOOR = BELOW_GL + ["renderer/shaders", "renderer/gl", "renderer/passes"]
+
+FRAME = BELOW_DOOR + ["renderer/reference", "renderer/techniques", "renderer/resolve", "renderer/frame"]
 
 # Folder -> folders that its files may include.
 MAY_INCLUDE = {
@@ -30,7 +33,10 @@ MAY_INCLUDE = {
     "renderer/gl": BELOW_GL + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": BELOW_DOOR,
     "renderer/techniques": BELOW_DOOR + ["renderer/reference", "renderer/techniques"],
-    "renderer": BELOW_DOOR + ["renderer/reference", "renderer/techniques", "renderer"],
+    "renderer/resolve": BELOW_DOOR + ["renderer/resolve"],
+    "renderer/frame": FRAME,
+    "renderer/evaluation": FRAME + ["renderer/evaluation"],
+    "renderer": FRAME + ["renderer/evaluation", "renderer"],
     "server": ["protocol", "server"],
     "clients/cli": ["protocol", "clients/cli"],
     "clients/web": ["clients/web"],

@@ -8,7 +8,7 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
-#include "renderer/resolve_frame.h"
+#include "renderer/resolve/resolve_frame.h"
 
 namespace gnomon::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "renderer/reference/reference.h"
-#include "renderer/resolve_frame.h"
+#include "renderer/resolve/resolve_frame.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon::testing {

@@ -1,0 +1,138 @@
+#include "renderer/evaluation/evaluation_truth.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "protocol/limits.h"
+#include "renderer/evaluation/evaluate.h"
+#include "renderer/reference/error_measures.h"
+#include "renderer/resolve/plan_input.h"
+
+namespace gnomon {
+namespace {
+
+/// What a reference depends on, the rest left at its defaults: equal ones have equal references.
+FrameSpec truthKey(const Subject& subject) {
+  const FrameSpec& spec = subject.frame.spec;
+  FrameSpec key;
+  key.width = spec.width;
+  key.height = spec.height;
+  key.camera = spec.camera;
+  key.nodes = spec.nodes;
+  key.scene = spec.scene;
+  key.lights = spec.lights;
+  for (std::size_t i = 0; i < key.lights->size(); ++i) {
+    Light& light = (*key.lights)[i];
+    Shadow shadow;
+    shadow.enabled =
+        std::find(subject.lights.begin(), subject.lights.end(), static_cast<int>(i)) != subject.lights.end();
+    shadow.blendedCasters = light.shadow->blendedCasters;
+    light.shadow = shadow;
+    light.color.reset();
+    light.temperatureKelvin.reset();
+    light.intensity = 1;
+  }
+  return key;
+}
+
+/// Shadows alone, as numbers: what S is read from.
+FrameSpec shadowSpec(const Subject& subject, int light) {
+  FrameSpec spec = subject.frame.spec;
+  for (Light& each : *spec.lights) each.shadow->strength = 1;
+  spec.antialiasing = Antialiasing::none;
+  spec.views = {View::shadow};
+  spec.debug = {light, 0};
+  spec.output.format = ImageFormat::exr;
+  return spec;
+}
+
+/// V, S, whether it is a receiver and how far its blocker is, of each pixel and light.
+std::int64_t measuredBytes(const FrameSpec& spec, std::size_t lights) {
+  constexpr std::int64_t kPerPixel = 3 * sizeof(float) + 1;
+  return std::int64_t{spec.width} * spec.height * static_cast<std::int64_t>(lights) * kPerPixel;
+}
+
+double since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+} // namespace
+
+Result<Subject> subjectOf(const Scene& scene, const Variant& variant, std::size_t index) {
+  auto frame = resolveFrame(scene, variant.spec);
+  if (!frame) return frame.problems();
+  Subject subject{index, std::move(*frame), {}};
+  for (const int light : shadowingLights(subject.frame)) {
+    const Shadow& shadow = *(*subject.frame.spec.lights)[static_cast<std::size_t>(light)].shadow;
+    if (shadow.strength > 0) subject.lights.push_back(light);
+  }
+  if (subject.lights.empty()) {
+    return Problem{ProblemCode::invalidValue, "/shadow",
+                   "No light casts a shadow here, so there is nothing to measure.", "", ""};
+  }
+  const std::int64_t bytes = measuredBytes(variant.spec, subject.lights.size());
+  if (bytes > kLimits.maxVisibilityBytes) {
+    return Problem{ProblemCode::tooLarge, "/lights", "The shadows of so many lights on so many pixels are too large.",
+                   std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
+  }
+  return subject;
+}
+
+std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>& subjects) {
+  std::vector<FrameSpec> keys;
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    const FrameSpec key = truthKey(subjects[i]);
+    const auto found = std::find(keys.begin(), keys.end(), key);
+    const auto at = static_cast<std::size_t>(found - keys.begin());
+    if (found == keys.end()) {
+      keys.push_back(key);
+      groups.emplace_back();
+    }
+    groups[at].push_back(i);
+  }
+  return groups;
+}
+
+Result<const TracedScene*> Truth::traced(int scene) {
+  if (const auto known = traced_.find(scene); known != traced_.end()) return &known->second;
+  const auto begin = std::chrono::steady_clock::now();
+  auto built = TracedScene::build(scene_, scene);
+  if (!built) return built.problems();
+  report_.buildMilliseconds += since(begin);
+  return &traced_.emplace(scene, std::move(*built)).first->second;
+}
+
+Result<Reference> Truth::trace(const Subject& subject, EvaluationSteps& steps) {
+  if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
+  const auto scene = traced(subject.frame.scene);
+  if (!scene) return scene.problems();
+  const FrameSpec& spec = subject.frame.spec;
+  const TraceInput input{**scene, subject.frame.view, spec.width, spec.height, *spec.lights, subject.frame.nodes};
+  auto reference =
+      traceReference(input, subject.lights, report_.samples, [&](double) { return steps.goOn(subject.index); });
+  if (!reference) return steps.stopped() ? Result<Reference>(EvaluationSteps::stopProblem()) : reference;
+  report_.milliseconds += reference->milliseconds;
+  ++report_.frames;
+  steps.finish();
+  return reference;
+}
+
+Result<ErrorMetrics> measureSubject(const Subject& subject, const Reference& truth, const DrawFrame& draw,
+                                    EvaluationSteps& steps) {
+  std::vector<std::vector<float>> shown;
+  std::optional<PredictedError> predicted;
+  for (const int light : subject.lights) {
+    if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
+    auto frame = draw(shadowSpec(subject, light));
+    if (!frame) return frame.problems();
+    predicted = frame->report.predictedError;
+    shown.push_back(std::get<std::vector<float>>(std::move(frame->images.front().image.pixels)));
+    steps.finish();
+  }
+  ErrorMetrics metrics = measureErrors(truth, shown);
+  metrics.predicted = predicted;
+  return metrics;
+}
+
+} // namespace gnomon

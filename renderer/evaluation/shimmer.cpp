@@ -1,0 +1,202 @@
+#include "renderer/evaluation/shimmer.h"
+
+#include <algorithm>
+
+#include "renderer/evaluation/world_points.h"
+#include "renderer/frame/frame_data.h"
+#include "renderer/gl/debug_log.h"
+#include "renderer/passes/survey/survey_pass.h"
+#include "renderer/passes/tiles/shadow_pass.h"
+#include "renderer/passes/views/light_data.h"
+#include "renderer/passes/views/probe_pass.h"
+#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/plan_input.h"
+
+namespace gnomon {
+namespace {
+
+constexpr int kPoints = 4096; // places of the first camera's picture
+
+/// The points of a light, and what the last frame said of them.
+struct Watched {
+  int light = 0;
+  std::vector<SurfacePoint> points;
+  std::vector<std::uint8_t> lit; ///< S >= 0.5, one a point; empty before the first frame
+};
+
+Problem stopped() {
+  return {ProblemCode::unavailable, "", "the measurement was stopped"};
+}
+
+/// Shadows of full strength: a flip is one of visibility.
+FrameSpec measured(const FrameSpec& spec) {
+  FrameSpec full = spec;
+  full.shadow.strength = 1;
+  if (!full.lights) return full;
+  for (Light& light : *full.lights) {
+    if (light.shadow) light.shadow->strength = 1;
+  }
+  return full;
+}
+
+Result<std::vector<ResolvedFrame>> resolvePath(const Scene& scene, FrameSpec spec, std::span<const Camera> path) {
+  std::vector<ResolvedFrame> frames;
+  for (const Camera& camera : path) {
+    spec.camera = camera;
+    auto frame = resolveFrame(scene, spec);
+    if (!frame) return frame.problems();
+    frames.push_back(std::move(*frame));
+  }
+  return frames;
+}
+
+TraceInput traceInput(const TracedScene& traced, const ResolvedFrame& frame) {
+  return {traced, frame.view, frame.spec.width, frame.spec.height, *frame.spec.lights, frame.nodes};
+}
+
+/// Every light's points: seen by all cameras, the same places of the world for all of them.
+Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std::vector<ResolvedFrame>& frames) {
+  const TraceInput first = traceInput(traced, frames.front());
+  std::vector<SurfacePoint> seen = spreadPoints(first, kPoints);
+  for (std::size_t i = 1; i < frames.size(); ++i) keepInSight(traceInput(traced, frames[i]), seen);
+
+  std::vector<Watched> watched;
+  const std::vector<int> casting = shadowingLights(frames.front());
+  for (const int light : casting) {
+    std::vector<SurfacePoint> points = receiversOf(first, light, seen);
+    if (!points.empty()) watched.push_back({light, std::move(points), {}});
+  }
+  if (!watched.empty()) return watched;
+  return Problem{ProblemCode::invalidValue, "/path",
+                 casting.empty() ? "no light of this frame casts a shadow"
+                                 : "no surface that faces a light is in sight of every camera of the path"};
+}
+
+std::vector<shared::ProbeData> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {
+  std::vector<shared::ProbeData> probes;
+  probes.reserve(watched.points.size());
+  for (const SurfacePoint& point : watched.points) {
+    const glm::dvec3 relative = point.position + (anchor - frame.view.eye);
+    const bool grouped = !frame.groups.ofInstance.empty();
+    probes.push_back({glm::vec4(relative, glm::dot(relative, frame.view.forward)),
+                      glm::vec4(point.normal, grouped ? frame.groups.ofInstance[point.instance] : 0)});
+  }
+  return probes;
+}
+
+/// Counts the points that changed since the last frame.
+std::uint64_t flipsOf(Watched& watched, const std::vector<float>& visibility) {
+  std::vector<std::uint8_t> lit(visibility.size());
+  std::transform(visibility.begin(), visibility.end(), lit.begin(), [](float s) { return s >= 0.5f ? 1 : 0; });
+  std::uint64_t flips = 0;
+  for (std::size_t i = 0; i < watched.lit.size(); ++i) flips += watched.lit[i] != lit[i] ? 1 : 0;
+  watched.lit = std::move(lit);
+  return flips;
+}
+
+bool isMap(const ResolvedFrame& frame, int light) {
+  return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique == ShadowTechnique::shadowMap;
+}
+
+/// Lights whose shadows come from no map need no tiles.
+void dropExact(FrameSpec& spec) {
+  for (Light& light : *spec.lights) {
+    light.shadow->enabled = light.shadow->enabled && light.shadow->technique == ShadowTechnique::shadowMap;
+  }
+}
+
+/// The next frame of a sequence starts from this one's depth ranges, where it asks for a previous one.
+void passRangesOn(const ShadowPlan& plan, FrameSpec& next) {
+  for (const PlannedLight& planned : plan.lights) {
+    DepthRange& range = (*next.lights)[static_cast<std::size_t>(planned.light)].shadow->depthRange;
+    if (range.previous && planned.depthRange) range.previous = {planned.depthRange->near, planned.depthRange->far};
+  }
+}
+
+/// Casts a frame's shadows and asks every point for its light. Gives the flips and the plan.
+struct ProbedFrame {
+  std::uint64_t flips = 0;
+  ShadowPlan plan;
+};
+
+Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene, const ResolvedFrame& frame,
+                               std::vector<Watched>& watched) {
+  const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
+  const FrameSpec& spec = frame.spec;
+  const GpuScene& gpu = tools.scenes.get(scene);
+  const FrameGeometry geometry = frameGeometry(*scene, view, frame.view.eye, frame.groups.ofInstance);
+  const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
+  const SceneVertices vertices = sceneVertices(gpu, instances);
+  const SceneVertices anchored = sceneVertices(gpu, gpu.anchored[static_cast<std::size_t>(frame.scene)]);
+  const shared::FrameData data = frameData(frame);
+  gl::Buffer frameBuffer(sizeof(data), "frame");
+  frameBuffer.update(0, gl::bytesOfValue(data));
+  const PassInputs inputs{.scene = *scene,
+                          .view = view,
+                          .gpu = gpu,
+                          .geometry = geometry,
+                          .camera = frame.view,
+                          .frame = frameBuffer,
+                          .instances = instances,
+                          .vertices = vertices,
+                          .anchored = anchored,
+                          .programs = tools.programs,
+                          .width = spec.width,
+                          .height = spec.height,
+                          .nodes = frame.nodes,
+                          .edges = {},
+                          .receiverGroups = frame.groups.matter()};
+
+  const auto survey = surveyScene(inputs, 1);
+  if (!survey) return survey.problems();
+  ProbedFrame probed;
+  probed.plan = planShadows(planInput(frame, view, survey->receivers, tools.device.maxTextureSize));
+  if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
+  const auto atlas = castShadows(inputs, probed.plan, spec, tools.tiles);
+  if (!atlas) return atlas.problems();
+  const auto lights = lightData(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
+  const auto tiles = tileData(probed.plan);
+  for (Watched& light : watched) {
+    const auto visibility = probeShadow(inputs, {*survey, *atlas, lights, tiles, {}, spec, light.light},
+                                        probesOf(frame, anchorOf(view), light));
+    if (!visibility) return visibility.problems();
+    probed.flips += flipsOf(light, *visibility);
+  }
+  return probed;
+}
+
+} // namespace
+
+Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& scene, const FrameSpec& spec,
+                               std::span<const Camera> path, const Progress& progress) {
+  if (path.size() < 2) {
+    return Problem{ProblemCode::invalidValue, "/path", "a path has two cameras or more", "at least 2",
+                   std::to_string(path.size())};
+  }
+  if (const Status able = checkDevice(spec, tools.device); !able) return able.problems();
+  auto frames = resolvePath(*scene, measured(spec), path);
+  if (!frames) return frames.problems();
+  const auto traced = tools.traced.get(scene, frames->front().scene);
+  if (!traced) return traced.problems();
+  auto watched = watchedPoints(**traced, *frames);
+  if (!watched) return watched.problems();
+
+  Shimmer shimmer;
+  shimmer.steps = path.size() - 1;
+  for (const Watched& light : *watched) shimmer.points += light.points.size();
+  // What is exact is so for a point, whoever looks at it: it never flips.
+  std::erase_if(*watched, [&](const Watched& light) { return !isMap(frames->front(), light.light); });
+  if (watched->empty()) return shimmer;
+  for (std::size_t i = 0; i < frames->size(); ++i) {
+    dropExact((*frames)[i].spec);
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames->size()))) return stopped();
+    const auto probed = probeFrame(tools, scene, (*frames)[i], *watched);
+    if (!probed) return probed.problems();
+    shimmer.flips += probed->flips;
+    if (i + 1 < frames->size()) passRangesOn(probed->plan, (*frames)[i + 1].spec);
+  }
+  if (const Status clean = gl::checkErrors("measuring shimmer"); !clean) return clean.problems();
+  return shimmer;
+}
+
+} // namespace gnomon

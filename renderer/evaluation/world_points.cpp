@@ -1,0 +1,72 @@
+#include "renderer/evaluation/world_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+glm::dvec3 fromEye(const TraceInput& input, const SurfacePoint& point) {
+  return point.position + (anchorOf(input.traced.view()) - input.camera.eye);
+}
+
+/// Where the picture shows a point, pixels from its upper left corner; outside of the picture where it does not.
+glm::dvec2 placeOf(const TraceInput& input, const SurfacePoint& point) {
+  const CameraView& camera = input.camera;
+  const glm::dvec3 relative = fromEye(input, point);
+  const double depth = glm::dot(relative, camera.forward);
+  if (!(depth > camera.near && depth < camera.far)) return glm::dvec2(-1.0);
+  const glm::dvec2 across = glm::dvec2(glm::dot(relative, camera.right), glm::dot(relative, camera.up)) /
+                            (camera.halfSize * (camera.perspective ? depth : 1.0));
+  return {0.5 * (1.0 + across.x) * input.width, 0.5 * (1.0 - across.y) * input.height};
+}
+
+bool isInside(const TraceInput& input, const glm::dvec2& place) {
+  return place.x >= 0 && place.y >= 0 && place.x <= input.width && place.y <= input.height;
+}
+
+template <class Keep>
+std::vector<SurfacePoint> filtered(const std::vector<SurfacePoint>& points, const Keep& keep) {
+  std::vector<SurfacePoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (keep(i)) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+} // namespace
+
+std::vector<SurfacePoint> spreadPoints(const TraceInput& input, int count) {
+  const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(1.0 * count * input.width / input.height))));
+  const int rows = std::max(1, count / columns);
+  std::vector<glm::vec2> places;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      places.emplace_back((column + 0.5) * input.width / columns, (row + 0.5) * input.height / rows);
+    }
+  }
+  std::vector<SurfacePoint> points = firstHits(input, places);
+  std::erase_if(points, [](const SurfacePoint& point) { return point.instance == kNoSurface; });
+  return points;
+}
+
+void keepInSight(const TraceInput& input, std::vector<SurfacePoint>& points) {
+  std::erase_if(points, [&](const SurfacePoint& point) { return !isInside(input, placeOf(input, point)); });
+  std::vector<glm::vec2> places;
+  for (const SurfacePoint& point : points) places.emplace_back(placeOf(input, point));
+  const std::vector<SurfacePoint> met = firstHits(input, places);
+  points = filtered(points, [&](std::size_t i) {
+    return met[i].instance == points[i].instance && met[i].triangle == points[i].triangle;
+  });
+}
+
+std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const std::vector<SurfacePoint>& points) {
+  const std::vector<std::uint8_t> reached = facesLight(input, light, points);
+  const SceneView& view = input.traced.view();
+  return filtered(points, [&](std::size_t i) {
+    const auto node = static_cast<std::size_t>(view.instances[points[i].instance].node);
+    return reached[i] != 0 && (input.nodes.empty() || input.nodes[node].receiveShadow);
+  });
+}
+
+} // namespace gnomon

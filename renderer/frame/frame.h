@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "protocol/frame_report.h"
+#include "renderer/image/image.h"
+
+/// Part of the door: see render.h.
+namespace gnomon {
+
+struct Scene;
+using ScenePtr = std::shared_ptr<const Scene>;
+
+/// One picture: 8-bit sRGB for PNG, linear float for EXR, as the frame's output asks.
+struct ViewImage {
+  View view = View::color;
+  Image image;
+};
+
+/// A rendered frame, not yet encoded. Stages queue, load and encode are the caller's to add to the report.
+struct Frame {
+  FrameReport report;
+  std::vector<ViewImage> images; ///< in the order of the spec's views
+};
+
+} // namespace gnomon

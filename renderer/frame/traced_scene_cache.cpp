@@ -1,0 +1,49 @@
+#include "renderer/frame/traced_scene_cache.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shared_ptr<const Scene>& scene, int index) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.index == index && &entry.traced->scene() == scene.get();
+  });
+  if (found != entries_.end()) {
+    entries_.splice(entries_.begin(), entries_, found);
+    return entries_.front().traced;
+  }
+  auto made = TracedScene::build(scene, index);
+  if (!made) return made.problems();
+  entries_.push_front({scene, index, std::make_shared<const TracedScene>(std::move(*made))});
+  drop();
+  return entries_.front().traced;
+}
+
+/// A traced scene keeps its scene alive, so that one with no other holder is out of use.
+std::vector<const Scene*> TracedSceneCache::outOfUse() const {
+  std::vector<const Scene*> scenes;
+  for (const Entry& entry : entries_) {
+    const Scene* scene = &entry.traced->scene();
+    const auto traced = std::count_if(entries_.begin(), entries_.end(),
+                                      [scene](const Entry& other) { return &other.traced->scene() == scene; });
+    if (entry.scene.use_count() <= traced) scenes.push_back(scene);
+  }
+  return scenes;
+}
+
+void TracedSceneCache::drop() {
+  const std::vector<const Scene*> idle = outOfUse();
+  entries_.remove_if([&idle](const Entry& entry) {
+    return std::find(idle.begin(), idle.end(), &entry.traced->scene()) != idle.end();
+  });
+  std::size_t bytes = 0;
+  auto entry = entries_.begin();
+  while (entry != entries_.end()) {
+    bytes += entry->traced->bytes();
+    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
+    entry = keep ? std::next(entry) : entries_.erase(entry);
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,61 @@
+#include "renderer/resolve/plan_input.h"
+
+#include <vector>
+
+#include "renderer/core/light_direction.h"
+#include "renderer/core/vec3.h"
+
+namespace gnomon {
+
+std::vector<int> shadowingLights(const ResolvedFrame& frame) {
+  std::vector<int> lights;
+  const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
+  for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
+    const Light& light = (*frame.spec.lights)[i];
+    if (firstOnly && light.type != LightType::directional) continue;
+    if (light.shadow->enabled && light.intensity > 0) lights.push_back(static_cast<int>(i));
+    if (firstOnly) break; // the first is the first, with a shadow or without
+  }
+  return lights;
+}
+
+std::vector<int> layeredLights(const ResolvedFrame& frame) {
+  std::vector<int> lights = shadowingLights(frame);
+  std::erase_if(lights, [&](int light) {
+    return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique == ShadowTechnique::shadowMap;
+  });
+  return lights;
+}
+
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
+                    int maxTextureSize) {
+  PlanInput input;
+  input.view = frame.view;
+  input.receivers = receivers;
+  input.sceneBounds = scene.bounds;
+  input.anchor = anchorOf(scene);
+  input.atlas = frame.spec.atlas;
+  input.maxTextureSize = maxTextureSize;
+  input.frameWidth = frame.spec.width;
+  input.frameHeight = frame.spec.height;
+  for (const int index : shadowingLights(frame)) {
+    const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
+    if (!isMapped(light.shadow->technique)) continue;
+    ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
+    if (light.shadow->technique == ShadowTechnique::hybrid) {
+      // Rays draw the edges: what the map needs is the nearest tile, sharp.
+      caster.shadow.filter = Filter{FilterType::hard};
+      caster.shadow.bias = Bias{};
+      caster.shadow.blendCascades = false;
+    }
+    if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
+    caster.range = light.range.value_or(0.0);
+    caster.outerCone = glm::radians(light.outerConeDegrees);
+    caster.casts = (light.cullingMask & frame.layers.casting) != 0;
+    caster.shadows = (light.cullingMask & frame.layers.receiving) != 0;
+    input.casters.push_back(caster);
+  }
+  return input;
+}
+
+} // namespace gnomon

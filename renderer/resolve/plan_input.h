@@ -1,0 +1,23 @@
+#pragma once
+
+#include "renderer/resolve/resolve_frame.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// The lights that throw shadows in a frame, by their index.
+std::vector<int> shadowingLights(const ResolvedFrame& frame);
+
+/// Of these, the ones whose shadow comes from visibility layers: every technique but shadowMap.
+std::vector<int> layeredLights(const ResolvedFrame& frame);
+
+/// True for techniques that draw shadow maps.
+inline bool isMapped(ShadowTechnique technique) {
+  return technique == ShadowTechnique::shadowMap || technique == ShadowTechnique::hybrid;
+}
+
+/// What the shadow maps of a frame are planned from. `receivers`: what the camera sees.
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
+                    int maxTextureSize);
+
+} // namespace gnomon

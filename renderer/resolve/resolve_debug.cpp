@@ -1,0 +1,83 @@
+#include "renderer/resolve/resolve_debug.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gnomon {
+namespace {
+
+bool shows(const FrameSpec& spec, View view) {
+  return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
+}
+
+const PlannedLight* plannedOf(const ShadowPlan& plan, int light) {
+  const auto found = std::find_if(plan.lights.begin(), plan.lights.end(),
+                                  [light](const PlannedLight& planned) { return planned.light == light; });
+  return found == plan.lights.end() ? nullptr : &*found;
+}
+
+/// debug.light, else the first that casts, else the first.
+int lightToShow(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
+  if (spec.debug.light) return *spec.debug.light;
+  for (int light = 0; light < static_cast<int>(spec.lights->size()); ++light) {
+    const PlannedLight* planned = plannedOf(plan, light);
+    const bool layered = std::find(layeredLights.begin(), layeredLights.end(), light) != layeredLights.end();
+    if (layered || (planned != nullptr && planned->tileCount > 0)) return light;
+  }
+  return spec.lights->empty() ? -1 : 0;
+}
+
+Problem noAtlas(const char* view) {
+  return {ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "", view};
+}
+
+std::string upTo(int count) {
+  return "0.." + std::to_string(count - 1);
+}
+
+Result<const ShadowTile*> tileToShow(const FrameSpec& spec, const ShadowPlan& plan, const DebugSubject& subject) {
+  if (subject.planned == nullptr || subject.planned->tileCount == 0) {
+    if (!spec.debug.light) return noAtlas("tile");
+    const std::string note = subject.planned == nullptr ? "" : ": " + subject.planned->note;
+    return Problem{ProblemCode::invalidValue, "/debug/light", "this light casts no shadow in this frame" + note, "",
+                   std::to_string(subject.light)};
+  }
+  const PlannedLight& light = *subject.planned;
+  if (spec.debug.tile >= light.tileCount) {
+    return Problem{ProblemCode::invalidValue, "/debug/tile",
+                   "light " + std::to_string(light.light) + " has tiles " + upTo(light.tileCount) + " in this frame",
+                   upTo(light.tileCount), std::to_string(spec.debug.tile)};
+  }
+  const auto first = plan.tiles.begin() + light.firstTile;
+  const ShadowTile& tile = first[spec.debug.tile];
+  if (tile.rect.width > 0) return &tile;
+  std::string drawn;
+  for (int i = 0; i < light.tileCount; ++i) {
+    if (first[i].rect.width > 0) drawn += (drawn.empty() ? "" : ", ") + std::to_string(i);
+  }
+  return Problem{ProblemCode::invalidValue, "/debug/tile", "this tile was not drawn: nothing in view lies in it", drawn,
+                 std::to_string(spec.debug.tile)};
+}
+
+} // namespace
+
+Status checkDebugLight(const Debug& debug, std::size_t lightCount) {
+  if (!debug.light || static_cast<std::size_t>(*debug.light) < lightCount) return Done{};
+  return Problem{ProblemCode::invalidValue, "/debug/light", "the frame has no light of that index",
+                 lightCount == 0 ? "no lights" : upTo(static_cast<int>(lightCount)), std::to_string(*debug.light)};
+}
+
+Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
+  DebugSubject subject;
+  subject.light = lightToShow(spec, plan, layeredLights);
+  subject.planned = plannedOf(plan, subject.light);
+  if (plan.atlasWidth == 0 && shows(spec, View::atlas)) return noAtlas("atlas");
+  if (shows(spec, View::tile)) {
+    const auto tile = tileToShow(spec, plan, subject);
+    if (!tile) return tile.problems();
+    subject.tile = *tile;
+  }
+  return subject;
+}
+
+} // namespace gnomon

@@ -1,0 +1,78 @@
+#include "renderer/resolve/resolve_frame.h"
+
+#include "protocol/limits.h"
+#include "renderer/resolve/resolve_camera.h"
+#include "renderer/resolve/resolve_debug.h"
+#include "renderer/resolve/resolve_nodes.h"
+#include "renderer/resolve/resolve_technique.h"
+
+namespace gnomon {
+namespace {
+
+/// The request's lights, else the scene's own, else one sun.
+std::vector<Light> chooseLights(const FrameSpec& spec, const SceneView& scene, std::vector<std::string>& warnings) {
+  if (spec.lights) return *spec.lights;
+  std::vector<Light> lights;
+  for (const SceneLight& light : scene.lights) lights.push_back(light.light);
+  const auto most = static_cast<std::size_t>(kLimits.maxLights);
+  if (lights.size() > most) {
+    warnings.push_back("the scene has " + std::to_string(lights.size()) + " lights; only the first " +
+                       std::to_string(most) + " light this frame");
+    lights.resize(most);
+  }
+  if (lights.empty()) {
+    Light sun;
+    sun.sun = Sun{};
+    lights.push_back(sun);
+  }
+  return lights;
+}
+
+ShadowSize usualSize(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return ShadowSize::Large;
+    case LightType::spot:
+      return ShadowSize::Medium;
+    case LightType::point:
+      return ShadowSize::Small;
+  }
+  return ShadowSize::Large;
+}
+
+} // namespace
+
+Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
+  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
+  const int count = static_cast<int>(scene.scenes.size());
+  if (frame.scene < 0 || frame.scene >= count) {
+    return Problem{ProblemCode::invalidValue, "/scene", "the file has no scene of that index",
+                   "0.." + std::to_string(count - 1), std::to_string(frame.scene)};
+  }
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
+  auto camera = resolveCamera(spec.camera, view, static_cast<double>(spec.width) / spec.height);
+  if (!camera) return camera.problems();
+  frame.spec.scene = frame.scene;
+  frame.spec.camera = camera->camera;
+  frame.view = camera->view;
+
+  frame.spec.lights = chooseLights(spec, view, frame.warnings);
+  for (Light& light : *frame.spec.lights) {
+    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
+    if (!light.shadow) light.shadow = spec.shadow;
+    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
+  }
+  if (const Status known = checkDebugLight(spec.debug, frame.spec.lights->size()); !known) return known.problems();
+
+  auto nodes = resolveNodes(spec.nodes, scene);
+  if (!nodes) return nodes.problems();
+  frame.nodes = std::move(*nodes);
+  frame.layers = layersInUse(view, frame.nodes);
+  auto groups = resolveReceiverGroups(view, frame.nodes, *frame.spec.lights);
+  if (!groups) return groups.problems();
+  frame.groups = std::move(*groups);
+  if (const Status able = checkTechniques(spec, scene, frame); !able) return able.problems();
+  return frame;
+}
+
+} // namespace gnomon

@@ -1,0 +1,63 @@
+#include "renderer/resolve/resolve_technique.h"
+
+#include <algorithm>
+
+#include "protocol/problem_list.h"
+#include "renderer/resolve/plan_input.h"
+
+namespace gnomon {
+namespace {
+
+const Material& materialOf(const Scene& scene, const Instance& instance) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  return scene.materials[static_cast<std::size_t>(primitive.material)];
+}
+
+std::string told(const std::string& name, int index) {
+  return name.empty() ? std::to_string(index) : "\"" + name + "\"";
+}
+
+/// Where the technique of a light was asked for.
+std::string pointerOf(const FrameSpec& asked, std::size_t light) {
+  const bool own = asked.lights && (*asked.lights)[light].shadow;
+  return own ? "/lights/" + std::to_string(light) + "/shadow/technique" : "/shadow/technique";
+}
+
+/// The first caster of a light that has holes; null = there is none.
+const Instance* firstWithHoles(const Scene& scene, const ResolvedFrame& frame, const Light& light) {
+  const std::vector<Instance>& instances = scene.scenes[static_cast<std::size_t>(frame.scene)].instances;
+  const auto found = std::find_if(instances.begin(), instances.end(), [&](const Instance& instance) {
+    const NodeSwitches node =
+        frame.nodes.empty() ? NodeSwitches{} : frame.nodes[static_cast<std::size_t>(instance.node)];
+    return castsFrom(light, node) && materialOf(scene, instance).alphaMode != AlphaMode::opaque;
+  });
+  return found == instances.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+Status checkTechniques(const FrameSpec& asked, const Scene& scene, const ResolvedFrame& frame) {
+  ProblemList problems;
+  std::string last;
+  for (const int index : shadowingLights(frame)) {
+    const auto light = static_cast<std::size_t>(index);
+    const Light& settled = (*frame.spec.lights)[light];
+    const std::string pointer = pointerOf(asked, light);
+    if (settled.shadow->technique != ShadowTechnique::shadowVolume || pointer == last) continue;
+    const Instance* instance = firstWithHoles(scene, frame, settled);
+    if (instance == nullptr) continue;
+    const int primitive = instance->primitive;
+    const int material = scene.primitives[static_cast<std::size_t>(primitive)].material;
+    problems.add({ProblemCode::unsupportedFeature, pointer,
+                  "technique shadowVolume knows no alpha: node " +
+                      told(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
+                      " casts, and its material " + told(materialOf(scene, *instance).name, material) +
+                      " is masked or blended",
+                  "opaque casters: turn the node's castShadow off, or choose another technique", "shadowVolume"});
+    last = pointer;
+  }
+  if (problems.empty()) return Done{};
+  return std::move(problems).take();
+}
+
+} // namespace gnomon

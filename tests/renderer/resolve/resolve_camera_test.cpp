@@ -1,0 +1,112 @@
+#include "renderer/resolve/resolve_camera.h"
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+namespace gnomon {
+namespace {
+
+SceneView boxScene(const glm::dvec3& center, const glm::dvec3& half) {
+  SceneView scene;
+  scene.bounds = {center - half, center + half};
+  return scene;
+}
+
+/// The greatest |x| or |y| that a corner of the scene has on the picture; 1 is its edge.
+double reachOf(const CameraView& view, const Aabb& bounds) {
+  double reach = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - view.eye;
+    const double depth = glm::dot(p, view.forward);
+    if (depth <= 0) return HUGE_VAL;
+    reach = std::max({reach, std::abs(glm::dot(p, view.right)) / (depth * view.halfSize.x),
+                      std::abs(glm::dot(p, view.up)) / (depth * view.halfSize.y)});
+  }
+  return reach;
+}
+
+TEST(ResolveCamera, AnOrbitWithoutADistanceFramesTheWholeScene) {
+  EXPECT_TRUE(rc::check([] {
+    const auto value = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
+    const SceneView scene = boxScene({value(-9999, 9999), value(-9999, 9999), value(-9999, 9999)},
+                                     {value(1, 9999), value(1, 9999), value(1, 9999)});
+    Camera camera;
+    camera.orbit = Orbit{};
+    camera.orbit->azimuthDegrees = value(-36000, 36000);
+    camera.orbit->elevationDegrees = value(-9000, 9001);
+    camera.perspective = Perspective{value(500, 15000), {}, {}};
+    const auto resolved = resolveCamera(camera, scene, value(20, 500));
+    RC_ASSERT(static_cast<bool>(resolved));
+    const double reach = reachOf(resolved->view, scene.bounds);
+    RC_ASSERT(reach <= 1.0);
+    RC_ASSERT(reach > 0.9); // and no farther away than that takes
+  }));
+}
+
+TEST(ResolveCamera, AxesAreOrthonormalEvenStraightAboveAndBelow) {
+  for (const double elevation : {-90.0, -89.9999, 0.0, 45.0, 89.9999999, 90.0}) {
+    Camera camera;
+    camera.orbit = Orbit{};
+    camera.orbit->elevationDegrees = elevation;
+    const CameraView view = resolveCamera(camera, boxScene({1, 2, 3}, {1, 1, 1}), 1.5)->view;
+    const glm::dmat3 axes(view.right, view.up, view.forward);
+    const glm::dmat3 unit = glm::transpose(axes) * axes;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) EXPECT_NEAR(unit[i][j], i == j ? 1 : 0, 1e-9) << elevation;
+    }
+  }
+}
+
+TEST(ResolveCamera, AzimuthIsClockwiseFromNorth) {
+  Camera camera;
+  camera.orbit = Orbit{Vec3{0, 0, 0}, 90, 0, 5};
+  const CameraView east = resolveCamera(camera, {}, 1)->view;
+  EXPECT_LT(glm::length(east.eye - glm::dvec3(5, 0, 0)), 1e-12);
+  camera.orbit->azimuthDegrees = 0;
+  const CameraView north = resolveCamera(camera, {}, 1)->view;
+  EXPECT_LT(glm::length(north.eye - glm::dvec3(0, 0, -5)), 1e-12);
+}
+
+TEST(ResolveCamera, ResolvingTwiceChangesNothing) {
+  SceneView scene = boxScene({1e6, 3, -7}, {4, 5, 6});
+  scene.cameras.push_back(
+      {7, "tower", {1e6, 9, 9}, glm::normalize(glm::dvec3(1, -2, -3)), {0, 1, 0}, Perspective{}, {}});
+  scene.cameras.back().up =
+      glm::normalize(glm::cross(glm::cross(scene.cameras[0].forward, {0, 1, 0}), scene.cameras[0].forward));
+  Camera byName;
+  byName.node = "tower";
+  for (const Camera& camera : {Camera{}, byName}) {
+    const auto once = resolveCamera(camera, scene, 1.5);
+    const auto twice = resolveCamera(once->camera, scene, 1.5);
+    EXPECT_TRUE(once->camera == twice->camera);
+    EXPECT_EQ(once->view.forward, twice->view.forward);
+    EXPECT_EQ(once->view.right, twice->view.right);
+    EXPECT_EQ(once->view.near, twice->view.near);
+  }
+}
+
+TEST(ResolveCamera, G5_OrthographicCamerasKeepTheirBoxWhateverTheAspect) {
+  Camera camera;
+  camera.orthographic = Orthographic{6, -10, 50};
+  const CameraView view = resolveCamera(camera, boxScene({0, 0, 0}, {1, 1, 1}), 2)->view;
+  EXPECT_FALSE(view.perspective);
+  EXPECT_EQ(view.halfSize, glm::dvec2(6, 3));
+  EXPECT_EQ(view.near, -10);
+  EXPECT_EQ(view.far, 50);
+}
+
+TEST(ResolveCamera, AnUnknownNodeIsToldWithThoseThereAre) {
+  SceneView scene;
+  scene.cameras.push_back({3, "a", {}, {0, 0, -1}, {0, 1, 0}, Perspective{}, {}});
+  Camera camera;
+  camera.node = 4;
+  const auto refused = resolveCamera(camera, scene, 1);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].limit, "one of 3 (a)");
+  EXPECT_EQ(refused.problems()[0].actual, "4");
+}
+
+} // namespace
+} // namespace gnomon
