@@ -111,9 +111,9 @@ std::string legendOf(const EvaluationReport& report) {
     const bool front = row.pareto.value_or(false);
     out += text(left + 20, y, "end", std::to_string(i + 1));
     const bool measured = row.milliseconds && row.metrics;
-    out += text(left + 28, y, "start", shortened(row.name, measured ? 30 : 20), front ? " class=\"bold\"" : "");
+    out += text(left + 28, y, "start", shortened(row.name, measured ? 28 : 20), front ? " class=\"bold\"" : "");
     if (measured) {
-      out += text(right - 76, y, "end", shortNumber(*row.milliseconds) + " ms");
+      out += text(right - 84, y, "end", shortNumber(*row.milliseconds) + " ms");
       out += text(right, y, "end", percent(row.metrics->misclassified));
     } else if (row.problems && !row.problems->empty()) {
       out += text(right, y, "end", shortened(row.problems->front().detail, 36), " class=\"small\"");

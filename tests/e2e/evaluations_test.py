@@ -109,9 +109,9 @@ class Evaluations(ServerTest):
 
     def test_a_spec_that_the_scene_can_not_meet_is_refused(self):
         request = {"spec": {"camera": {"node": "nobody"}}, "sweep": "techniques"}
-        self.assert_problem(self.evaluate(request), 404, "/spec/camera/node")
+        self.assert_problem(self.evaluate(request), 400, "/spec/camera/node")
         name, problem = events_of(self.evaluate(request, "text/event-stream").body.decode())[-1]
-        self.assertEqual((name, problem["status"]), ("problem", 404))
+        self.assertEqual((name, problem["status"]), ("problem", 400))
         self.assertEqual(problem["problems"][0]["pointer"], "/spec/camera/node")
 
     def test_frames_of_others_go_between(self):

@@ -184,7 +184,7 @@ void mend(Light& light, const Atlas& atlas) {
 rc::Gen<FrameSpec> anySpec() {
   return rc::gen::exec([] {
     FrameSpec spec = any<FrameSpec>(Notes{});
-    if (std::int64_t{spec.width} * spec.height > kLimits.maxFramePixels) spec.height /= 4;
+    if (std::int64_t{spec.width} * spec.height > kLimits.maxFramePixels) spec.height /= 8;
     spec.height = std::max(spec.height, 1);
     spec.atlas.baseSize = std::min(spec.atlas.baseSize, spec.atlas.size);
     for (NodeOptions& node : spec.nodes) node.node = node.node.value_or(7);
