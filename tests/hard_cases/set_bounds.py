@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the bounds of hard cases from what a run of test_hard_cases measured (hard_cases.json in its build folder):
-every metric and a third on top, and three pixels. Look at what changed: a bound that grows is a fault or needs a reason.
+every metric and a third on top, and three pixels; of techniques that trace, a hundred-thousandth. Look at what changed: a bound that grows is a fault or needs a reason.
 
 usage: set_bounds.py HARD_CASES.json [CASE...]      without cases: those that have no bounds yet for some technique
 """
@@ -12,6 +12,7 @@ import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SHARES = ("misclassified", "falseShadow", "falseLit", "acne", "leak", "edge", "interior", "meanAbsolute")
+TRACED = ("hybrid", "rayTraced")  # right but for one receiver in a hundred thousand
 
 
 def rounded_up(value):
@@ -22,8 +23,8 @@ def rounded_up(value):
     return float(f"{math.ceil(value / step - 1e-9) * step:.6g}")
 
 
-def bounds_of(metrics):
-    pixels = 3 / max(metrics["receivers"], 1)
+def bounds_of(way, metrics):
+    pixels = 1e-5 if way in TRACED else 3 / max(metrics["receivers"], 1)
     bounds = {}
     for name, value in metrics.items():
         if name in SHARES:
@@ -57,7 +58,7 @@ def main(measured_file, *names):
         with open(path) as file:
             case = json.load(file)
         old = {} if name in names else case["bounds"]
-        case["bounds"] = {way: old.get(way) or bounds_of(metrics) for way, metrics in ways.items() if metrics}
+        case["bounds"] = {way: old.get(way) or bounds_of(way, metrics) for way, metrics in ways.items() if metrics}
         with open(path, "w") as file:
             file.write(text_of(case))
 

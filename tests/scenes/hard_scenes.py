@@ -28,7 +28,7 @@ def micro():
 
 
 def giga():
-    return _scaled(2.5e7)
+    return _scaled(5e7)
 
 
 def pebble():
