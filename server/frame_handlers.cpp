@@ -6,6 +6,7 @@
 #include "server/frame_cost.h"
 #include "server/frame_reply.h"
 #include "server/problem_reply.h"
+#include "server/settle_quality.h"
 #include "server/upload.h"
 
 namespace gnomon {
@@ -48,7 +49,18 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
     return problemReply(loaded.problems(), requestId);
   }
   const double loadMs = millisecondsSince(start);
-  auto drawn = services.queue.render({loaded->scene, frame.spec, start + services.requestTimeout, call.clientGone});
+  FrameSpec spec = frame.spec;
+  std::optional<QualityReport> quality;
+  if (spec.quality) {
+    auto settled = settleQuality(services, call, frame.sceneId, *loaded, spec);
+    if (!settled) {
+      return settled.problems().front().code == ProblemCode::busy ? busyReply(settled.problems(), requestId, 10)
+                                                                  : problemReply(settled.problems(), requestId);
+    }
+    quality = *std::move(settled);
+    spec = withTrial(spec, quality->tried[quality->chosen]);
+  }
+  auto drawn = services.queue.render({loaded->scene, spec, Clock::now() + services.requestTimeout, call.clientGone});
   if (const auto* full = std::get_if<QueueFull>(&drawn)) {
     return busyReply(
         {{ProblemCode::busy, "", "The render queue is full.", std::to_string(full->limit) + " frames", ""}}, requestId,
@@ -59,6 +71,7 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   }
   auto& queued = std::get<QueuedFrame>(drawn);
   addStages(queued.frame.report, queued.queueMs, loadMs);
+  queued.frame.report.quality = std::move(quality);
   const std::string boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   auto reply = frameReply(std::move(queued.frame), form, boundary);
   return reply ? *std::move(reply) : problemReply(reply.problems(), requestId);
@@ -79,7 +92,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
 
   HttpReply reply;
   const auto known = headerValue(request.headers, "if-none-match");
-  if (known && etagMatches(*known, etag)) {
+  if (known && !frame.spec.quality && etagMatches(*known, etag)) {
     reply.status = 304;
   } else if (request.method == "HEAD") {
     reply.contentType = mediaTypeOf(*form);
@@ -90,8 +103,13 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
       return reply;
     }
   }
-  reply.headers.emplace_back("ETag", etag);
-  reply.headers.emplace_back("Cache-Control", frame.cacheControl);
+  // What meets a target depends on how fast the machine was.
+  if (frame.spec.quality) {
+    reply.headers.emplace_back("Cache-Control", "no-store");
+  } else {
+    reply.headers.emplace_back("ETag", etag);
+    reply.headers.emplace_back("Cache-Control", frame.cacheControl);
+  }
   reply.headers.emplace_back("Vary", "Accept");
   return reply;
 }

@@ -117,7 +117,8 @@ int serve(const ServeOptions& options) {
                     ByteBudget(options.frameMemoryBytes),
                     options.page,
                     std::chrono::seconds(options.evaluationTimeoutSeconds),
-                    std::counting_semaphore<>(options.maxEvaluations)};
+                    std::counting_semaphore<>(options.maxEvaluations),
+                    {}};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

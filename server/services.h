@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/byte_budget.h"
+#include "server/quality_choices.h"
 #include "server/render_queue.h"
 #include "server/scene_store.h"
 #include "server/static_file.h"
@@ -23,8 +24,9 @@ struct Services {
   std::vector<StaticFile> page;
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< from the handler's start to the report
   std::counting_semaphore<> evaluations{1};             ///< at once; one more is told to come again
-  std::counting_semaphore<> plans{2};                   ///< made at once: each takes memory by the picture's size
-  std::atomic<bool> draining = false;                   ///< true from the first signal on: readyz says so
+  QualityChoices choices;
+  std::counting_semaphore<> plans{2}; ///< made at once: each takes memory by the picture's size
+  std::atomic<bool> draining = false; ///< true from the first signal on: readyz says so
 };
 
 } // namespace gnomon

@@ -41,6 +41,25 @@ Result<std::vector<Picture>> encode(const Frame& frame, const FrameSpec& spec) {
   return pictures;
 }
 
+/// A spec without a target, and how its target was met.
+struct Settled {
+  FrameSpec spec;
+  std::optional<QualityReport> quality;
+};
+
+Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Renderer& renderer, Progress& progress) {
+  if (!spec.quality) return Settled{spec, std::nullopt};
+  progress.stage("finding settings");
+  auto trials = qualityTrials(spec);
+  const auto draw = [&](const FrameSpec& variant) { return renderer.render(scene, variant, TileUse::drawnAnew); };
+  const auto measured = evaluate(scene, qualityEvaluation(spec, trials), renderer.info(), {draw, {}});
+  if (!measured) return measured.problems();
+  auto report = chooseTrial(*spec.quality, std::move(trials), *measured);
+  if (!report) return report.problems();
+  FrameSpec chosen = withTrial(spec, report->tried[report->chosen]);
+  return Settled{std::move(chosen), std::move(*report)};
+}
+
 } // namespace
 
 Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
@@ -60,9 +79,12 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   auto renderer = Renderer::create(options);
   if (!renderer) return renderer.problems();
 
+  auto settled = settleTarget(*scene, spec, *renderer, progress);
+  if (!settled) return settled.problems();
   progress.stage("rendering");
-  auto frame = renderer->render(*scene, spec);
+  auto frame = renderer->render(*scene, settled->spec);
   if (!frame) return frame.problems();
+  frame->report.quality = std::move(settled->quality);
 
   progress.stage("encoding");
   const StopWatch encoding;

@@ -120,7 +120,9 @@ Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTria
 }
 
 Result<std::string> viewClass(const Scene& scene, const FrameSpec& spec) {
-  const auto frame = resolveFrame(scene, spec);
+  FrameSpec settled = spec;
+  settled.quality.reset();
+  const auto frame = resolveFrame(scene, settled);
   if (!frame) return frame.problems();
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
   const glm::dvec3 size = view.bounds.empty() ? glm::dvec3(1.0) : view.bounds.max - view.bounds.min;

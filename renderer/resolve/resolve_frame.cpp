@@ -43,6 +43,10 @@ ShadowSize usualSize(LightType type) {
 } // namespace
 
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
+  if (spec.quality) {
+    return Problem{ProblemCode::invalidValue, "/quality", "it takes frames to meet a target; here settings are needed",
+                   "", ""};
+  }
   ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
   const int count = static_cast<int>(scene.scenes.size());
   if (frame.scene < 0 || frame.scene >= count) {

@@ -27,7 +27,29 @@ const float kUnsure = 0.5;
 // kSteep in outlines.h, for two surfaces that lean either way, and some room.
 const float kBend = 2.2 * GNOMON_STEEPEST;
 
+#ifdef MASKED_SURFACES
+// True where a neighbour, or one at a corner, shows another surface. A mask's rim is where filters put it: a ray may pass
+// where the picture shows the surface, or meet it where the picture shows what lies behind.
+bool atRim(Sample seen) {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 last = ivec2(2.0 / frame.lens.zw + 0.5) - 1;
+  float width = frame.up.w * (frame.forward.w > 0.0 ? seen.viewDepth : 1.0);
+  vec3 normal = unpackedSurface(seen.bits).face;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      Sample other = sampleOf(clamp(pixel + ivec2(x, y), ivec2(0), last), seen.index);
+      if (other.hit != seen.hit) return true;
+      if (seen.hit && abs(dot(normal, other.relative - seen.relative)) > 0.1 * width) return true;
+    }
+  }
+  return false;
+}
+#endif
+
 float verdictOf(Sample seen) {
+#ifdef MASKED_SURFACES
+  if (atRim(seen)) return kUnsure;
+#endif
   if (!seen.hit) return kLit;
 #ifdef RECEIVER_GROUPS
   if ((lights[light].groups.x & lights[light].groups.y & (1u << receiverGroup(seen.bits))) == 0u) return kLit;

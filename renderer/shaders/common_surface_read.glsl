@@ -25,8 +25,7 @@ struct Sample {
   float viewDepth; // metres
 };
 
-Sample sampleAt(int index) {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+Sample sampleOf(ivec2 pixel, int index) {
   Sample s;
   s.index = index;
   float depth = texelFetch(surfaceDepths, pixel, index).r;
@@ -40,6 +39,8 @@ Sample sampleAt(int index) {
   s.relative = frame.forward.xyz * s.viewDepth + across * (perspective ? s.viewDepth : 1.0);
   return s;
 }
+
+Sample sampleAt(int index) { return sampleOf(ivec2(gl_FragCoord.xy), index); }
 
 vec3 emissionAt(int index) {
 #ifdef EMISSION

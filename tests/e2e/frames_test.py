@@ -52,6 +52,38 @@ class Frames(ServerTest):
         self.assertEqual(list(frame["report"]["stages"]), STAGES)
         self.assertEqual(frame["report"]["spec"]["output"]["format"], "png")
 
+    def test_a_target_is_met_and_its_choice_is_kept(self):
+        spec = SMALL | {"quality": {"maxError": 0.0}}
+        reply = self.frame(spec, "application/json")
+        self.assertEqual(reply.status, 200)
+        self.assertEqual(reply.headers["Cache-Control"], "no-store")
+        self.assertNotIn("ETag", reply.headers)
+        report = reply.json()["report"]
+        quality = report["quality"]
+        chosen = quality["tried"][quality["chosen"]]
+        self.assertTrue(quality["met"])
+        self.assertFalse(quality["cached"])
+        self.assertEqual(chosen["error"], 0)
+        self.assertGreaterEqual(len(quality["tried"]), 8)
+        self.assertEqual(report["spec"]["shadow"]["technique"], chosen["shadow"]["technique"])
+        self.assertNotIn("quality", report["spec"])
+        again = self.frame(spec, "application/json").json()["report"]["quality"]
+        self.assertTrue(again["cached"])
+        self.assertEqual(again["tried"], quality["tried"])
+
+    def test_a_target_that_nothing_reaches_says_so(self):
+        reply = self.frame(SMALL | {"quality": {"maxMilliseconds": 0.001}}, "application/json")
+        quality = reply.json()["report"]["quality"]
+        self.assertFalse(quality["met"])
+        times = [trial["milliseconds"] for trial in quality["tried"]]
+        self.assertEqual(times[quality["chosen"]], min(times))
+
+    def test_a_plan_has_no_target(self):
+        reply = self.server.ask("POST", f"/v1/scenes/{self.scene}/plan", json.dumps({"quality": {"maxError": 0.1}}),
+                                {"Content-Type": "application/json"})
+        self.assertEqual(reply.status, 400)
+        self.assertEqual(reply.json()["problems"][0]["pointer"], "/quality")
+
     def test_the_effective_spec_gives_the_same_picture(self):
         first = self.frame(SMALL, "application/json").json()
         again = self.frame(first["report"]["spec"], "application/json").json()

@@ -56,6 +56,8 @@ TEST(FramePlans, X8_AnAtlasBeyondTheDeviceIsRefusedAndOneThatIsFullSaysSo) {
   device.maxTextureSize = 512;
   device.maxSamples = 1;
   FrameSpec spec;
+  spec.width = 512;
+  spec.height = 288;
   const auto refused = planFrame(*scene, spec, device);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.problems()[0].pointer, "/atlas/size");
@@ -69,6 +71,8 @@ TEST(FramePlans, X8_AnAtlasBeyondTheDeviceIsRefusedAndOneThatIsFullSaysSo) {
 
 TEST(FramePlans, D4_TheDeviceMustHaveTheSamples) {
   FrameSpec spec;
+  spec.width = 512;
+  spec.height = 288;
   spec.atlas.samples = 4;
   RendererInfo device;
   device.maxTextureSize = 512;

@@ -1,5 +1,7 @@
 #include "renderer/passes/views/certainty_pass.h"
 
+#include <algorithm>
+
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/sampler.h"
@@ -18,6 +20,9 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInp
     defines.emplace_back("PUNCTUAL");
   }
   if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  const bool masked = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
+                                  [](const Material& material) { return material.alphaMode != AlphaMode::opaque; });
+  if (masked) defines.emplace_back("MASKED_SURFACES");
   const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", "", std::move(defines)});
   if (!program) return program.problems();
 
