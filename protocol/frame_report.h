@@ -12,8 +12,8 @@
 
 namespace gnomon {
 
-/// One stage's time. Names and order: queue load upload survey plan shadow shade reference readback encode; reference is
-/// there where a view holds a shadow against rays.
+/// One stage's time. Names and order: queue load upload survey plan shadow shade reference readback encode; reference
+/// is there where a view holds a shadow against rays.
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
