@@ -8,10 +8,11 @@
 // Whether the shadow map of one light knows what arrives at a pixel: 1 = lit, 0 = in shadow, 0.5 = not sure.
 //
 // Seen from the light, the casters are sheets of surface. A sheet begins and ends at outlines alone, and the map's outlines
-// (renderer/passes/tiles/outlines.h) mark every texel that one comes near. Where none does, the sheets over a receiver
-// lie over the nine texels around it, too, so that nine depths tell whether one of them lies before the receiver:
+// (renderer/passes/tiles/outlines.h) mark every cell between four texels that one passes through. Where none does, the
+// sheets over a receiver lie over the four texels around it, too, so that four depths tell whether one of them lies
+// before the receiver; a line along which two sheets cross leaves at least one texel on the receiver's side of it.
 //  - none before the receiver's own plane: lit;
-//  - all before it by more than the receiver's own sheet may bend within those texels: in shadow;
+//  - all before it by more than the receiver's own sheet may bend within the cell: in shadow;
 //  - else the sheet is too near, or it and the receiver cross: not sure.
 // No bias is needed: a plane is held against each texel at that texel's place.
 layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2D atlasDepths;
@@ -61,6 +62,7 @@ float verdictOf(Sample seen) {
   vec3 toLight;
   if (irradiance(lights[light], receiver.relative, toLight) == vec3(0.0)) return kLit;
   float cosine = dot(receiver.normal, toLight);
+  if (cosine < -1e-3) return kShadow;
   if (cosine <= 1e-3) return kUnsure;
 
   TileChoice choice = chooseTile(light, receiver, toLight);
@@ -82,8 +84,8 @@ float verdictOf(Sample seen) {
 #endif
   if (any(lessThan(at.xy, tile.bounds.xy)) || any(greaterThan(at.xy, tile.bounds.zw))) return kUnsure;
   vec2 size = vec2(textureSize(atlasDepths, 0));
-  ivec2 middle = ivec2(at.xy * size);
-  if (texelFetch(outlines, middle, 0).r > 0.0) return kUnsure;
+  ivec2 cell = ivec2(floor(at.xy * size - 0.5));
+  if (texelFetch(outlines, cell, 0).r > 0.0) return kUnsure;
 
   float tangent = sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine;
   // A steep surface has an outline along all of its edges: away from them it is a plane.
@@ -95,9 +97,9 @@ float verdictOf(Sample seen) {
   vec2 slope = receiverSlope(tile, receiver, lights[light].position.xyz);
   bool lit = true;
   bool shadow = true;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      ivec2 texel = middle + ivec2(x, y);
+  for (int y = 0; y <= 1; ++y) {
+    for (int x = 0; x <= 1; ++x) {
+      ivec2 texel = cell + ivec2(x, y);
       vec2 across = ((vec2(texel) + 0.5) / size - at.xy) / tile.bias.zw;
       float apart = length(across);
       float plane = at.z + dot(slope, across);

@@ -7,8 +7,11 @@
 namespace gnomon {
 namespace {
 
-/// How near to a texel's centre what passes marks it: the centres of its eight neighbours, and rounding.
-constexpr double kReach = 1.01;
+/// How near to a cell what passes marks it, texels: rounding of the places that are looked up.
+constexpr double kReach = 0.02;
+
+/// Texels that an edge is followed at once.
+constexpr double kStep = 0.5;
 
 /// Of a clip-space w: what lies behind the light, or in it, is cut off here.
 constexpr double kLeastW = 1e-30;
@@ -28,22 +31,21 @@ std::optional<Part> cut(const Part& part, double atA, double atB) {
 } // namespace
 
 Stamps::Stamps(int width, int height)
-    : width_(width), height_(height), texels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+    : width_(width), height_(height), cells_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
 void Stamps::fill(const Span& box) {
   const bool somewhere = box.lowest.x <= box.highest.x && box.lowest.y <= box.highest.y;
   if (!somewhere) return; // not a number: nothing is drawn there
-  // Texel i has its centre at i + 0.5.
-  const auto first = [](double low) { return static_cast<int>(std::ceil(std::clamp(low, -1e6, 1e6) - kReach - 0.5)); };
-  const auto last = [](double high) {
-    return static_cast<int>(std::floor(std::clamp(high, -1e6, 1e6) + kReach - 0.5));
-  };
+  // Cell i runs from i + 0.5 to i + 1.5.
+  const auto cellAt = [](double place) { return static_cast<int>(std::floor(std::clamp(place, -1e6, 1e6) - 0.5)); };
+  const auto first = [&](double low) { return cellAt(low - kReach); };
+  const auto last = [&](double high) { return cellAt(high + kReach); };
   const int left = std::max(first(box.lowest.x), 0);
   const int right = std::min(last(box.highest.x), width_ - 1);
   if (right < left) return;
   const int top = std::min(last(box.highest.y), height_ - 1);
   for (int y = std::max(first(box.lowest.y), 0); y <= top; ++y) {
-    const auto row = texels_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
+    const auto row = cells_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
     std::fill(row + left, row + right + 1, std::uint8_t{255});
   }
 }
@@ -69,7 +71,7 @@ void Stamps::stampEdge(const glm::dvec4& from, const glm::dvec4& to) {
   const glm::dvec2 step = texel(part->b) - a;
   const double length = std::max(std::abs(step.x), std::abs(step.y));
   if (!(length < 1e6)) return; // not a number: no such edge is drawn
-  const int steps = std::max(1, static_cast<int>(std::ceil(length)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / kStep)));
   for (int i = 0; i < steps; ++i) {
     const glm::dvec2 p = a + step * (static_cast<double>(i) / steps);
     const glm::dvec2 q = a + step * (static_cast<double>(i + 1) / steps);

@@ -6,8 +6,8 @@
 
 namespace gnomon {
 
-/// Marks the texels of one tile that lie near edges and triangles, given in the tile's clip space (x y -1..1 over the
-/// tile after the division by w). A texel is marked where one passes within a texel of its centre along x and along y.
+/// Marks the cells of one tile that edges and triangles pass through, given in the tile's clip space (x y -1..1 over
+/// the tile after the division by w). A cell lies between the centres of four texels and is named after the lowest.
 class Stamps {
  public:
   Stamps(int width, int height);
@@ -16,8 +16,8 @@ class Stamps {
   /// The box around the triangle.
   void stampTriangle(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c);
 
-  /// A byte a texel, the lowest row first; 255 = marked. Leaves nothing.
-  std::vector<std::uint8_t> take() { return std::move(texels_); }
+  /// A byte a cell, the lowest row first; 255 = marked. Leaves nothing.
+  std::vector<std::uint8_t> take() { return std::move(cells_); }
 
  private:
   struct Span {
@@ -27,7 +27,7 @@ class Stamps {
 
   int width_;
   int height_;
-  std::vector<std::uint8_t> texels_;
+  std::vector<std::uint8_t> cells_;
 };
 
 } // namespace gnomon

@@ -9,11 +9,12 @@
 namespace gnomon {
 
 /// Where a shadow map alone can't be trusted: a byte a texel of a tile's rectangle, its lowest row first; 255 where the
-/// outline of a caster passes within one texel of the texel's centre, to both sides and up and down.
+/// outline of a caster passes through the cell between the texel's centre and those of its neighbours to the right,
+/// above and at that corner.
 ///
 /// Outlines, seen from the light: edges between a triangle that faces it and one that doesn't; open edges; all edges of
 /// a steep triangle, whose slope to the light is GNOMON_STEEPEST or more; and the whole of a masked or blended
-/// triangle. So a texel without one has nothing but whole, gently sloped sheets of surface around it.
+/// triangle. So a cell without one has nothing but whole, gently sloped sheets of surface over it.
 using TileOutlines = std::vector<std::uint8_t>;
 
 /// What the outlines of one light's tiles are made from. All of it outlives the call.

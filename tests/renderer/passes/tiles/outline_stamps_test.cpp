@@ -1,10 +1,9 @@
 #include "renderer/passes/tiles/outline_stamps.h"
 
-#include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
+#include <rapidcheck/gtest.h>
 
 namespace gnomon {
 namespace {
@@ -27,7 +26,7 @@ double anyW() {
   return std::exp2(*rc::gen::inRange(-20, 20));
 }
 
-/// The larger of the distances along x and along y to the nearest point of a to b, by walking.
+/// The larger of the distances along x and along y from a cell's middle to the nearest point of a to b, by walking.
 double distanceTo(glm::dvec2 centre, glm::dvec2 a, glm::dvec2 b) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= 4096; ++i) {
@@ -37,7 +36,7 @@ double distanceTo(glm::dvec2 centre, glm::dvec2 a, glm::dvec2 b) {
   return least;
 }
 
-RC_GTEST_PROP(OutlineStamps, AnEdgeMarksWhatLiesWithinATexelAndLittleMore, ()) {
+RC_GTEST_PROP(OutlineStamps, AnEdgeMarksTheCellsThatItPassesThroughAndFewMore, ()) {
   const glm::dvec2 a = anyPlace(20);
   const glm::dvec2 b = anyPlace(20);
   Stamps stamps(kWidth, kHeight);
@@ -46,10 +45,10 @@ RC_GTEST_PROP(OutlineStamps, AnEdgeMarksWhatLiesWithinATexelAndLittleMore, ()) {
   const std::vector<std::uint8_t> texels = stamps.take();
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const double distance = distanceTo({x + 0.5, y + 0.5}, a, b);
+      const double distance = distanceTo({x + 1.0, y + 1.0}, a, b);
       const bool marked = texels[static_cast<std::size_t>(y * kWidth + x)] == 255;
-      if (distance < 1.0) RC_ASSERT(marked);
-      if (distance > 2.1) RC_ASSERT(!marked);
+      if (distance < 0.5) RC_ASSERT(marked);
+      if (distance > 1.1) RC_ASSERT(!marked);
     }
   }
 }
@@ -59,11 +58,11 @@ RC_GTEST_PROP(OutlineStamps, ATriangleMarksTheBoxAroundIt, ()) {
   Stamps stamps(kWidth, kHeight);
   stamps.stampTriangle(clipAt(a, anyW()), clipAt(b, anyW()), clipAt(c, anyW()));
   const std::vector<std::uint8_t> texels = stamps.take();
-  const glm::dvec2 lowest = glm::min(a, glm::min(b, c)) - 1.0;
-  const glm::dvec2 highest = glm::max(a, glm::max(b, c)) + 1.0;
+  const glm::dvec2 lowest = glm::min(a, glm::min(b, c)) - 0.5;
+  const glm::dvec2 highest = glm::max(a, glm::max(b, c)) + 0.5;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      const glm::dvec2 centre(x + 1.0, y + 1.0);
       const bool within = glm::all(glm::greaterThan(centre, lowest)) && glm::all(glm::lessThan(centre, highest));
       if (within) RC_ASSERT(texels[static_cast<std::size_t>(y * kWidth + x)] == 255);
     }
@@ -75,9 +74,9 @@ TEST(OutlineStamps, AnEdgeThatComesFromBehindTheLightIsCutOff) {
   // Half a turn round the light: only what lies before it counts, out to the tile's right end.
   stamps.stampEdge(clipAt({12, 8}, 2.0), {2.0, 0.0, 0.0, -1.0});
   const std::vector<std::uint8_t> texels = stamps.take();
-  EXPECT_EQ(texels[8 * kWidth + 12], 255);
-  EXPECT_EQ(texels[8 * kWidth + 23], 255);
-  EXPECT_EQ(texels[8 * kWidth + 4], 0);
+  EXPECT_EQ(texels[7 * kWidth + 12], 255);
+  EXPECT_EQ(texels[7 * kWidth + 22], 255);
+  EXPECT_EQ(texels[7 * kWidth + 4], 0);
   EXPECT_EQ(texels[2 * kWidth + 12], 0);
 }
 
