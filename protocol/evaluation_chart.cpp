@@ -36,7 +36,7 @@ std::string percent(double share) {
   return shortNumber(100 * share) + " %";
 }
 
-std::string grid(const LogAxis& x, const ErrorAxis& y, double height) {
+std::string grid(const LogAxis& x, const ErrorAxis& y, double height, const ChartTime& time) {
   const double right = kPlotWidth - 16, bottom = height - kBottom;
   std::string out = text(kLeft, 24, "start", "Speed against error", " class=\"title\"");
   for (const double mark : y.marks()) {
@@ -49,7 +49,7 @@ std::string grid(const LogAxis& x, const ErrorAxis& y, double height) {
     out += text(x.at(mark), bottom + 18, "middle", number(mark));
   }
   const double middle = (kTop + bottom) / 2;
-  out += text((kLeft + right) / 2, height - 14, "middle", "milliseconds, whole warm frame, tiles drawn anew");
+  out += text((kLeft + right) / 2, height - 14, "middle", time.axis);
   return out +
          text(18, middle, "middle", "misclassified receivers", " transform=\"rotate(-90 18 " + number(middle) + ")\"");
 }
@@ -83,7 +83,7 @@ Box placeNumber(const Point& point, const std::string& words, const std::vector<
   return boxAt(point.x + gap, point.y - height / 2);
 }
 
-std::string pointsOf(const EvaluationReport& report, const std::vector<Point>& points) {
+std::string pointsOf(const EvaluationReport& report, const std::vector<Point>& points, const ChartTime& time) {
   std::string circles, numbers;
   std::vector<Box> taken;
   for (const Point& point : points) {
@@ -91,7 +91,8 @@ std::string pointsOf(const EvaluationReport& report, const std::vector<Point>& p
     const EvaluationRow& row = report.rows[point.row];
     circles += "<circle cx=\"" + number(point.x) + "\" cy=\"" + number(point.y) + "\" r=\"" + number(kRadius) + "\" " +
                (point.front ? colored("fill", 0) : "class=\"fillRest\"") + "><title>" + escaped(row.name) + ": " +
-               number(*row.milliseconds) + " ms, " + percent(row.metrics->misclassified) + "</title></circle>\n";
+               number(*row.milliseconds) + time.unit + ", " + percent(row.metrics->misclassified) +
+               "</title></circle>\n";
   }
   for (const Point& point : points) {
     const std::string words = std::to_string(point.row + 1);
@@ -102,7 +103,7 @@ std::string pointsOf(const EvaluationReport& report, const std::vector<Point>& p
   return circles + numbers;
 }
 
-std::string legendOf(const EvaluationReport& report) {
+std::string legendOf(const EvaluationReport& report, const ChartTime& time) {
   const double left = kPlotWidth + 8, right = kPlotWidth + kLegendWidth - 16;
   std::string out;
   double y = kTop + 6;
@@ -113,7 +114,7 @@ std::string legendOf(const EvaluationReport& report) {
     const bool measured = row.milliseconds && row.metrics;
     out += text(left + 28, y, "start", shortened(row.name, measured ? 28 : 20), front ? " class=\"bold\"" : "");
     if (measured) {
-      out += text(right - 84, y, "end", shortNumber(*row.milliseconds) + " ms");
+      out += text(right - 84, y, "end", shortNumber(*row.milliseconds) + time.unit);
       out += text(right, y, "end", percent(row.metrics->misclassified));
     } else if (row.problems && !row.problems->empty()) {
       out += text(right, y, "end", shortened(row.problems->front().detail, 36), " class=\"small\"");
@@ -124,7 +125,7 @@ std::string legendOf(const EvaluationReport& report) {
 
 } // namespace
 
-std::string evaluationChart(const EvaluationReport& report) {
+std::string evaluationChart(const EvaluationReport& report, const ChartTime& time) {
   const double legend = kTop + kLegendStep * static_cast<double>(report.rows.size()) + 16;
   const double height = std::max(kLeastHeight, legend);
   std::vector<double> times, errors;
@@ -143,8 +144,9 @@ std::string evaluationChart(const EvaluationReport& report) {
   }
   std::vector<Point> front;
   std::copy_if(points.begin(), points.end(), std::back_inserter(front), [](const Point& point) { return point.front; });
-  return document(kPlotWidth + kLegendWidth, height,
-                  grid(x, y, height) + frontLine(front) + pointsOf(report, points) + legendOf(report));
+  return document(
+      kPlotWidth + kLegendWidth, height,
+      grid(x, y, height, time) + frontLine(front) + pointsOf(report, points, time) + legendOf(report, time));
 }
 
 } // namespace gnomon

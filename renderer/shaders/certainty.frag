@@ -40,7 +40,7 @@ bool atRim(Sample seen) {
     for (int x = -1; x <= 1; ++x) {
       Sample other = sampleOf(clamp(pixel + ivec2(x, y), ivec2(0), last), seen.index);
       if (other.hit != seen.hit) return true;
-      if (seen.hit && abs(dot(normal, other.relative - seen.relative)) > 0.1 * width) return true;
+      if (seen.hit && abs(dot(normal, other.relative - seen.relative)) > width) return true;
     }
   }
   return false;

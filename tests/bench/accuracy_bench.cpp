@@ -1,0 +1,129 @@
+// Speed against error over many scenes: how many receivers each technique and filter misclassifies, against its time as
+// a multiple of a hard shadow map's. Writes README.md and a chart into a folder.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "protocol/evaluation_chart.h"
+#include "protocol/sweeps.h"
+#include "renderer/evaluation/pareto.h"
+#include "renderer/render.h"
+#include "tests/bench/accuracy_sum.h"
+#include "tests/support/files.h"
+
+namespace gnomon::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedScene {
+  std::string name;
+  ScenePtr scene;
+};
+
+SceneBundle bundleOf(const fs::path& assets, const nlohmann::json& model) {
+  const fs::path path = assets / model.at("path").get<std::string>();
+  SceneBundle bundle{testing::readFile(path), {}};
+  for (const auto& file : model.at("files")) {
+    const fs::path other = assets / file.get<std::string>();
+    if (other == path) continue;
+    bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
+  }
+  return bundle;
+}
+
+/// The gathered models that load; where there are none, the project's own scenes.
+std::vector<NamedScene> scenesFrom(const fs::path& assets) {
+  std::vector<NamedScene> scenes;
+  const auto add = [&](const std::string& name, const SceneBundle& bundle) {
+    if (auto scene = loadScene(bundle)) scenes.push_back({name, std::move(*scene)});
+  };
+  if (fs::exists(assets / "manifest.json")) {
+    const auto manifest = nlohmann::json::parse(std::ifstream(assets / "manifest.json"));
+    for (const auto& model : manifest.at("models")) add(model.at("id"), bundleOf(assets, model));
+    return scenes;
+  }
+  for (const auto& entry : fs::directory_iterator(GNOMON_TEST_SCENES)) {
+    if (entry.path().extension() == ".glb") add(entry.path().stem(), {testing::readFile(entry.path()), {}});
+  }
+  return scenes;
+}
+
+/// Hard maps first: all others are held against them.
+std::vector<Variant> variantsOf(const nlohmann::json& spec) {
+  std::vector<Variant> variants;
+  for (const Sweep sweep : {Sweep::techniques, Sweep::filters}) {
+    for (const SweepVariant& variant : sweepVariants(sweep, spec)) {
+      const auto same = [&](const Variant& other) { return other.name == variant.name; };
+      if (std::any_of(variants.begin(), variants.end(), same)) continue;
+      nlohmann::json patched = spec;
+      patched.merge_patch(variant.patch);
+      variants.push_back({{variant.patch.dump()}, variant.name, *decodeFrameSpec(patched.dump())});
+    }
+  }
+  return variants;
+}
+
+std::string headOf(const RendererInfo& info, const nlohmann::json& spec, const AccuracySums& sums) {
+  return "# How right shadows are, and what that costs\n\nMade by `bench_accuracy` on " + info.renderer + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " cores, " + std::to_string(spec["width"].get<int>()) +
+         " x " + std::to_string(spec["height"].get<int>()) + ", antialiasing none, " + std::to_string(sums.scenes()) +
+         " scenes, each as a whole in view under one sun, maps of 4 x 1024. Shares are of all receivers of all scenes "
+         "together; times are medians over the scenes of a whole warm frame, tiles drawn anew, as multiples of the "
+         "hard map's. Displacements are medians over the scenes.\n\n";
+}
+
+} // namespace
+} // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  using namespace gnomon;
+  using namespace gnomon::bench;
+  CLI::App app{"Misclassified receivers against time, over many scenes. Times mean something only on a quiet machine."};
+  fs::path folder;
+  fs::path assets = GNOMON_TEST_ASSETS;
+  int repeats = 3;
+  nlohmann::json spec = {
+      {"width", 640},
+      {"height", 360},
+      {"antialiasing", "none"},
+      {"camera", {{"fit", true}}},
+      {"lights", {{{"type", "directional"}, {"sun", {{"azimuthDegrees", 135}, {"elevationDegrees", 40}}}}}}};
+  app.add_option("--output", folder, "Where README.md and the chart go")->required();
+  app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
+  app.add_option("--repeats", repeats, "Timed frames of each variant")->check(CLI::Range(1, 100));
+  CLI11_PARSE(app, argc, argv);
+
+  auto renderer = Renderer::create({});
+  if (!renderer) {
+    std::cerr << renderer.problems().front().detail << '\n';
+    return 1;
+  }
+  Evaluation evaluation;
+  evaluation.spec = *decodeFrameSpec(spec.dump());
+  evaluation.variants = variantsOf(spec);
+  evaluation.repeats = repeats;
+  AccuracySums sums(evaluation.variants);
+  for (const NamedScene& scene : scenesFrom(assets)) {
+    const EvaluationTools tools{
+        [&](const FrameSpec& variant) { return renderer->render(scene.scene, variant, TileUse::drawnAnew); }, {}};
+    const auto report = evaluate(scene.scene, evaluation, renderer->info(), tools);
+    if (!report) continue;
+    sums.add(scene.name, *report);
+    std::cerr << scene.name << '\n';
+  }
+  fs::create_directories(folder);
+  EvaluationReport all = sums.report();
+  markPareto(all.rows);
+  const auto write = [&](const char* name, const std::string& text) {
+    testing::writeFile(folder / name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  };
+  write("speed_against_error.svg", evaluationChart(all, {"time, as a multiple of a hard shadow map's", " x"}));
+  write("README.md", headOf(renderer->info(), spec, sums) + sums.table(all) +
+                         "\n![speed against error](speed_against_error.svg)\n\n" + sums.sceneTable());
+  return 0;
+}
