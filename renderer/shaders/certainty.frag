@@ -28,9 +28,8 @@ const float kUnsure = 0.5;
 // kSteep in outlines.h, for two surfaces that lean either way, and some room.
 const float kBend = 2.2 * GNOMON_STEEPEST;
 
-#ifdef MASKED_SURFACES
-// True where a neighbour, or one at a corner, shows another surface. A mask's rim is where filters put it: a ray may pass
-// where the picture shows the surface, or meet it where the picture shows what lies behind.
+// True where a neighbour, or one at a corner, shows another surface. A ray may meet that one instead: of a mask it may pass
+// where filters show the surface, or meet it where they show what lies behind.
 bool atRim(Sample seen) {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec2 last = ivec2(2.0 / frame.lens.zw + 0.5) - 1;
@@ -45,7 +44,6 @@ bool atRim(Sample seen) {
   }
   return false;
 }
-#endif
 
 float verdictOf(Sample seen) {
 #ifdef MASKED_SURFACES
@@ -62,7 +60,7 @@ float verdictOf(Sample seen) {
   vec3 toLight;
   if (irradiance(lights[light], receiver.relative, toLight) == vec3(0.0)) return kLit;
   float cosine = dot(receiver.normal, toLight);
-  if (cosine < -1e-3) return kShadow;
+  if (cosine < -1e-3) return atRim(seen) ? kUnsure : kShadow;
   if (cosine <= 1e-3) return kUnsure;
 
   TileChoice choice = chooseTile(light, receiver, toLight);
