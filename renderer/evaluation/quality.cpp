@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "protocol/enum_rows.h"
+#include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/scene.h"
 
@@ -44,8 +45,7 @@ QualityTrial trialOf(const FrameSpec& spec, ShadowTechnique technique, MapSettin
   if (trial.shadow.partition.mode == PartitionMode::manual) trial.shadow.partition = Partition{};
   trial.atlas = Atlas{std::max(4096, spec.atlas.size), map.baseSize, 1};
   trial.settings = std::string(spell(technique));
-  const bool maps = technique == ShadowTechnique::shadowMap || technique == ShadowTechnique::hybrid;
-  if (maps) trial.settings += " " + std::to_string(map.cascades) + " x " + std::to_string(map.baseSize);
+  if (isMapped(technique)) trial.settings += " " + std::to_string(map.cascades) + " x " + std::to_string(map.baseSize);
   return trial;
 }
 

@@ -48,27 +48,24 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const ViewInputs& sh
     const auto start = std::chrono::steady_clock::now();
     const int layer = static_cast<int>(shadows.lights.size());
     ExactShadow shadow{light, 0, {}};
-    const ShadowTechnique technique = lights[static_cast<std::size_t>(light)].shadow->technique;
-    if (technique == ShadowTechnique::shadowVolume) {
-      const Light& source = lights[static_cast<std::size_t>(light)];
+    const Light& source = lights[static_cast<std::size_t>(light)];
+    if (source.shadow->technique == ShadowTechnique::shadowVolume) {
       const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows);
       if (!drawn) return drawn.problems();
-      shadow.milliseconds = millisecondsSince(start);
-      shadows.lights.push_back(shadow);
-      continue;
-    }
-    const auto traced = exact.traced();
-    if (!traced) return traced.problems();
-    const TraceInput rays{**traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes};
-    if (technique == ShadowTechnique::rayTraced) {
-      if (!centres) centres = firstHits(rays, centresOf(grid));
-      writeVisibility(shadows.layers, layer, rayTracedShadow(rays, light, grid, *centres));
-      shadow.tracedPixels = grid.pixels();
     } else {
-      const auto hybrid = hybridShadow(inputs, shading, surfaces, rays, light, grid);
-      if (!hybrid) return hybrid.problems();
-      writeVisibility(shadows.layers, layer, hybrid->values);
-      shadow.tracedPixels = hybrid->tracedPixels;
+      const auto traced = exact.traced();
+      if (!traced) return traced.problems();
+      const TraceInput rays{**traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes};
+      if (source.shadow->technique == ShadowTechnique::rayTraced) {
+        if (!centres) centres = firstHits(rays, centresOf(grid));
+        writeVisibility(shadows.layers, layer, rayTracedShadow(rays, light, grid, *centres));
+        shadow.tracedPixels = grid.pixels();
+      } else {
+        const auto hybrid = hybridShadow(inputs, shading, surfaces, rays, light, grid);
+        if (!hybrid) return hybrid.problems();
+        writeVisibility(shadows.layers, layer, hybrid->values);
+        shadow.tracedPixels = hybrid->tracedPixels;
+      }
     }
     shadow.milliseconds = millisecondsSince(start);
     shadows.lights.push_back(shadow);

@@ -5,6 +5,7 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/sampler.h"
+#include "renderer/passes/views/shadow_bindings.h"
 
 namespace gnomon {
 
@@ -40,14 +41,10 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInp
   lights.bindStorage(GNOMON_LIGHT_BUFFER);
   tiles.bindStorage(GNOMON_TILE_BUFFER);
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
-  const auto bind = [&](const gl::Texture& texture, GLuint unit) {
-    texture.bind(unit);
-    texels.bind(unit);
-  };
-  bind(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, GNOMON_DEPTH_UNIT);
-  bind(surfaces.bits, GNOMON_SURFACE_UNIT);
-  bind(shading.atlas.textures->depth, GNOMON_ATLAS_UNIT);
-  bind(shading.atlas.textures->outlines, GNOMON_OUTLINES_UNIT);
+  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, texels, GNOMON_DEPTH_UNIT);
+  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  bindTexture(shading.atlas.textures->depth, texels, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.textures->outlines, texels, GNOMON_OUTLINES_UNIT);
   (*program)->set(GNOMON_DEBUG_LIGHT, light);
   for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
