@@ -43,7 +43,8 @@ Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const Re
       frame->nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, seen);
   const ReceiverDepths receivers =
       boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
-  const ShadowPlan plan = planShadows(planInput(*frame, view, receivers, device.maxTextureSize));
+  const ShadowPlan plan = planShadows(planInput(
+      *frame, view, receivers, mappedLights(*frame, view, device, HybridMaps::whenCheaper), device.maxTextureSize));
   if (const auto subject = debugSubject(frame->spec, plan, layeredLights(*frame)); !subject) return subject.problems();
   if (const Status fits = checkAtlas(plan, frame->spec.atlas.samples); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(frame->view, receivers, plan);

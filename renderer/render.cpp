@@ -43,14 +43,17 @@ struct Renderer::Impl {
   GpuSceneCache scenes;
   TileCache tiles;
   TracedSceneCache traced;
+  HybridMaps hybridMaps;
 };
 
 namespace {
 
-bool asksForEdges(const FrameSpec& spec, std::span<const int> layered) {
-  return std::any_of(layered.begin(), layered.end(), [&](int light) {
-    return (*spec.lights)[static_cast<std::size_t>(light)].shadow->technique != ShadowTechnique::rayTraced;
-  });
+/// Hybrid maps know where casters end, and shadow volumes rise from there.
+bool asksForEdges(const FrameSpec& spec, std::span<const int> mapped) {
+  const auto technique = [&](int light) { return (*spec.lights)[static_cast<std::size_t>(light)].shadow->technique; };
+  return std::any_of(mapped.begin(), mapped.end(), [&](int l) { return technique(l) == ShadowTechnique::hybrid; }) ||
+         std::any_of(spec.lights->begin(), spec.lights->end(),
+                     [](const Light& light) { return light.shadow->technique == ShadowTechnique::shadowVolume; });
 }
 
 } // namespace
@@ -67,7 +70,8 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
                                                  {},
                                                  GpuSceneCache(options.gpuSceneBytes),
                                                  TileCache(options.tileCacheBytes),
-                                                 TracedSceneCache(options.tracedSceneBytes)}));
+                                                 TracedSceneCache(options.tracedSceneBytes),
+                                                 options.hybridMaps}));
 }
 
 const RendererInfo& Renderer::info() const {
@@ -97,6 +101,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
   gl::Buffer frameBuffer(sizeof(data), "frame");
   frameBuffer.update(0, gl::bytesOfValue(data));
   const std::vector<int> layered = layeredLights(*resolved);
+  const std::vector<int> mapped = mappedLights(*resolved, view, info(), impl_->hybridMaps);
   const PassInputs inputs{
       *scene,
       view,
@@ -111,7 +116,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
       effective.width,
       effective.height,
       resolved->nodes,
-      asksForEdges(effective, layered) ? std::span(impl_->scenes.edges(scene)) : std::span<const EdgeMesh>{},
+      asksForEdges(effective, mapped) ? std::span(impl_->scenes.edges(scene)) : std::span<const EdgeMesh>{},
       resolved->groups.matter()};
   clock.finish("upload");
 
@@ -120,7 +125,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
   if (!survey) return survey.problems();
   clock.finish("survey");
 
-  const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, info().maxTextureSize));
+  const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, mapped, info().maxTextureSize));
   if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);

@@ -15,6 +15,7 @@
 #include "renderer/evaluation/quality.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/image.h"
+#include "renderer/resolve/hybrid_maps.h"
 #include "renderer/scene/scene_bundle.h"
 
 /// The only door into the renderer.
@@ -35,6 +36,7 @@ struct RendererOptions {
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
   std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, alike
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
+  HybridMaps hybridMaps = HybridMaps::whenCheaper;
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.

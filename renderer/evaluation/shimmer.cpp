@@ -150,7 +150,9 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
   const auto survey = surveyScene(inputs, 1);
   if (!survey) return survey.problems();
   ProbedFrame probed;
-  probed.plan = planShadows(planInput(frame, view, survey->receivers, tools.device.maxTextureSize));
+  probed.plan =
+      planShadows(planInput(frame, view, survey->receivers, mappedLights(frame, view, tools.device, HybridMaps::always),
+                            tools.device.maxTextureSize));
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
   const auto atlas = castShadows(inputs, probed.plan, spec, tools.tiles);
   if (!atlas) return atlas.problems();

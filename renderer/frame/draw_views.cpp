@@ -25,7 +25,8 @@ struct Studio {
 
 Status needSurfaces(const Studio& studio, int samples) {
   if (studio.drawn.surfaces.contains(samples)) return Done{};
-  auto surfaces = drawSurfaces(studio.inputs, studio.shading.survey, samples);
+  auto surfaces =
+      drawSurfaces(studio.inputs, studio.shading.survey, samples, needsRays(studio.exact, *studio.shading.spec.lights));
   if (!surfaces) return surfaces.problems();
   studio.drawn.surfaces.emplace(samples, std::move(*surfaces));
   return Done{};

@@ -73,7 +73,11 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
   for (const int layered : layeredLights) {
     LightReport& report = reports[static_cast<std::size_t>(layered)];
     report.shadowed = true;
-    report.note = sharpNote((*spec.lights)[static_cast<std::size_t>(layered)]);
+    const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
+    const std::string sharp = sharpNote(light);
+    const bool unmapped = light.shadow->technique == ShadowTechnique::hybrid;
+    report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it spares" : "";
+    report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
   }
   for (std::size_t i = 0; i < plan.lights.size(); ++i) {
     const PlannedLight& planned = plan.lights[i];

@@ -116,6 +116,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.alphaMode != AlphaMode::opaque) defines.emplace_back("ALPHA_MASK");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  if (variant.numbered) defines.emplace_back(variant.emission ? "TRIANGLE_NUMBERS 2" : "TRIANGLE_NUMBERS 1");
   return {"surface.vert", "surface.frag", "", std::move(defines)};
 }
 

@@ -25,6 +25,7 @@ struct SurfaceVariant {
   bool tangents = false;       ///< the primitive brings its own
   bool emission = false;       ///< something in the scene glows: every program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
+  bool numbered = false;       ///< says which triangle shows (passes/views/triangle_numbers.h)
 };
 
 /// Draws a material's surface.

@@ -32,18 +32,22 @@ Aabb grown(const Aabb& box) {
 
 } // namespace
 
+SightLine sightLine(const CameraView& view, const glm::dvec3& anchor, glm::dvec2 size, glm::dvec2 place) {
+  const glm::dvec2 ndc(2 * place.x / size.x - 1, 1 - 2 * place.y / size.y);
+  return {view.eye - anchor + pointAt(view, ndc, 0), view.perspective ? pointAt(view, ndc, 1) : view.forward};
+}
+
 CameraRay cameraRay(const CameraView& view, const glm::dvec3& anchor, const Aabb& bounds, glm::dvec2 size,
                     glm::dvec2 place) {
   CameraRay ray;
   if (bounds.empty()) return ray;
-  const glm::dvec2 ndc(2 * place.x / size.x - 1, 1 - 2 * place.y / size.y);
-  const glm::dvec3 start = view.eye - anchor + pointAt(view, ndc, 0);
-  ray.direction = view.perspective ? pointAt(view, ndc, 1) : view.forward;
-  const Stretch inside = stretchIn(grown(bounds), start, ray.direction);
+  const SightLine line = sightLine(view, anchor, size, place);
+  ray.direction = line.direction;
+  const Stretch inside = stretchIn(grown(bounds), line.origin, line.direction);
   const double from = std::max(view.near, inside.from);
   ray.meets = from <= std::min(view.far, inside.to);
   if (!ray.meets) return ray;
-  ray.origin = start + ray.direction * from;
+  ray.origin = line.origin + line.direction * from;
   ray.length = view.far - from;
   return ray;
 }

@@ -5,6 +5,15 @@
 
 namespace gnomon {
 
+/// The line through a place of the picture; metres, relative to the scene's anchor.
+struct SightLine {
+  glm::dvec3 origin{0};    ///< at the eye; orthographic: beside it
+  glm::dvec3 direction{0}; ///< a step of one metre of view depth
+};
+
+/// `place`: pixels from the upper left corner.
+SightLine sightLine(const CameraView& view, const glm::dvec3& anchor, glm::dvec2 size, glm::dvec2 place);
+
 /// A stretch of the line through a place of the picture; metres, relative to the scene's anchor.
 struct CameraRay {
   glm::dvec3 origin{0};    ///< where it begins

@@ -3,6 +3,7 @@
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/parallel.h"
 #include "renderer/reference/ray_packet.h"
+#include "renderer/reference/surface_point.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"
 
@@ -37,12 +38,7 @@ std::optional<SurfacePoint> seen(const Eye& eye, const CameraRay& ray, const Can
       !(alphaAt(eye.tree, hit.instance, hit.triangle, at) >= material.alphaCutoff)) {
     return std::nullopt;
   }
-  SurfacePoint point;
-  point.position = at.mix(triangle.a, triangle.b, triangle.c);
-  point.normal = glm::vec3(unitAlong(away ? -area : area));
-  point.instance = hit.instance;
-  point.triangle = hit.triangle;
-  return point;
+  return surfacePoint(ray.direction, {hit.instance, hit.triangle}, triangle, at);
 }
 
 void keepSeen(const RTCFilterFunctionNArguments* call) {

@@ -9,14 +9,17 @@
 namespace gnomon {
 
 void onAllCores(const std::function<void()>& task) {
-  static const int cores = coresToUse();
-  tbb::task_arena arena(cores);
+  static tbb::task_arena arena(coresToUse());
   arena.execute([&] { task(); });
 }
 
 void forEachPiece(std::size_t count, std::size_t size, const std::function<void(std::size_t, std::size_t)>& each) {
   const std::size_t pieces = (count + size - 1) / size;
   if (pieces == 0) return;
+  if (pieces == 1) {
+    each(0, count);
+    return;
+  }
   onAllCores([&] {
     tbb::parallel_for(std::size_t{0}, pieces,
                       [&](std::size_t piece) { each(piece * size, std::min(count, (piece + 1) * size)); });

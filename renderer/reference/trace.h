@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/scene/node_switches.h"
+#include "renderer/scene/placed_triangle.h"
 
 /// Exact answers for single points, many at a time, on all cores. Any thread.
 namespace gnomon {
@@ -24,8 +24,6 @@ struct TraceInput {
   std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
 };
 
-inline constexpr std::uint32_t kNoSurface = std::numeric_limits<std::uint32_t>::max();
-
 /// Where a camera ray first meets a surface that the camera sees: visible nodes, faces that are not culled, alpha that
 /// is not masked away.
 struct SurfacePoint {
@@ -38,6 +36,11 @@ struct SurfacePoint {
 /// The first hits of the camera rays through `places`: pixels from the picture's upper left corner, so that the centre
 /// of the first pixel is 0.5 0.5.
 std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm::vec2> places);
+
+/// Where the camera rays through `places` cross the triangles that are known to show there, one a place; moved to the
+/// triangle's nearest side where rounding has the ray pass it. Where none shows, there is no surface.
+std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm::vec2> places,
+                                   std::span<const PlacedTriangle> triangles);
 
 /// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, and lies in its
 /// range and its cone.

@@ -27,8 +27,19 @@ std::vector<int> layeredLights(const ResolvedFrame& frame) {
   return lights;
 }
 
+std::vector<int> mappedLights(const ResolvedFrame& frame, const SceneView& scene, const RendererInfo& device,
+                              HybridMaps maps) {
+  std::vector<int> lights = shadowingLights(frame);
+  std::erase_if(lights, [&](int light) {
+    const ShadowTechnique technique = (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique;
+    if (technique == ShadowTechnique::hybrid) return !drawsHybridMap(frame, scene, light, device, maps);
+    return !isMapped(technique);
+  });
+  return lights;
+}
+
 PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
-                    int maxTextureSize) {
+                    std::span<const int> mapped, int maxTextureSize) {
   PlanInput input;
   input.view = frame.view;
   input.receivers = receivers;
@@ -38,9 +49,8 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Re
   input.maxTextureSize = maxTextureSize;
   input.frameWidth = frame.spec.width;
   input.frameHeight = frame.spec.height;
-  for (const int index : shadowingLights(frame)) {
+  for (const int index : mapped) {
     const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
-    if (!isMapped(light.shadow->technique)) continue;
     ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
     if (light.shadow->technique == ShadowTechnique::hybrid) {
       // Rays draw the edges: what the map needs is the nearest tile, sharp.

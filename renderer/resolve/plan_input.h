@@ -1,6 +1,8 @@
 #pragma once
 
-#include "renderer/resolve/resolve_frame.h"
+#include <span>
+
+#include "renderer/resolve/hybrid_maps.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
@@ -16,8 +18,12 @@ inline bool isMapped(ShadowTechnique technique) {
   return technique == ShadowTechnique::shadowMap || technique == ShadowTechnique::hybrid;
 }
 
-/// What the shadow maps of a frame are planned from. `receivers`: what the camera sees.
+/// Of the lights that throw shadows, the ones that get a shadow map on this device.
+std::vector<int> mappedLights(const ResolvedFrame& frame, const SceneView& scene, const RendererInfo& device,
+                              HybridMaps maps);
+
+/// What the shadow maps of a frame are planned from: those of the lights `mapped`. `receivers`: what the camera sees.
 PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
-                    int maxTextureSize);
+                    std::span<const int> mapped, int maxTextureSize);
 
 } // namespace gnomon

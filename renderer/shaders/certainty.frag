@@ -5,7 +5,7 @@
 #include "common_shadow_choice.glsl"
 #include "common_light.glsl"
 
-// Whether the shadow map of one light knows what arrives at a pixel: 1 = lit, 0 = in shadow, 0.5 = not sure.
+// Whether the shadow map of one light knows what arrives at a pixel (Verdict of renderer/passes/views/certainty_pass.h).
 //
 // Seen from the light, the casters are sheets of surface. A sheet begins and ends at outlines alone, and the map's outlines
 // (renderer/passes/tiles/outlines.h) mark every cell between four texels that one passes through. Where none does, the
@@ -22,33 +22,14 @@ layout(location = 0) out float verdict;
 
 const float kLit = 1.0;
 const float kShadow = 0.0;
-const float kUnsure = 0.5;
+const float kTurnedAway = 64.0 / 255.0;
+const float kUnsure = 128.0 / 255.0;
 
 // How much depths change along a surface with each length across, at most, where no outline is near: the tangent of
 // kSteep in outlines.h, for two surfaces that lean either way, and some room.
 const float kBend = 2.2 * GNOMON_STEEPEST;
 
-// True where a neighbour, or one at a corner, shows another surface. A ray may meet that one instead: of a mask it may pass
-// where filters show the surface, or meet it where they show what lies behind.
-bool atRim(Sample seen) {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  ivec2 last = ivec2(2.0 / frame.lens.zw + 0.5) - 1;
-  float width = frame.up.w * (frame.forward.w > 0.0 ? seen.viewDepth : 1.0);
-  vec3 normal = unpackedSurface(seen.bits).face;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      Sample other = sampleOf(clamp(pixel + ivec2(x, y), ivec2(0), last), seen.index);
-      if (other.hit != seen.hit) return true;
-      if (seen.hit && abs(dot(normal, other.relative - seen.relative)) > width) return true;
-    }
-  }
-  return false;
-}
-
 float verdictOf(Sample seen) {
-#ifdef MASKED_SURFACES
-  if (atRim(seen)) return kUnsure;
-#endif
   if (!seen.hit) return kLit;
 #ifdef RECEIVER_GROUPS
   if ((lights[light].groups.x & lights[light].groups.y & (1u << receiverGroup(seen.bits))) == 0u) return kLit;
@@ -60,7 +41,7 @@ float verdictOf(Sample seen) {
   vec3 toLight;
   if (irradiance(lights[light], receiver.relative, toLight) == vec3(0.0)) return kLit;
   float cosine = dot(receiver.normal, toLight);
-  if (cosine < -1e-3) return atRim(seen) ? kUnsure : kShadow;
+  if (cosine < -1e-3) return kTurnedAway;
   if (cosine <= 1e-3) return kUnsure;
 
   TileChoice choice = chooseTile(light, receiver, toLight);

@@ -22,4 +22,7 @@ STAGE_IO SurfaceVaryings {
 #ifdef RECEIVER_GROUPS
   flat uint receiverGroup;
 #endif
+#ifdef TRIANGLE_NUMBERS
+  flat uint firstTriangle; // number of the draw's first
+#endif
 } surface;

@@ -9,6 +9,9 @@ layout(location = 0) out uvec4 surfaceBits;
 #ifdef EMISSION
 layout(location = 1) out vec4 emitted;
 #endif
+#ifdef TRIANGLE_NUMBERS
+layout(location = TRIANGLE_NUMBERS) out uint triangleNumber;
+#endif
 
 void main() {
   MaterialData material = materials[materialIndex];
@@ -27,5 +30,8 @@ void main() {
 #endif
 #ifdef EMISSION
   emitted = vec4(emissionOf(material), 0.0);
+#endif
+#ifdef TRIANGLE_NUMBERS
+  triangleNumber = surface.firstTriangle + uint(gl_PrimitiveID);
 #endif
 }

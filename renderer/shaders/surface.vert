@@ -34,4 +34,7 @@ void main() {
 #ifdef RECEIVER_GROUPS
   surface.receiverGroup = uint(normalRows[0].w);
 #endif
+#ifdef TRIANGLE_NUMBERS
+  surface.firstTriangle = uint(normalRows[1].w);
+#endif
 }

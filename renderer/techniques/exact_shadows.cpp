@@ -1,11 +1,13 @@
 #include "renderer/techniques/exact_shadows.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
+#include "renderer/passes/views/mask_coverage.h"
+#include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
-#include "renderer/techniques/hybrid_shadow.h"
-#include "renderer/techniques/ray_traced_shadow.h"
+#include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
 namespace {
@@ -31,7 +33,34 @@ Status volumeShadow(const PassInputs& inputs, const ViewInputs& shading, const S
   return Done{};
 }
 
+/// Hybrid shadows are sharp: a size would blur what rays see, and not what the map does.
+std::vector<Light> withoutSizes(std::span<const Light> lights) {
+  std::vector<Light> sharp(lights.begin(), lights.end());
+  for (Light& light : sharp) {
+    light.angularDiameterDegrees.reset();
+    light.radius.reset();
+  }
+  return sharp;
+}
+
+/// The shadow map, if there is one, decides where it is sure, rays do elsewhere.
+Result<TracedShadow> hybridShadow(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+                                  const PicturePoints& points, int light) {
+  const auto verdicts = mapVerdicts(inputs, shading, surfaces, light);
+  if (!verdicts) return verdicts.problems();
+  const std::vector<Light> lights = withoutSizes(points.rays().lights);
+  TraceInput sharp = points.rays();
+  sharp.lights = lights;
+  return tracedShadow(points, sharp, light, 1, *verdicts);
+}
+
 } // namespace
+
+bool needsRays(const ExactInputs& exact, std::span<const Light> lights) {
+  return std::any_of(exact.lights.begin(), exact.lights.end(), [&](int light) {
+    return lights[static_cast<std::size_t>(light)].shadow->technique != ShadowTechnique::shadowVolume;
+  });
+}
 
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const ViewInputs& shading, const ExactInputs& exact,
                                   const Surfaces& surfaces) {
@@ -42,7 +71,8 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const ViewInputs& sh
   ExactShadows shadows{std::move(*layers), {}, gl::Timer::start()};
 
   const std::vector<Light>& lights = *shading.spec.lights;
-  std::optional<std::vector<SurfacePoint>> centres;
+  std::shared_ptr<const TracedScene> traced;
+  std::optional<PicturePoints> points; // after `traced`, which it refers to
   std::optional<VolumeCounts> counts;
   for (const int light : exact.lights) {
     const auto start = std::chrono::steady_clock::now();
@@ -53,19 +83,23 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const ViewInputs& sh
       const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows);
       if (!drawn) return drawn.problems();
     } else {
-      const auto traced = exact.traced();
-      if (!traced) return traced.problems();
-      const TraceInput rays{**traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes};
-      if (source.shadow->technique == ShadowTechnique::rayTraced) {
-        if (!centres) centres = firstHits(rays, centresOf(grid));
-        writeVisibility(shadows.layers, layer, rayTracedShadow(rays, light, grid, *centres));
-        shadow.tracedPixels = grid.pixels();
-      } else {
-        const auto hybrid = hybridShadow(inputs, shading, surfaces, rays, light, grid);
-        if (!hybrid) return hybrid.problems();
-        writeVisibility(shadows.layers, layer, hybrid->values);
-        shadow.tracedPixels = hybrid->tracedPixels;
+      if (!points) {
+        const auto made = exact.traced();
+        if (!made) return made.problems();
+        traced = *made;
+        auto shown = shownTriangles(inputs, surfaces);
+        if (!shown) return shown.problems();
+        auto masks = maskCoverage(inputs, shading.survey);
+        if (!masks) return masks.problems();
+        points.emplace(TraceInput{*traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes}, grid,
+                       surfaces, std::move(*shown), std::move(*masks));
       }
+      auto found = source.shadow->technique == ShadowTechnique::rayTraced
+                       ? Result(tracedShadow(*points, points->rays(), light, source.shadow->raySamples))
+                       : hybridShadow(inputs, shading, surfaces, *points, light);
+      if (!found) return found.problems();
+      writeVisibility(shadows.layers, layer, found->values);
+      shadow.tracedPixels = found->tracedPixels;
     }
     shadow.milliseconds = millisecondsSince(start);
     shadows.lights.push_back(shadow);

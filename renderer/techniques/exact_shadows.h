@@ -16,6 +16,9 @@ struct ExactInputs {
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
 };
 
+/// Some light asks rays: surfaces have to be numbered (surface_pass.h).
+bool needsRays(const ExactInputs& exact, std::span<const Light> lights);
+
 /// One light's layer, and what it took.
 struct ExactShadow {
   int light = 0;                               ///< index into the spec's lights

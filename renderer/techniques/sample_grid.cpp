@@ -11,12 +11,6 @@ glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position)
   return {x + position.x, static_cast<float>(grid.height) - (row + position.y)};
 }
 
-std::vector<glm::vec2> centresOf(const SampleGrid& grid) {
-  std::vector<glm::vec2> places(grid.pixels());
-  for (std::size_t pixel = 0; pixel < places.size(); ++pixel) places[pixel] = placeIn(grid, pixel, glm::vec2(0.5f));
-  return places;
-}
-
 std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels) {
   std::vector<glm::vec2> places;
   places.reserve(pixels.size() * grid.samples());

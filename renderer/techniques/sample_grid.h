@@ -21,9 +21,6 @@ struct SampleGrid {
 /// Where rays go through, as firstHits takes it: from the picture's upper left corner.
 glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position);
 
-/// The centres of all pixels, in their order.
-std::vector<glm::vec2> centresOf(const SampleGrid& grid);
-
 /// Every sample of the given pixels, pixel by pixel.
 std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels);
 

@@ -44,7 +44,8 @@ std::string told(const Problems& problems) {
 
 Renderer& renderer() {
   static Renderer made = [] {
-    auto renderer = Renderer::create({.backend = {}, .tileCacheBytes = 0}); // so that every frame draws its tiles
+    // Every frame draws its tiles, also those that hybrid shadows could do without.
+    auto renderer = Renderer::create({.backend = {}, .tileCacheBytes = 0, .hybridMaps = HybridMaps::always});
     if (!renderer) throw std::runtime_error(told(renderer.problems()));
     return std::move(*renderer);
   }();

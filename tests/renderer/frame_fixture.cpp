@@ -16,7 +16,8 @@ std::string told(const Problems& problems) {
 
 Renderer& sharedRenderer() {
   static Renderer renderer = [] {
-    auto made = Renderer::create({.backend = {}, .tileCacheBytes = 0}); // so that counts don't depend on other cases
+    // Tiles are not kept, so that counts don't depend on other cases; hybrid shadows ask a map on every device.
+    auto made = Renderer::create({.backend = {}, .tileCacheBytes = 0, .hybridMaps = HybridMaps::always});
     if (!made) throw std::runtime_error(told(made.problems()));
     return std::move(*made);
   }();

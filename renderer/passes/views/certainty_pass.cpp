@@ -1,7 +1,5 @@
 #include "renderer/passes/views/certainty_pass.h"
 
-#include <algorithm>
-
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/sampler.h"
@@ -11,19 +9,14 @@ namespace gnomon {
 
 Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
                                          int light) {
-  std::vector<Verdict> verdicts(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height),
-                                Verdict::unsure);
   const bool mapped = shading.lights[static_cast<std::size_t>(light)].tiles.x > 0;
-  if (!mapped || shading.atlas.textures->outlines.id() == 0) return verdicts; // no tile, or nothing lies in one
+  if (!mapped || shading.atlas.textures->outlines.id() == 0) return std::vector<Verdict>{};
 
   std::vector<std::string> defines{"SAMPLES " + std::to_string(surfaces.samplePositions.size())};
   if (shading.lights[static_cast<std::size_t>(light)].direction.w != GNOMON_DIRECTIONAL) {
     defines.emplace_back("PUNCTUAL");
   }
   if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
-  const bool masked = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
-                                  [](const Material& material) { return material.alphaMode != AlphaMode::opaque; });
-  if (masked) defines.emplace_back("MASKED_SURFACES");
   const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", "", std::move(defines)});
   if (!program) return program.problems();
 
@@ -51,6 +44,7 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInp
   }
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
   gl::drawFullscreen(**program, nothing);
+  std::vector<Verdict> verdicts(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height));
   target->readColor(0, {0, 0, inputs.width, inputs.height}, {GL_RED, GL_UNSIGNED_BYTE},
                     std::as_writable_bytes(std::span(verdicts)));
   return verdicts;

@@ -20,7 +20,7 @@ std::vector<shared::ProbeData> padded(std::span<const shared::ProbeData> points)
 Result<std::vector<float>> probeShadow(const PassInputs& inputs, const ViewInputs& shading,
                                        std::span<const shared::ProbeData> points) {
   if (points.empty()) return std::vector<float>{};
-  const auto program = inputs.programs.get(probeProgram(lightVariant(inputs, shading)));
+  const auto program = inputs.programs.get(probeProgram(lightVariant(inputs, shading, false)));
   if (!program) return program.problems();
   const std::vector<shared::ProbeData> rows = padded(points);
   const Rect whole{0, 0, GNOMON_PROBE_COLUMNS, static_cast<int>(rows.size()) / GNOMON_PROBE_COLUMNS};

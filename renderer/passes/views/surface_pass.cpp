@@ -1,6 +1,7 @@
 #include "renderer/passes/views/surface_pass.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
@@ -17,14 +18,20 @@ bool anythingGlows(const Scene& scene) {
 
 } // namespace
 
-Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples) {
+Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, bool numbered) {
   gl::Timer timer = gl::Timer::start();
   const bool reuse = samples == survey.samples;
   const bool emission = anythingGlows(inputs.scene);
-  const DrawBatch batch = uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
-                                                    reuse ? survey.visible : survey.inView));
-
+  DrawList list = buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
+                                reuse ? survey.visible : survey.inView);
   Surfaces surfaces;
+  std::optional<NumberedInstances> instances;
+  if (numbered) {
+    surfaces.numbers = TriangleNumbers(inputs.scene, inputs.view, list);
+    instances.emplace(inputs, list);
+  }
+  const DrawBatch batch = uploadDraws(list);
+
   surfaces.triangles = batch.triangles;
   surfaces.drawCalls = batch.drawCalls;
   const int stored = samples > 1 ? samples : 0;
@@ -33,10 +40,12 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   };
   surfaces.bits = texture(GL_RGBA32UI, "surfaces");
   if (emission) surfaces.emission = texture(GL_RGBA16F, "surface emission");
+  if (numbered) surfaces.triangleNumbers = texture(GL_R32UI, "triangle numbers");
   if (!reuse) surfaces.ownDepth = texture(GL_DEPTH_COMPONENT32F, "surface depth");
 
   gl::Attachments attachments{{{&surfaces.bits}}, {reuse ? &survey.depth : &surfaces.ownDepth}};
   if (emission) attachments.color.push_back({&surfaces.emission});
+  if (numbered) attachments.color.push_back({&surfaces.triangleNumbers});
   auto target = gl::Framebuffer::create(attachments, "surfaces");
   if (!target) return target.problems();
   for (int i = 0; i < samples; ++i) {
@@ -50,11 +59,13 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   state.multisample = samples > 1;
   gl::apply(state);
   if (!reuse) target->clearDepth(0.0f);
+  if (numbered) target->clearColor(static_cast<int>(attachments.color.size()) - 1, glm::uvec4(kNoNumber));
   bindInputs(inputs);
-  const Status drawn =
-      drawGroups(inputs, inputs.vertices, batch, state, [&](const DrawGroup& group, const Material* material) {
-        return inputs.programs.get(surfaceProgram(*material, {group.tangents, emission, inputs.receiverGroups}));
-      });
+  const Status drawn = drawGroups(inputs, instances ? instances->vertices() : inputs.vertices, batch, state,
+                                  [&](const DrawGroup& group, const Material* material) {
+                                    return inputs.programs.get(surfaceProgram(
+                                        *material, {group.tangents, emission, inputs.receiverGroups, numbered}));
+                                  });
   if (!drawn) return drawn.problems();
   timer.stop();
   surfaces.timer = std::move(timer);

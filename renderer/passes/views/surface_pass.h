@@ -5,6 +5,7 @@
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
+#include "renderer/passes/views/triangle_numbers.h"
 
 namespace gnomon {
 
@@ -13,6 +14,8 @@ struct Surfaces {
   gl::Texture bits;                       ///< RGBA32UI: a packed Surface (shaders/common_surface.glsl)
   gl::Texture emission;                   ///< RGBA16F; empty where nothing in the scene glows
   gl::Texture ownDepth;                   ///< only where the survey has other samples
+  gl::Texture triangleNumbers;            ///< R32UI; empty where nothing asks which triangle shows
+  TriangleNumbers numbers;                ///< what they stand for
   std::vector<glm::vec2> samplePositions; ///< within a pixel, 0..1 from its lower left corner; one a sample
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
@@ -20,7 +23,7 @@ struct Surfaces {
 };
 
 /// Draws the surfaces that the survey found, `samples` a pixel (1 or 4). With the survey's own samples its depth and
-/// its visible clusters are exact; else depth is drawn anew.
-Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples);
+/// its visible clusters are exact; else depth is drawn anew. `numbered`: with the triangle that each sample shows.
+Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, bool numbered);
 
 } // namespace gnomon

@@ -16,7 +16,9 @@ GLenum formatOf(View view, bool encoded) {
 
 /// A variant that holds no more than these lights and surfaces need.
 ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
-  ViewVariant variant = lightVariant(inputs, shading);
+  // Views of a light's tiles look into them whatever decides its shadow.
+  const bool layersDecide = view == View::color || view == View::shadow || view == View::lightContribution;
+  ViewVariant variant = lightVariant(inputs, shading, layersDecide);
   variant.view = view;
   variant.encoded = shading.spec.output.format == ImageFormat::png;
   variant.toneMapping = shading.spec.toneMapping;
@@ -30,7 +32,7 @@ ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, cons
 
 } // namespace
 
-ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading) {
+ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading, bool layersDecide) {
   ViewVariant variant;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;
   variant.receiverGroups = inputs.receiverGroups;
@@ -38,7 +40,7 @@ ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading) {
   variant.lightLists = !shading.lightLists.empty();
   for (const shared::LightData& light : shading.lights) {
     variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
-    if (light.tiles.x == 0) continue;
+    if (light.tiles.x == 0 || (layersDecide && light.tiles.w > 0)) continue;
     variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
     const int kind = static_cast<int>(light.sampling.x);
     variant.shadows.kinds.insert(kind);

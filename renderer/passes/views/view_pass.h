@@ -46,8 +46,9 @@ struct ViewSources {
   const CasterNodes& casters;         ///< read by the view casterIds
 };
 
-/// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults.
-ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading);
+/// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults. `layersDecide`:
+/// no light that has a layer (visibility_layers.h) is looked up in its tiles.
+ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading, bool layersDecide);
 
 /// Lights the surfaces of every pixel for any view but atlas and tile.
 Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view);

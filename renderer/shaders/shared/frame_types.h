@@ -117,7 +117,7 @@ struct FrameData {
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.
 struct InstanceData {
   vec4 relativeFromLocal[3]; // rows of the affine matrix
-  vec4 normalFromLocal[3];   // rows; xyz; w of the first: receiver group, of the last: the node's index
+  vec4 normalFromLocal[3]; // rows; xyz; w: the receiver group; the number of a draw's first triangle; the node's index
 };
 
 struct MaterialData {

@@ -1,5 +1,7 @@
 // Exact techniques, held against rays.
 #include <cmath>
+#include <optional>
+#include <thread>
 
 #include "tests/renderer/techniques/traced_frame.h"
 
@@ -86,6 +88,28 @@ TEST(HybridShadow, TheMapDecidesMostPixels) {
   const Frame frame = renderJson(generatedScene("box_on_plane"), shadowSpec(kSun, "hybrid"));
   EXPECT_LT(*frame.report.lights[0].tracedPixels, 320u * 180u / 10);
   EXPECT_GT(*frame.report.lights[0].tracedPixels, 0u);
+}
+
+TEST(HybridShadow, WhereRaysCostLessTheyDecideAloneAndTheReportSaysSo) {
+  const ScenePtr scene = generatedScene("city");
+  const std::string spec = shadowSpec(kSun, "hybrid");
+  std::optional<Frame> alone;
+  // A context of its own needs a thread of its own.
+  std::thread([&] {
+    auto automatic = Renderer::create({});
+    ASSERT_TRUE(automatic);
+    if (!automatic->info().software) return;
+    auto frame = automatic->render(scene, *decodeFrameSpec(spec));
+    ASSERT_TRUE(frame);
+    alone = *std::move(frame);
+  }).join();
+  if (!alone) GTEST_SKIP() << "a GPU draws every map";
+  const Frame mapped = renderJson(scene, spec);
+  EXPECT_EQ(alone->report.lights[0].tracedPixels, 320u * 180u);
+  EXPECT_EQ(alone->report.lights[0].note, "rays alone decide: a map would cost more than the rays that it spares");
+  EXPECT_TRUE(alone->report.lights[0].cascades.empty());
+  EXPECT_FALSE(mapped.report.lights[0].cascades.empty());
+  EXPECT_EQ(floatsOf(*alone), floatsOf(mapped));
 }
 
 TEST(HybridShadow, ItWorksOnCoarseTilesToo) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "protocol/result.h"
+#include "renderer/passes/survey/survey_pass.h"
+
+namespace gnomon {
+
+/// Where masked or blended triangles lie before what the survey found, or are it, holes and all: 255 there, one a
+/// pixel, from the LOWEST row. Filtered as they are drawn, their holes differ from those that rays meet. Empty where
+/// the view holds none. With several samples a pixel, also those behind. Waits for the device.
+Result<std::vector<std::uint8_t>> maskCoverage(const PassInputs& inputs, const Survey& survey);
+
+} // namespace gnomon

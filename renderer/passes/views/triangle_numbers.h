@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/gl/buffer.h"
+#include "renderer/passes/draw_list.h"
+#include "renderer/passes/pass_inputs.h"
+#include "renderer/scene/placed_triangle.h"
+
+namespace gnomon {
+
+/// The triangles of a draw list are numbered through, so that a pixel can say in one word which of them it shows.
+inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
+
+/// Which triangle a number stands for.
+class TriangleNumbers {
+ public:
+  TriangleNumbers() = default;
+  TriangleNumbers(const Scene& scene, const SceneView& view, const DrawList& list);
+
+  /// Quickest for numbers of which many in a row are of one draw. REQUIRES: numbers of the list, or
+  /// kNoNumber.
+  std::vector<PlacedTriangle> of(std::span<const std::uint32_t> numbers) const;
+
+ private:
+  struct Draw {
+    std::uint32_t firstNumber = 0;
+    PlacedTriangle first;
+  };
+  std::vector<Draw> draws_; ///< by their first number
+};
+
+/// Feeds a draw list's instances, one a draw, which knows its first triangle's number.
+class NumberedInstances {
+ public:
+  /// Has the commands of `list` name these instances from now on.
+  NumberedInstances(const PassInputs& inputs, DrawList& list);
+
+  const SceneVertices& vertices() const { return vertices_; }
+
+ private:
+  gl::Buffer instances_;
+  SceneVertices vertices_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,4 @@
+// Marks what is drawn.
+layout(location = 0) out float covered;
+
+void main() { covered = 1.0; }

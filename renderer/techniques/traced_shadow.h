@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "renderer/passes/views/certainty_pass.h"
+#include "renderer/techniques/picture_points.h"
+
+namespace gnomon {
+
+struct TracedShadow {
+  std::vector<std::uint16_t> values; ///< share of the light at every sample, 0..65535, in the grid's order
+  std::uint64_t tracedPixels = 0;    ///< that rays decided
+};
+
+/// What arrives of light `light` of `rays`. A pixel that the verdicts leave unsure (all of them where there are none)
+/// is decided by rays from the point that was drawn there. What was drawn may differ from what a camera ray meets
+/// within rounding of a surface's rim, and an edge may pass between the samples of a pixel. So a camera ray finds the
+/// point of every sample next to masks, where a surface that is turned away from the light ends, and wherever a pixel's
+/// share differs from a neighbour's. `samples`: rays a point, towards a light that has a size.
+TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
+                          std::span<const Verdict> verdicts = {});
+
+} // namespace gnomon
