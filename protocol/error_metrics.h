@@ -13,6 +13,10 @@ struct PredictedError {
   double median = 0; ///< pixels
   double p95 = 0;    ///< pixels: 95 % of the blocks have no more
   double max = 0;    ///< pixels
+  /// Pixels: what EdgeDisplacement::mean is expected to be, told from the shadow's own edges, the texels and the bias
+  /// under them (renderer/shadow/edge_displacement.h). Absent where the shadow was not drawn as numbers or has no edge.
+  std::optional<double> edgeDisplacement{};
+  std::optional<double> edgeLength{}; ///< pixels: of the edges that this is the mean of
 };
 
 /// How far the edges of a shadow lie from the true ones.

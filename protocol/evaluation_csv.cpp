@@ -32,6 +32,8 @@ std::vector<std::string> metricPointers() {
   all.edgeDisplacement.emplace();
   all.shimmer.emplace();
   all.predicted.emplace();
+  all.predicted->edgeDisplacement.emplace();
+  all.predicted->edgeLength.emplace();
   const Json flat = encodeValue(all).flatten();
   std::vector<std::string> pointers;
   for (const auto& [pointer, value] : flat.items()) pointers.push_back(pointer);

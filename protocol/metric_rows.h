@@ -9,13 +9,20 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<PredictedError> =
-    replyRows("PredictedError",
-              "How large shadow texels show in the picture: over its blocks of 8 x 8 pixels, the largest extent of the "
-              "texel under the nearest surface in the block, as if that faced the light.",
-              field("median", &PredictedError::median, {.says = "Half of the blocks have no more.", .unit = "pixels"}),
-              field("p95", &PredictedError::p95, {.says = "95 % of the blocks have no more.", .unit = "pixels"}),
-              field("max", &PredictedError::max, {.says = "Of the worst block.", .unit = "pixels"}));
+inline constexpr auto kRows<PredictedError> = replyRows(
+    "PredictedError",
+    "How large shadow texels show in the picture: over its blocks of 8 x 8 pixels, the largest extent of the "
+    "texel under the nearest surface in the block, as if that faced the light.",
+    field("median", &PredictedError::median, {.says = "Half of the blocks have no more.", .unit = "pixels"}),
+    field("p95", &PredictedError::p95, {.says = "95 % of the blocks have no more.", .unit = "pixels"}),
+    field("max", &PredictedError::max, {.says = "Of the worst block.", .unit = "pixels"}),
+    field("edgeDisplacement", &PredictedError::edgeDisplacement,
+          {.says = "What the mean of `edgeDisplacement` is expected to be, from the shadow's own edges, the "
+                   "texels and the bias under them; only where the view `shadow` is drawn as EXR, or an error "
+                   "view.",
+           .unit = "pixels"}),
+    field("edgeLength", &PredictedError::edgeLength,
+          {.says = "Of the shadow's edges that it is the mean of.", .unit = "pixels"}));
 static_assert(kRowsAreComplete<PredictedError>);
 
 template <>

@@ -8,6 +8,7 @@
 #include "renderer/frame/gpu_scene_cache.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/measured_shadow.h"
+#include "renderer/frame/predicted_displacement.h"
 #include "renderer/frame/read_views.h"
 #include "renderer/frame/traced_scene_cache.h"
 #include "renderer/gl/context.h"
@@ -127,7 +128,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
 
   const ShadowPlan plan = planShadows(planInput(*resolved, view, survey->receivers, mapped, info().maxTextureSize));
   if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
-  const PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
+  PredictedErrors errors = predictErrors(resolved->view, survey->receivers, plan);
   const auto lights = lightData(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);
   const auto tiles = tileData(plan);
   const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, survey->receivers, lights)
@@ -147,10 +148,21 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
   clock.finish("shadow");
 
   const ExactInputs exact{layered, [&] { return impl_->traced.get(scene, resolved->scene); }};
-  const auto drawn = drawViews(inputs, {*survey, *atlas, lights, tiles, lists, effective, subject->light}, exact, plan,
-                               subject->planned);
+  const ViewInputs shading{*survey, *atlas, lights, tiles, lists, effective, subject->light};
+  const auto drawn = drawViews(inputs, shading, exact, plan, subject->planned);
   if (!drawn) return drawn.problems();
   clock.finish("shade");
+
+  const auto displacement = predictDisplacement(inputs, shading, plan, *drawn);
+  if (!displacement) return displacement.problems();
+  if (*displacement) {
+    auto& predicted = errors.lights[static_cast<std::size_t>(subject->planned - plan.lights.data())];
+    if (predicted) {
+      predicted->edgeDisplacement = (*displacement)->mean;
+      predicted->edgeLength = (*displacement)->length;
+    }
+    clock.finish("predict");
+  }
 
   std::optional<MeasuredShadow> measured;
   if (drawn->besides.contains(View::shadow)) {

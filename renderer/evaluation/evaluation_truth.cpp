@@ -52,6 +52,22 @@ std::int64_t measuredBytes(const FrameSpec& spec, std::size_t lights) {
   return std::int64_t{spec.width} * spec.height * static_cast<std::int64_t>(lights) * kPerPixel;
 }
 
+/// The frame's own figures, and over all its lights so far how far edges are expected to be off.
+void addPrediction(const FrameReport& report, int light, std::optional<PredictedError>& predicted) {
+  const auto& ofLight = report.lights[static_cast<std::size_t>(light)].predictedError;
+  const auto sum = predicted;
+  predicted = report.predictedError;
+  if (!predicted) return;
+  if (sum) predicted->edgeDisplacement = sum->edgeDisplacement;
+  if (sum) predicted->edgeLength = sum->edgeLength;
+  if (!ofLight || !ofLight->edgeLength) return;
+  const double before = predicted->edgeLength.value_or(0);
+  const double length = before + *ofLight->edgeLength;
+  predicted->edgeDisplacement =
+      (before * predicted->edgeDisplacement.value_or(0) + *ofLight->edgeLength * *ofLight->edgeDisplacement) / length;
+  predicted->edgeLength = length;
+}
+
 double since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -126,7 +142,7 @@ Result<ErrorMetrics> measureSubject(const Subject& subject, const Reference& tru
     if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
     auto frame = draw(shadowSpec(subject, light));
     if (!frame) return frame.problems();
-    predicted = frame->report.predictedError;
+    addPrediction(frame->report, light, predicted);
     shown.push_back(std::get<std::vector<float>>(std::move(frame->images.front().image.pixels)));
     steps.finish();
   }

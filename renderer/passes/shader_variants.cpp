@@ -171,4 +171,10 @@ gl::ProgramSource probeProgram(const ViewVariant& variant) {
   return {"fullscreen.vert", "probe.frag", "", std::move(defines)};
 }
 
+gl::ProgramSource displacementProgram(const ViewVariant& variant) {
+  gl::ProgramSource source = probeProgram(variant);
+  source.fragment = "displacement.frag";
+  return source;
+}
+
 } // namespace gnomon

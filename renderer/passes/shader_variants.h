@@ -64,4 +64,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant);
 /// Asks single points for their light; of `variant` what tells of lights and shadows counts.
 gl::ProgramSource probeProgram(const ViewVariant& variant);
 
+/// Asks every pixel what the map of one light does to an edge there; `variant` as in probeProgram.
+gl::ProgramSource displacementProgram(const ViewVariant& variant);
+
 } // namespace gnomon

@@ -37,10 +37,11 @@ struct PlaneFit {
   }
 };
 
-/// How much of the edge's own length goes along one side of a pixel: the cosine between the two. Pixels count by
-/// Tukey's biweight, so that the direction does not jump as they come into reach.
-double shareOf(const Reference& truth, std::span<const std::uint8_t> receiver, std::span<const float> values,
-               const PixelPair& pair) {
+} // namespace
+
+// Pixels count by Tukey's biweight, so that the direction does not jump as they come into reach.
+std::optional<glm::dvec2> edgeNormal(const Reference& truth, std::span<const std::uint8_t> receiver,
+                                     std::span<const float> values, const PixelPair& pair) {
   const glm::dvec2 middle(pair.x + (pair.across ? 0.5 : 0.0), pair.y + (pair.across ? 0.0 : 0.5));
   constexpr int kPixels = static_cast<int>(kReach);
   PlaneFit fit;
@@ -55,11 +56,14 @@ double shareOf(const Reference& truth, std::span<const std::uint8_t> receiver, s
   }
   const glm::dvec2 slope = fit.slope();
   const double length = glm::length(slope);
-  if (!(length > 0)) return 1.0; // too few pixels to tell, or as much light on either side
-  return std::max(std::abs(pair.across ? slope.x : slope.y) / length, kLeast);
+  if (!(length > 0)) return std::nullopt; // or as much light on either side
+  return slope / length;
 }
 
-} // namespace
+double lengthAlong(const PixelPair& pair, const std::optional<glm::dvec2>& normal) {
+  if (!normal) return 1.0;
+  return std::max(std::abs(pair.across ? normal->x : normal->y), kLeast);
+}
 
 // Each side of a pixel counts by the cosine between it and the edge, whose direction is fitted to the pixels around:
 // the tangent-based estimator of Coeurjolly & Klette, "A Comparative Evaluation of Length Estimators of Digital
@@ -68,7 +72,7 @@ double edgeLength(const Reference& truth, const SurfaceLinks& links, std::span<c
                   std::span<const float> values) {
   double length = 0;
   forEachCrack(truth, links, receiver, values,
-               [&](const PixelPair& pair) { length += shareOf(truth, receiver, values, pair); });
+               [&](const PixelPair& pair) { length += lengthAlong(pair, edgeNormal(truth, receiver, values, pair)); });
   return length;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "renderer/reference/shadow_edges.h"
@@ -37,5 +38,13 @@ void forEachCrack(const Reference& truth, const SurfaceLinks& links, std::span<c
     if ((pair.across ? links.right : links.below)[pair.a] != 0) visit(pair);
   });
 }
+
+/// The edge's normal at a side of a pixel that it runs along, by the pixels of one class and the other around: unit
+/// length, on the picture, x right and y down. Absent where there are too few to tell.
+std::optional<glm::dvec2> edgeNormal(const Reference& truth, std::span<const std::uint8_t> receiver,
+                                     std::span<const float> values, const PixelPair& pair);
+
+/// How much of the edge's own length goes along that side: the cosine between the two; all where the normal is absent.
+double lengthAlong(const PixelPair& pair, const std::optional<glm::dvec2>& normal);
 
 } // namespace gnomon

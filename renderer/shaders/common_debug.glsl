@@ -38,7 +38,7 @@ DebugTexel debugTexel(Receiver receiver) {
   return texel;
 }
 
-#if defined(VIEW_TEXEL_GRID) || defined(VIEW_TEXEL_DENSITY)
+#if defined(VIEW_TEXEL_GRID) || defined(VIEW_TEXEL_DENSITY) || defined(TEXEL_EDGES)
 // Pixels that a point crosses on the picture for each metre that it moves along `way`.
 vec2 pixelsAlong(Receiver receiver, vec3 way) {
   vec3 right = frame.right.xyz / dot(frame.right.xyz, frame.right.xyz);

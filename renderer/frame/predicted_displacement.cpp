@@ -1,0 +1,93 @@
+#include "renderer/frame/predicted_displacement.h"
+
+#include <algorithm>
+
+#include "renderer/frame/read_views.h"
+#include "renderer/passes/views/read_back.h"
+#include "renderer/reference/pixel_pairs.h"
+#include "renderer/shadow/edge_displacement.h"
+
+namespace gnomon {
+namespace {
+
+/// What the camera sees of the light's receivers, as a reference has it.
+Reference seenSurfaces(const CameraView& view, int width, int height, std::span<const MapFootprint> footprints) {
+  Reference seen;
+  seen.width = width;
+  seen.height = height;
+  seen.surface.resize(footprints.size());
+  seen.pixelWidth.resize(footprints.size());
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    const double depth = footprints[i].viewDepth;
+    if (!(depth > 0)) continue;
+    const glm::dvec2 pixel(static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5,
+                           static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5);
+    const glm::dvec2 ndc(2 * pixel.x / width - 1, 1 - 2 * pixel.y / height);
+    seen.surface[i] = {pointAt(view, ndc, depth), footprints[i].normal, 0, 0};
+    seen.pixelWidth[i] = static_cast<float>(2 * view.halfSize.y / height * (view.perspective ? depth : 1.0));
+  }
+  return seen;
+}
+
+} // namespace
+
+std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int width, int height,
+                                                    std::span<const MapFootprint> footprints,
+                                                    std::span<const float> shown, std::span<const ShadowTile> tiles,
+                                                    int atlasSamples) {
+  const Reference seen = seenSurfaces(view, width, height, footprints);
+  const SurfaceLinks links = surfaceLinks(seen);
+  std::vector<std::uint8_t> receiver(footprints.size());
+  for (std::size_t i = 0; i < receiver.size(); ++i) receiver[i] = footprints[i].viewDepth > 0 ? 1 : 0;
+  std::vector<MapReading> readings;
+  for (const ShadowTile& tile : tiles) readings.push_back(readingOf(tile, atlasSamples));
+
+  PredictedDisplacement sum;
+  forEachCrack(seen, links, receiver, shown, [&](const PixelPair& pair) {
+    const auto normal = edgeNormal(seen, receiver, shown, pair);
+    const glm::dvec2 across = normal.value_or(pair.across ? glm::dvec2(1, 0) : glm::dvec2(0, 1));
+    const double length = lengthAlong(pair, normal);
+    for (const std::size_t side : {pair.a, pair.b}) {
+      const MapFootprint& map = footprints[side];
+      sum.mean += 0.5 * length *
+                  expectedDisplacement({across, glm::dvec2(map.texelU), glm::dvec2(map.texelV), glm::dvec2(map.shift)},
+                                       readings[static_cast<std::size_t>(map.tile)]);
+    }
+    sum.length += length;
+  });
+  if (!(sum.length > 0)) return std::nullopt;
+  sum.mean /= sum.length;
+  return sum;
+}
+
+namespace {
+
+/// The debug light's shadow at full strength; empty where no view has it as numbers.
+std::vector<float> shownShadow(const DrawnViews& drawn, const FrameSpec& spec, int light) {
+  if (drawn.besides.contains(View::shadow)) return readFullShadow(drawn);
+  const auto view = std::find(spec.views.begin(), spec.views.end(), View::shadow);
+  const double strength = (*spec.lights)[static_cast<std::size_t>(light)].shadow->strength;
+  if (spec.output.format != ImageFormat::exr || view == spec.views.end() || !(strength > 0)) return {};
+  Image image = readView(drawn.views[static_cast<std::size_t>(view - spec.views.begin())], View::shadow, false, true);
+  auto shown = std::get<std::vector<float>>(std::move(image.pixels));
+  for (float& value : shown) value = static_cast<float>(1 - (1 - value) / strength);
+  return shown;
+}
+
+} // namespace
+
+Result<std::optional<PredictedDisplacement>> predictDisplacement(const PassInputs& inputs, const ViewInputs& shading,
+                                                                 const ShadowPlan& plan, const DrawnViews& drawn) {
+  using Predicted = std::optional<PredictedDisplacement>;
+  if (shading.debugLight < 0) return Predicted{};
+  const shared::LightData& light = shading.lights[static_cast<std::size_t>(shading.debugLight)];
+  if (light.tiles.x == 0 || light.tiles.w > 0) return Predicted{};
+  const std::vector<float> shown = shownShadow(drawn, shading.spec, shading.debugLight);
+  if (shown.empty()) return Predicted{};
+  const auto footprints = mapFootprints(inputs, shading, drawn.surfaces.at(1));
+  if (!footprints) return footprints.problems();
+  return displacementOf(inputs.camera, inputs.width, inputs.height, *footprints, shown,
+                        std::span(plan.tiles).subspan(light.tiles.z, light.tiles.x), shading.spec.atlas.samples);
+}
+
+} // namespace gnomon

@@ -1,0 +1,46 @@
+#include "shared/frame_types.h"
+#define TEXEL_EDGES
+#include "common_surface.glsl"
+#include "common_surface_read.glsl"
+#include "common_shadow.glsl"
+#include "common_light.glsl"
+#include "common_debug.glsl"
+
+// What a shadow map does to an edge that runs through a pixel: its texel as it lies on the surface, and where the bias has
+// the point looked up (renderer/shadow/edge_displacement.h). Pixels, y up; view depth 0 where the light reaches no
+// surface that receives its shadow.
+layout(location = 0) out uvec4 lengths; // shift, texel u and texel v as two halves each; tile of the light
+layout(location = 1) out uvec4 place;   // view depth; octahedral normal
+
+uint halves(vec2 pixels) { return packHalf2x16(clamp(pixels, -6e4, 6e4)); }
+
+// The bias moves a point off its surface; along the light, back onto it.
+vec3 shiftOnSurface(Receiver receiver, TileData tile, vec3 toLight) {
+  vec3 moved = movedReceiver(lights[debugLight], tile, receiver, toLight) - receiver.relative;
+  return moved - toLight * (dot(receiver.normal, moved) / dot(receiver.normal, toLight));
+}
+
+void main() {
+  lengths = uvec4(0u);
+  place = uvec4(0u);
+  Sample seen = sampleAt(0);
+  if (!seen.hit) return;
+  Receiver receiver;
+  receiver.relative = seen.relative;
+  receiver.normal = unpackedSurface(seen.bits).face;
+  receiver.viewDepth = seen.viewDepth;
+#ifdef RECEIVER_GROUPS
+  receiver.groupBit = 1u << receiverGroup(seen.bits);
+  if ((lights[debugLight].groups.x & lights[debugLight].groups.y & receiver.groupBit) == 0u) return;
+#endif
+  vec3 toLight;
+  vec3 arriving = irradiance(lights[debugLight], receiver.relative, toLight);
+  if (arriving == vec3(0.0) || isTurnedAway(receiver, toLight)) return;
+  place = uvec4(floatBitsToUint(seen.viewDepth), seen.bits.x, 0u, 0u);
+  DebugTexel texel = debugTexel(receiver);
+  if (!texel.found) return;
+  TexelEdges edges = texelEdges(texel, receiver);
+  float scale = max(abs(edges.scale), 1e-30);
+  lengths = uvec4(halves(pixelsAlong(receiver, shiftOnSurface(receiver, texel.data, toLight))), halves(edges.u / scale),
+                  halves(edges.v / scale), uint(texel.tile));
+}
