@@ -29,6 +29,42 @@ Reference seenSurfaces(const CameraView& view, int width, int height, std::span<
   return seen;
 }
 
+/// The picture around a pixel's side.
+struct EdgeWalk {
+  const Reference& seen;
+  std::span<const std::uint8_t> receiver;
+  std::span<const float> shown;
+
+  std::optional<std::size_t> at(std::size_t from, const glm::dvec2& way) const {
+    const auto width = static_cast<std::size_t>(seen.width);
+    const glm::ivec2 to = glm::ivec2(from % width, from / width) + glm::ivec2(glm::round(way));
+    if (to.x < 0 || to.y < 0 || to.x >= seen.width || to.y >= seen.height) return std::nullopt;
+    return static_cast<std::size_t>(to.y) * width + static_cast<std::size_t>(to.x);
+  }
+
+  /// Whether another surface rises from this one before the place where the edge is supposed to be. There, as at the
+  /// foot of a wall in the light, is no true edge: a filter that reaches into the wall makes one.
+  bool endsAtFoot(std::size_t from, const glm::dvec2& shift) const {
+    const auto there = at(from, shift);
+    if (!there || receiver[*there] == 0) return false;
+    const glm::dvec3 way = seen.surface[*there].position - seen.surface[from].position;
+    return glm::dot(way, glm::dvec3(seen.surface[from].normal)) > seen.pixelWidth[from];
+  }
+
+  /// Pixels from a side along a direction until the shadow's class changes, kFarthest at most: an edge is never moved
+  /// past the next one, which moves with it.
+  double widthAlong(std::size_t from, const glm::dvec2& direction) const {
+    for (int step = 1; step < kFarthest; ++step) {
+      const auto there = at(from, direction * static_cast<double>(step));
+      if (!there || receiver[*there] == 0) return kFarthest;
+      if (isLit(shown[*there]) != isLit(shown[from])) return step;
+    }
+    return kFarthest;
+  }
+
+  static constexpr int kFarthest = 4;
+};
+
 } // namespace
 
 std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int width, int height,
@@ -42,18 +78,23 @@ std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int 
   std::vector<MapReading> readings;
   for (const ShadowTile& tile : tiles) readings.push_back(readingOf(tile, atlasSamples));
 
+  const EdgeWalk walk{seen, receiver, shown};
   PredictedDisplacement sum;
   forEachCrack(seen, links, receiver, shown, [&](const PixelPair& pair) {
     const auto normal = edgeNormal(seen, receiver, shown, pair);
-    const glm::dvec2 across = normal.value_or(pair.across ? glm::dvec2(1, 0) : glm::dvec2(0, 1));
-    const double length = lengthAlong(pair, normal);
+    // From the first pixel to the second.
+    glm::dvec2 across = normal.value_or(pair.across ? glm::dvec2(1, 0) : glm::dvec2(0, 1));
+    if ((pair.across ? across.x : across.y) < 0) across = -across;
+    const double length = 0.5 * lengthAlong(pair, normal);
+    const double room = std::min(walk.widthAlong(pair.a, -across), walk.widthAlong(pair.b, across));
     for (const std::size_t side : {pair.a, pair.b}) {
       const MapFootprint& map = footprints[side];
-      sum.mean += 0.5 * length *
-                  expectedDisplacement({across, glm::dvec2(map.texelU), glm::dvec2(map.texelV), glm::dvec2(map.shift)},
-                                       readings[static_cast<std::size_t>(map.tile)]);
+      const glm::dvec2 shift(map.shift);
+      if (walk.endsAtFoot(side, shift)) continue;
+      const EdgeOnTexels edge{across, glm::dvec2(map.texelU), glm::dvec2(map.texelV), shift, room};
+      sum.mean += length * expectedDisplacement(edge, readings[static_cast<std::size_t>(map.tile)]);
+      sum.length += length;
     }
-    sum.length += length;
   });
   if (!(sum.length > 0)) return std::nullopt;
   sum.mean /= sum.length;

@@ -54,7 +54,7 @@ double staircase(const MapReading& reading, double slope) {
 }
 
 double expectedDisplacement(const EdgeOnTexels& edge, const MapReading& reading) {
-  const double limit = kBand + std::max(std::abs(edge.across.x), std::abs(edge.across.y));
+  const double limit = std::min(edge.room, kBand + std::max(std::abs(edge.across.x), std::abs(edge.across.y)));
   const glm::dvec2 inTexels =
       glm::abs(glm::dvec2(glm::dot(edge.across, edge.texelU), glm::dot(edge.across, edge.texelV)));
   const double texel = glm::length(inTexels);

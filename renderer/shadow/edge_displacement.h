@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "renderer/shadow/shadow_plan.h"
 
@@ -29,6 +30,7 @@ struct EdgeOnTexels {
   glm::dvec2 texelU{0};    ///< the two edges of a texel as they lie on the plane
   glm::dvec2 texelV{0};
   glm::dvec2 shift{0}; ///< from a point to where its bias has it looked up: what the map shows there is the shadow here
+  double room = std::numeric_limits<double>::infinity(); ///< to the next edge of the shadow: this one is off no farther
 };
 
 /// Pixels: the mean area between where the map puts the edge and where it is, of each pixel of its length, as far as

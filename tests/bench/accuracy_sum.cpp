@@ -44,7 +44,8 @@ void AccuracySums::add(const std::string& scene, const EvaluationReport& report)
   First& kept = firsts_.emplace_back();
   kept.misclassified = first.metrics->misclassified;
   if (first.metrics->edgeDisplacement) kept.displacement = first.metrics->edgeDisplacement->mean;
-  if (first.metrics->predicted) kept.predicted = first.metrics->predicted->median;
+  if (first.metrics->predicted) kept.predicted = first.metrics->predicted->edgeDisplacement;
+  if (first.metrics->predicted) kept.texels = first.metrics->predicted->median;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const EvaluationRow& row = report.rows[i];
     Sum& sum = sums_[i];
@@ -100,10 +101,10 @@ std::string AccuracySums::table(const EvaluationReport& all) const {
 
 std::string AccuracySums::sceneTable() const {
   std::string out = "| scene | misclassified by " + sums_.front().name +
-                    ", % | its edges off, px | texels predicted, px |\n|---|---|---|---|\n";
+                    ", % | its edges off, px | predicted, px | texels, px |\n|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < names_.size(); ++i) {
     out += "| " + names_[i] + " | " + percent(firsts_[i].misclassified) + " | " + orDash(firsts_[i].displacement) +
-           " | " + orDash(firsts_[i].predicted) + " |\n";
+           " | " + orDash(firsts_[i].predicted) + " | " + orDash(firsts_[i].texels) + " |\n";
   }
   return out;
 }

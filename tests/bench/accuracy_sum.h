@@ -42,6 +42,7 @@ class AccuracySums {
     double misclassified = 0;
     std::optional<double> displacement{};
     std::optional<double> predicted{};
+    std::optional<double> texels{};
   };
 
   std::vector<Sum> sums_;

@@ -43,11 +43,12 @@ TEST(EvaluationCsv, HasAColumnForEveryMetricAndStageAndAnEmptyFieldForWhatARowLa
   EXPECT_EQ(lines[0],
             "name,problem,milliseconds,shadow ms,shade ms,memoryBytes,receivers,misclassified,falseShadow,falseLit,"
             "acne,leak,edge,interior,edgeDisplacement.mean,edgeDisplacement.median,edgeDisplacement.p95,"
-            "edgeDisplacement.max,meanAbsolute,rms,shimmer,predicted.median,predicted.p95,predicted.max,pareto");
+            "edgeDisplacement.max,meanAbsolute,rms,shimmer,predicted.median,predicted.p95,predicted.max,"
+            "predicted.edgeDisplacement,predicted.edgeLength,pareto");
   EXPECT_EQ(lines[1],
             "\"filter.type hard, cascadeCount 2\",,12.5,4,8.5,99,0,0.25,0.0,0.0,0.0,0.0,0.0,0.0,,,,,0.0,0.0,"
-            ",,,,true");
-  EXPECT_EQ(lines[2], "shadowVolume,\"/shadow: Masks, alas.\",,,,,,,,,,,,,,,,,,,,,,,false");
+            ",,,,,,true");
+  EXPECT_EQ(lines[2], "shadowVolume,\"/shadow: Masks, alas.\",,,,,,,,,,,,,,,,,,,,,,,,,false");
 }
 
 } // namespace
