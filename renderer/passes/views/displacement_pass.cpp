@@ -38,7 +38,7 @@ MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
 
 Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const ViewInputs& shading,
                                                 const Surfaces& surfaces) {
-  const auto program = inputs.programs.get(displacementProgram(lightVariant(inputs, shading)));
+  const auto program = inputs.programs.get(displacementProgram(lightVariant(inputs, shading, false)));
   if (!program) return program.problems();
   const gl::Texture lengths({GL_RGBA32UI, inputs.width, inputs.height}, "footprint lengths");
   const gl::Texture places({GL_RGBA32UI, inputs.width, inputs.height}, "footprint places");
