@@ -106,7 +106,7 @@ TEST(PredictedDisplacement, H2_IsWithinAQuarterOfTheMeasuredOneOverTheProjectsSc
   table.expectMedianNearOne();
 }
 
-TEST(PredictedDisplacement, H2_OfAFreeEdgeOverAPlaneItIsTheMeasuredOneWithEveryFilterAndLight) {
+TEST(PredictedDisplacement, H2_OfAFreeEdgeOverAPlaneItIsTheMeasuredOneWithEveryFilter) {
   const ScenePtr scene = testing::generatedScene("triangle_over_plane");
   Json view = Json::parse(kView);
   view["camera"] = {{"node", "camera"}};
