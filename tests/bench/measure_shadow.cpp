@@ -1,0 +1,191 @@
+// Holds shadows that other renderers drew against the exact ones, and Gnomon's own beside them: the same camera, the
+// same pixels, the same measures. Prints JSON. other_renderers/ says who calls it.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "protocol/evaluation_json.h"
+#include "protocol/json_codec.h"
+#include "renderer/evaluation/evaluation_times.h"
+#include "renderer/reference/error_measures.h"
+#include "renderer/reference/traced_scene.h"
+#include "renderer/render.h"
+#include "renderer/resolve/resolve_frame.h"
+#include "tests/bench/other_picture.h"
+#include "tests/support/files.h"
+
+namespace gnomon::bench {
+namespace {
+
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class Value>
+Value orFail(Result<Value> result) {
+  if (result) return std::move(*result);
+  std::string text;
+  for (const Problem& problem : result.problems()) text += problem.pointer + ": " + problem.detail + '\n';
+  throw Failure(text);
+}
+
+struct Way {
+  const char* name;
+  nlohmann::json shadow;
+};
+
+/// Ways to make the shadow; each is laid over the spec.
+std::vector<Way> ways() {
+  const nlohmann::json hard = {{"type", "hard"}};
+  return {{"default settings", nlohmann::json::object()},
+          {"hard map", {{"technique", "shadowMap"}, {"filter", hard}}},
+          {"hard map, XLarge", {{"technique", "shadowMap"}, {"filter", hard}, {"size", "XLarge"}}},
+          {"hybrid", {{"technique", "hybrid"}}},
+          {"rayTraced", {{"technique", "rayTraced"}}},
+          {"shadowVolume", {{"technique", "shadowVolume"}}}};
+}
+
+FrameSpec specOf(nlohmann::json spec, const nlohmann::json& shadow) {
+  spec["shadow"] = shadow;
+  spec["antialiasing"] = "none";
+  return orFail(decodeFrameSpec(spec.dump()));
+}
+
+FrameSpec shadowSpec(FrameSpec spec) {
+  spec.views = {View::shadow};
+  spec.output.format = ImageFormat::exr;
+  return spec;
+}
+
+/// The one light's truth.
+struct Truth {
+  ResolvedFrame frame;
+  glm::dvec3 anchor{0};
+  Reference reference;
+};
+
+Truth truthOf(const ScenePtr& scene, const FrameSpec& spec) {
+  ResolvedFrame frame = orFail(resolveFrame(*scene, spec));
+  if (frame.spec.lights->size() != 1) throw Failure("A comparison is of one light's shadow.\n");
+  const TracedScene traced = orFail(TracedScene::build(scene, frame.scene));
+  const TraceInput input{traced, frame.view, spec.width, spec.height, *frame.spec.lights, frame.nodes};
+  const int light = 0;
+  Reference reference = orFail(traceReference(input, std::span(&light, 1), 1));
+  return {std::move(frame), anchorOf(traced.view()), std::move(reference)};
+}
+
+/// Pixels that both show are what counts.
+void leaveOut(Reference& truth, const Alignment& alignment) {
+  std::vector<std::uint8_t>& receiver = truth.lights.front().receiver;
+  for (std::size_t i = 0; i < receiver.size(); ++i) receiver[i] &= alignment.same[i];
+}
+
+nlohmann::json rowOf(const std::string& name, const Reference& truth, const std::vector<float>& shown) {
+  EvaluationRow row;
+  row.name = name;
+  row.metrics = measureErrors(truth, std::span(&shown, 1));
+  return nlohmann::json::parse(toJson(row).dump());
+}
+
+std::uint64_t receiversOf(const Reference& truth) {
+  const std::vector<std::uint8_t>& receiver = truth.lights.front().receiver;
+  return static_cast<std::uint64_t>(std::count(receiver.begin(), receiver.end(), std::uint8_t{1}));
+}
+
+/// Of the tiles that the shadow was drawn into.
+std::int64_t texelsOf(const FrameReport& report) {
+  std::int64_t texels = 0;
+  for (const CascadeReport& cascade : report.lights.front().cascades) {
+    texels += std::int64_t{cascade.tile[2]} * cascade.tile[3];
+  }
+  return texels;
+}
+
+/// Of a whole frame that is not encoded, its tiles drawn anew; the first one, which compiles, is not counted.
+double millisecondsOf(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec, int repeats) {
+  std::vector<double> times;
+  for (int i = 0; i <= repeats; ++i) {
+    double whole = 0;
+    for (const StageTime& stage : orFail(renderer.render(scene, spec, TileUse::drawnAnew)).report.stages) {
+      whole += stage.milliseconds;
+    }
+    if (i > 0) times.push_back(whole);
+  }
+  return median(std::move(times));
+}
+
+nlohmann::json ownRows(Renderer& renderer, const ScenePtr& scene, const nlohmann::json& spec, const Reference& truth,
+                       int repeats) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Way& way : ways()) {
+    const FrameSpec asked = specOf(spec, way.shadow);
+    auto frame = renderer.render(scene, shadowSpec(asked));
+    if (!frame) { // shadow volumes serve no masked casters
+      rows.push_back({{"name", way.name}, {"refused", frame.problems().front().detail}});
+      continue;
+    }
+    nlohmann::json row = rowOf(way.name, truth, std::get<std::vector<float>>(frame->images.front().image.pixels));
+    row["texels"] = texelsOf(frame->report);
+    row["milliseconds"] = millisecondsOf(renderer, scene, asked, repeats);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+int run(const std::string& sceneFile, const std::string& specFile, const std::vector<std::string>& pictures,
+        int repeats) {
+  const nlohmann::json spec = nlohmann::json::parse(testing::readFile(specFile));
+  const ScenePtr scene = orFail(loadScene({testing::readFile(sceneFile), {}}));
+  Truth truth = truthOf(scene, specOf(spec, nlohmann::json::object()));
+  const std::uint64_t receivers = receiversOf(truth.reference);
+
+  std::vector<std::pair<std::string, OtherPicture>> others;
+  Alignment worst;
+  for (const std::string& each : pictures) {
+    const std::size_t split = each.find('=');
+    if (split == std::string::npos) throw Failure(each + " is no NAME=FILE.\n");
+    auto picture = readOtherPicture(each.substr(split + 1), truth.reference.surface.size());
+    if (!picture) throw Failure(each + ": there is no picture of that size.\n");
+    const Alignment alignment = alignmentOf(truth.reference, truth.frame.view, truth.anchor, picture->depth);
+    leaveOut(truth.reference, alignment);
+    worst.coverage = std::max(worst.coverage, alignment.coverage);
+    worst.surface = std::max(worst.surface, alignment.surface);
+    worst.offset = std::max(worst.offset, alignment.offset);
+    others.emplace_back(each.substr(0, split), std::move(*picture));
+  }
+
+  auto renderer = orFail(Renderer::create({}));
+  nlohmann::json out = {
+      {"device", renderer.info().renderer},        {"width", truth.reference.width},
+      {"height", truth.reference.height},          {"coverageDiffers", worst.coverage},
+      {"surfaceDiffers", worst.surface},           {"surfaceOffset", worst.offset},
+      {"receivers", receiversOf(truth.reference)}, {"receiversLeftOut", receivers - receiversOf(truth.reference)}};
+  for (const auto& [name, picture] : others) out["others"].push_back(rowOf(name, truth.reference, picture.shown));
+  out["own"] = ownRows(renderer, scene, spec, truth.reference, repeats);
+  std::cout << out.dump(1) << '\n';
+  return 0;
+}
+
+} // namespace
+} // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  CLI::App app{"Errors of shadows that other renderers drew, and of Gnomon's own, as JSON."};
+  std::string scene;
+  std::string spec;
+  std::vector<std::string> pictures;
+  int repeats = 5;
+  app.add_option("--scene", scene, "A GLB")->required();
+  app.add_option("--spec", spec, "A request with one light; `shadow` and `antialiasing` are set here")->required();
+  app.add_option("--picture", pictures, "NAME=FILE, little-endian floats: S and view depth of each pixel");
+  app.add_option("--repeats", repeats, "Timed frames of each technique")->check(CLI::Range(1, 100));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return gnomon::bench::run(scene, spec, pictures, repeats);
+  } catch (const gnomon::bench::Failure& failure) {
+    std::cerr << failure.what();
+    return 1;
+  }
+}
