@@ -3,8 +3,8 @@
 
 usage: to_readme.py NAME RESULT [README]      exit status 1 and one line where markers are missing
 
-RESULT is the Markdown that a benchmark wrote. What stands there between <!-- readme --> and <!-- /readme --> goes between
-<!-- NAME --> and <!-- /NAME --> of the README, its links turned so that they lead from there.
+RESULT is the Markdown that a benchmark wrote. What stands there between <!-- readme --> and <!-- /readme --> goes
+between <!-- NAME --> and <!-- /NAME --> of the README, its links turned so that they lead from there.
 """
 
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""to_readme.py puts the marked part in its place, with links that lead from there, and refuses files without markers."""
+"""to_readme.py has to put the marked part in its place, turn its links, and refuse files without markers."""
 
 import unittest
 

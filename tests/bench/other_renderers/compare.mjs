@@ -70,7 +70,8 @@ async function compare(browser, one) {
   const ours = own.map(({ name, texels, refused, metrics, milliseconds }) => (
     { renderer: 'Gnomon', settings: name, texels, refused, metrics, milliseconds }));
   const { name, says, scene } = one;
-  return { device, revision, graphics, result: { name, says, scene, ...about, rows: [...ours, ...leastWrong(theirs)] } };
+  const rows = [...ours, ...leastWrong(theirs)];
+  return { device, revision, graphics, result: { name, says, scene, ...about, rows } };
 }
 
 fs.mkdirSync(work, { recursive: true });
@@ -88,9 +89,9 @@ try {
   await browser.close();
 }
 const rounded = (key, value) => (Number.isInteger(value) || !Number.isFinite(value) ? value : +value.toPrecision(6));
-const rows = ({ rows: all, ...one }) => `${JSON.stringify(one, rounded).slice(0, -1)},"rows":[\n${
+const lines = ({ rows: all, ...one }) => `${JSON.stringify(one, rounded).slice(0, -1)},"rows":[\n${
   all.map((row) => `  ${JSON.stringify(row, rounded)}`).join(',\n')}]}`;
 const { cases, ...about } = report;
 fs.writeFileSync(path.join(output, 'other_renderers.json'),
-  `${JSON.stringify(about).slice(0, -1)},"cases":[\n${cases.map(rows).join(',\n')}]}\n`);
+  `${JSON.stringify(about).slice(0, -1)},"cases":[\n${cases.map(lines).join(',\n')}]}\n`);
 fs.writeFileSync(path.join(output, 'other_renderers.md'), markdownOf(report));

@@ -26,7 +26,8 @@ const kColumns = {
 };
 
 function hardTable(cases) {
-  const columns = Object.entries(kColumns).flatMap(([renderer, all]) => all.map((settings) => ({ renderer, settings })));
+  const columns = Object.entries(kColumns)
+    .flatMap(([renderer, all]) => all.map((settings) => ({ renderer, settings })));
   const lines = cases.map(({ name, rows }) => {
     const cells = columns.map((column) => {
       const row = rows.find((each) => each.renderer === column.renderer && each.settings === column.settings);
@@ -43,23 +44,25 @@ function alignmentText(cases) {
   const left = Math.max(...cases.map(({ receivers, receiversLeftOut }) =>
     (receivers ? receiversLeftOut / (receivers + receiversLeftOut) : 0)));
   const offset = Math.max(...cases.map(({ surfaceOffset }) => surfaceOffset));
-  return `Surfaces lie ${offset.toFixed(2)} pixels' widths or less apart in the median of every picture. Of none do more than ${most('coverageDiffers')} % of the pixels show a surface in one renderer only, or `
-    + `more than ${most('surfaceDiffers')} % another surface; such pixels do not count, at most ${percent(left)} % of a `
-    + 'picture\'s receivers.';
+  return `Surfaces lie ${offset.toFixed(2)} pixels' widths or less apart in the median of every picture. Of none do `
+    + `more than ${most('coverageDiffers')} % of the pixels show a surface in one renderer only, or more than `
+    + `${most('surfaceDiffers')} % another surface; such pixels do not count, at most ${percent(left)} % of `
+    + 'a picture\'s receivers.';
 }
 
 export function markdownOf(report) {
   const [common, ...hard] = report.cases;
   const graphics = report.threejs.graphics.includes('SwiftShader') ? 'SwiftShader' : report.threejs.graphics;
+  const about = `Gnomon on ${report.gnomon.device}; three.js r${report.threejs.revision} in headless Chromium `
+    + `${report.chromium.split('.')[0]}, WebGL 2 on ${graphics}; both on ${report.cores} cores. ${common.says}, `
+    + `${common.width} x ${common.height}, antialiasing none:`;
   return `# Against another renderer
 
 Made by \`tests/bench/other_renderers/run\`.
 
 <!-- readme -->
 
-Gnomon on ${report.gnomon.device}; three.js r${report.threejs.revision} in headless Chromium
-${report.chromium.split('.')[0]}, WebGL 2 on ${graphics}; both on ${report.cores} cores. ${common.says},
-${common.width} x ${common.height}, antialiasing none:
+${about}
 
 ${commonTable(common)}
 
