@@ -37,8 +37,8 @@ AccuracySums::AccuracySums(const std::vector<Variant>& variants) {
   }
 }
 
-void AccuracySums::add(const std::string& scene, const EvaluationReport& report) {
-  const EvaluationRow& first = report.rows.front();
+void AccuracySums::add(const std::string& scene, const std::vector<EvaluationRow>& rows) {
+  const EvaluationRow& first = rows.front();
   if (!first.metrics || !first.milliseconds || first.metrics->receivers == 0) return;
   names_.push_back(scene);
   First& kept = firsts_.emplace_back();
@@ -47,7 +47,7 @@ void AccuracySums::add(const std::string& scene, const EvaluationReport& report)
   if (first.metrics->predicted) kept.predicted = first.metrics->predicted->edgeDisplacement;
   if (first.metrics->predicted) kept.texels = first.metrics->predicted->median;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const EvaluationRow& row = report.rows[i];
+    const EvaluationRow& row = rows[i];
     Sum& sum = sums_[i];
     if (!row.metrics || !row.milliseconds) {
       ++sum.refused;

@@ -14,7 +14,7 @@ class AccuracySums {
   explicit AccuracySums(const std::vector<Variant>& variants);
 
   /// Left out where the first variant could not be measured, or no pixel is a receiver.
-  void add(const std::string& scene, const EvaluationReport& report);
+  void add(const std::string& scene, const std::vector<EvaluationRow>& rows);
 
   std::size_t scenes() const { return names_.size(); }
 
