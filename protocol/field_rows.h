@@ -57,7 +57,10 @@ inline constexpr auto kRows<Debug> =
                 .range = {0, kLimits.maxLights - 1.0}}),
          field("tile", &Debug::tile,
                {.says = "Which of its tiles the view `tile` shows: a cascade or a face.",
-                .range = {0, kLimits.maxCascades - 1.0}}));
+                .range = {0, kLimits.maxCascades - 1.0}}),
+         field("predictEdges", &Debug::predictEdges,
+               {.says = "The report says, without rays, how far the edges of its shadow map are expected to be off: "
+                        "`predictedError.edgeDisplacement`. Takes about as long as shading twice."}));
 static_assert(kRowsAreComplete<Debug>);
 
 template <>

@@ -31,6 +31,7 @@ struct Background {
 struct Debug {
   std::optional<int> light{}; ///< index into the lights; absent = the first that casts in this frame, or else the first
   int tile = 0;               ///< of that light: a cascade, or a face
+  bool predictEdges = false;  ///< the report says how far the edges of its shadow are expected to be off
 
   bool operator==(const Debug&) const = default;
 };

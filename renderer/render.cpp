@@ -4,6 +4,7 @@
 
 #include "renderer/evaluation/shimmer.h"
 #include "renderer/frame/draw_views.h"
+#include "renderer/frame/error_views.h"
 #include "renderer/frame/frame_data.h"
 #include "renderer/frame/gpu_scene_cache.h"
 #include "renderer/frame/make_report.h"
@@ -165,7 +166,7 @@ Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, Til
   }
 
   std::optional<MeasuredShadow> measured;
-  if (drawn->besides.contains(View::shadow)) {
+  if (std::any_of(effective.views.begin(), effective.views.end(), isErrorView)) {
     auto traced = impl_->traced.get(scene, resolved->scene);
     if (!traced) return traced.problems();
     auto made = measureShadow(*resolved, **traced, subject->light, readFullShadow(*drawn));

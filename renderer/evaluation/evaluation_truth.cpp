@@ -41,7 +41,7 @@ FrameSpec shadowSpec(const Subject& subject, int light) {
   for (Light& each : *spec.lights) each.shadow->strength = 1;
   spec.antialiasing = Antialiasing::none;
   spec.views = {View::shadow};
-  spec.debug = {light, 0};
+  spec.debug = {light, 0, true};
   spec.output.format = ImageFormat::exr;
   return spec;
 }

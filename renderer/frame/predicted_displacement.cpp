@@ -101,33 +101,15 @@ std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int 
   return sum;
 }
 
-namespace {
-
-/// The debug light's shadow at full strength; empty where no view has it as numbers.
-std::vector<float> shownShadow(const DrawnViews& drawn, const FrameSpec& spec, int light) {
-  if (drawn.besides.contains(View::shadow)) return readFullShadow(drawn);
-  const auto view = std::find(spec.views.begin(), spec.views.end(), View::shadow);
-  const double strength = (*spec.lights)[static_cast<std::size_t>(light)].shadow->strength;
-  if (spec.output.format != ImageFormat::exr || view == spec.views.end() || !(strength > 0)) return {};
-  Image image = readView(drawn.views[static_cast<std::size_t>(view - spec.views.begin())], View::shadow, false, true);
-  auto shown = std::get<std::vector<float>>(std::move(image.pixels));
-  for (float& value : shown) value = static_cast<float>(1 - (1 - value) / strength);
-  return shown;
-}
-
-} // namespace
-
 Result<std::optional<PredictedDisplacement>> predictDisplacement(const PassInputs& inputs, const ViewInputs& shading,
                                                                  const ShadowPlan& plan, const DrawnViews& drawn) {
   using Predicted = std::optional<PredictedDisplacement>;
-  if (shading.debugLight < 0) return Predicted{};
+  if (!shading.spec.debug.predictEdges || shading.debugLight < 0) return Predicted{};
   const shared::LightData& light = shading.lights[static_cast<std::size_t>(shading.debugLight)];
   if (light.tiles.x == 0 || light.tiles.w > 0) return Predicted{};
-  const std::vector<float> shown = shownShadow(drawn, shading.spec, shading.debugLight);
-  if (shown.empty()) return Predicted{};
   const auto footprints = mapFootprints(inputs, shading, drawn.surfaces.at(1));
   if (!footprints) return footprints.problems();
-  return displacementOf(inputs.camera, inputs.width, inputs.height, *footprints, shown,
+  return displacementOf(inputs.camera, inputs.width, inputs.height, *footprints, readFullShadow(drawn),
                         std::span(plan.tiles).subspan(light.tiles.z, light.tiles.x), shading.spec.atlas.samples);
 }
 

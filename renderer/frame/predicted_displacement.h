@@ -24,8 +24,7 @@ std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int 
                                                     std::span<const float> shown, std::span<const ShadowTile> tiles,
                                                     int atlasSamples);
 
-/// The same of a frame's debug light. Absent, too, where the frame shows its shadow nowhere as numbers, or no map makes
-/// it.
+/// The same of a frame's debug light. Absent, too, where the frame doesn't ask, or no map makes that light's shadow.
 Result<std::optional<PredictedDisplacement>> predictDisplacement(const PassInputs& inputs, const ViewInputs& shading,
                                                                  const ShadowPlan& plan, const DrawnViews& drawn);
 
