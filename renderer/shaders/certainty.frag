@@ -79,8 +79,8 @@ float verdictOf(Sample seen) {
   for (int y = 0; y <= 1; ++y) {
     for (int x = 0; x <= 1; ++x) {
       ivec2 texel = cell + ivec2(x, y);
-      vec2 across = ((vec2(texel) + 0.5) / size - at.xy) / tile.bias.zw;
-      float apart = length(across);
+      vec2 across = vec2(texel) + 0.5 - at.xy * size;
+      float apart = length(across / (tile.bias.zw * size));
       float plane = at.z + dot(slope, across);
       float depth = texelFetch(atlasDepths, texel, 0).r;
       float slack = rounding + unevenness * apart;

@@ -15,19 +15,26 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #else
   int kind = int(light.sampling.x);
 #endif
+  vec2 slope = comparedSlope(light, tile, receiver);
 #ifdef FILTER_MOMENTS
-  if (kind >= GNOMON_FILTER_VSM) return momentVisibility(at.coordinate.xy, momentDepth(tile, at), kind);
+  if (kind >= GNOMON_FILTER_VSM) {
+    return momentVisibility(at.coordinate.xy, momentDepth(tile, at, bendRoom(light, tile, at, slope, 1.0)), kind);
+  }
 #endif
-  at.coordinate.z = clamp(at.coordinate.z, 0.0, 1.0);
 #ifdef FILTER_DISC
-  if (kind == GNOMON_FILTER_DISC) return discVisibility(tile, receiver, at, light.sampling.y, light.position.xyz);
+  if (kind == GNOMON_FILTER_DISC) {
+    vec2 radius = light.sampling.y * tile.bias.zw * atlasTexelCount() / at.divisor;
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + max(radius.x, radius.y));
+    return discVisibility(tile, at, slope, light.sampling.y);
+  }
 #endif
 #ifdef FILTER_SIZE
   const int size = FILTER_SIZE; // all lights have the same
 #else
   int size = int(light.tiles.y);
 #endif
-  return kernelVisibility(at.coordinate, size);
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5 * float(size + 1));
+  return kernelVisibility(at.coordinate.xy * atlasTexelCount(), PlaneDepths(at.coordinate.z, slope), size);
 }
 
 // A face turned away from the light, or along it to within rounding, shadows itself.

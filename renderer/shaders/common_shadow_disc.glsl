@@ -1,6 +1,4 @@
-// Percentage-closer filtering over a disc of the world, each tap held against the receiver's own plane: the plane takes
-// the bias' place, so that a wide disc lifts no shadow off its caster.
-// (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006.)
+// Percentage-closer filtering over a disc of the world.
 #ifdef FILTER_DISC
 const int kDiscTaps = 32;
 
@@ -13,8 +11,8 @@ const int kDiscTaps = 32;
 // (Jimenez, "Next Generation Post Processing in Call of Duty", 2014: interleaved gradient noise.)
 float discTurn() { return 6.2831853 * fract(52.9829189 * fract(dot(SHADED_PIXEL, vec2(0.06711056, 0.00583715)))); }
 
-float discVisibility(TileData tile, Receiver receiver, Lookup at, float radius, vec3 lightPosition) {
-  vec2 slope = receiverSlope(tile, receiver, lightPosition);
+float discVisibility(TileData tile, Lookup at, vec2 slope, float radius) {
+  vec2 texels = atlasTexelCount();
 #ifdef PUNCTUAL
   if (!isParallel(tile)) radius = min(radius / at.divisor, 0.5); // kWidestTangent of renderer/shadow/fit.h
 #endif
@@ -26,8 +24,8 @@ float discVisibility(TileData tile, Receiver receiver, Lookup at, float radius, 
     vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(kDiscTaps)));
     vec2 place = at.coordinate.xy + step * tile.bias.zw;
     bool outside = any(lessThan(place, tile.bounds.xy)) || any(greaterThan(place, tile.bounds.zw));
-    float depth = clamp(at.coordinate.z + dot(slope, step), 0.0, 1.0);
-    sum += outside ? 1.0 : tapVisibility(vec3(place, depth));
+    float depth = at.coordinate.z + dot(slope, (place - at.coordinate.xy) * texels);
+    sum += outside ? 1.0 : tapVisibility(place * texels, PlaneDepths(depth, slope));
   }
   return sum / float(kDiscTaps);
 }

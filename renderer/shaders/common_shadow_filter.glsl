@@ -1,67 +1,91 @@
-// Comparisons with the depths of the shadow atlas.
+// Comparisons with the depths of the shadow atlas. The receiver's plane is held against each texel at that texel's place, so
+// that a surface does not shadow itself however wide the kernel. (Isidoro, "Shadow Mapping: GPU-based Tips and
+// Techniques", GDC 2006.)
+
+// The depths of the receiver's plane.
+struct PlaneDepths {
+  float depth; // at the place that is looked up
+  vec2 slope;  // with each texel
+};
+
+// The plane as depths of the map: where nothing is drawn that is 1, and what lies before the first depth is drawn at 0.
+vec4 mapDepths(vec4 plane) { return clamp(plane, 0.0, 1.0); }
+
 #if ATLAS_SAMPLES > 1
 layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DMS atlas;
 
-// Share of a texel's samples that are no nearer to the light. A texel that lies beside the lookup weighs as one under it.
-float tapVisibility(vec3 coordinate) {
-  ivec2 texel = ivec2(coordinate.xy * vec2(textureSize(atlas)));
+vec2 atlasTexelCount() { return vec2(textureSize(atlas)); }
+
+// Share of a texel's samples that are no nearer to the light than the plane: a sample may lie half a texel off the centre.
+float texelVisibility(ivec2 texel, vec2 offset, PlaneDepths plane) {
   vec4 depths = vec4(texelFetch(atlas, texel, 0).r, texelFetch(atlas, texel, 1).r, texelFetch(atlas, texel, 2).r,
                      texelFetch(atlas, texel, 3).r);
-  return dot(step(vec4(coordinate.z), depths), vec4(0.25));
+  float held = plane.depth + dot(plane.slope, offset) - 0.5 * (abs(plane.slope.x) + abs(plane.slope.y));
+  return dot(step(mapDepths(vec4(held)), depths), vec4(0.25));
 }
 
-float kernelVisibility(vec3 coordinate, int size) {
-  vec2 texel = 1.0 / vec2(textureSize(atlas));
+// A texel that lies beside the place weighs as one under it. `place` is in texels.
+float kernelVisibility(vec2 place, PlaneDepths plane, int size) {
+  ivec2 middle = ivec2(place);
   int reach = size / 2;
   float sum = 0.0;
   for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) sum += tapVisibility(vec3(coordinate.xy + vec2(x, y) * texel, coordinate.z));
+    for (int x = -reach; x <= reach; ++x) {
+      ivec2 texel = middle + ivec2(x, y);
+      sum += texelVisibility(texel, vec2(texel) + 0.5 - place, plane);
+    }
   }
   return sum / float(size * size);
 }
+
+float tapVisibility(vec2 place, PlaneDepths plane) { return kernelVisibility(place, plane, 1); }
 #else
-layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DShadow atlas;
+layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2D atlas;
 
-// One comparison, bilinear.
-float tapVisibility(vec3 coordinate) { return textureLod(atlas, coordinate, 0.0); }
+vec2 atlasTexelCount() { return vec2(textureSize(atlas, 0)); }
 
-// Kernels of 3, 5 and 7 bilinear comparisons a side, merged into (size + 1) / 2 lookups a side: the kernel, convolved
-// with the bilinear weights, gives size + 1 texel weights; neighbours share a lookup placed at their centre of mass.
-// (Castano, "Shadow Mapping Summary", 2013.)
-void lookups(int size, float fraction, out vec4 offsets, out vec4 weights) {
-  float kernel[9] = float[9](0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+// 1 for each of the four texels around `corner` (texels; where they meet) that is no nearer to the light than the plane, in
+// the order of textureGather: upper left, upper right, lower right, lower left. `depth` is the plane's at the corner.
+vec4 litAround(vec2 corner, float depth, vec2 slope) {
+  vec4 plane = depth + 0.5 * (slope.x * vec4(-1.0, 1.0, 1.0, -1.0) + slope.y * vec4(1.0, 1.0, -1.0, -1.0));
+  return step(mapDepths(plane), textureGather(atlas, corner / atlasTexelCount()));
+}
+
+// Weights of a kernel of 1, 3, 5 or 7 bilinear comparisons a side, each the next one's neighbour: size + 1 texels, in pairs.
+void kernelWeights(int size, float fraction, out vec2 pairs[4]) {
+  float kernel[9] = float[9](0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+  if (size == 3) kernel = float[9](0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
   if (size == 5) kernel = float[9](0.0, 1.0, 3.0, 4.0, 3.0, 1.0, 0.0, 0.0, 0.0);
   if (size == 7) kernel = float[9](0.0, 1.0, 5.0, 12.0, 16.0, 12.0, 5.0, 1.0, 0.0);
   for (int i = 0; i < 4; ++i) {
-    float low = mix(kernel[2 * i + 1], kernel[2 * i], fraction);
-    float high = mix(kernel[2 * i + 2], kernel[2 * i + 1], fraction);
-    weights[i] = low + high;
-    offsets[i] = weights[i] > 0.0 ? float(2 * i) + high / weights[i] : 0.0;
+    pairs[i] = vec2(mix(kernel[2 * i + 1], kernel[2 * i], fraction), mix(kernel[2 * i + 2], kernel[2 * i + 1], fraction));
   }
 }
 
-float kernelVisibility(vec3 coordinate, int size) {
-  if (size <= 1) return tapVisibility(coordinate);
-  vec2 atlasSize = vec2(textureSize(atlas, 0));
-  vec2 step = 1.0 / atlasSize; // exact: sides are powers of two
-  vec2 texel = coordinate.xy * atlasSize;
-  vec2 base = floor(texel - 0.5);
-  vec2 fraction = texel - 0.5 - base;
-  vec4 offsetsX, offsetsY, weightsX, weightsY;
-  lookups(size, fraction.x, offsetsX, weightsX);
-  lookups(size, fraction.y, offsetsY, weightsY);
-  // The centre of the first texel that the kernel touches.
-  vec2 first = base - float(size / 2) + 0.5;
+// `place` is in texels.
+float kernelVisibility(vec2 place, PlaneDepths plane, int size) {
+  vec2 base = floor(place - 0.5);
+  vec2 fraction = place - 0.5 - base;
+  vec2 weightsX[4];
+  vec2 weightsY[4];
+  kernelWeights(size, fraction.x, weightsX);
+  kernelWeights(size, fraction.y, weightsY);
+  vec2 first = base - float(size / 2) + 1.0; // the first corner
+  float depth = plane.depth + dot(plane.slope, first - place);
   int count = (size + 1) / 2;
   float sum = 0.0;
   float weight = 0.0;
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
-      float w = weightsX[x] * weightsY[y];
-      sum += w * tapVisibility(vec3((first + vec2(offsetsX[x], offsetsY[y])) * step, coordinate.z));
-      weight += w;
+      vec2 step_ = 2.0 * vec2(x, y);
+      vec4 weights = weightsX[x].xyyx * weightsY[y].yyxx;
+      sum += dot(weights, litAround(first + step_, depth + dot(plane.slope, step_), plane.slope));
+      weight += dot(weights, vec4(1.0));
     }
   }
   return sum / weight;
 }
+
+// One comparison, bilinear.
+float tapVisibility(vec2 place, PlaneDepths plane) { return kernelVisibility(place, plane, 1); }
 #endif

@@ -68,18 +68,36 @@ bool isParallel(TileData tile) {
 #endif
 }
 
-// How the tile's depth changes on the receiver's plane with each length across: metres, or tangents from a point.
+// How the tile's depth changes on the receiver's plane with each texel.
 vec2 receiverSlope(TileData tile, Receiver receiver, vec3 lightPosition) {
-  vec3 axis = tile.axis.xyz;
-  vec3 right = tile.atlasFromRelative[0].xyz;
-  vec3 up = tile.atlasFromRelative[1].xyz;
-  right = normalize(right - axis * dot(right, axis));
-  up = normalize(up - axis * dot(up, axis));
-  vec2 across = vec2(dot(receiver.normal, right), dot(receiver.normal, up));
-  if (isParallel(tile)) {
-    return across / -min(dot(receiver.normal, axis), -1e-4) * dot(tile.atlasFromRelative[2].xyz, axis);
-  }
+  vec2 across = vec2(dot(receiver.normal, tile.right.xyz), dot(receiver.normal, tile.up.xyz));
+  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis.xyz), -1e-4);
   // z is a line in 1 / distance, and so is 1 / distance in the tangents of a plane.
-  float plane = min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6);
-  return across * (-tile.interval.x * tile.interval.z / ((tile.interval.z - tile.interval.x) * plane));
+  return across / min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6);
+}
+
+// The slope that comparisons follow: none where the light's own bias says all.
+vec2 comparedSlope(LightData light, TileData tile, Receiver receiver) {
+#ifdef MANUAL_BIAS
+  if (light.bias.w > 0.0) return vec2(0.0);
+#endif
+  return receiverSlope(tile, receiver, light.position.xyz);
+}
+
+// By how much a surface may rise over the receiver's plane within a texel and not shadow it, z: where it bends by up to
+// kBendAngle radians, but no more than the plane itself rises on kBendTexels; and what a normal of 16 bits an axis may lean
+// on the way to the farthest texel, `reach` away, which is more where the light all but grazes the surface.
+const float kBendAngle = 0.1;
+const float kBendTexels = 0.3;
+const float kNormalRounding = 2e-4;
+
+float bendRoom(LightData light, TileData tile, Lookup at, vec2 slope, float reach) {
+#ifdef MANUAL_BIAS
+  if (light.bias.w > 0.0) return 0.0;
+#endif
+  // With the depth that a texel's width is worth: tan(a + bend) - tan(a) is about bend (1 + tan(a)^2).
+  float texel = tile.right.w / at.divisor;
+  float bent = texel + dot(slope, slope) / max(texel, 1e-30);
+  float most = kBendTexels * (texel + abs(slope.x) + abs(slope.y));
+  return max(min(kBendAngle * bent, most), kNormalRounding * reach * bent);
 }

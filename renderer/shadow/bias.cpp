@@ -7,7 +7,6 @@ namespace gnomon {
 namespace {
 
 constexpr double kFloatRounding = 0x1p-24; ///< of a float operation, relative; also the step of floats below 1
-constexpr double kSubpixel = 1.0 / 32.0;   ///< texels
 
 } // namespace
 
@@ -16,15 +15,7 @@ FilterKernel kernelOf(const Filter& filter) {
   const double reach = 0.5 * ((bySize ? filter.size : 1) + 1);
   const double radius = filter.type == FilterType::hard ? 0.0 : filter.radius.value_or(0.0);
   const bool compared = filter.type == FilterType::hard || filter.type == FilterType::pcf;
-  return {reach, static_cast<int>(std::ceil(reach)) + 1, radius, compared && radius > 0, !compared};
-}
-
-double radiusOffset(const FilterKernel& kernel) {
-  return kernel.followsPlane ? 0.0 : std::sqrt(2.0) * kernel.radius;
-}
-
-double biasReach(const FilterKernel& kernel) {
-  return kernel.reach + kSubpixel + kTexelNoise;
+  return {reach, static_cast<int>(std::ceil(reach)) + 1, radius, !compared};
 }
 
 double finestTexel(double magnitude) {
@@ -35,8 +26,8 @@ double normalOffset(double reach, const glm::dvec2& texelSize) {
   return reach * std::hypot(texelSize.x, texelSize.y);
 }
 
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset) {
-  const double c = std::min(normalOffset(reach, texelSize) + radiusOffset, 0.5);
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize) {
+  const double c = std::min(normalOffset(reach, texelSize), 0.5);
   return c / (1.0 - c);
 }
 

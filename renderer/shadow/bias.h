@@ -17,23 +17,20 @@ struct FilterKernel {
   /// Texels that a tile keeps on each side, so that a lookup at the edge of what it serves stays inside: the reach, the
   /// half texel between a centre and its edge, and the rest of a texel for the rounding of coordinates.
   int border = 2;
-  double radius = 0; ///< metres around the point that are read besides; 0 = none
-  /// Each tap is held against the receiver's own plane, so that the radius needs no bias.
-  bool followsPlane = false;
+  double radius = 0;    ///< metres around the point that are read besides; 0 = none
   bool moments = false; ///< the map's depths are blurred, not compared one by one
 };
 
 FilterKernel kernelOf(const Filter& filter);
 
-/// Metres of normal offset that a kernel's radius needs: to the corner of the square that it blurs.
-double radiusOffset(const FilterKernel& kernel);
-
-/// The kernel's reach as the bias must cover it: a texel's depth belongs to its centre only to within the rasterizer's
-/// grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a float position finds its texel to within kTexelNoise.
-double biasReach(const FilterKernel& kernel);
-
 /// Texels of error in a lookup's position, at most: see finestTexel.
 inline constexpr double kTexelNoise = 1.0 / 32.0;
+
+/// Texels that the bias covers. A comparison holds the receiver's plane against each texel at that texel's centre, and
+/// the mean depth over a kernel is the plane's in its middle, so the kernel's reach needs none. But a texel's depth
+/// belongs to its centre only to within the rasterizer's grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a
+/// float position finds its texel to within kTexelNoise.
+inline constexpr double kBiasReach = 1.0 / 32.0 + kTexelNoise;
 
 /// The smallest texel, metres, in which positions of this size (metres from the eye) can be found to within
 /// kTexelNoise: interpolation and transform lose a few 2^-24 of the position.
@@ -50,9 +47,8 @@ double normalOffset(double reach, const glm::dvec2& texelSize);
 /// sin(angle between normal and that direction). `texelSize` is in metres a metre. Texels lie in planes across the
 /// direction, and all that lies between the light and a point on the lit side of a plane is on that side: so the
 /// argument above holds with the direction in the light's place. A moved receiver may be farther from the light by as
-/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize) + radiusOffset; the
-/// latter in metres a metre, too.
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset = 0);
+/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize).
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize);
 
 /// The metres along the normal that a manual bias asks for; none for an automatic one.
 std::optional<double> manualOffset(const Bias& bias);

@@ -10,9 +10,15 @@ int innerTexels(const FitTarget& target) {
   return target.tileSize - 2 * target.kernel.border;
 }
 
+/// A receiver's plane is held against texels beside it, where it may lie nearer to the light than any receiver. This
+/// much nearer, metres or metres a metre, it still has a depth of its own: up to a tangent of 3 to the light.
+double planeRoom(const FitTarget& target, const glm::dvec2& texelSize) {
+  return 3.0 * normalOffset(target.kernel.reach, texelSize);
+}
+
 /// Room for a receiver that is moved along its normal, for rounding, and for the quantum of the depth.
-double depthMargin(double depthLength, double normalOffset, double magnitude) {
-  return normalOffset + 2.0 * depthRounding(magnitude) + 0x1p-20 * depthLength;
+double depthMargin(double depthLength, double moved, double magnitude) {
+  return moved + 2.0 * depthRounding(magnitude) + 0x1p-20 * depthLength;
 }
 
 /// How far before the nearest receiver the depths of a blurred map begin: a caster farther off is flattened onto that
@@ -22,12 +28,12 @@ double clearance(const FitTarget& target, double depthLength, double width) {
 }
 
 /// The normal offset N of a box of `extent` metres on `inner` texels that must have room for N on every side:
-/// N = c hypot(extent.x + 2 N, extent.y + 2 N) + constant with c = reach / inner, solved for N.
-double offsetWithRoom(const glm::dvec2& extent, double reach, int inner, double constant) {
+/// N = c hypot(extent.x + 2 N, extent.y + 2 N) with c = reach / inner, solved for N.
+double offsetWithRoom(const glm::dvec2& extent, double reach, int inner) {
   const double c2 = reach * reach / (static_cast<double>(inner) * inner);
   const double a = 1.0 - 8.0 * c2;
-  const double halfB = constant + 2.0 * c2 * (extent.x + extent.y);
-  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y) - constant * constant;
+  const double halfB = 2.0 * c2 * (extent.x + extent.y);
+  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y);
   return (halfB + std::sqrt(halfB * halfB + a * squares)) / a;
 }
 
@@ -38,15 +44,14 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   const glm::dvec3 length = receiversLs.max - receiversLs.min;
   const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finestTexel(target.reach) * inner));
 
-  const double reach = biasReach(target.kernel);
   const glm::dvec2 read = extent + 2.0 * target.kernel.radius;
   Fit fit;
   fit.radius = target.kernel.radius;
-  const double room = target.manualOffset.value_or(offsetWithRoom(read, reach, inner, radiusOffset(target.kernel)));
+  const double room = target.manualOffset.value_or(offsetWithRoom(read, kBiasReach, inner));
   fit.texelSize = (read + 2.0 * room) / static_cast<double>(inner);
-  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(kBiasReach, fit.texelSize));
   fit.lowest = glm::dvec2(receiversLs.center()) - fit.texelSize * (0.5 * target.tileSize);
-  const double margin = depthMargin(length.z, fit.normalOffset, target.magnitude);
+  const double margin = depthMargin(length.z, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
   const double clear = clearance(target, length.z, std::max(read.x, read.y));
   fit.depthNear = receiversLs.min.z - margin - clear;
   fit.depthExtent = length.z + 2.0 * margin + clear;
@@ -56,11 +61,10 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target) {
   const int inner = innerTexels(target);
-  const double reach = biasReach(target.kernel);
   // inner * texel >= 2 radii (the sphere's and the filter's) + 2 normal offsets + the step, of which rounding takes up
   // to half on either side
-  const double fixed = target.kernel.radius + target.manualOffset.value_or(radiusOffset(target.kernel));
-  const double texels = inner - snapTexels - (target.manualOffset ? 0.0 : 2.0 * std::sqrt(2.0) * reach);
+  const double fixed = target.kernel.radius + target.manualOffset.value_or(0.0);
+  const double texels = inner - snapTexels - (target.manualOffset ? 0.0 : 2.0 * std::sqrt(2.0) * kBiasReach);
   const double texel = std::max(2.0 * (sphere.radius + fixed) / texels, finestTexel(target.reach));
   const double step = snapTexels * texel;
 
@@ -69,10 +73,10 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   Fit fit;
   fit.radius = target.kernel.radius;
   fit.texelSize = glm::dvec2(texel);
-  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(kBiasReach, fit.texelSize));
   fit.lowest = glm::dvec2(snapped) - fit.texelSize * (0.5 * target.tileSize);
   const double depthLength = 2.0 * sphere.radius + step;
-  const double margin = depthMargin(depthLength, fit.normalOffset, target.magnitude);
+  const double margin = depthMargin(depthLength, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
   const double clear = clearance(target, depthLength, depthLength);
   fit.depthNear = snapped.z - 0.5 * depthLength - margin - clear;
   fit.depthExtent = depthLength + 2.0 * margin + clear;
@@ -90,7 +94,6 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
                   glm::dvec3(glm::clamp(high, -tanHalf, tanHalf), piece.max.z)});
   }
   const int inner = innerTexels(target);
-  const double reach = biasReach(target.kernel);
   const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));
 
   // What a length in metres spans, seen from the light, at the nearest receiver; a blur is one for the whole tile.
@@ -100,12 +103,11 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   fit.perspective = true;
   fit.radius =
       target.kernel.moments ? std::min(target.kernel.radius / blurred, kWidestTangent) : tangent(target.kernel.radius);
-  const double offset = target.kernel.moments ? std::sqrt(2.0) * fit.radius : 0.0;
   glm::dvec2 room(0.0);
   for (int turn = 0; turn < 16; ++turn) {
     fit.texelSize = (extent + 2.0 * (room + fit.radius)) / static_cast<double>(inner);
     fit.normalOffset =
-        target.manualOffset ? tangent(*target.manualOffset) : punctualNormalOffset(reach, fit.texelSize, offset);
+        target.manualOffset ? tangent(*target.manualOffset) : punctualNormalOffset(kBiasReach, fit.texelSize);
     // Moved by N a metre, a direction's tangent changes by up to N (1 + tangent) / (1 - N).
     const double moved = std::min(fit.normalOffset, 0.5);
     room = glm::dvec2(moved * (1.0 + tanHalf) / (1.0 - moved));
@@ -113,7 +115,8 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   fit.lowest = glm::dvec2(seen.center()) - fit.texelSize * (0.5 * target.tileSize);
   const double margin = depthMargin(seen.max.z - seen.min.z, fit.normalOffset * seen.max.z, target.magnitude);
   const double far = seen.max.z + margin;
-  const double near = seen.min.z * (1.0 - std::min(fit.normalOffset, 0.5)) - 2.0 * depthRounding(target.magnitude);
+  const double near = seen.min.z * (1.0 - std::min(fit.normalOffset + planeRoom(target, fit.texelSize), 0.5)) -
+                      2.0 * depthRounding(target.magnitude);
   const double clear = target.kernel.moments ? std::max(0.5 * near, far - near) : 0.0;
   fit.depthNear = std::max(near - clear, kNearShare * far);
   fit.depthExtent = far - fit.depthNear;

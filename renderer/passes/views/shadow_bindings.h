@@ -15,7 +15,7 @@ class ShadowBindings {
  private:
   gl::Buffer lights_;
   gl::Buffer tiles_;
-  gl::Sampler compare_;
+  gl::Sampler texels_;
   gl::Sampler blurred_;
 };
 

@@ -144,6 +144,9 @@ struct TileData {
   vec4 interval; // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
   vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor; zw: atlas u v of a length across, 1
   vec4 axis;     // xyz: where the light travels in the tile's middle
+  vec4 right; // xyz: along u, as long as the depth that one texel's width along the light is worth (parallel), or its
+              // tangent times the negative of what 1 / distance is multiplied by in depths; w: that length
+  vec4 up;    // xyz: the same along v
 };
 
 // A point of a surface, of which the light is asked.

@@ -121,8 +121,7 @@ TEST(PunctualPlan, H4_AMovedReceiverStandsClearOfItsOwnPlaneUnderTheWholeFilter)
       const double sine = glm::length(glm::cross(normal, axis));
       const glm::dvec3 moved = receiver + normal * (fit.normalOffset * depth * sine);
       const double movedDepth = glm::dot(axis, moved - caster.position);
-      const double reach = kernelOf(caster.shadow.filter).reach;
-      const glm::dvec2 step = fit.texelSize * movedDepth * reach;
+      const glm::dvec2 step = fit.texelSize * movedDepth * kBiasReach;
       const glm::dvec3 neighbour = moved - caster.position + tile.space.basis.right * (step.x * dice.between(-1, 1)) +
                                    tile.space.basis.up * (step.y * dice.between(-1, 1));
       // On the plane's lit side, so that the plane lies behind it, seen from the light.
