@@ -8,7 +8,7 @@ void enable(GLenum what, bool on) {
 }
 
 void applyNeutral() {
-  for (const GLenum off : {GL_BLEND, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_DITHER, GL_PRIMITIVE_RESTART,
+  for (const GLenum off : {GL_BLEND, GL_COLOR_LOGIC_OP, GL_DITHER, GL_PRIMITIVE_RESTART,
                            GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE,
                            GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING}) {
     glDisable(off);
@@ -45,6 +45,8 @@ void apply(const PipelineState& state) {
   glScissor(scissor.x, scissor.y, scissor.width, scissor.height);
   applyDepth(state.depth);
   applyStencil(state.stencil);
+  enable(GL_POLYGON_OFFSET_FILL, state.depthOffset != DepthOffset{});
+  glPolygonOffset(state.depthOffset.slope, state.depthOffset.steps);
   enable(GL_DEPTH_CLAMP, state.depthClamp);
   enable(GL_CULL_FACE, state.cull != Cull::none);
   glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);

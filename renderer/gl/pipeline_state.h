@@ -16,6 +16,15 @@ struct DepthState {
   bool operator==(const DepthState&) const = default;
 };
 
+/// Added to a triangle's depths: its steepest change over a pixel, and the least step that its depths can show, times
+/// these. Depth is reversed: below 0 is farther.
+struct DepthOffset {
+  float slope = 0;
+  float steps = 0;
+
+  bool operator==(const DepthOffset&) const = default;
+};
+
 /// What a fragment that fails the depth test does to the stencil; nothing else changes it.
 struct StencilState {
   GLenum frontDepthFail = GL_KEEP; ///< by the facing of its triangle
@@ -28,7 +37,7 @@ enum class Cull { none, back, front };
 enum class FrontFace { counterClockwise, clockwise };
 
 /// Everything that stands between a draw and its target. Also clears and copies depend on `scissor` and the masks.
-/// What has no member is always off or at its neutral value: blending, polygon offset, logic operation,
+/// What has no member is always off or at its neutral value: blending, logic operation,
 /// dithering, primitive restart, rasterizer discard, depth range 0..1, window origin lower left,
 /// clip depth 0..1.
 struct PipelineState {
@@ -37,6 +46,7 @@ struct PipelineState {
   std::optional<Rect> scissor;
   DepthState depth;
   std::optional<StencilState> stencil; ///< absent = off; clears of the stencil are never masked
+  DepthOffset depthOffset;
   bool depthClamp = false;
   Cull cull = Cull::none;
   FrontFace frontFace = FrontFace::counterClockwise;

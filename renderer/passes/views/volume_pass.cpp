@@ -46,6 +46,11 @@ UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool wei
   return uploaded;
 }
 
+/// A surface in the plane of a caster is not in the caster's shadow, but other corners round its depths otherwise. So
+/// near ends are drawn this much farther from the eye: corners snap to steps of 1/256 pixel, by half of one in either
+/// triangle, along both axes. What this takes out of a volume lies right behind the caster.
+constexpr gl::DepthOffset kBehindTheirPlane{-0.0078125f, -2.0f};
+
 /// Draws parts of volumes into the stencil: +1 for each back face behind the surface, -1 for each front face. Equal
 /// depth is behind, so that no surface is in the volume that begins at it.
 class VolumeDraws {
@@ -76,6 +81,7 @@ class VolumeDraws {
     if (beyond) program.defines.emplace_back("BEYOND_FAR");
     gl::PipelineState state = state_;
     state.frontFace = frontFace;
+    state.depthOffset = kBehindTheirPlane;
     state.depthClamp = beyond;
     state.clipDistances = beyond ? 1 : 0;
     return draw(caps, {{{&inputs_.gpu.positions, sizeof(glm::vec3), 0, 0}, instances()}}, false, program, state);

@@ -87,6 +87,22 @@ TEST(ShadowVolumes, N3_TheCameraMayStandInsideAVolume) {
   }
 }
 
+TEST(ShadowVolumes, N3_ASheetDoesNotShadowWhatLiesInItsPlane) {
+  // Seen from above the roof, which faces down, is not there: the top of the block is, in the same plane.
+  testing::GlbBuilder builder = shapes();
+  builder.addRoot(placed(1, {0, 0, 0}, {20, 1, 20}));
+  builder.addRoot(placed(0, {0, 1, 0}, {0.7, 1, 0.7}));
+  nlohmann::json roof = placed(1, {0.13, 2, 0.27}, {1.9, 1, 1.7});
+  roof["rotation"] = {1, 0, 0, 0};
+  builder.addRoot(roof);
+  const ScenePtr scene = testing::sceneOf(builder);
+  for (const Json& light : {testLights().sun, testLights().lowSun, testLights().point}) {
+    const Difference found = difference(scene, volumeSpec(light, cameraFrom({3, 6, 5}, {0, 1.5, 0})));
+    EXPECT_EQ(found.elsewhere, 0u) << light;
+    EXPECT_GT(found.shadowed, 100u) << light;
+  }
+}
+
 TEST(ShadowVolumes, N3_TheCameraMayStandInsideACaster) {
   // A box that reaches into the floor; seen from inside of it, its own faces are culled, and its inside is dark.
   testing::GlbBuilder builder = boxOverFloor();
