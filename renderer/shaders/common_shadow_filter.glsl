@@ -8,8 +8,8 @@ struct PlaneDepths {
   vec2 slope;  // with each texel
 };
 
-// The plane as depths of the map: where nothing is drawn that is 1, and what lies before the first depth is drawn at 0.
-vec4 mapDepths(vec4 plane) { return clamp(plane, 0.0, 1.0); }
+// The plane as depths of the map: where nothing is drawn that is 1. All that lies before the first depth is drawn at 0.
+vec4 mapDepths(vec4 plane) { return min(plane, 1.0); }
 
 #if ATLAS_SAMPLES > 1
 layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DMS atlas;
@@ -44,17 +44,28 @@ layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2D atlas;
 
 vec2 atlasTexelCount() { return vec2(textureSize(atlas, 0)); }
 
-// 1 for each of the four texels around `corner` (texels; where they meet) that is no nearer to the light than the plane, in
-// the order of textureGather: upper left, upper right, lower right, lower left. `depth` is the plane's at the corner.
-vec4 litAround(vec2 corner, float depth, vec2 slope) {
-  vec4 plane = depth + 0.5 * (slope.x * vec4(-1.0, 1.0, 1.0, -1.0) + slope.y * vec4(1.0, 1.0, -1.0, -1.0));
-  return step(mapDepths(plane), textureGather(atlas, corner / atlasTexelCount()));
+// The plane's rise from where four texels meet to each of them, in the order of textureGather: upper left, upper right,
+// lower right, lower left.
+vec4 risesAround(vec2 slope) {
+  return 0.5 * (slope.x * vec4(-1.0, 1.0, 1.0, -1.0) + slope.y * vec4(1.0, 1.0, -1.0, -1.0));
 }
 
-// Weights of a kernel of 1, 3, 5 or 7 bilinear comparisons a side, each the next one's neighbour: size + 1 texels, in pairs.
+// 1 for each of the four that is no nearer to the light than the plane. `corner` is where they meet, in the atlas.
+vec4 litAround(vec2 corner, vec4 plane) { return step(mapDepths(plane), textureGather(atlas, corner)); }
+
+// One comparison, bilinear.
+float tapVisibility(vec2 place, PlaneDepths plane) {
+  vec2 corner = floor(place - 0.5) + 1.0;
+  vec2 fraction = place + 0.5 - corner;
+  vec4 held = plane.depth + dot(plane.slope, corner - place) + risesAround(plane.slope);
+  vec4 lit = litAround(corner / atlasTexelCount(), held);
+  vec2 rows = mix(lit.wx, lit.zy, fraction.x);
+  return mix(rows.x, rows.y, fraction.y);
+}
+
+// Weights of a kernel of 3, 5 or 7 bilinear comparisons a side, each the next one's neighbour: size + 1 texels, in pairs.
 void kernelWeights(int size, float fraction, out vec2 pairs[4]) {
-  float kernel[9] = float[9](0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-  if (size == 3) kernel = float[9](0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+  float kernel[9] = float[9](0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
   if (size == 5) kernel = float[9](0.0, 1.0, 3.0, 4.0, 3.0, 1.0, 0.0, 0.0, 0.0);
   if (size == 7) kernel = float[9](0.0, 1.0, 5.0, 12.0, 16.0, 12.0, 5.0, 1.0, 0.0);
   for (int i = 0; i < 4; ++i) {
@@ -64,6 +75,7 @@ void kernelWeights(int size, float fraction, out vec2 pairs[4]) {
 
 // `place` is in texels.
 float kernelVisibility(vec2 place, PlaneDepths plane, int size) {
+  if (size <= 1) return tapVisibility(place, plane);
   vec2 base = floor(place - 0.5);
   vec2 fraction = place - 0.5 - base;
   vec2 weightsX[4];
@@ -71,21 +83,19 @@ float kernelVisibility(vec2 place, PlaneDepths plane, int size) {
   kernelWeights(size, fraction.x, weightsX);
   kernelWeights(size, fraction.y, weightsY);
   vec2 first = base - float(size / 2) + 1.0; // the first corner
-  float depth = plane.depth + dot(plane.slope, first - place);
+  vec4 held = plane.depth + dot(plane.slope, first - place) + risesAround(plane.slope);
+  vec2 texel = 1.0 / atlasTexelCount(); // exact: sides are powers of two
   int count = (size + 1) / 2;
   float sum = 0.0;
-  float weight = 0.0;
+  float weightX = 0.0;
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
-      vec2 step_ = 2.0 * vec2(x, y);
-      vec4 weights = weightsX[x].xyyx * weightsY[y].yyxx;
-      sum += dot(weights, litAround(first + step_, depth + dot(plane.slope, step_), plane.slope));
-      weight += dot(weights, vec4(1.0));
+      vec2 along = 2.0 * vec2(x, y);
+      vec4 lit = litAround((first + along) * texel, held + dot(plane.slope, along));
+      sum += weightsY[y].x * dot(weightsX[x], lit.wz) + weightsY[y].y * dot(weightsX[x], lit.xy);
     }
+    weightX += weightsX[y].x + weightsX[y].y;
   }
-  return sum / weight;
+  return sum / (weightX * weightX); // the same along both axes
 }
-
-// One comparison, bilinear.
-float tapVisibility(vec2 place, PlaneDepths plane) { return kernelVisibility(place, plane, 1); }
 #endif

@@ -11,9 +11,9 @@ int innerTexels(const FitTarget& target) {
 }
 
 /// A receiver's plane is held against texels beside it, where it may lie nearer to the light than any receiver. This
-/// much nearer, metres or metres a metre, it still has a depth of its own: up to a tangent of 3 to the light.
+/// much nearer, metres or metres a metre, it still has a depth of its own: up to a tangent of 2 to the light.
 double planeRoom(const FitTarget& target, const glm::dvec2& texelSize) {
-  return 3.0 * normalOffset(target.kernel.reach, texelSize);
+  return 2.0 * normalOffset(target.kernel.reach, texelSize);
 }
 
 /// Room for a receiver that is moved along its normal, for rounding, and for the quantum of the depth.
