@@ -1,14 +1,14 @@
 #include "renderer/scene/gltf_document.h"
 
-#include "renderer/scene/cameras.h"
-#include "renderer/scene/extension_gate.h"
-#include "renderer/scene/gltf_resources.h"
-#include "renderer/scene/gltf_schema.h"
-#include "renderer/scene/json_text.h"
-#include "renderer/scene/lights.h"
-#include "renderer/scene/model_container.h"
-#include "renderer/scene/node_transform.h"
-#include "renderer/scene/typed_model.h"
+#include "renderer/scene/checks/extension_gate.h"
+#include "renderer/scene/checks/gltf_schema.h"
+#include "renderer/scene/checks/typed_model.h"
+#include "renderer/scene/container/gltf_resources.h"
+#include "renderer/scene/container/json_text.h"
+#include "renderer/scene/container/model_container.h"
+#include "renderer/scene/graph/cameras.h"
+#include "renderer/scene/graph/lights.h"
+#include "renderer/scene/graph/node_transform.h"
 
 namespace gnomon {
 

@@ -8,8 +8,8 @@
 
 #include "protocol/limits.h"
 #include "protocol/result.h"
+#include "renderer/scene/container/resource_bytes.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/resource_bytes.h"
 #include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {

@@ -3,16 +3,16 @@
 #include <exception>
 #include <new>
 
-#include "renderer/scene/accessor_view.h"
 #include "renderer/scene/findings.h"
+#include "renderer/scene/geometry/accessor_view.h"
+#include "renderer/scene/geometry/mesh_build.h"
+#include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/gltf_document.h"
-#include "renderer/scene/image_loading.h"
-#include "renderer/scene/materials.h"
-#include "renderer/scene/mesh_build.h"
-#include "renderer/scene/mesh_source.h"
-#include "renderer/scene/node_tree.h"
-#include "renderer/scene/scene_views.h"
-#include "renderer/scene/skins.h"
+#include "renderer/scene/graph/node_tree.h"
+#include "renderer/scene/graph/scene_views.h"
+#include "renderer/scene/graph/skins.h"
+#include "renderer/scene/materials/image_loading.h"
+#include "renderer/scene/materials/materials.h"
 #include "renderer/scene/summary.h"
 
 namespace gnomon {

@@ -1,0 +1,95 @@
+#include "renderer/scene/checks/extension_gate.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kSupported{"KHR_lights_punctual", "KHR_mesh_quantization",
+                                                     "KHR_materials_emissive_strength"};
+
+struct Consequence {
+  std::string_view extension;
+  std::string_view drawn;
+};
+
+/// What happens to a file that uses, but does not require, an extension.
+constexpr std::array kConsequences{
+    Consequence{"EXT_mesh_gpu_instancing", "only one copy of each instanced mesh is drawn"},
+    Consequence{"EXT_meshopt_compression", "the uncompressed fallback buffers are used"},
+    Consequence{"EXT_texture_webp", "the fallback image is used; without one, the texture is left out"},
+    Consequence{"KHR_draco_mesh_compression", "the uncompressed fallback accessors are used"},
+    Consequence{"KHR_materials_pbrSpecularGlossiness", "the metallic-roughness values of the material are used"},
+    Consequence{"KHR_materials_transmission", "surfaces let no light through"},
+    Consequence{"KHR_materials_unlit", "unlit materials are lit like any other"},
+    Consequence{"KHR_materials_variants", "the default materials are used"},
+    Consequence{"KHR_materials_volume", "surfaces are thin and let no light through"},
+    Consequence{"KHR_node_visibility", "hidden nodes are drawn"},
+    Consequence{"KHR_texture_basisu", "the fallback image is used; without one, the texture is left out"},
+    Consequence{"KHR_texture_transform", "textures are drawn without their offset, rotation and scale"},
+};
+
+bool supported(std::string_view name) {
+  return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+}
+
+std::string consequenceOf(std::string_view name) {
+  for (const Consequence& row : kConsequences) {
+    if (row.extension == name) return std::string(row.drawn);
+  }
+  return "what it adds is not drawn";
+}
+
+/// The strings of an array member; other values are left to the schema check.
+std::vector<std::pair<std::size_t, std::string>> namesIn(const nlohmann::json& document, const char* key) {
+  std::vector<std::pair<std::size_t, std::string>> names;
+  const auto member = document.find(key);
+  if (member == document.end() || !member->is_array()) return names;
+  for (std::size_t i = 0; i < member->size(); ++i) {
+    if ((*member)[i].is_string()) names.emplace_back(i, (*member)[i].get<std::string>());
+  }
+  return names;
+}
+
+const std::string* stringAt(const nlohmann::json& document, const char* key) {
+  const auto asset = document.find("asset");
+  if (asset == document.end() || !asset->is_object()) return nullptr;
+  const auto value = asset->find(key);
+  return value == asset->end() ? nullptr : value->get_ptr<const std::string*>();
+}
+
+} // namespace
+
+void checkVersion(const nlohmann::json& document, Findings& findings) {
+  const std::string* version = stringAt(document, "version");
+  if (!version) {
+    findings.invalid("/asset/version", "The glTF does not say its version.", "2.x");
+  } else if (!version->starts_with("2.")) {
+    findings.refuse(
+        {ProblemCode::unsupportedFeature, "/asset/version", "Only glTF 2 is supported.", "2.x", inQuotes(*version)});
+  }
+  const std::string* minVersion = stringAt(document, "minVersion");
+  if (minVersion && *minVersion != "2.0") {
+    findings.refuse({ProblemCode::unsupportedFeature, "/asset/minVersion", "The glTF asks for a newer reader.", "2.0",
+                     inQuotes(*minVersion)});
+  }
+}
+
+void checkExtensions(const nlohmann::json& document, Findings& findings) {
+  const auto required = namesIn(document, "extensionsRequired");
+  for (const auto& [index, name] : required) {
+    if (supported(name)) continue;
+    findings.unsupported(pointerTo("/extensionsRequired", index),
+                         "The glTF requires the extension " + inQuotes(name) + ", which is not supported.");
+  }
+  for (const auto& [index, name] : namesIn(document, "extensionsUsed")) {
+    if (!supported(name)) {
+      findings.warn("The extension " + inQuotes(name) + " is not supported: " + consequenceOf(name) + ".");
+    }
+  }
+}
+
+} // namespace gnomon

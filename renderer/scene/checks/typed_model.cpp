@@ -1,0 +1,89 @@
+#include "renderer/scene/checks/typed_model.h"
+
+#include <limits>
+#include <string>
+
+namespace gnomon {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kDrawn[] = {"asset",       "scene",     "scenes",   "nodes",    "meshes", "accessors",
+                                  "bufferViews", "materials", "textures", "samplers", "cameras"};
+
+/// A copy without extras and without the extensions that are not read. Recursion is bounded by the JSON's depth,
+/// which parseJsonText() has limited.
+json pruned(const json& value) {
+  if (value.is_array()) {
+    json array = json::array();
+    for (const json& element : value) array.push_back(pruned(element));
+    return array;
+  }
+  if (!value.is_object()) return value;
+  json object = json::object();
+  for (const auto& [key, member] : value.items()) {
+    if (key == "extras") continue;
+    if (key == "extensions" && member.is_object()) {
+      for (const char* read : {"KHR_lights_punctual", "KHR_materials_emissive_strength"}) {
+        const auto extension = member.find(read);
+        if (extension != member.end()) object[key][read] = pruned(*extension);
+      }
+    } else {
+      object[key] = pruned(member);
+    }
+  }
+  return object;
+}
+
+bool noFile(const std::string&, void*) {
+  return false;
+}
+std::string noPath(const std::string&, void*) {
+  return {};
+}
+bool noRead(std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+  return false;
+}
+bool noWrite(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+  return false;
+}
+bool noImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return false;
+}
+
+} // namespace
+
+Result<tinygltf::Model> typedModel(const json& document) {
+  const Problem refused{ProblemCode::invalidScene, {}, "The glTF does not follow the schema of glTF 2.0.", {}, {}};
+  try {
+    json drawn = json::object();
+    for (const char* key : kDrawn) {
+      const auto member = document.find(key);
+      if (member != document.end()) drawn[key] = pruned(*member);
+    }
+    const auto extensions = document.find("extensions");
+    if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
+      drawn["extensions"]["KHR_lights_punctual"] = pruned((*extensions)["KHR_lights_punctual"]);
+    }
+    const std::string text = drawn.dump();
+    drawn = nullptr;
+    if (text.size() > std::numeric_limits<unsigned int>::max()) return refused;
+
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({noFile, noPath, noRead, noWrite, nullptr});
+    parser.SetImageLoader(noImage, nullptr);
+    tinygltf::Model model;
+    std::string errors;
+    std::string warnings;
+    if (!parser.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned int>(text.size()),
+                                    "")) {
+      return refused;
+    }
+    return model;
+  } catch (const std::exception&) {
+    return refused;
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,153 @@
+#include "renderer/scene/geometry/accessor_view.h"
+
+namespace gnomon {
+
+namespace {
+
+__extension__ using Wide = unsigned __int128; ///< holds every product of two 64-bit numbers
+
+struct ElementShape {
+  int components = 0;
+  std::size_t bytes = 0; ///< the columns of a matrix start at multiples of 4 bytes (glTF 2.0, 3.6.2.4)
+};
+
+ElementShape shapeOf(int type, ComponentType componentType) {
+  const std::size_t component = bytesOf(componentType);
+  const auto matrix = [&](std::size_t side) {
+    const std::size_t column = (side * component + 3) / 4 * 4;
+    return ElementShape{0, column * side};
+  };
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return {1, component};
+    case TINYGLTF_TYPE_VEC2:
+      return {2, 2 * component};
+    case TINYGLTF_TYPE_VEC3:
+      return {3, 3 * component};
+    case TINYGLTF_TYPE_VEC4:
+      return {4, 4 * component};
+    case TINYGLTF_TYPE_MAT2:
+      return matrix(2);
+    case TINYGLTF_TYPE_MAT3:
+      return matrix(3);
+    default:
+      return matrix(4);
+  }
+}
+
+/// A run of elements in a buffer view.
+struct Run {
+  int bufferView = 0;
+  std::size_t offset = 0; ///< from the start of the buffer view
+  std::size_t stride = 0;
+  std::size_t count = 0; ///< > 0
+  std::size_t elementBytes = 0;
+  std::size_t alignment = 1;
+};
+
+/// The first element's bytes if all of the run lies inside its buffer view; nullptr, and a problem, if not.
+const std::uint8_t* locate(const GltfDocument& document, const Run& run, const std::string& pointer,
+                           Findings& findings) {
+  const auto view = document.bufferViews[static_cast<std::size_t>(run.bufferView)];
+  const Wide end = Wide{run.offset} + Wide{run.stride} * (run.count - 1) + run.elementBytes;
+  if (end > view.size()) {
+    findings.invalid(pointer, "The accessor reaches past the end of its buffer view.",
+                     std::to_string(view.size()) + " bytes",
+                     std::to_string(run.count) + " elements, " + std::to_string(run.stride) + " bytes apart, from " +
+                         std::to_string(run.offset));
+    return nullptr;
+  }
+  const std::size_t viewOffset = document.model.bufferViews[static_cast<std::size_t>(run.bufferView)].byteOffset;
+  if ((viewOffset + run.offset) % run.alignment != 0 || run.stride % run.alignment != 0) {
+    findings.invalid(pointer, "The accessor is not aligned to the size of its components.",
+                     "a multiple of " + std::to_string(run.alignment) + " bytes",
+                     "offset " + std::to_string(viewOffset + run.offset) + ", stride " + std::to_string(run.stride));
+    return nullptr;
+  }
+  return view.data() + run.offset;
+}
+
+void checkSparseOrder(const AccessorView& view, const std::string& pointer, Findings& findings) {
+  const std::size_t indexBytes = bytesOf(view.sparseIndexType);
+  std::int64_t previous = -1;
+  for (std::size_t i = 0; i < view.sparseCount; ++i) {
+    const std::int64_t index = unsignedAt(view.sparseIndices + i * indexBytes, view.sparseIndexType);
+    if (index <= previous || static_cast<std::size_t>(index) >= view.count) {
+      findings.invalid(pointer, "The sparse indices are not increasing or reach past the accessor's count.",
+                       "below " + std::to_string(view.count), std::to_string(index));
+      return;
+    }
+    previous = index;
+  }
+}
+
+void addSparse(const GltfDocument& document, const tinygltf::Accessor& accessor, std::size_t elementBytes,
+               const std::string& pointer, AccessorView& view, Findings& findings) {
+  const auto& sparse = accessor.sparse;
+  const auto count = static_cast<std::size_t>(sparse.count);
+  if (count > view.count) {
+    findings.invalid(pointer + "/sparse/count", "The accessor has more sparse values than elements.",
+                     std::to_string(view.count), std::to_string(count));
+    return;
+  }
+  view.sparseIndexType = static_cast<ComponentType>(sparse.indices.componentType);
+  const std::size_t indexBytes = bytesOf(view.sparseIndexType);
+  view.sparseIndices = locate(document,
+                              {sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+                               indexBytes, count, indexBytes, indexBytes},
+                              pointer + "/sparse/indices", findings);
+  view.sparseValues = locate(document,
+                             {sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
+                              elementBytes, count, elementBytes, bytesOf(view.componentType)},
+                             pointer + "/sparse/values", findings);
+  if (!view.sparseIndices || !view.sparseValues) return;
+  view.sparseCount = count;
+  checkSparseOrder(view, pointer + "/sparse/indices", findings);
+}
+
+AccessorView viewAccessor(const GltfDocument& document, const tinygltf::Accessor& accessor, const std::string& pointer,
+                          Findings& findings) {
+  AccessorView view;
+  view.componentType = static_cast<ComponentType>(accessor.componentType);
+  view.normalized = accessor.normalized && view.componentType != ComponentType::float32;
+  const ElementShape shape = shapeOf(accessor.type, view.componentType);
+  view.components = shape.components;
+  view.count = accessor.count;
+  if (accessor.bufferView >= 0) {
+    const std::size_t stride = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    view.stride = stride == 0 ? shape.bytes : stride;
+    if (view.stride < shape.bytes) {
+      findings.invalid(pointer, "The buffer view's byteStride is smaller than an element.",
+                       ">= " + std::to_string(shape.bytes), std::to_string(view.stride));
+      return {};
+    }
+    view.data = locate(
+        document,
+        {accessor.bufferView, accessor.byteOffset, view.stride, view.count, shape.bytes, bytesOf(view.componentType)},
+        pointer, findings);
+    if (!view.data) return {};
+  }
+  if (accessor.sparse.isSparse) addSparse(document, accessor, shape.bytes, pointer, view, findings);
+  return view;
+}
+
+} // namespace
+
+std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings) {
+  std::vector<AccessorView> views;
+  views.reserve(document.model.accessors.size());
+  std::size_t sparseValues = 0;
+  for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+    const tinygltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.sparse.isSparse) sparseValues += static_cast<std::size_t>(accessor.sparse.count);
+    if (sparseValues > limits.maxVertices) { // each of them is looked at, so many accessors on few bytes cost time
+      findings.tooLarge("/accessors", "The accessors have too many sparse values.", std::to_string(limits.maxVertices),
+                        std::to_string(sparseValues));
+      return {};
+    }
+    views.push_back(viewAccessor(document, accessor, pointerTo("/accessors", i), findings));
+  }
+  return views;
+}
+
+} // namespace gnomon

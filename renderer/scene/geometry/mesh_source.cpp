@@ -1,0 +1,133 @@
+#include "renderer/scene/geometry/mesh_source.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace gnomon {
+
+namespace {
+
+class PrimitiveGathering {
+ public:
+  PrimitiveGathering(const tinygltf::Primitive& primitive, const std::vector<AccessorView>& views,
+                     const GltfDocument& document, std::string pointer, Findings& findings)
+      : primitive_(primitive), views_(views), document_(document), findings_(findings) {
+    source_.pointer = std::move(pointer);
+  }
+
+  PrimitiveSource gather() {
+    source_.material = primitive_.material;
+    source_.mode = primitive_.mode;
+    source_.positions = attribute("POSITION", {3});
+    source_.normals = attribute("NORMAL", {3});
+    source_.tangents = attribute("TANGENT", {4});
+    source_.texCoords = {attribute("TEXCOORD_0", {2}), attribute("TEXCOORD_1", {2})};
+    source_.colors = attribute("COLOR_0", {3, 4});
+    if (primitive_.indices >= 0) gatherIndices();
+    return std::move(source_);
+  }
+
+ private:
+  const AccessorView* attribute(const std::string& name, std::initializer_list<int> components) {
+    const auto found = primitive_.attributes.find(name);
+    if (found == primitive_.attributes.end()) return nullptr;
+    const std::string pointer = source_.pointer + "/attributes/" + name;
+    const AccessorView& view = views_[static_cast<std::size_t>(found->second)];
+    if (std::find(components.begin(), components.end(), view.components) == components.end()) {
+      findings_.invalid(pointer, "The accessor is not of a type that " + name + " may have.");
+      return nullptr;
+    }
+    if (source_.positions && view.count != source_.positions->count) {
+      findings_.invalid(pointer, "The accessor does not have as many elements as POSITION.",
+                        std::to_string(source_.positions->count), std::to_string(view.count));
+      return nullptr;
+    }
+    return &view;
+  }
+
+  void gatherIndices() {
+    const auto accessor = static_cast<std::size_t>(primitive_.indices);
+    const AccessorView& view = views_[accessor];
+    const ComponentType type = view.componentType;
+    const bool isUnsigned =
+        type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
+    if (view.components != 1 || !isUnsigned || document_.model.accessors[accessor].normalized) {
+      findings_.invalid(source_.pointer + "/indices", "The accessor of the indices is not of unsigned scalars.");
+      return;
+    }
+    if (view.data && view.stride != bytesOf(type)) {
+      findings_.invalid(source_.pointer + "/indices", "The buffer view of the indices has a byteStride.");
+      return;
+    }
+    source_.indices = &view;
+  }
+
+  const tinygltf::Primitive& primitive_;
+  const std::vector<AccessorView>& views_;
+  const GltfDocument& document_;
+  Findings& findings_;
+  PrimitiveSource source_;
+};
+
+bool drawsTriangles(int mode) {
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+/// The most vertices that a primitive can come to: flat normals give every triangle its own three.
+std::size_t mostVertices(const PrimitiveSource& source) {
+  const std::size_t separate = 3 * source.triangles();
+  return source.normals ? std::min(source.positions->count, separate) : separate;
+}
+
+} // namespace
+
+std::size_t PrimitiveSource::triangles() const {
+  const std::size_t count = corners();
+  if (mode == TINYGLTF_MODE_TRIANGLES) return count / 3;
+  return count < 3 ? 0 : count - 2;
+}
+
+std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
+                                                       const std::vector<AccessorView>& views, const Limits& limits,
+                                                       Findings& findings) {
+  std::vector<std::vector<PrimitiveSource>> meshes(document.model.meshes.size());
+  std::size_t triangles = 0;
+  std::size_t vertices = 0;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const tinygltf::Mesh& mesh = document.model.meshes[m];
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
+      if (!drawsTriangles(primitive.mode)) {
+        findings.warn("Mesh " + std::to_string(m) + " has points or lines, which are not drawn.");
+        continue;
+      }
+      if (!primitive.targets.empty()) {
+        findings.warn("Mesh " + std::to_string(m) + " has morph targets: it is drawn in its rest shape.");
+      }
+      PrimitiveSource source = PrimitiveGathering(primitive, views, document, pointer, findings).gather();
+      if (!source.positions) {
+        findings.warn("Mesh " + std::to_string(m) + " has a primitive without positions, which is not drawn.");
+        continue;
+      }
+      if (source.mode == TINYGLTF_MODE_TRIANGLES && source.corners() % 3 != 0) {
+        findings.warn("Mesh " + std::to_string(m) +
+                      " has a primitive whose last triangle is incomplete and not drawn.");
+      }
+      triangles += source.triangles();
+      vertices += mostVertices(source);
+      if (triangles > limits.maxTriangles || vertices > limits.maxVertices) {
+        const bool ofTriangles = triangles > limits.maxTriangles;
+        findings.tooLarge(pointer,
+                          ofTriangles ? "The meshes have too many triangles." : "The meshes have too many vertices.",
+                          std::to_string(ofTriangles ? limits.maxTriangles : limits.maxVertices),
+                          std::to_string(ofTriangles ? triangles : vertices));
+        return {};
+      }
+      meshes[m].push_back(std::move(source));
+    }
+  }
+  return meshes;
+}
+
+} // namespace gnomon

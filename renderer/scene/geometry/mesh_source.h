@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "protocol/limits.h"
+#include "renderer/scene/geometry/accessor_view.h"
+
+namespace gnomon {
+
+/// A primitive of the file whose accessors fit each other. Absent attributes are nullptr.
+struct PrimitiveSource {
+  std::string pointer; ///< its place in the glTF
+  int material = -1;   ///< -1 = the default material
+  int mode = 4;        ///< triangles, strip or fan
+  const AccessorView* positions = nullptr;
+  const AccessorView* normals = nullptr;
+  const AccessorView* tangents = nullptr;
+  std::array<const AccessorView*, 2> texCoords{};
+  const AccessorView* colors = nullptr;
+  const AccessorView* indices = nullptr;
+
+  std::size_t corners() const { return indices ? indices->count : positions->count; }
+  std::size_t triangles() const;
+};
+
+/// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning.
+/// Refuses before anything is allocated when the whole would pass the limits. `views` must outlive the result.
+std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
+                                                       const std::vector<AccessorView>& views, const Limits& limits,
+                                                       Findings& findings);
+
+} // namespace gnomon

@@ -1,0 +1,115 @@
+#include "renderer/scene/graph/node_tree.h"
+
+#include <cmath>
+
+#include "renderer/scene/graph/node_transform.h"
+
+namespace gnomon {
+
+namespace {
+
+constexpr double kSmallestSine = 1e-9; ///< below it, two axes count as parallel
+
+std::vector<int> readParents(const tinygltf::Model& model, Findings& findings) {
+  std::vector<int> parents(model.nodes.size(), -1);
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    const std::vector<int>& children = model.nodes[node].children;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      int& parent = parents[static_cast<std::size_t>(children[i])];
+      if (parent >= 0) {
+        findings.invalid(pointerTo(pointerTo("/nodes", node) + "/children", i),
+                         "The node already is a child of another one.", "one parent",
+                         "nodes " + std::to_string(parent) + " and " + std::to_string(node));
+      }
+      parent = static_cast<int>(node);
+    }
+  }
+  return parents;
+}
+
+void checkSceneRoots(const tinygltf::Model& model, const std::vector<int>& parents, Findings& findings) {
+  for (std::size_t scene = 0; scene < model.scenes.size(); ++scene) {
+    const std::vector<int>& roots = model.scenes[scene].nodes;
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+      const int parent = parents[static_cast<std::size_t>(roots[i])];
+      if (parent < 0) continue;
+      findings.invalid(pointerTo(pointerTo("/scenes", scene) + "/nodes", i), "A scene may only name root nodes.", {},
+                       "a child of node " + std::to_string(parent));
+    }
+  }
+}
+
+bool finite(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(matrix[column][row])) return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
+  const tinygltf::Model& model = document.model;
+  NodeTree tree;
+  tree.parents = readParents(model, findings);
+  checkSceneRoots(model, tree.parents, findings);
+  if (findings.refused()) return tree;
+
+  std::vector<std::size_t> order; // parents before children
+  order.reserve(model.nodes.size());
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    if (tree.parents[node] < 0) order.push_back(node);
+  }
+  tree.worldFromNode.resize(model.nodes.size());
+  tree.worldFromUnscaled.resize(model.nodes.size());
+  std::vector<bool> reached(model.nodes.size(), false);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t node = order[i];
+    reached[node] = true;
+    const std::string pointer = pointerTo("/nodes", node);
+    const NodeTransform transform = readTransform(model.nodes[node], pointer, findings);
+    const int parent = tree.parents[node];
+    const glm::dmat4 worldFromParent =
+        parent < 0 ? glm::dmat4(1) : tree.worldFromNode[static_cast<std::size_t>(parent)];
+    tree.worldFromNode[node] = worldFromParent * transform.parentFromNode;
+    tree.worldFromUnscaled[node] = worldFromParent * transform.parentFromUnscaled;
+    if (!finite(tree.worldFromNode[node]) || !finite(tree.worldFromUnscaled[node])) {
+      findings.invalid(pointer, "The node's place in the world is not finite.");
+      return tree;
+    }
+    for (const int child : model.nodes[node].children) order.push_back(static_cast<std::size_t>(child));
+  }
+  for (std::size_t node = 0; node < reached.size(); ++node) {
+    if (!reached[node]) findings.invalid(pointerTo("/nodes", node), "The node is its own ancestor.");
+  }
+  return tree;
+}
+
+std::vector<SceneNode> namedNodes(const tinygltf::Model& model) {
+  std::vector<SceneNode> nodes(model.nodes.size());
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    nodes[node].name = model.nodes[node].name;
+    for (const int child : model.nodes[node].children) {
+      nodes[static_cast<std::size_t>(child)].parent = static_cast<int>(node);
+    }
+  }
+  return nodes;
+}
+
+bool frameOf(const glm::dmat4& worldFromUnscaled, NodeFrame& frame) {
+  frame.position = glm::dvec3(worldFromUnscaled[3]);
+  const double depth = glm::length(glm::dvec3(worldFromUnscaled[2]));
+  const double height = glm::length(glm::dvec3(worldFromUnscaled[1]));
+  if (!(depth > 0) || !(height > 0) || !std::isfinite(depth) || !std::isfinite(height)) return false;
+  frame.forward = glm::dvec3(worldFromUnscaled[2]) / -depth;
+  const glm::dvec3 side = glm::cross(frame.forward, glm::dvec3(worldFromUnscaled[1]) / height);
+  const double sine = glm::length(side);
+  if (!(sine > kSmallestSine)) return false;
+  frame.right = side / sine;
+  frame.up = glm::cross(frame.right, frame.forward);
+  return true;
+}
+
+} // namespace gnomon

@@ -1,0 +1,128 @@
+#include "renderer/scene/materials/image_loading.h"
+
+#include <map>
+#include <string_view>
+
+#include "renderer/image/image_codec.h"
+#include "renderer/scene/materials/materials.h"
+
+namespace gnomon {
+
+namespace {
+
+using Encoded = std::span<const std::uint8_t>;
+
+bool startsWith(Encoded bytes, std::string_view signature, std::size_t offset = 0) {
+  return bytes.size() >= offset + signature.size() &&
+         std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, signature.size()) == signature;
+}
+
+/// The name of a known format that is not decoded; empty for PNG, JPEG and bytes of no known format.
+std::string_view unsupportedFormat(Encoded bytes) {
+  if (startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8)) return "WebP";
+  if (startsWith(bytes, "\xABKTX 20\xBB")) return "KTX 2";
+  if (startsWith(bytes, "DDS ")) return "DDS";
+  return {};
+}
+
+std::string nameOf(const GltfDocument& document, int index) {
+  const auto& image = document.json["images"][static_cast<std::size_t>(index)];
+  std::string name = "image " + std::to_string(index);
+  if (const auto found = image.find("name"); found != image.end()) name += ' ' + inQuotes(found->get<std::string>());
+  return name;
+}
+
+/// Where each image of the file that a material uses will stand in Scene::images; -1 = it is left out.
+std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material>& materials, Findings& findings) {
+  std::map<int, int> slots;
+  for (Material& material : materials) {
+    for (const auto* texture : texturesOf(material)) {
+      if (*texture) slots.emplace((*texture)->image, -1);
+    }
+  }
+  int next = 0;
+  for (auto& [image, slot] : slots) {
+    const std::string_view format = unsupportedFormat(document.images[static_cast<std::size_t>(image)].view());
+    if (format.empty()) {
+      slot = next++;
+    } else {
+      findings.warn("The " + nameOf(document, image) + " is " + std::string(format) +
+                    ", which is not supported; the textures that use it are left out.");
+    }
+  }
+  return slots;
+}
+
+/// Puts the place in the glTF on problems of the codec, which knows only bytes.
+Problems located(Problems problems, const std::string& pointer) {
+  for (Problem& problem : problems) {
+    problem.pointer = pointer;
+    if (problem.code == ProblemCode::malformed || problem.code == ProblemCode::invalidValue) {
+      problem.code = ProblemCode::invalidScene;
+    }
+  }
+  return problems;
+}
+
+void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, const Limits& limits,
+                Findings& findings) {
+  std::int64_t pixels = 0;
+  for (const auto& [image, slot] : slots) {
+    if (slot < 0) continue;
+    const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
+    auto size = imageSize(document.images[static_cast<std::size_t>(image)].view());
+    if (!size) {
+      findings.take(located(std::move(size).problems(), pointer));
+      continue;
+    }
+    const std::string actual = std::to_string(size->width) + " x " + std::to_string(size->height);
+    if (size->width <= 0 || size->height <= 0) {
+      findings.invalid(pointer, "The image has no pixels.", {}, actual);
+      continue;
+    }
+    if (size->width > limits.maxImageSide || size->height > limits.maxImageSide) {
+      findings.tooLarge(pointer, "The image is too large.", std::to_string(limits.maxImageSide) + " a side", actual);
+      continue;
+    }
+    pixels += std::int64_t{size->width} * size->height;
+    if (pixels > limits.maxImagePixels) {
+      findings.tooLarge(pointer, "The images have too many pixels together.", std::to_string(limits.maxImagePixels),
+                        std::to_string(pixels));
+      return;
+    }
+  }
+}
+
+} // namespace
+
+std::vector<Image> loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
+                              Findings& findings) {
+  const std::map<int, int> slots = usedImages(document, materials, findings);
+  checkSizes(document, slots, limits, findings);
+  std::vector<Image> images;
+  if (findings.refused()) return images;
+  for (const auto& [image, slot] : slots) {
+    if (slot < 0) continue;
+    auto decoded = decodeImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide,
+                               limits.maxImagePixels);
+    if (decoded) {
+      images.push_back(*std::move(decoded));
+    } else {
+      findings.take(located(std::move(decoded).problems(), pointerTo("/images", static_cast<std::size_t>(image))));
+    }
+  }
+  for (Material& material : materials) {
+    for (auto* texture : texturesOf(material)) {
+      if (!*texture) continue;
+      const int slot = slots.at((*texture)->image);
+      if (slot < 0) {
+        texture->reset();
+      } else {
+        (*texture)->image = slot;
+      }
+    }
+  }
+  return images;
+}
+
+} // namespace gnomon

@@ -1,0 +1,95 @@
+#include "renderer/scene/geometry/clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon {
+namespace {
+
+struct Soup {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> indices;
+};
+
+/// Small triangles, strewn over a 100 m cube.
+Soup strewnTriangles(std::size_t count, unsigned seed) {
+  Soup soup;
+  std::uint32_t state = seed * 2654435761u + 1;
+  const auto next = [&] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<float>(state >> 8) / 16777216.0f;
+  };
+  for (std::size_t t = 0; t < count; ++t) {
+    const glm::vec3 center(100 * next(), 100 * next(), 100 * next());
+    for (int corner = 0; corner < 3; ++corner) {
+      soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
+      soup.positions.push_back(center + glm::vec3(next(), next(), next()));
+    }
+  }
+  return soup;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangleSet(const std::vector<std::uint32_t>& indices) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+TEST(Clusters, SortingKeepsTheTrianglesAndTheirWinding) {
+  EXPECT_TRUE(rc::check([] {
+    const Soup soup = strewnTriangles(*rc::gen::inRange<std::size_t>(0, 5000), *rc::gen::arbitrary<unsigned>());
+    const auto sorted = spatiallySorted(soup.indices, soup.positions);
+    RC_ASSERT(triangleSet(sorted) == triangleSet(soup.indices));
+    RC_ASSERT(sorted == spatiallySorted(soup.indices, soup.positions));
+  }));
+}
+
+TEST(Clusters, CoverEveryTriangleInOrder) {
+  EXPECT_TRUE(rc::check([] {
+    const Soup soup = strewnTriangles(*rc::gen::inRange<std::size_t>(0, 5000), 1);
+    const auto clusters = clustersOf(soup.indices, soup.positions);
+    const std::size_t triangles = soup.indices.size() / 3;
+    RC_ASSERT(clusters.size() == (triangles + kClusterTriangles - 1) / kClusterTriangles);
+    for (std::size_t i = 0; i < soup.indices.size(); ++i) {
+      const Aabb& box = clusters[i / 3 / kClusterTriangles].bounds;
+      const glm::dvec3 p(soup.positions[soup.indices[i]]);
+      RC_ASSERT(glm::all(glm::lessThanEqual(box.min, p)) && glm::all(glm::greaterThanEqual(box.max, p)));
+    }
+  }));
+}
+
+TEST(Clusters, AreSmallerThanTheWhole) {
+  const Soup soup = strewnTriangles(std::size_t{64} * kClusterTriangles, 7);
+  double volume = 0;
+  for (const Cluster& cluster : clustersOf(spatiallySorted(soup.indices, soup.positions), soup.positions)) {
+    const glm::dvec3 size = 2.0 * cluster.bounds.halfExtent();
+    volume += size.x * size.y * size.z;
+  }
+  EXPECT_LT(volume / 64, 0.1 * 100 * 100 * 100) << "mean volume of the 64 clusters";
+}
+
+TEST(Clusters, BelongToTheirPrimitive) {
+  const Soup soup = strewnTriangles(2500, 3);
+  std::vector<testing::Point> points;
+  for (const glm::vec3& p : soup.positions) points.push_back({p.x, p.y, p.z});
+  testing::GlbBuilder builder = testing::cube();
+  builder.addMeshNode(builder.addMesh({{"attributes", {{"POSITION", builder.addPoints(points)}}}}));
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.primitives.size(), 2u);
+  EXPECT_EQ(scene.primitives[1].firstCluster, 1u);
+  EXPECT_EQ(scene.primitives[1].clusterCount, 3u);
+  EXPECT_EQ(scene.clusters.size(), 4u);
+  EXPECT_EQ(scene.primitives[1].firstIndex, 36u);
+  EXPECT_EQ(scene.primitives[1].baseVertex, 24u);
+  EXPECT_EQ(load(builder).indices, scene.indices);
+}
+
+} // namespace
+} // namespace gnomon

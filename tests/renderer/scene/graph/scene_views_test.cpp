@@ -1,0 +1,157 @@
+#include "renderer/scene/graph/scene_views.h"
+
+#include "tests/renderer/scene/geometry.h"
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(SceneViews, ComposesTransformsInDoublePrecision) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["translation"] = {0.001, 0, 0};
+  builder.json["nodes"][0]["scale"] = {2, 3, 4};
+  builder.json["scenes"][0]["nodes"] = {1};
+  builder.add("nodes", {{"children", {0}}, {"translation", {1e7, 0, 0}}, {"rotation", kQuarterAroundY}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.scenes[0].instances.size(), 1u);
+  const Instance& instance = scene.scenes[0].instances[0];
+  EXPECT_EQ(instance.node, 0);
+  expectNear(glm::dvec3(instance.worldFromLocal[3]), {1e7, 0, -0.001}, 1e-8);
+  expectNear(glm::dvec3(instance.worldFromLocal[2]), {4, 0, 0});
+  expectNear(instance.bounds.halfExtent(), {4, 3, 2}, 1e-6);
+  EXPECT_EQ(scene.scenes[0].bounds.min, instance.bounds.min);
+}
+
+TEST(SceneViews, ReadsMatrices) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["matrix"] = {0, 0, -2, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, 7, 1};
+  const glm::dmat4 matrix = load(builder).scenes[0].instances.at(0).worldFromLocal;
+  expectNear(glm::dvec3(matrix[0]), {0, 0, -2});
+  expectNear(glm::dvec3(matrix[3]), {5, 6, 7});
+}
+
+TEST(SceneViews, RefusesBrokenTransforms) {
+  const auto problems = [](json node) {
+    testing::GlbBuilder builder = testing::cube();
+    node["mesh"] = 0;
+    builder.json["nodes"][0] = std::move(node);
+    return problemsOf(builder);
+  };
+  const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  json projective = identity;
+  projective[3] = 0.5;
+  EXPECT_THAT(problems({{"matrix", projective}}), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/matrix")));
+  EXPECT_THAT(problems({{"matrix", identity}, {"scale", {1, 1, 1}}}),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/matrix")));
+  EXPECT_THAT(problems({{"rotation", {0, 0, 0, 0}}}),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/rotation")));
+}
+
+TEST(SceneViews, RefusesPlacesThatAreNotFinite) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["scale"] = {1e300, 1e300, 1e300};
+  builder.json["scenes"][0]["nodes"] = {1};
+  builder.add("nodes", {{"children", {0}}, {"scale", {1e300, 1e300, 1e300}}});
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0")));
+}
+
+TEST(SceneViews, LeavesOutFlatInstancesWithAWarning) {
+  for (const json& scale : {json{0, 0, 0}, json{1, 0, 1}}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.json["nodes"][0]["scale"] = scale;
+    const Scene scene = load(builder);
+    EXPECT_THAT(scene.scenes[0].instances, IsEmpty());
+    EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("node 0")));
+  }
+  testing::GlbBuilder tiny = testing::cube();
+  tiny.json["nodes"][0]["scale"] = {1e-9, 1e-9, -1e-9};
+  EXPECT_EQ(load(tiny).scenes[0].instances.size(), 1u);
+}
+
+TEST(SceneViews, RefusesCyclesAndSharedChildren) {
+  const auto problems = [](json nodes, json roots) {
+    testing::GlbBuilder builder;
+    builder.json["nodes"] = std::move(nodes);
+    builder.json["scenes"] = {{{"nodes", std::move(roots)}}};
+    return problemsOf(builder);
+  };
+  EXPECT_THAT(problems({{{"children", {0}}}}, json::array()),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0")));
+  EXPECT_THAT(
+      problems({{{"children", {1}}}, {{"children", {0}}}}, json::array()),
+      ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0"), ProblemAt(ProblemCode::invalidScene, "/nodes/1")));
+  EXPECT_THAT(problems({{{"children", {2}}}, {{"children", {2}}}, json::object()}, {0, 1}),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/1/children/0")));
+  EXPECT_THAT(problems({{{"children", {1}}}, json::object()}, {0, 1}),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/scenes/0/nodes/1")));
+}
+
+TEST(SceneViews, DeepTreesNeedNoStack) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"] = json::array();
+  for (int i = 0; i < 50'000; ++i) builder.add("nodes", {{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+  builder.add("nodes", {{"mesh", 0}});
+  EXPECT_EQ(load(builder).scenes[0].instances.at(0).worldFromLocal[3].x, 50'000);
+}
+
+TEST(SceneViews, EachSceneStandsAlone) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["scenes"] = json::parse(R"([{"nodes": [2, 1]}, {}, {"nodes": [0]}])");
+  builder.json["scene"] = 2;
+  builder.add("nodes", {{"mesh", 0}, {"translation", {10, 0, 0}}});
+  builder.add("nodes", {{"mesh", 0}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.scenes.size(), 3u);
+  EXPECT_EQ(scene.defaultScene, 2);
+  ASSERT_EQ(scene.scenes[0].instances.size(), 2u);
+  EXPECT_EQ(scene.scenes[0].instances[0].node, 1) << "in the order of the file's nodes";
+  EXPECT_EQ(scene.scenes[0].instances[1].node, 2);
+  EXPECT_EQ(scene.scenes[0].triangles, 24u);
+  EXPECT_TRUE(scene.scenes[1].bounds.empty());
+  EXPECT_EQ(scene.scenes[2].triangles, 12u);
+  EXPECT_EQ(scene.summary.scenes, 3);
+  EXPECT_EQ(scene.summary.triangles, 12u);
+}
+
+TEST(SceneViews, AFileWithoutScenesIsOneSceneOfItsRoots) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json.erase("scenes");
+  builder.add("nodes", {{"children", {0}}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.scenes.size(), 1u);
+  EXPECT_EQ(scene.scenes[0].instances.size(), 1u);
+  EXPECT_EQ(scene.summary.nodes, 2u);
+}
+
+TEST(SceneViews, AnEmptyFileIsAScene) {
+  const Scene scene = load(testing::GlbBuilder{});
+  ASSERT_EQ(scene.scenes.size(), 1u);
+  EXPECT_TRUE(scene.scenes[0].bounds.empty());
+  EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+TEST(SceneViews, ReuseIsHeldAgainstTheLimits) {
+  testing::GlbBuilder builder = testing::cube();
+  for (int i = 0; i < 9; ++i) builder.addMeshNode(0);
+  Limits limits;
+  limits.maxTriangles = 120;
+  EXPECT_EQ(load(builder, limits).summary.triangles, 120u);
+  limits.maxTriangles = 119;
+  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
+  limits = {};
+  limits.maxInstances = 20;
+  EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
+  limits.maxInstances = 19;
+  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
+  for (int i = 0; i < 30; ++i) builder.add("scenes", {{"nodes", {0}}});
+  limits.maxInstances = 60;
+  EXPECT_FALSE(problemsOf(builder, limits).empty()) << "over all scenes";
+}
+
+} // namespace
+} // namespace gnomon

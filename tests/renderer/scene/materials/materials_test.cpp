@@ -1,0 +1,201 @@
+#include "renderer/scene/materials/materials.h"
+
+#include "renderer/image/image_codec.h"
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Bytes png(int width, int height, std::uint8_t red) {
+  Image image{width, height, {"R", "G", "B"}, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height * 3))};
+  for (std::uint8_t& value : std::get<0>(image.pixels)) value = red;
+  auto encoded = encodePng(image, 1);
+  EXPECT_TRUE(encoded);
+  return *std::move(encoded);
+}
+
+/// The header of a grey PNG of one bit a pixel, and nothing after it.
+Bytes pngHeader(std::uint32_t width, std::uint32_t height) {
+  Bytes bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+  for (const std::uint32_t side : {width, height}) {
+    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(side >> shift));
+  }
+  for (const int value : {1, 0, 0, 0, 0, 0, 0, 0, 0}) bytes.push_back(static_cast<std::uint8_t>(value));
+  return bytes;
+}
+
+/// A plane whose material has a base colour texture with this image.
+testing::GlbBuilder textured(const Bytes& image) {
+  testing::GlbBuilder builder = testing::plane();
+  builder.add("images", {{"bufferView", builder.addView(image)}, {"mimeType", "image/png"}, {"name", "picture"}});
+  builder.add("textures", {{"source", 0}});
+  builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return builder;
+}
+
+const Material& onlyMaterial(const Scene& scene) {
+  return scene.materials.at(static_cast<std::size_t>(scene.primitives.at(0).material));
+}
+
+TEST(Materials, DefaultsAreThoseOfGltf) {
+  const Scene scene = load(testing::plane());
+  const Material& material = onlyMaterial(scene);
+  EXPECT_EQ(material.baseColorFactor, glm::vec4(1));
+  EXPECT_EQ(material.metallicFactor, 1);
+  EXPECT_EQ(material.roughnessFactor, 1);
+  EXPECT_EQ(material.emissiveFactor, glm::vec3(0));
+  EXPECT_EQ(material.alphaMode, AlphaMode::opaque);
+  EXPECT_FALSE(material.doubleSided);
+  EXPECT_FALSE(material.baseColor);
+}
+
+TEST(Materials, ReadsEveryFactor) {
+  testing::GlbBuilder builder = testing::plane();
+  builder.add("materials", json::parse(R"({
+    "name": "Brass", "emissiveFactor": [0.1, 0.2, 0.3], "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+    "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.75},
+    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 10}}})"));
+  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Scene scene = load(builder);
+  const Material& material = onlyMaterial(scene);
+  EXPECT_EQ(material.name, "Brass");
+  EXPECT_EQ(material.baseColorFactor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(material.emissiveFactor, glm::vec3(1, 2, 3));
+  EXPECT_EQ(material.metallicFactor, 0.5f);
+  EXPECT_EQ(material.roughnessFactor, 0.75f);
+  EXPECT_EQ(material.alphaMode, AlphaMode::mask);
+  EXPECT_EQ(material.alphaCutoff, 0.25f);
+  EXPECT_TRUE(material.doubleSided);
+}
+
+TEST(Materials, G2_BlendIsKeptAndWarnedOf) {
+  testing::GlbBuilder builder = testing::plane();
+  builder.add("materials", {{"name", "Glass"}, {"alphaMode", "BLEND"}, {"alphaCutoff", 0.1}});
+  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Scene scene = load(builder);
+  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::blend);
+  EXPECT_EQ(onlyMaterial(scene).alphaCutoff, 0.5f);
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\"")));
+}
+
+TEST(Materials, ReadsTexturesWithTheirSampler) {
+  testing::GlbBuilder builder = textured(png(3, 2, 200));
+  builder.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+  builder.json["textures"][0]["sampler"] = 0;
+  builder.json["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 1}, {"scale", 0.5}};
+  builder.json["materials"][0]["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
+  const Scene scene = load(builder);
+  const Material& material = onlyMaterial(scene);
+  ASSERT_TRUE(material.baseColor && material.normal && material.occlusion);
+  EXPECT_FALSE(material.emissive);
+  EXPECT_EQ(material.baseColor->image, 0);
+  EXPECT_EQ(material.baseColor->wrapS, Wrap::clampToEdge);
+  EXPECT_EQ(material.baseColor->wrapT, Wrap::mirroredRepeat);
+  EXPECT_TRUE(material.baseColor->nearest);
+  EXPECT_EQ(material.normal->texCoord, 1);
+  EXPECT_EQ(material.normalScale, 0.5f);
+  EXPECT_EQ(material.occlusionStrength, 0.25f);
+  ASSERT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(scene.images[0].width, 3);
+  EXPECT_EQ(scene.images[0].height, 2);
+  EXPECT_EQ(std::get<0>(scene.images[0].pixels).size(), 24u) << "RGBA";
+  EXPECT_EQ(std::get<0>(scene.images[0].pixels)[0], 200);
+}
+
+TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
+  builder.add("images", {{"bufferView", builder.addView(Bytes(16, 0))}}); // no image at all, but nobody looks
+  builder.add("images", {{"bufferView", builder.addView(png(1, 1, 20))}});
+  builder.add("textures", {{"source", 2}});
+  builder.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.images.size(), 2u);
+  EXPECT_EQ(onlyMaterial(scene).baseColor->image, 0);
+  EXPECT_EQ(onlyMaterial(scene).emissive->image, 1);
+  EXPECT_EQ(std::get<0>(scene.images[1].pixels)[0], 20);
+}
+
+TEST(Materials, LeavesOutTexturesInOtherFormats) {
+  for (const std::string_view signature :
+       {std::string_view("RIFF\0\0\0\0WEBPVP8 ", 16), std::string_view("\xABKTX 20\xBB\r\n\x1A\n", 12)}) {
+    const Scene scene = load(textured(Bytes(signature.begin(), signature.end())));
+    EXPECT_FALSE(onlyMaterial(scene).baseColor);
+    EXPECT_THAT(scene.images, IsEmpty());
+    EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"picture\"")));
+  }
+}
+
+TEST(Materials, UsesTheFallbackOfATexture) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
+  builder.add("images", {{"bufferView", builder.addView(Bytes(16, 0))}});
+  builder.json["extensionsUsed"] = {"EXT_texture_webp"};
+  builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
+  Scene scene = load(builder);
+  EXPECT_TRUE(onlyMaterial(scene).baseColor);
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("fallback")));
+
+  builder.json["textures"][0].erase("source");
+  scene = load(builder);
+  EXPECT_FALSE(onlyMaterial(scene).baseColor);
+  EXPECT_THAT(scene.summary.warnings, Contains(HasSubstr("texture 0 of the material 0")));
+}
+
+TEST(Materials, LeavesOutTexturesOnFurtherCoordinates) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
+  builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2;
+  const Scene scene = load(builder);
+  EXPECT_FALSE(onlyMaterial(scene).baseColor);
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("TEXCOORD_2")));
+}
+
+TEST(Materials, HoldsImagesAgainstTheLimitsBeforeDecoding) {
+  EXPECT_THAT(problemsOf(textured(pngHeader(20'000, 20'000))),
+              ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/0")));
+  Limits limits;
+  limits.maxImagePixels = 15;
+  EXPECT_THAT(problemsOf(textured(png(4, 4, 0)), limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/0")));
+  testing::GlbBuilder two = textured(png(3, 3, 0));
+  two.add("images", {{"bufferView", two.addView(png(3, 3, 0))}});
+  two.add("textures", {{"source", 1}});
+  two.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+  EXPECT_THAT(problemsOf(two, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/1")));
+}
+
+TEST(Materials, RefusesBrokenImages) {
+  EXPECT_THAT(problemsOf(textured(Bytes(20, 7))), ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/images/0")));
+  for (const Bytes& image : {pngHeader(4, 4), pngHeader(0, 4), Bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}}) {
+    EXPECT_THAT(problemsOf(textured(image)), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/0")));
+  }
+  testing::GlbBuilder builder = textured(png(2, 2, 0));
+  builder.json["images"][0]["uri"] = "x.png";
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/0")));
+  builder.json["images"][0] = json::object();
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/0")));
+}
+
+TEST(Materials, CountsAgainstTheLimits) {
+  Limits limits;
+  limits.maxMaterials = 1;
+  limits.maxImages = 1;
+  limits.maxNodes = 1;
+  testing::GlbBuilder builder;
+  for (int i = 0; i < 2; ++i) {
+    builder.add("materials", json::object());
+    builder.add("images", {{"uri", "data:,x"}});
+    builder.add("nodes", json::object());
+  }
+  EXPECT_THAT(problemsOf(builder, limits),
+              ::testing::UnorderedElementsAre(ProblemAt(ProblemCode::tooLarge, "/materials"),
+                                              ProblemAt(ProblemCode::tooLarge, "/images"),
+                                              ProblemAt(ProblemCode::tooLarge, "/nodes")));
+}
+
+} // namespace
+} // namespace gnomon
