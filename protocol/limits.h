@@ -33,9 +33,13 @@ struct Limits {
 
   // Scenes
   std::size_t maxNodes = 100'000;
-  std::size_t maxInstances = 1'000'000; ///< nodes and primitives placed, over all scenes of a file
-  std::size_t maxTriangles = 8'000'000; ///< with node reuse counted
-  std::size_t maxVertices = 16'000'000; ///< over all meshes
+  std::size_t maxInstances = 1'000'000;        ///< nodes and primitives placed, over all scenes of a file
+  std::size_t maxTriangles = 8'000'000;        ///< with node reuse counted
+  std::size_t maxVertices = 16'000'000;        ///< over all meshes
+  std::size_t maxDecodedBytes = 512u << 20;    ///< what a file's Draco and meshopt data comes to
+  std::size_t maxJoints = 65'536;              ///< over all skins
+  std::size_t maxMorphTargets = 1'024;         ///< of one mesh
+  std::size_t maxMorphedVertices = 16'000'000; ///< vertices times morph targets, over all meshes
   std::size_t maxMaterials = 4'096;
   std::size_t maxImages = 1'024;
   int maxImageSide = 8192;                   ///< pixels of one image

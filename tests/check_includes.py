@@ -55,6 +55,8 @@ KEPT_IN = {
     "httplib.h": ["server/http_server.cpp", "clients/cli/http_client.cpp"],
     "nlohmann/": ["protocol", "server", "clients/cli", "renderer/scene"],
     "tiny_gltf.h": ["renderer/scene"],
+    "draco/": ["renderer/scene/decode"],
+    "meshoptimizer.h": ["renderer/scene"],
     "OpenImageIO/": ["renderer/image"],
     "glad/": ["renderer/gl", "renderer/passes"],
     "GL/": ["renderer/gl"],

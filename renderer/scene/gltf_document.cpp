@@ -6,6 +6,7 @@
 #include "renderer/scene/container/gltf_resources.h"
 #include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
+#include "renderer/scene/decode/meshopt_view.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_transform.h"
@@ -49,8 +50,13 @@ Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, F
 
   GltfDocument document;
   document.json = *std::move(json);
-  document.buffers = readBuffers(document.json, container->binary, bundle, findings);
-  document.bufferViews = readBufferViews(document.json, document.buffers, findings);
+  const std::vector<bool> fallbacks = meshoptFallbacks(document.json, container->binary.has_value());
+  document.buffers = readBuffers(document.json, fallbacks, container->binary, bundle, findings);
+  DecodeBudget budget(limits.maxDecodedBytes);
+  BufferViews views = readBufferViews(document.json, document.buffers, fallbacks, budget, findings);
+  document.bufferViews = std::move(views.bytes);
+  document.decodedViews = std::move(views.decoded);
+  document.decodedBytes = budget.used();
   document.images = readImages(document.json, document.bufferViews, bundle, findings);
   if (findings.refused()) return findings.takeProblems();
 

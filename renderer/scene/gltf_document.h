@@ -20,7 +20,9 @@ struct GltfDocument {
   nlohmann::json json;   ///< everything that the file says
   std::vector<ResourceBytes> buffers;
   std::vector<ResourceBytes> images;                      ///< encoded
-  std::vector<std::span<const std::uint8_t>> bufferViews; ///< bytes of each, inside its buffer
+  std::vector<std::span<const std::uint8_t>> bufferViews; ///< bytes of each, inside its buffer or decoded
+  std::vector<Bytes> decodedViews;                        ///< what bufferViews points into where the file compresses it
+  std::uint64_t decodedBytes = 0;                         ///< of them together
 };
 
 /// Reads the model and every file that it names; `findings` gets the warnings.

@@ -3,6 +3,7 @@
 #include <exception>
 #include <new>
 
+#include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/geometry/mesh_build.h"
@@ -10,9 +11,11 @@
 #include "renderer/scene/gltf_document.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/graph/scene_views.h"
-#include "renderer/scene/graph/skins.h"
 #include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
+#include "renderer/scene/posing/joint_checks.h"
+#include "renderer/scene/posing/posed_nodes.h"
+#include "renderer/scene/posing/skins.h"
 #include "renderer/scene/summary.h"
 
 namespace gnomon {
@@ -26,17 +29,26 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
 
   const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
-  checkSkins(*document, views, limits, findings);
-  const auto sources = gatherMeshes(*document, views, limits, findings);
+  auto deformation = std::make_shared<Deformation>();
+  deformation->skins = readSkins(*document, views, limits, findings);
+  checkJoints(*document, views, limits, findings);
+  const DracoPrimitives draco = decodeDracoPrimitives(*document, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+  const auto sources = gatherMeshes(*document, views, draco, limits, findings);
   if (findings.refused()) return findings.takeProblems();
 
   auto scene = std::make_shared<Scene>();
   scene->materials = readMaterials(*document, findings);
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
-  const std::vector<BuiltMesh> meshes = buildMeshes(sources, defaultMaterial, *scene, findings);
+  const std::vector<BuiltMesh> meshes =
+      buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings);
+  const NodeTree tree = buildNodeTree(*document, findings);
   if (findings.refused()) return findings.takeProblems();
-  scene->scenes = flattenScenes(*document, meshes, scene->primitives, limits, findings);
+  const std::vector<PosedMesh> posed = poseNodes(*document, tree, meshes, *deformation, limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
+  scene->scenes = flattenScenes(*document, views, tree, meshes, posed, scene->primitives, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+  if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
   scene->nodes = namedNodes(document->model);
   scene->images = loadImages(*document, limits, scene->materials, findings);
   if (findings.refused()) return findings.takeProblems();

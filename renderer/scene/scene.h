@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -115,6 +116,8 @@ inline glm::dvec3 anchorOf(const SceneView& view) {
   return view.bounds.empty() ? glm::dvec3(0.0) : view.bounds.center();
 }
 
+struct Deformation;
+
 /// A loaded glTF file: immutable, shared between threads. At least one scene.
 struct Scene {
   std::vector<glm::vec3> positions;         ///< of all primitives
@@ -123,9 +126,10 @@ struct Scene {
   std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
-  std::vector<Material> materials; ///< at least one (the default material)
-  std::vector<Image> images;       ///< 8-bit RGBA
-  std::vector<SceneNode> nodes;    ///< as the file numbers them
+  std::vector<Material> materials;                ///< at least one (the default material)
+  std::vector<Image> images;                      ///< 8-bit RGBA
+  std::vector<SceneNode> nodes;                   ///< as the file numbers them
+  std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
   std::vector<SceneView> scenes;
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "renderer/scene/posing/deformation.h"
+
 namespace gnomon {
 
 namespace {
@@ -24,6 +26,14 @@ std::uint64_t memoryBytes(const Scene& scene) {
   for (const SceneNode& node : scene.nodes) bytes += node.name.size();
   for (const Image& image : scene.images) {
     bytes += std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  }
+  if (scene.deformation) {
+    for (const Deformable& source : scene.deformation->deformables) {
+      bytes += bytesIn(source.mesh.positions) + bytesIn(source.mesh.attributes) + bytesIn(source.mesh.indices) +
+               bytesIn(source.mesh.sources) + bytesIn(source.influences);
+      for (const MorphTarget& target : source.targets) bytes += bytesIn(target);
+    }
+    for (const Skin& skin : scene.deformation->skins) bytes += bytesIn(skin.joints) + bytesIn(skin.jointFromMesh);
   }
   for (const SceneView& view : scene.scenes) {
     bytes += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);

@@ -8,8 +8,9 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kSupported{"KHR_lights_punctual", "KHR_mesh_quantization",
-                                                     "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 8> kSupported{
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_mesh_quantization",   "KHR_materials_emissive_strength", "KHR_meshopt_compression",    "KHR_node_visibility"};
 
 struct Consequence {
   std::string_view extension;
@@ -18,16 +19,12 @@ struct Consequence {
 
 /// What happens to a file that uses, but does not require, an extension.
 constexpr std::array kConsequences{
-    Consequence{"EXT_mesh_gpu_instancing", "only one copy of each instanced mesh is drawn"},
-    Consequence{"EXT_meshopt_compression", "the uncompressed fallback buffers are used"},
     Consequence{"EXT_texture_webp", "the fallback image is used; without one, the texture is left out"},
-    Consequence{"KHR_draco_mesh_compression", "the uncompressed fallback accessors are used"},
     Consequence{"KHR_materials_pbrSpecularGlossiness", "the metallic-roughness values of the material are used"},
     Consequence{"KHR_materials_transmission", "surfaces let no light through"},
     Consequence{"KHR_materials_unlit", "unlit materials are lit like any other"},
     Consequence{"KHR_materials_variants", "the default materials are used"},
     Consequence{"KHR_materials_volume", "surfaces are thin and let no light through"},
-    Consequence{"KHR_node_visibility", "hidden nodes are drawn"},
     Consequence{"KHR_texture_basisu", "the fallback image is used; without one, the texture is left out"},
     Consequence{"KHR_texture_transform", "textures are drawn without their offset, rotation and scale"},
 };

@@ -11,6 +11,7 @@ using enum FieldKind;
 constexpr double kMaxOffset = 9007199254740991.0; // 2^53 - 1: the largest count that JSON numbers hold exactly
 constexpr double kMaxSparse = 2147483647.0;
 constexpr double kMaxTexCoord = 255;
+constexpr double kMaxAttributeId = 4294967295.0;
 
 constexpr GltfField kFields[] = {
     {"root", "asset", object, "asset", true},
@@ -50,6 +51,10 @@ constexpr GltfField kFields[] = {
     {"node", "weights", numbers},
     {"node", "extensions", object, "node.extensions"},
     {"node.extensions", "KHR_lights_punctual", object, "node.light"},
+    {"node.extensions", "EXT_mesh_gpu_instancing", object, "instancing"},
+    {"instancing", "attributes", referenceMap, "accessors", true},
+    {"node.extensions", "KHR_node_visibility", object, "visibility"},
+    {"visibility", "visible", boolean},
     {"node.light", "light", reference, "lights", true},
 
     {"mesh", "name", string},
@@ -60,6 +65,10 @@ constexpr GltfField kFields[] = {
     {"primitive", "material", reference, "materials"},
     {.owner = "primitive", .key = "mode", .kind = integer, .min = 0, .max = 6},
     {"primitive", "targets", referenceMaps, "accessors"},
+    {"primitive", "extensions", object, "primitive.extensions"},
+    {"primitive.extensions", "KHR_draco_mesh_compression", object, "draco"},
+    {"draco", "bufferView", reference, "bufferViews", true},
+    {.owner = "draco", .key = "attributes", .kind = integerMap, .required = true, .min = 0, .max = kMaxAttributeId},
 
     {"accessor", "bufferView", reference, "bufferViews"},
     {.owner = "accessor", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxOffset},
@@ -91,6 +100,20 @@ constexpr GltfField kFields[] = {
     {.owner = "bufferView", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxOffset},
     {.owner = "bufferView", .key = "byteLength", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
     {.owner = "bufferView", .key = "byteStride", .kind = integer, .min = 4, .max = 252},
+    {"bufferView", "extensions", object, "bufferView.extensions"},
+    {"bufferView.extensions", "EXT_meshopt_compression", object, "meshopt"},
+    {"bufferView.extensions", "KHR_meshopt_compression", object, "meshopt"},
+    {"meshopt", "buffer", reference, "buffers", true},
+    {.owner = "meshopt", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxOffset},
+    {.owner = "meshopt", .key = "byteLength", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
+    {.owner = "meshopt", .key = "byteStride", .kind = integer, .required = true, .min = 1, .max = 256},
+    {.owner = "meshopt", .key = "count", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
+    {.owner = "meshopt", .key = "mode", .kind = string, .required = true, .allowed = "ATTRIBUTES TRIANGLES INDICES"},
+    {.owner = "meshopt", .key = "filter", .kind = string, .allowed = "NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR"},
+    {"buffer", "extensions", object, "buffer.extensions"},
+    {"buffer.extensions", "EXT_meshopt_compression", object, "meshopt.buffer"},
+    {"buffer.extensions", "KHR_meshopt_compression", object, "meshopt.buffer"},
+    {"meshopt.buffer", "fallback", boolean},
     {"buffer", "uri", string},
     {.owner = "buffer", .key = "byteLength", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
 

@@ -19,7 +19,8 @@ enum class FieldKind {
   references,   ///< an array of them, none twice
   referenceMap, ///< an object whose values are references
   referenceMaps,
-  object, ///< described by the rows whose owner is `of`
+  integerMap, ///< an object whose values are whole numbers
+  object,     ///< described by the rows whose owner is `of`
   objects
 };
 

@@ -112,6 +112,8 @@ class SchemaCheck {
         return checkObject(value, field.of, pointer);
       case FieldKind::referenceMap:
         return checkReferenceMap(field, value, pointer);
+      case FieldKind::integerMap:
+        return checkIntegerMap(field, value, pointer);
       case FieldKind::numbers:
       case FieldKind::strings:
       case FieldKind::references:
@@ -149,6 +151,11 @@ class SchemaCheck {
   void checkReferenceMap(const GltfField& field, json& value, const std::string& pointer) {
     if (!value.is_object()) return wrongType(pointer, "an object", value);
     for (auto& [key, index] : value.items()) checkReference(field, index, pointerTo(pointer, key));
+  }
+
+  void checkIntegerMap(const GltfField& field, json& value, const std::string& pointer) {
+    if (!value.is_object()) return wrongType(pointer, "an object", value);
+    for (auto& [key, number] : value.items()) checkInteger(field, number, pointerTo(pointer, key));
   }
 
   void checkArray(const GltfField& field, json& value, const std::string& pointer) {

@@ -25,7 +25,8 @@ json pruned(const json& value) {
   for (const auto& [key, member] : value.items()) {
     if (key == "extras") continue;
     if (key == "extensions" && member.is_object()) {
-      for (const char* read : {"KHR_lights_punctual", "KHR_materials_emissive_strength"}) {
+      for (const char* read :
+           {"KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_emissive_strength"}) {
         const auto extension = member.find(read);
         if (extension != member.end()) object[key][read] = pruned(*extension);
       }
@@ -34,6 +35,20 @@ json pruned(const json& value) {
     }
   }
   return object;
+}
+
+/// tinygltf refuses indices without a buffer view, as compressed primitives have them.
+void dropCompressedIndices(json& drawn) {
+  const auto meshes = drawn.find("meshes");
+  if (meshes == drawn.end()) return;
+  for (json& mesh : *meshes) {
+    for (json& primitive : mesh["primitives"]) {
+      const auto extensions = primitive.find("extensions");
+      if (extensions != primitive.end() && extensions->contains("KHR_draco_mesh_compression")) {
+        primitive.erase("indices");
+      }
+    }
+  }
 }
 
 bool noFile(const std::string&, void*) {
@@ -66,6 +81,7 @@ Result<tinygltf::Model> typedModel(const json& document) {
     if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
       drawn["extensions"]["KHR_lights_punctual"] = pruned((*extensions)["KHR_lights_punctual"]);
     }
+    dropCompressedIndices(drawn);
     const std::string text = drawn.dump();
     drawn = nullptr;
     if (text.size() > std::numeric_limits<unsigned int>::max()) return refused;

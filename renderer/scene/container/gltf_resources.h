@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/scene/container/resource_bytes.h"
+#include "renderer/scene/decode/decode_budget.h"
 #include "renderer/scene/findings.h"
 
 namespace gnomon {
@@ -13,14 +14,18 @@ namespace gnomon {
 // The documents given here have passed checkSchema(). What could not be read is empty and told in the findings.
 
 /// The bytes of each buffer, exactly byteLength of them. `binary` is the GLB's BIN chunk.
-std::vector<ResourceBytes> readBuffers(const nlohmann::json& document,
+/// Those of fallbacks (meshoptFallbacks) are not read.
+std::vector<ResourceBytes> readBuffers(const nlohmann::json& document, const std::vector<bool>& fallbacks,
                                        std::optional<std::span<const std::uint8_t>> binary, const SceneBundle& bundle,
                                        Findings& findings);
 
-/// The bytes of each buffer view, which lie inside its buffer.
-std::vector<std::span<const std::uint8_t>> readBufferViews(const nlohmann::json& document,
-                                                           const std::vector<ResourceBytes>& buffers,
-                                                           Findings& findings);
+/// The bytes of each buffer view, inside its buffer or decoded.
+struct BufferViews {
+  std::vector<std::span<const std::uint8_t>> bytes;
+  std::vector<Bytes> decoded; ///< what `bytes` points into where the file compresses it
+};
+BufferViews readBufferViews(const nlohmann::json& document, const std::vector<ResourceBytes>& buffers,
+                            const std::vector<bool>& fallbacks, DecodeBudget& budget, Findings& findings);
 
 /// The encoded bytes of each image.
 std::vector<ResourceBytes> readImages(const nlohmann::json& document,

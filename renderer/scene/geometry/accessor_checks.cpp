@@ -102,6 +102,7 @@ void addSparse(const GltfDocument& document, const tinygltf::Accessor& accessor,
                              pointer + "/sparse/values", findings);
   if (!view.sparseIndices || !view.sparseValues) return;
   view.sparseCount = count;
+  view.sparseStride = elementBytes;
   checkSparseOrder(view, pointer + "/sparse/indices", findings);
 }
 

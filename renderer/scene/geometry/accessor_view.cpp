@@ -76,7 +76,7 @@ const std::uint8_t* AccessorView::bytesOfElement(std::size_t element) const {
   while (first < last) {
     const std::size_t middle = first + (last - first) / 2;
     const std::uint32_t index = unsignedAt(sparseIndices + middle * indexBytes, sparseIndexType);
-    if (index == element) return sparseValues + middle * bytesOf(componentType) * static_cast<std::size_t>(components);
+    if (index == element) return sparseValues + middle * sparseStride;
     if (index < element) {
       first = middle + 1;
     } else {
@@ -94,6 +94,16 @@ glm::dvec4 AccessorView::read(std::size_t element, glm::dvec4 missing) const {
     missing[i] = bytes ? componentAt(bytes + static_cast<std::size_t>(i) * step, componentType, normalized) : 0.0;
   }
   return missing;
+}
+
+glm::dmat4 AccessorView::readMatrix(std::size_t element) const {
+  assert(element < count && components == 0 && componentType == ComponentType::float32);
+  const std::uint8_t* bytes = bytesOfElement(element);
+  glm::dmat4 matrix(0);
+  for (int i = 0; i < 16 && bytes; ++i) {
+    matrix[i / 4][i % 4] = componentAt(bytes + sizeof(float) * static_cast<std::size_t>(i), componentType, false);
+  }
+  return matrix;
 }
 
 std::uint32_t AccessorView::readIndex(std::size_t element) const {

@@ -24,7 +24,7 @@ struct AccessorView {
   const std::uint8_t* data = nullptr; ///< of the first element; nullptr = all zero
   std::size_t count = 0;
   std::size_t stride = 0; ///< bytes
-  int components = 1;     ///< 1..4; 0 for matrices, which are never read
+  int components = 1;     ///< 1..4; 0 for matrices
   ComponentType componentType = ComponentType::float32;
   bool normalized = false;
 
@@ -32,9 +32,13 @@ struct AccessorView {
   const std::uint8_t* sparseIndices = nullptr; ///< packed, strictly increasing
   ComponentType sparseIndexType = ComponentType::uint32;
   const std::uint8_t* sparseValues = nullptr; ///< packed
+  std::size_t sparseStride = 0;               ///< bytes of one of them
 
   /// REQUIRES: element < count, components > 0. Components that the accessor does not have stay as in `missing`.
   glm::dvec4 read(std::size_t element, glm::dvec4 missing = glm::dvec4(0)) const;
+
+  /// REQUIRES: element < count, MAT4 of floats.
+  glm::dmat4 readMatrix(std::size_t element) const;
 
   /// REQUIRES: element < count, one unsigned component.
   std::uint32_t readIndex(std::size_t element) const;

@@ -2,19 +2,18 @@
 
 #include "renderer/scene/geometry/clusters.h"
 #include "renderer/scene/geometry/vertex_build.h"
+#include "renderer/scene/geometry/vertex_order.h"
 #include "renderer/scene/geometry/welding.h"
+#include "renderer/scene/posing/deformable_build.h"
 
 namespace gnomon {
 
-namespace {
-
-/// Appends one primitive's vertices, triangles and clusters to the scene.
-Primitive append(TriangleMesh mesh, Scene& scene) {
-  mesh.indices = spatiallySorted(std::move(mesh.indices), mesh.positions);
+int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
   const std::vector<Cluster> clusters = clustersOf(mesh.indices, mesh.positions);
   const std::vector<std::uint32_t> welded = weldedIndices(mesh.indices, mesh.positions);
 
   Primitive primitive;
+  primitive.material = material;
   primitive.baseVertex = static_cast<std::uint32_t>(scene.positions.size());
   primitive.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
   primitive.firstIndex = static_cast<std::uint32_t>(scene.indices.size());
@@ -30,24 +29,26 @@ Primitive append(TriangleMesh mesh, Scene& scene) {
   scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
   scene.welded.insert(scene.welded.end(), welded.begin(), welded.end());
   scene.clusters.insert(scene.clusters.end(), clusters.begin(), clusters.end());
-  return primitive;
+  scene.primitives.push_back(primitive);
+  return static_cast<int>(scene.primitives.size()) - 1;
 }
 
-} // namespace
-
 std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
-                                   Scene& scene, Findings& findings) {
+                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings) {
   std::vector<BuiltMesh> built(meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     for (const PrimitiveSource& source : meshes[m]) {
-      TriangleMesh mesh = buildVertices(source, findings);
+      TriangleMesh mesh = ordered(buildVertices(source, findings));
       if (mesh.indices.empty()) continue;
-      Primitive primitive = append(std::move(mesh), scene);
-      primitive.material = source.material >= 0 ? source.material : defaultMaterial;
-      if (source.colors) scene.materials[static_cast<std::size_t>(primitive.material)].hasVertexColors = true;
-      built[m].primitives.push_back(static_cast<int>(scene.primitives.size()));
-      built[m].triangles += primitive.indexCount / 3;
-      scene.primitives.push_back(primitive);
+      const int material = source.material >= 0 ? source.material : defaultMaterial;
+      if (source.colors) scene.materials[static_cast<std::size_t>(material)].hasVertexColors = true;
+      if (source.deforms()) {
+        built[m].deformables.push_back(static_cast<int>(deformables.size()));
+        deformables.push_back(buildDeformable(source, std::move(mesh), findings));
+        deformables.back().material = material;
+      } else {
+        built[m].primitives.push_back(appendPrimitive(mesh, material, scene));
+      }
     }
   }
   return built;

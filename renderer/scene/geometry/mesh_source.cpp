@@ -10,8 +10,8 @@ namespace {
 class PrimitiveGathering {
  public:
   PrimitiveGathering(const tinygltf::Primitive& primitive, const std::vector<AccessorView>& views,
-                     const GltfDocument& document, std::string pointer, Findings& findings)
-      : primitive_(primitive), views_(views), document_(document), findings_(findings) {
+                     const GltfDocument& document, const DracoPrimitive* draco, std::string pointer, Findings& findings)
+      : primitive_(primitive), views_(views), document_(document), draco_(draco), findings_(findings) {
     source_.pointer = std::move(pointer);
   }
 
@@ -23,7 +23,13 @@ class PrimitiveGathering {
     source_.tangents = attribute("TANGENT", {4});
     source_.texCoords = {attribute("TEXCOORD_0", {2}), attribute("TEXCOORD_1", {2})};
     source_.colors = attribute("COLOR_0", {3, 4});
-    if (primitive_.indices >= 0) gatherIndices();
+    gatherJoints();
+    for (std::size_t i = 0; i < primitive_.targets.size(); ++i) gatherTarget(i);
+    if (draco_) {
+      source_.indices = &draco_->indices;
+    } else if (primitive_.indices >= 0) {
+      gatherIndices();
+    }
     return std::move(source_);
   }
 
@@ -31,8 +37,11 @@ class PrimitiveGathering {
   const AccessorView* attribute(const std::string& name, std::initializer_list<int> components) {
     const auto found = primitive_.attributes.find(name);
     if (found == primitive_.attributes.end()) return nullptr;
-    const std::string pointer = source_.pointer + "/attributes/" + name;
-    const AccessorView& view = views_[static_cast<std::size_t>(found->second)];
+    return checked(viewOf(name, found->second), name, source_.pointer + "/attributes/" + name, components);
+  }
+
+  const AccessorView* checked(const AccessorView& view, const std::string& name, const std::string& pointer,
+                              std::initializer_list<int> components) {
     if (std::find(components.begin(), components.end(), view.components) == components.end()) {
       findings_.invalid(pointer, "The accessor is not of a type that " + name + " may have.");
       return nullptr;
@@ -43,6 +52,53 @@ class PrimitiveGathering {
       return nullptr;
     }
     return &view;
+  }
+
+  const AccessorView& viewOf(const std::string& name, int accessor) const {
+    if (draco_) {
+      const auto decoded = draco_->attributes.find(name);
+      if (decoded != draco_->attributes.end()) return decoded->second;
+    }
+    return views_[static_cast<std::size_t>(accessor)];
+  }
+
+  void gatherJoints() {
+    for (std::size_t set = 0; set < source_.joints.size(); ++set) {
+      const std::string number = std::to_string(set);
+      const AccessorView* joints = attribute("JOINTS_" + number, {4});
+      const AccessorView* weights = attribute("WEIGHTS_" + number, {4});
+      if (!joints && !weights) return;
+      const std::string pointer = source_.pointer + "/attributes/";
+      if (!joints || !weights) {
+        return findings_.invalid(pointer + (joints ? "JOINTS_" : "WEIGHTS_") + number,
+                                 "Joints and weights only go together.");
+      }
+      const ComponentType type = joints->componentType;
+      if ((type != ComponentType::uint8 && type != ComponentType::uint16) || joints->normalized) {
+        return findings_.invalid(pointer + "JOINTS_" + number, "The joints are not unsigned bytes or shorts.");
+      }
+      if (weights->componentType != ComponentType::float32 && !weights->normalized) {
+        return findings_.invalid(pointer + "WEIGHTS_" + number, "The weights are not floats or normalized integers.");
+      }
+      source_.joints[set] = joints;
+      source_.weights[set] = weights;
+    }
+    if (primitive_.attributes.contains("JOINTS_2")) {
+      findings_.warn("The primitive " + source_.pointer + " has more than eight joints a vertex; eight are used.");
+    }
+  }
+
+  void gatherTarget(std::size_t index) {
+    const std::string pointer = pointerTo(source_.pointer + "/targets", index);
+    MorphSource target;
+    for (const auto& [name, accessor] : primitive_.targets[index]) {
+      const AccessorView** member = name == "POSITION"  ? &target.positions
+                                    : name == "NORMAL"  ? &target.normals
+                                    : name == "TANGENT" ? &target.tangents
+                                                        : nullptr;
+      if (member) *member = checked(views_[static_cast<std::size_t>(accessor)], name, pointerTo(pointer, name), {3});
+    }
+    source_.targets.push_back(target);
   }
 
   void gatherIndices() {
@@ -65,6 +121,7 @@ class PrimitiveGathering {
   const tinygltf::Primitive& primitive_;
   const std::vector<AccessorView>& views_;
   const GltfDocument& document_;
+  const DracoPrimitive* draco_; ///< nullptr = not compressed
   Findings& findings_;
   PrimitiveSource source_;
 };
@@ -79,6 +136,30 @@ std::size_t mostVertices(const PrimitiveSource& source) {
   return source.normals ? std::min(source.positions->count, separate) : separate;
 }
 
+/// Every primitive of a mesh has the same number of targets (glTF 2.0, 3.7.2.2); `morphed` counts the vertices of all.
+bool morphFits(const PrimitiveSource& source, const std::vector<PrimitiveSource>& before, const Limits& limits,
+               std::size_t& morphed, Findings& findings) {
+  const std::string pointer = source.pointer + "/targets";
+  const std::size_t targets = source.targets.size();
+  if (!before.empty() && targets != before.front().targets.size()) {
+    findings.invalid(pointer, "The primitives of a mesh do not have as many morph targets as each other.",
+                     std::to_string(before.front().targets.size()), std::to_string(targets));
+    return false;
+  }
+  if (targets > limits.maxMorphTargets) {
+    findings.tooLarge(pointer, "The mesh has too many morph targets.", std::to_string(limits.maxMorphTargets),
+                      std::to_string(targets));
+    return false;
+  }
+  morphed += targets * mostVertices(source);
+  if (morphed > limits.maxMorphedVertices) {
+    findings.tooLarge(pointer, "The morph targets have too many vertices.", std::to_string(limits.maxMorphedVertices),
+                      std::to_string(morphed));
+    return false;
+  }
+  return true;
+}
+
 } // namespace
 
 std::size_t PrimitiveSource::triangles() const {
@@ -88,11 +169,13 @@ std::size_t PrimitiveSource::triangles() const {
 }
 
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
-                                                       const std::vector<AccessorView>& views, const Limits& limits,
+                                                       const std::vector<AccessorView>& views,
+                                                       const DracoPrimitives& draco, const Limits& limits,
                                                        Findings& findings) {
   std::vector<std::vector<PrimitiveSource>> meshes(document.model.meshes.size());
   std::size_t triangles = 0;
   std::size_t vertices = 0;
+  std::size_t morphed = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const tinygltf::Mesh& mesh = document.model.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -102,10 +185,11 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
         findings.warn("Mesh " + std::to_string(m) + " has points or lines, which are not drawn.");
         continue;
       }
-      if (!primitive.targets.empty()) {
-        findings.warn("Mesh " + std::to_string(m) + " has morph targets: it is drawn in its rest shape.");
-      }
-      PrimitiveSource source = PrimitiveGathering(primitive, views, document, pointer, findings).gather();
+      const auto compressed = draco.find({m, p});
+      PrimitiveSource source =
+          PrimitiveGathering(primitive, views, document, compressed == draco.end() ? nullptr : &compressed->second,
+                             pointer, findings)
+              .gather();
       if (!source.positions) {
         findings.warn("Mesh " + std::to_string(m) + " has a primitive without positions, which is not drawn.");
         continue;
@@ -124,6 +208,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
                           std::to_string(ofTriangles ? triangles : vertices));
         return {};
       }
+      if (!morphFits(source, meshes[m], limits, morphed, findings)) return {};
       meshes[m].push_back(std::move(source));
     }
   }

@@ -6,9 +6,17 @@
 #include <vector>
 
 #include "protocol/limits.h"
+#include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/geometry/accessor_view.h"
 
 namespace gnomon {
+
+/// What a morph target adds to each vertex. Absent attributes are nullptr.
+struct MorphSource {
+  const AccessorView* positions = nullptr;
+  const AccessorView* normals = nullptr;
+  const AccessorView* tangents = nullptr;
+};
 
 /// A primitive of the file whose accessors fit each other. Absent attributes are nullptr.
 struct PrimitiveSource {
@@ -21,15 +29,22 @@ struct PrimitiveSource {
   std::array<const AccessorView*, 2> texCoords{};
   const AccessorView* colors = nullptr;
   const AccessorView* indices = nullptr;
+  std::vector<MorphSource> targets;
+  std::array<const AccessorView*, 2> joints{}; ///< four joints a vertex each
+  std::array<const AccessorView*, 2> weights{};
 
+  /// Its vertices depend on a pose.
+  bool deforms() const { return !targets.empty() || joints[0]; }
   std::size_t corners() const { return indices ? indices->count : positions->count; }
   std::size_t triangles() const;
 };
 
 /// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning.
-/// Refuses before anything is allocated when the whole would pass the limits. `views` must outlive the result.
+/// Refuses before anything is allocated when the whole would pass the limits. `views` and `draco` must outlive the
+/// result.
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
-                                                       const std::vector<AccessorView>& views, const Limits& limits,
+                                                       const std::vector<AccessorView>& views,
+                                                       const DracoPrimitives& draco, const Limits& limits,
                                                        Findings& findings);
 
 } // namespace gnomon

@@ -67,7 +67,7 @@ void dropUndrawable(std::vector<std::uint32_t>& corners, const PrimitiveSource& 
       ++notFinite;
       continue;
     }
-    if (glm::cross(b - a, c - a) == glm::dvec3(0)) continue;
+    if (!source.deforms() && glm::cross(b - a, c - a) == glm::dvec3(0)) continue;
     std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(i), 3,
                 corners.begin() + static_cast<std::ptrdiff_t>(kept));
     kept += 3;

@@ -12,7 +12,8 @@ namespace gnomon {
 /// a problem in the findings and the list is empty.
 std::vector<std::uint32_t> readTriangles(const PrimitiveSource& source, Findings& findings);
 
-/// Drops triangles with a corner that is not finite, with a warning, and those without an area.
+/// Drops triangles with a corner that is not finite, with a warning, and those without an area, unless a pose may give
+/// them one.
 void dropUndrawable(std::vector<std::uint32_t>& corners, const PrimitiveSource& source, Findings& findings);
 
 /// The vertices that the corners use, ascending; the corners become indices into them.

@@ -64,10 +64,10 @@ bool replaceMissingNormals(TriangleMesh& mesh) {
 }
 
 /// True if a tangent had to be replaced.
-bool setTangents(TriangleMesh& mesh, const AccessorView& view, const std::vector<std::uint32_t>& vertices) {
+bool setTangents(TriangleMesh& mesh, const AccessorView& view) {
   bool replaced = false;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const glm::dvec4 tangent = view.read(vertices[i]);
+  for (std::size_t i = 0; i < mesh.sources.size(); ++i) {
+    const glm::dvec4 tangent = view.read(mesh.sources[i]);
     glm::dvec3 direction = directionOf(glm::dvec3(tangent));
     if (direction == glm::dvec3(0)) {
       direction = perpendicularTo(glm::dvec3(mesh.attributes[i].normal));
@@ -103,28 +103,28 @@ TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
   mesh.indices = readTriangles(source, findings);
   dropUndrawable(mesh.indices, source, findings);
 
-  std::vector<std::uint32_t> vertices; // of the accessors, one for each vertex of the mesh
+  mesh.flat = !source.normals;
   if (source.normals) {
-    vertices = compactVertices(mesh.indices, source.positions->count);
+    mesh.sources = compactVertices(mesh.indices, source.positions->count);
   } else {
-    vertices = mesh.indices;
-    for (std::size_t i = 0; i < vertices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
+    mesh.sources = mesh.indices;
+    for (std::size_t i = 0; i < mesh.sources.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
   }
 
-  mesh.positions.reserve(vertices.size());
-  mesh.attributes.reserve(vertices.size());
-  for (const std::uint32_t vertex : vertices) {
+  mesh.positions.reserve(mesh.sources.size());
+  mesh.attributes.reserve(mesh.sources.size());
+  for (const std::uint32_t vertex : mesh.sources) {
     mesh.positions.emplace_back(source.positions->read(vertex));
     mesh.attributes.push_back(attributesAt(source, vertex));
   }
 
-  if (!source.normals) {
+  if (mesh.flat) {
     setFlatNormals(mesh);
     return mesh;
   }
   bool replaced = replaceMissingNormals(mesh);
   mesh.hasTangents = source.tangents != nullptr;
-  if (source.tangents && setTangents(mesh, *source.tangents, vertices)) replaced = true;
+  if (source.tangents && setTangents(mesh, *source.tangents)) replaced = true;
   if (replaced) {
     findings.warn("The primitive " + source.pointer +
                   " has normals or tangents without a direction; they are taken from its shape.");

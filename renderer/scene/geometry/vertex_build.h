@@ -1,21 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <vector>
-
 #include "renderer/scene/geometry/mesh_source.h"
-#include "renderer/scene/scene.h"
+#include "renderer/scene/geometry/triangle_mesh.h"
 
 namespace gnomon {
-
-/// The vertices and triangles of one primitive.
-struct TriangleMesh {
-  std::vector<glm::vec3> positions;
-  std::vector<VertexAttributes> attributes; ///< parallel to positions
-  std::vector<std::uint32_t> indices;       ///< three a triangle
-  bool hasTangents = false;
-};
 
 /// Reads a primitive. Without normals it gets flat ones; normals and tangents that have no direction are replaced.
 TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings);

@@ -48,6 +48,13 @@ bool finite(const glm::dmat4& matrix) {
   return true;
 }
 
+bool hides(const nlohmann::json& node) {
+  const auto extensions = node.find("extensions");
+  if (extensions == node.end()) return false;
+  const auto visibility = extensions->find("KHR_node_visibility");
+  return visibility != extensions->end() && !visibility->value("visible", true);
+}
+
 } // namespace
 
 NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
@@ -64,6 +71,7 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
   }
   tree.worldFromNode.resize(model.nodes.size());
   tree.worldFromUnscaled.resize(model.nodes.size());
+  tree.hidden.resize(model.nodes.size());
   std::vector<bool> reached(model.nodes.size(), false);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t node = order[i];
@@ -71,6 +79,8 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
     const std::string pointer = pointerTo("/nodes", node);
     const NodeTransform transform = readTransform(model.nodes[node], pointer, findings);
     const int parent = tree.parents[node];
+    tree.hidden[node] =
+        hides(document.json["nodes"][node]) || (parent >= 0 && tree.hidden[static_cast<std::size_t>(parent)]);
     const glm::dmat4 worldFromParent =
         parent < 0 ? glm::dmat4(1) : tree.worldFromNode[static_cast<std::size_t>(parent)];
     tree.worldFromNode[node] = worldFromParent * transform.parentFromNode;

@@ -14,6 +14,7 @@ struct NodeTree {
   std::vector<int> parents; ///< -1 for a root
   std::vector<glm::dmat4> worldFromNode;
   std::vector<glm::dmat4> worldFromUnscaled; ///< without the node's own scale: what cameras and lights go by
+  std::vector<bool> hidden;                  ///< KHR_node_visibility hides the node or one above it
 };
 
 /// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/scene/graph/cameras.h"
+#include "renderer/scene/graph/instancing.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_tree.h"
 
@@ -31,14 +32,17 @@ bool finite(const Aabb& box) {
 
 class Flattening {
  public:
-  Flattening(const GltfDocument& document, const std::vector<BuiltMesh>& meshes,
+  Flattening(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
+             const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
              const std::vector<Primitive>& primitives, const Limits& limits, Findings& findings)
       : document_(document),
+        accessors_(accessors),
+        tree_(tree),
         meshes_(meshes),
+        posed_(posed),
         primitives_(primitives),
         limits_(limits),
-        findings_(findings),
-        tree_(buildNodeTree(document, findings)) {}
+        findings_(findings) {}
 
   std::vector<int> roots() const {
     std::vector<int> roots;
@@ -62,7 +66,7 @@ class Flattening {
   /// The nodes below the roots, ascending. The nodes are trees, so none is met twice.
   std::vector<int> reachedFrom(const std::vector<int>& roots) {
     std::vector<int> nodes = roots;
-    for (std::size_t i = 0; i < nodes.size() && count(1, "/scenes"); ++i) {
+    for (std::size_t i = 0; i < nodes.size() && count(1, 1, "/scenes"); ++i) {
       const auto& children = document_.model.nodes[static_cast<std::size_t>(nodes[i])].children;
       nodes.insert(nodes.end(), children.begin(), children.end());
     }
@@ -72,35 +76,63 @@ class Flattening {
 
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
     const tinygltf::Node& source = document_.model.nodes[node];
-    if (source.mesh >= 0) placeMesh(node, meshes_[static_cast<std::size_t>(source.mesh)], view, pointer);
+    if (source.mesh >= 0 && !tree_.hidden[node]) placeMesh(node, view, pointer);
     if (source.camera >= 0) {
       if (auto camera = cameraOf(document_, tree_, node, findings_)) view.cameras.push_back(*std::move(camera));
     }
+    if (tree_.hidden[node]) return;
     if (auto light = lightOf(document_, tree_, node, findings_)) view.lights.push_back(*std::move(light));
   }
 
-  void placeMesh(std::size_t node, const BuiltMesh& mesh, SceneView& view, const std::string& pointer) {
-    const glm::dmat4& worldFromLocal = tree_.worldFromNode[node];
-    if (isFlat(worldFromLocal)) {
-      if (!mesh.primitives.empty()) {
-        findings_.warn("The mesh at node " + std::to_string(node) + " is scaled to nothing and not drawn.");
+  void placeMesh(std::size_t node, SceneView& view, const std::string& pointer) {
+    const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(document_.model.nodes[node].mesh)];
+    std::vector<int> primitives = mesh.primitives;
+    primitives.insert(primitives.end(), posed_[node].followingNode.begin(), posed_[node].followingNode.end());
+    const auto instancing = instancingOf(document_, accessors_, node, findings_);
+    if (findings_.refused()) return;
+    if (!posed_[node].followingSkin.empty()) {
+      if (instancing) {
+        findings_.warn("The mesh at node " + std::to_string(node) + " follows a skin: its copies are not drawn.");
       }
+      if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
+      placeCopy(node, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
+    }
+    const std::uint64_t copies = instancing ? instancing->count : 1;
+    if (findings_.refused() || !count(primitives.size(), copies, pointer)) return;
+    for (std::uint64_t copy = 0; copy < copies && !findings_.refused(); ++copy) {
+      const auto nodeFromCopy = instancing ? instancing->nodeFromCopy(copy) : glm::dmat4(1);
+      if (nodeFromCopy) {
+        placeCopy(node, tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
+      } else {
+        findings_.invalid(pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes",
+                          "A copy has a rotation of length 0 or a number that is not finite.", {},
+                          "copy " + std::to_string(copy));
+      }
+    }
+  }
+
+  void placeCopy(std::size_t node, const glm::dmat4& worldFromLocal, const std::vector<int>& primitives,
+                 SceneView& view, const std::string& pointer) {
+    if (primitives.empty()) return;
+    if (isFlat(worldFromLocal)) {
+      findings_.warn("The mesh at node " + std::to_string(node) + " is scaled to nothing and not drawn.");
       return;
     }
-    triangles_ += mesh.triangles;
-    if (triangles_ > limits_.maxTriangles) {
-      findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(limits_.maxTriangles),
-                         std::to_string(triangles_));
-      return;
-    }
-    if (!count(mesh.primitives.size(), pointer)) return;
-    view.triangles += mesh.triangles;
-    for (const int primitive : mesh.primitives) {
+    for (const int index : primitives) {
+      const Primitive& primitive = primitives_[static_cast<std::size_t>(index)];
+      const std::uint64_t triangles = primitive.indexCount / 3;
+      triangles_ += triangles;
+      if (triangles_ > limits_.maxTriangles) {
+        findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(limits_.maxTriangles),
+                           std::to_string(triangles_));
+        return;
+      }
+      view.triangles += triangles;
       Instance instance;
       instance.node = static_cast<int>(node);
-      instance.primitive = primitive;
+      instance.primitive = index;
       instance.worldFromLocal = worldFromLocal;
-      instance.bounds = transformed(worldFromLocal, primitives_[static_cast<std::size_t>(primitive)].bounds);
+      instance.bounds = transformed(worldFromLocal, primitive.bounds);
       if (!finite(instance.bounds)) {
         findings_.invalid(pointerTo("/nodes", node), "The mesh's place in the world is not finite.");
         return;
@@ -110,33 +142,41 @@ class Flattening {
     }
   }
 
-  /// Adds to the nodes and primitives placed so far; false, and a problem, past the limit.
-  bool count(std::size_t more, const std::string& pointer) {
-    placed_ += more;
-    if (placed_ <= limits_.maxInstances) return true;
+  /// Adds `copies` of so many to the nodes and primitives placed so far; false, and a problem, past the limit. Each
+  /// copy of nothing counts too, since it takes time.
+  bool count(std::uint64_t primitives, std::uint64_t copies, const std::string& pointer) {
+    const std::uint64_t each = copies > 1 ? std::max<std::uint64_t>(primitives, 1) : primitives;
+    if (each == 0 || copies <= (limits_.maxInstances - placed_) / each) {
+      placed_ += each * copies;
+      return true;
+    }
     findings_.tooLarge(pointer, "The scenes place too many nodes and primitives.", std::to_string(limits_.maxInstances),
-                       std::to_string(placed_));
+                       copies > 1 ? std::to_string(copies) + " copies of " + std::to_string(primitives) + " after " +
+                                        std::to_string(placed_)
+                                  : std::to_string(placed_ + primitives));
     return false;
   }
 
   const GltfDocument& document_;
+  const std::vector<AccessorView>& accessors_;
+  const NodeTree& tree_;
   const std::vector<BuiltMesh>& meshes_;
+  const std::vector<PosedMesh>& posed_; ///< one a node
   const std::vector<Primitive>& primitives_;
   const Limits& limits_;
   Findings& findings_;
-  NodeTree tree_;
   std::uint64_t triangles_ = 0; ///< of all scenes
-  std::size_t placed_ = 0;      ///< of all scenes
+  std::uint64_t placed_ = 0;    ///< of all scenes; <= maxInstances
 };
 
 } // namespace
 
-std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<BuiltMesh>& meshes,
-                                     const std::vector<Primitive>& primitives, const Limits& limits,
-                                     Findings& findings) {
+std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<AccessorView>& accessors,
+                                     const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
+                                     const std::vector<PosedMesh>& posed, const std::vector<Primitive>& primitives,
+                                     const Limits& limits, Findings& findings) {
   std::vector<SceneView> views;
-  Flattening flattening(document, meshes, primitives, limits, findings);
-  if (findings.refused()) return views;
+  Flattening flattening(document, accessors, tree, meshes, posed, primitives, limits, findings);
   const auto& scenes = document.model.scenes;
   for (std::size_t i = 0; i < scenes.size() && !findings.refused(); ++i) {
     views.push_back(flattening.flatten(scenes[i].nodes, pointerTo("/scenes", i)));

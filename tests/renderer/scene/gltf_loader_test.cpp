@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 
 #include "tests/renderer/scene/load.h"
+#include "tests/support/compressed_models.h"
 
 namespace gnomon {
 namespace {
@@ -103,6 +104,8 @@ void collectPlaces(const json& value, const json::json_pointer& at, std::vector<
   }
 }
 
+void expectToSurviveAnyValueAnywhere(testing::GlbBuilder sound);
+
 TEST(GltfLoader, SurvivesAnyValueAnywhere) {
   testing::GlbBuilder sound = testing::cube();
   sound.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
@@ -116,7 +119,34 @@ TEST(GltfLoader, SurvivesAnyValueAnywhere) {
   sound.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", json::object()}}};
   sound.json["nodes"][0].update(
       {{"camera", 0}, {"skin", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  sound.json["buffers"] = {{{"byteLength", sound.binary.size()}}};
+  expectToSurviveAnyValueAnywhere(sound);
+}
+
+TEST(GltfLoader, SurvivesAnyValueInCompressedModels) {
+  expectToSurviveAnyValueAnywhere(testing::dracoModel(testing::torus(4)));
+  expectToSurviveAnyValueAnywhere(testing::meshoptModel(testing::torus(4)));
+}
+
+TEST(GltfLoader, SurvivesAnyValueInModelsThatDeform) {
+  testing::GlbBuilder sound = testing::triangle();
+  sound.add("nodes", {{"translation", {0, 1, 0}}});
+  const int joints = sound.addAccessor(std::vector<std::uint8_t>(12), "VEC4", 5121, 3);
+  const int weights = sound.addAccessor(std::vector<float>(12, 0.25f), "VEC4", 5126, 3);
+  const int matrices = sound.addAccessor(std::vector<glm::mat4>(1, glm::mat4(1)), "MAT4", 5126, 1);
+  json& primitive = sound.json["meshes"][0]["primitives"][0];
+  primitive["attributes"].update({{"JOINTS_0", joints}, {"WEIGHTS_0", weights}});
+  primitive["targets"] = {{{"POSITION", 0}, {"NORMAL", 0}}};
+  sound.json["meshes"][0]["weights"] = {0.5};
+  sound.add("skins", {{"joints", {1}}, {"inverseBindMatrices", matrices}});
+  sound.json["nodes"][0].update({{"skin", 0}, {"weights", {1}}});
+  sound.add("nodes", {{"mesh", 0}});
+  sound.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 0}};
+  sound.json["scenes"][0]["nodes"] = {0, 1, 2};
+  expectToSurviveAnyValueAnywhere(sound);
+}
+
+void expectToSurviveAnyValueAnywhere(testing::GlbBuilder sound) {
+  if (!sound.json.contains("buffers")) sound.json["buffers"] = {{{"byteLength", sound.binary.size()}}};
   std::vector<json::json_pointer> places;
   collectPlaces(sound.json, json::json_pointer(), places);
   const json lies[] = {nullptr,

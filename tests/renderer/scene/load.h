@@ -3,12 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include "renderer/scene/gltf_loader.h"
 #include "tests/support/glb_builder.h"
 
 namespace gnomon {
+
+/// For the messages of failed tests.
+inline void PrintTo(const Problem& problem, std::ostream* out) {
+  *out << static_cast<int>(problem.code) << " at " << problem.pointer << ": " << problem.detail << " [" << problem.limit
+       << " | " << problem.actual << "]";
+}
 
 /// The problem's code and place.
 MATCHER_P2(ProblemAt, code, pointer, "") {

@@ -21,11 +21,11 @@ TEST(ExtensionGate, TakesWhatIsSupported) {
 
 TEST(ExtensionGate, RefusesEveryOtherRequiredExtension) {
   testing::GlbBuilder builder = testing::cube();
-  builder.json["extensionsRequired"] = {"KHR_lights_punctual", "KHR_draco_mesh_compression", "ACME_nope"};
+  builder.json["extensionsRequired"] = {"KHR_lights_punctual", "KHR_texture_basisu", "ACME_nope"};
   const Problems problems = problemsOf(builder);
   EXPECT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/extensionsRequired/1"),
                                     ProblemAt(ProblemCode::unsupportedFeature, "/extensionsRequired/2")));
-  EXPECT_THAT(problems[0].detail, HasSubstr("KHR_draco_mesh_compression"));
+  EXPECT_THAT(problems[0].detail, HasSubstr("KHR_texture_basisu"));
   EXPECT_THAT(problems[1].detail, HasSubstr("ACME_nope"));
 }
 

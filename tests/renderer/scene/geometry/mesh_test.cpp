@@ -228,12 +228,6 @@ TEST(Mesh, KeepsOnlyTheVerticesThatAreUsed) {
   EXPECT_EQ(cornersOf(scene, 1, 0)[0].x, 900);
 }
 
-TEST(Mesh, WarnsOfMorphTargets) {
-  testing::GlbBuilder builder = testing::triangle();
-  builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
-  EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("morph targets")));
-}
-
 TEST(Mesh, LeavesOutPrimitivesWithoutPositions) {
   testing::GlbBuilder builder = testing::plane();
   builder.json["meshes"][0]["primitives"][0]["attributes"].erase("POSITION");
@@ -253,19 +247,6 @@ TEST(Mesh, HoldsTrianglesAndVerticesAgainstTheLimits) {
               ElementsAre(ProblemAt(ProblemCode::tooLarge, "/meshes/0/primitives/0")));
   limits.maxVertices = 24;
   EXPECT_THAT(problemsOf(testing::cube(), limits), IsEmpty());
-}
-
-TEST(Mesh, HoldsJointsAgainstTheSkin) {
-  testing::GlbBuilder builder = testing::triangle();
-  const std::vector<std::uint8_t> joints{0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
-  builder.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = builder.addAccessor(joints, "VEC4", 5121, 3);
-  builder.add("nodes", json::object());
-  builder.add("nodes", json::object());
-  builder.add("skins", {{"joints", {1}}});
-  builder.json["nodes"][0]["skin"] = 0;
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/skin")));
-  builder.json["skins"][0]["joints"] = {1, 2};
-  EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("rest pose")));
 }
 
 } // namespace

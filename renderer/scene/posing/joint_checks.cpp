@@ -1,4 +1,4 @@
-#include "renderer/scene/graph/skins.h"
+#include "renderer/scene/posing/joint_checks.h"
 
 #include <algorithm>
 #include <map>
@@ -16,7 +16,6 @@ class SkinCheck {
   void checkNode(std::size_t node) {
     const tinygltf::Node& source = document_.model.nodes[node];
     if (source.skin < 0) return;
-    findings_.warn("The file has skins: skinned meshes are drawn in their rest pose.");
     if (source.mesh < 0) return;
     const std::size_t joints = document_.json["skins"][static_cast<std::size_t>(source.skin)]["joints"].size();
     const double greatest = greatestJoint(static_cast<std::size_t>(source.mesh));
@@ -69,8 +68,8 @@ class SkinCheck {
 
 } // namespace
 
-void checkSkins(const GltfDocument& document, const std::vector<AccessorView>& views, const Limits& limits,
-                Findings& findings) {
+void checkJoints(const GltfDocument& document, const std::vector<AccessorView>& views, const Limits& limits,
+                 Findings& findings) {
   SkinCheck check(document, views, limits, findings);
   for (std::size_t node = 0; node < document.model.nodes.size(); ++node) check.checkNode(node);
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "protocol/limits.h"
+#include "renderer/scene/geometry/accessor_view.h"
+#include "renderer/scene/gltf_document.h"
+
+namespace gnomon {
+
+/// What KHR_draco_mesh_compression holds of a primitive, as if its accessors had it.
+struct DracoPrimitive {
+  std::map<std::string, AccessorView> attributes; ///< by their names in the primitive
+  AccessorView indices;                           ///< a triangle list
+  std::vector<Bytes> storage;                     ///< what the views read
+};
+
+/// By the number of the mesh and of the primitive in it.
+using DracoPrimitives = std::map<std::pair<std::size_t, std::size_t>, DracoPrimitive>;
+
+/// Decodes every compressed primitive. What was decoded has the types that its accessors state, and
+/// their counts but for draco_stream.h.
+DracoPrimitives decodeDracoPrimitives(const GltfDocument& document, const Limits& limits, Findings& findings);
+
+} // namespace gnomon

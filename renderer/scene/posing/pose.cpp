@@ -1,0 +1,122 @@
+#include "renderer/scene/posing/pose.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// A vertex on its way, in double precision: sums of many small moves keep their digits.
+struct Moving {
+  glm::dvec3 position{0};
+  glm::dvec3 normal{0};
+  glm::dvec3 tangent{0};
+  double side = 1; ///< of the bitangent
+};
+
+glm::vec3 unitOr(const glm::dvec3& v, const glm::vec3& otherwise) {
+  const double length = glm::length(v);
+  return std::isfinite(length) && length > 0 ? glm::vec3(v / length) : otherwise;
+}
+
+std::vector<Moving> atRest(const TriangleMesh& mesh) {
+  std::vector<Moving> vertices(mesh.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const VertexAttributes& attributes = mesh.attributes[i];
+    vertices[i] = {glm::dvec3(mesh.positions[i]), glm::dvec3(attributes.normal), glm::dvec3(attributes.tangent),
+                   static_cast<double>(attributes.tangent.w)};
+  }
+  return vertices;
+}
+
+void addTarget(const MorphTarget& target, double weight, std::vector<Moving>& vertices) {
+  if (weight == 0) return;
+  for (const MorphDelta& delta : target) {
+    Moving& vertex = vertices[delta.vertex];
+    vertex.position += weight * glm::dvec3(delta.position);
+    vertex.normal += weight * glm::dvec3(delta.normal);
+    vertex.tangent += weight * glm::dvec3(delta.tangent);
+  }
+}
+
+/// What turns normals as the matrix turns the surface: its cofactors, whose columns need no division, so that a flat
+/// matrix has them too.
+glm::dmat3 cofactors(const glm::dmat3& m) {
+  return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+void follow(const Influences& influences, std::span<const glm::dmat4> localFromMesh, Moving& vertex) {
+  glm::dmat4 matrix(0);
+  for (std::size_t i = 0; i < influences.joints.size(); ++i) {
+    const double weight = influences.weights[i];
+    if (weight != 0) matrix += weight * localFromMesh[influences.joints[i]];
+  }
+  const glm::dmat3 linear(matrix);
+  const double side = glm::determinant(linear) < 0 ? -1 : 1;
+  vertex.position = glm::dvec3(matrix * glm::dvec4(vertex.position, 1));
+  vertex.normal = side * (cofactors(linear) * vertex.normal);
+  vertex.tangent = linear * vertex.tangent;
+  vertex.side *= side;
+}
+
+/// Each triangle has its own vertices here.
+void setFlatNormals(const TriangleMesh& mesh, PosedShape& shape) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t* corners = &mesh.indices[i];
+    const glm::dvec3 a(shape.positions[corners[0]]);
+    const glm::dvec3 area =
+        glm::cross(glm::dvec3(shape.positions[corners[1]]) - a, glm::dvec3(shape.positions[corners[2]]) - a);
+    for (int corner = 0; corner < 3; ++corner) shape.normals[corners[corner]] = unitOr(area, {0, 0, 1});
+  }
+}
+
+} // namespace
+
+SkinPose poseSkin(const Skin& skin, std::span<const glm::dmat4> worldFromNode) {
+  const auto worldFromMesh = [&](std::size_t joint) {
+    return worldFromNode[static_cast<std::size_t>(skin.joints[joint])] * skin.jointFromMesh[joint];
+  };
+  const glm::dvec3 origin(worldFromNode[static_cast<std::size_t>(skin.joints.front())][3]);
+  const double mirrored = glm::determinant(glm::dmat3(worldFromMesh(0))) < 0 ? -1 : 1;
+  SkinPose posed;
+  posed.worldFromLocal[0][0] = mirrored;
+  posed.worldFromLocal[3] = glm::dvec4(origin, 1);
+  posed.localFromMesh.reserve(skin.joints.size());
+  for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+    glm::dmat4 matrix = worldFromMesh(joint);
+    matrix[3] -= glm::dvec4(origin, 0);
+    for (int column = 0; column < 4; ++column) matrix[column].x *= mirrored;
+    posed.localFromMesh.push_back(matrix);
+  }
+  return posed;
+}
+
+PosedShape pose(const Deformable& deformable, std::span<const double> weights,
+                std::span<const glm::dmat4> localFromMesh) {
+  const TriangleMesh& mesh = deformable.mesh;
+  std::vector<Moving> vertices = atRest(mesh);
+  for (std::size_t i = 0; i < deformable.targets.size() && i < weights.size(); ++i) {
+    addTarget(deformable.targets[i], weights[i], vertices);
+  }
+  PosedShape shape;
+  shape.positions.reserve(vertices.size());
+  shape.normals.reserve(vertices.size());
+  if (mesh.hasTangents) shape.tangents.reserve(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Moving& vertex = vertices[i];
+    if (!localFromMesh.empty() && !deformable.influences.empty()) {
+      follow(deformable.influences[i], localFromMesh, vertex);
+    }
+    shape.positions.emplace_back(vertex.position);
+    shape.bounds.add(glm::dvec3(shape.positions.back()));
+    shape.normals.push_back(unitOr(vertex.normal, mesh.attributes[i].normal));
+    if (mesh.hasTangents) {
+      shape.tangents.emplace_back(unitOr(vertex.tangent, glm::vec3(mesh.attributes[i].tangent)),
+                                  static_cast<float>(vertex.side));
+    }
+  }
+  if (mesh.flat) setFlatNormals(mesh, shape);
+  return shape;
+}
+
+} // namespace gnomon

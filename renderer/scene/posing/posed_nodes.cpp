@@ -1,0 +1,168 @@
+#include "renderer/scene/posing/posed_nodes.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "renderer/scene/posing/apply_pose.h"
+#include "renderer/scene/posing/pose.h"
+
+namespace gnomon {
+
+namespace {
+
+using nlohmann::json;
+
+/// Nodes whose weights an animation changes.
+std::set<std::size_t> nodesWithMovingWeights(const json& document) {
+  std::set<std::size_t> nodes;
+  const auto animations = document.find("animations");
+  if (animations == document.end()) return nodes;
+  for (const json& animation : *animations) {
+    for (const json& channel : animation["channels"]) {
+      const json& target = channel["target"];
+      if (target["path"] == "weights" && target.contains("node")) nodes.insert(target["node"].get<std::size_t>());
+    }
+  }
+  return nodes;
+}
+
+bool finite(const Aabb& box) {
+  const glm::dvec3 sum = box.min + box.max;
+  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+}
+
+class Posing {
+ public:
+  Posing(const GltfDocument& document, const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
+         Deformation& deformation, const Limits& limits, Scene& scene, Findings& findings)
+      : document_(document),
+        tree_(tree),
+        meshes_(meshes),
+        deformation_(deformation),
+        limits_(limits),
+        scene_(scene),
+        findings_(findings),
+        moving_(nodesWithMovingWeights(document.json)) {}
+
+  PosedMesh poseNode(std::size_t node) {
+    const tinygltf::Node& source = document_.model.nodes[node];
+    if (source.mesh < 0) return {};
+    const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(source.mesh)];
+    if (mesh.deformables.empty()) return {};
+    const auto weights = weightsOf(node, static_cast<std::size_t>(source.mesh), mesh);
+    if (!weights || !jointsFit(node, mesh)) return {};
+    const int own = moving_.contains(node) ? static_cast<int>(node) : -1;
+    const auto [place, isNew] = posed_.try_emplace({source.mesh, source.skin, own, *weights});
+    if (isNew) place->second = makePrimitives(node, mesh, *weights);
+    return place->second;
+  }
+
+ private:
+  /// The node's weights, else the mesh's, else zeros; nothing, and a problem, where they are not one a target.
+  std::optional<std::vector<double>> weightsOf(std::size_t node, std::size_t mesh, const BuiltMesh& built) {
+    const std::size_t targets = deformable(built.deformables.front()).targets.size();
+    const json* weights = nullptr;
+    std::string pointer;
+    for (const auto& [object, at] : {std::pair(&document_.json["nodes"][node], pointerTo("/nodes", node)),
+                                     std::pair(&document_.json["meshes"][mesh], pointerTo("/meshes", mesh))}) {
+      const auto member = object->find("weights");
+      if (weights || member == object->end()) continue;
+      weights = &*member;
+      pointer = at + "/weights";
+    }
+    if (!weights) return std::vector<double>(targets, 0.0);
+    if (weights->size() != targets) {
+      findings_.invalid(pointer, "There are not as many weights as morph targets.", std::to_string(targets),
+                        std::to_string(weights->size()));
+      return std::nullopt;
+    }
+    return weights->get<std::vector<double>>();
+  }
+
+  bool jointsFit(std::size_t node, const BuiltMesh& mesh) {
+    const int skin = document_.model.nodes[node].skin;
+    if (skin < 0) return true;
+    const std::size_t joints = deformation_.skins[static_cast<std::size_t>(skin)].joints.size();
+    for (const int index : mesh.deformables) {
+      const int greatest = deformable(index).greatestJoint;
+      if (greatest < static_cast<int>(joints)) continue;
+      findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh names a joint that the skin does not have.",
+                        "below " + std::to_string(joints), std::to_string(greatest));
+      return false;
+    }
+    return true;
+  }
+
+  PosedMesh makePrimitives(std::size_t node, const BuiltMesh& mesh, const std::vector<double>& weights) {
+    PosedMesh made;
+    const int skin = document_.model.nodes[node].skin;
+    if (skin >= 0) made.worldFromSkin = jointsOf(skin).worldFromLocal;
+    for (const int index : mesh.deformables) {
+      const Deformable& source = deformable(index);
+      const bool skinned = skin >= 0 && !source.influences.empty();
+      if (!withinLimits(node, source)) return {};
+      const PosedShape shape =
+          pose(source, weights, skinned ? jointsOf(skin).localFromMesh : std::span<const glm::dmat4>());
+      if (!finite(shape.bounds)) {
+        findings_.invalid(pointerTo("/nodes", node), "The posed mesh has positions that are not finite.");
+        return {};
+      }
+      const int primitive = appendPrimitive(source.mesh, source.material, scene_);
+      applyPose(shape, primitive, scene_);
+      (skinned ? made.followingSkin : made.followingNode).push_back(primitive);
+      deformation_.posed.push_back({primitive, index, static_cast<int>(node), skinned ? skin : -1, weights});
+    }
+    return made;
+  }
+
+  const SkinPose& jointsOf(int skin) {
+    const auto [place, isNew] = joints_.try_emplace(skin);
+    if (isNew) place->second = poseSkin(deformation_.skins[static_cast<std::size_t>(skin)], tree_.worldFromNode);
+    return place->second;
+  }
+
+  /// Each node may have a copy of its own, so that what the meshes come to is counted here once more.
+  bool withinLimits(std::size_t node, const Deformable& source) {
+    for (const MorphTarget& target : source.targets) morphed_ += target.size();
+    const auto within = [&](const char* what, std::size_t limit, std::size_t actual) {
+      if (actual <= limit) return true;
+      findings_.tooLarge(pointerTo("/nodes", node) + "/mesh",
+                         std::string("The posed meshes have too many ") + what + ".", std::to_string(limit),
+                         std::to_string(actual));
+      return false;
+    };
+    return within("vertices", limits_.maxVertices, scene_.positions.size() + source.mesh.positions.size()) &&
+           within("triangles", limits_.maxTriangles, (scene_.indices.size() + source.mesh.indices.size()) / 3) &&
+           within("morphed vertices", limits_.maxMorphedVertices, morphed_);
+  }
+
+  const Deformable& deformable(int index) const { return deformation_.deformables[static_cast<std::size_t>(index)]; }
+
+  const GltfDocument& document_;
+  const NodeTree& tree_;
+  const std::vector<BuiltMesh>& meshes_;
+  Deformation& deformation_;
+  const Limits& limits_;
+  Scene& scene_;
+  Findings& findings_;
+  std::set<std::size_t> moving_;
+  std::map<int, SkinPose> joints_; ///< by skin
+  std::size_t morphed_ = 0;
+  /// By mesh, skin, the node if its weights are animated, and weights.
+  std::map<std::tuple<int, int, int, std::vector<double>>, PosedMesh> posed_;
+};
+
+} // namespace
+
+std::vector<PosedMesh> poseNodes(const GltfDocument& document, const NodeTree& tree,
+                                 const std::vector<BuiltMesh>& meshes, Deformation& deformation, const Limits& limits,
+                                 Scene& scene, Findings& findings) {
+  Posing posing(document, tree, meshes, deformation, limits, scene, findings);
+  std::vector<PosedMesh> posed(document.model.nodes.size());
+  for (std::size_t node = 0; node < posed.size() && !findings.refused(); ++node) posed[node] = posing.poseNode(node);
+  return posed;
+}
+
+} // namespace gnomon

@@ -1,0 +1,163 @@
+#include "tests/renderer/scene/load.h"
+#include "tests/support/compressed_models.h"
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string kPrimitive = "/meshes/0/primitives/0";
+const std::string kPlace = kPrimitive + "/extensions/KHR_draco_mesh_compression";
+
+testing::GlbBuilder model(bool edgebreaker = true) {
+  return testing::dracoModel(testing::torus(20), edgebreaker);
+}
+
+json& extension(testing::GlbBuilder& builder) {
+  return builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
+}
+
+TEST(Draco, DecodesWhatWasEncoded) {
+  for (const bool edgebreaker : {false, true}) {
+    const Scene scene = load(model(edgebreaker));
+    ASSERT_EQ(scene.summary.triangles, 800u);
+    EXPECT_NEAR(scene.scenes[0].bounds.max.x, 2.75, 1e-3);
+    EXPECT_NEAR(scene.scenes[0].bounds.min.y, -0.75, 1e-3);
+    for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+      const glm::dvec3 p(scene.positions[i]);
+      const glm::dvec3 ring = 2.0 * glm::normalize(glm::dvec3(p.x, 0, p.z));
+      EXPECT_NEAR(glm::length(p - ring), 0.75, 1e-3);
+      EXPECT_GT(glm::dot(glm::normalize(p - ring), glm::dvec3(scene.attributes[i].normal)), 0.999);
+    }
+  }
+}
+
+TEST(Draco, HoldsWhatTheStreamStatesAgainstTheAccessors) {
+  for (const bool edgebreaker : {false, true}) {
+    testing::GlbBuilder builder = model(edgebreaker);
+    builder.json["accessors"][3]["count"] = 2397;
+    const Problems problems = problemsOf(builder);
+    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace)));
+    EXPECT_EQ(problems[0].limit, "799");
+    EXPECT_EQ(problems[0].actual, "800");
+
+    builder.json["accessors"][3]["count"] = 2403;
+    EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace)));
+  }
+}
+
+TEST(Draco, TakesOtherNumbersOfVerticesThatTrianglesCanUse) {
+  for (const bool edgebreaker : {false, true}) {
+    testing::GlbBuilder builder = model(edgebreaker);
+    const auto points = builder.json["accessors"][0]["count"].get<std::size_t>();
+    for (std::size_t i = 0; i < 3; ++i) builder.json["accessors"][i]["count"] = points - 5;
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.positions.size(), points);
+    EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr(std::to_string(points))));
+  }
+  testing::Shape shape = testing::torus(4);
+  shape.positions.resize(97); // three for each of the 32 triangles, and one
+  shape.normals.resize(97, glm::vec3(0, 1, 0));
+  shape.texCoords.resize(97);
+  const Problems problems = problemsOf(testing::dracoModel(shape, false));
+  ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace)));
+  EXPECT_EQ(problems[0].limit, "96");
+  EXPECT_EQ(problems[0].actual, "97");
+}
+
+TEST(Draco, HoldsAttributesAgainstTheAccessorsTypes) {
+  testing::GlbBuilder builder = model();
+  builder.json["accessors"][2]["type"] = "VEC4";
+  const Problems problems = problemsOf(builder);
+  ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace + "/attributes/TEXCOORD_0")));
+  EXPECT_EQ(problems[0].limit, "4 x FLOAT");
+  EXPECT_EQ(problems[0].actual, "2 x FLOAT");
+  builder = model();
+  builder.json["accessors"][1]["componentType"] = 5120;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace + "/attributes/NORMAL")));
+  builder = model();
+  builder.json["accessors"][1]["count"] = 5;
+  EXPECT_THAT(problemsOf(builder),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, kPrimitive + "/attributes/NORMAL")));
+}
+
+TEST(Draco, HoldsEveryClaimAgainstTheLimits) {
+  for (const bool edgebreaker : {false, true}) {
+    const testing::GlbBuilder builder = model(edgebreaker);
+    const auto points = builder.json["accessors"][0]["count"].get<std::size_t>();
+    Limits limits;
+    limits.maxDecodedBytes = 800 * 12 + points * (12 + 12 + 8);
+    limits.maxTriangles = 800;
+    EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
+    --limits.maxDecodedBytes;
+    Problems problems = problemsOf(builder, limits);
+    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
+    EXPECT_EQ(problems[0].limit, std::to_string(limits.maxDecodedBytes) + " bytes");
+    limits = {};
+    limits.maxTriangles = 799;
+    problems = problemsOf(builder, limits);
+    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
+    EXPECT_EQ(problems[0].actual, "800");
+    limits = {};
+    limits.maxVertices = points - 1;
+    EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
+  }
+}
+
+TEST(Draco, RefusesAttributesThatOneSideDoesNotHave) {
+  testing::GlbBuilder builder = model();
+  extension(builder)["attributes"]["COLOR_0"] = 2;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace + "/attributes/COLOR_0")));
+  builder = model();
+  extension(builder)["attributes"]["NORMAL"] = 77;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace)));
+  builder = model();
+  extension(builder)["attributes"].erase("POSITION");
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace + "/attributes")));
+  builder = model();
+  extension(builder)["attributes"]["NORMAL"] = -1;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace + "/attributes/NORMAL")));
+}
+
+TEST(Draco, RefusesWhatItCanNotRead) {
+  const auto problemsWith = [](std::size_t at, std::uint8_t value) {
+    testing::GlbBuilder builder = model();
+    builder.binary[at] = value;
+    return problemsOf(builder);
+  };
+  EXPECT_THAT(problemsWith(0, 'X'), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace)));
+  EXPECT_THAT(problemsWith(5, 1), ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, kPlace)));
+  EXPECT_THAT(problemsWith(7, 0), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace))) << "a point cloud";
+  EXPECT_THAT(problemsWith(8, 9), ElementsAre(ProblemAt(ProblemCode::invalidScene, kPlace))) << "no such method";
+  const Problems problems = problemsWith(10, 0x80);
+  ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, kPlace)));
+  EXPECT_THAT(problems[0].detail, HasSubstr("metadata"));
+  testing::GlbBuilder builder = model();
+  builder.json["meshes"][0]["primitives"][0]["mode"] = 5;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, kPrimitive + "/mode")));
+}
+
+TEST(Draco, TakesCutAndFlippedBytes) {
+  for (const bool edgebreaker : {false, true}) {
+    const testing::GlbBuilder sound = model(edgebreaker);
+    const auto length = sound.json["bufferViews"][0]["byteLength"].get<std::size_t>();
+    for (std::size_t bytes = 1; bytes < length; bytes += 1 + length / 200) {
+      testing::GlbBuilder builder = sound;
+      builder.json["bufferViews"][0]["byteLength"] = bytes;
+      EXPECT_FALSE(problemsOf(builder).empty()) << bytes;
+    }
+    for (std::size_t at = 0; at < length; ++at) {
+      for (const int bits : {0x01, 0x80, 0xFF}) {
+        testing::GlbBuilder builder = sound;
+        builder.binary[at] = static_cast<std::uint8_t>(builder.binary[at] ^ bits);
+        for (const Problem& problem : problemsOf(builder)) EXPECT_NE(problem.code, ProblemCode::internal);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon
