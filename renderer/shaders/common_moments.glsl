@@ -6,10 +6,6 @@ const float kNegativeExponent = 5.0;
 // (Lauritzen, "Summed-Area Variance Shadow Maps", GPU Gems 3, 2007, section 8.4.3.)
 const float kBleeding = 0.2;
 
-// Four moments of a plane that rises evenly over the blur allow for no more than this share of light in its middle: the
-// outer of the three nodes of Gauss and Legendre has a weight of 5/18. So this much is all.
-const float kSlopeShare = 18.0 / 13.0;
-
 vec2 warped(float depth) {
   float z = 2.0 * depth - 1.0;
   return vec2(exp(kPositiveExponent * z), -exp(-kNegativeExponent * z));
@@ -75,5 +71,5 @@ float visibilityFrom(vec4 moments, float depth, int kind) {
     least *= least;
     return withoutBleeding(min(chebyshev(moments.xy, w.x, least.x), chebyshev(moments.zw, w.y, least.y)));
   }
-  return withoutBleeding(min(1.0, kSlopeShare * (1.0 - hamburger(moments, 2.0 * depth - 1.0))));
+  return withoutBleeding(1.0 - hamburger(moments, 2.0 * depth - 1.0));
 }

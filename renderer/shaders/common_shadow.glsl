@@ -17,9 +17,7 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #endif
   vec2 slope = comparedSlope(light, tile, receiver);
 #ifdef FILTER_MOMENTS
-  if (kind >= GNOMON_FILTER_VSM) {
-    return momentVisibility(at.coordinate.xy, momentDepth(tile, at, bendRoom(light, tile, at, slope, 1.0)), kind);
-  }
+  if (kind >= GNOMON_FILTER_VSM) return momentVisibility(at.coordinate.xy, momentDepth(tile, at), kind);
 #endif
 #ifdef FILTER_DISC
   if (kind == GNOMON_FILTER_DISC) {

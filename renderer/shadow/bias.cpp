@@ -18,6 +18,14 @@ FilterKernel kernelOf(const Filter& filter) {
   return {reach, static_cast<int>(std::ceil(reach)) + 1, radius, !compared};
 }
 
+double biasReach(const FilterKernel& kernel) {
+  return kBiasReach + (kernel.moments ? kernel.reach : 0.0);
+}
+
+double radiusOffset(const FilterKernel& kernel) {
+  return kernel.moments ? std::sqrt(2.0) * kernel.radius : 0.0;
+}
+
 double finestTexel(double magnitude) {
   return 4.0 * kFloatRounding / kTexelNoise * magnitude;
 }
@@ -26,8 +34,8 @@ double normalOffset(double reach, const glm::dvec2& texelSize) {
   return reach * std::hypot(texelSize.x, texelSize.y);
 }
 
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize) {
-  const double c = std::min(normalOffset(reach, texelSize), 0.5);
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset) {
+  const double c = std::min(normalOffset(reach, texelSize) + radiusOffset, 0.5);
   return c / (1.0 - c);
 }
 

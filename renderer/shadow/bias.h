@@ -26,11 +26,17 @@ FilterKernel kernelOf(const Filter& filter);
 /// Texels of error in a lookup's position, at most: see finestTexel.
 inline constexpr double kTexelNoise = 1.0 / 32.0;
 
-/// Texels that the bias covers. A comparison holds the receiver's plane against each texel at that texel's centre, and
-/// the mean depth over a kernel is the plane's in its middle, so the kernel's reach needs none. But a texel's depth
-/// belongs to its centre only to within the rasterizer's grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a
-/// float position finds its texel to within kTexelNoise.
+/// Texels that the bias of comparisons covers. They hold the receiver's plane against each texel at that texel's
+/// centre, so the kernel's reach needs none. But a texel's depth belongs to its centre only to within the rasterizer's
+/// grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a float position finds its texel to within kTexelNoise.
 inline constexpr double kBiasReach = 1.0 / 32.0 + kTexelNoise;
+
+/// The same of one filter. Blurred depths can't be held against a plane one by one: their bias covers the kernel's
+/// reach.
+double biasReach(const FilterKernel& kernel);
+
+/// Metres of normal offset that a blur's radius needs: to the corner of the square that it takes in.
+double radiusOffset(const FilterKernel& kernel);
 
 /// The smallest texel, metres, in which positions of this size (metres from the eye) can be found to within
 /// kTexelNoise: interpolation and transform lose a few 2^-24 of the position.
@@ -47,8 +53,9 @@ double normalOffset(double reach, const glm::dvec2& texelSize);
 /// sin(angle between normal and that direction). `texelSize` is in metres a metre. Texels lie in planes across the
 /// direction, and all that lies between the light and a point on the lit side of a plane is on that side: so the
 /// argument above holds with the direction in the light's place. A moved receiver may be farther from the light by as
-/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize).
-double punctualNormalOffset(double reach, const glm::dvec2& texelSize);
+/// much as it moved, and its texels so much larger: N = c / (1 - c), c = reach * hypot(texelSize) + radiusOffset; the
+/// latter in metres a metre, too.
+double punctualNormalOffset(double reach, const glm::dvec2& texelSize, double radiusOffset = 0);
 
 /// The metres along the normal that a manual bias asks for; none for an automatic one.
 std::optional<double> manualOffset(const Bias& bias);

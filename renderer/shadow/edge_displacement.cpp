@@ -26,6 +26,13 @@ double cutMean(double middle, double reach, double limit) {
   return (cutIntegral(size + reach, limit) - cutIntegral(size - reach, limit)) / (2 * reach);
 }
 
+/// The even kernel of the same variance as the one of `size` comparisons a side (shaders/common_shadow_filter.glsl):
+/// n even taps have a variance of (n^2 - 1) / 12.
+double tapsOfKernel(int size) {
+  const double variance = size <= 1 ? 0.0 : size == 3 ? 1.0 / 2 : size == 5 ? 7.0 / 6 : 41.0 / 26;
+  return std::sqrt(12 * variance + 1);
+}
+
 } // namespace
 
 MapReading readingOf(const ShadowTile& tile, int atlasSamples) {
@@ -35,7 +42,7 @@ MapReading readingOf(const ShadowTile& tile, int atlasSamples) {
                      filter.type == FilterType::msm;
   if (filter.type == FilterType::hard) return reading;
   if (!filter.radius) {
-    reading.taps = filter.size;
+    reading.taps = filter.type == FilterType::pcf ? tapsOfKernel(filter.size) : filter.size;
     return reading;
   }
   // A disc weighs as a square of the same variance does, whose side is sqrt 3 times the radius.

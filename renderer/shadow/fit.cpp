@@ -13,7 +13,7 @@ int innerTexels(const FitTarget& target) {
 /// A receiver's plane is held against texels beside it, where it may lie nearer to the light than any receiver. This
 /// much nearer, metres or metres a metre, it still has a depth of its own: up to a tangent of 2 to the light.
 double planeRoom(const FitTarget& target, const glm::dvec2& texelSize) {
-  return 2.0 * normalOffset(target.kernel.reach, texelSize);
+  return target.kernel.moments ? 0.0 : 2.0 * normalOffset(target.kernel.reach, texelSize);
 }
 
 /// Room for a receiver that is moved along its normal, for rounding, and for the quantum of the depth.
@@ -28,12 +28,12 @@ double clearance(const FitTarget& target, double depthLength, double width) {
 }
 
 /// The normal offset N of a box of `extent` metres on `inner` texels that must have room for N on every side:
-/// N = c hypot(extent.x + 2 N, extent.y + 2 N) with c = reach / inner, solved for N.
-double offsetWithRoom(const glm::dvec2& extent, double reach, int inner) {
+/// N = c hypot(extent.x + 2 N, extent.y + 2 N) + constant with c = reach / inner, solved for N.
+double offsetWithRoom(const glm::dvec2& extent, double reach, int inner, double constant) {
   const double c2 = reach * reach / (static_cast<double>(inner) * inner);
   const double a = 1.0 - 8.0 * c2;
-  const double halfB = 2.0 * c2 * (extent.x + extent.y);
-  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y);
+  const double halfB = constant + 2.0 * c2 * (extent.x + extent.y);
+  const double squares = c2 * (extent.x * extent.x + extent.y * extent.y) - constant * constant;
   return (halfB + std::sqrt(halfB * halfB + a * squares)) / a;
 }
 
@@ -44,12 +44,13 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   const glm::dvec3 length = receiversLs.max - receiversLs.min;
   const glm::dvec2 extent = glm::max(glm::dvec2(length), glm::dvec2(finestTexel(target.reach) * inner));
 
+  const double reach = biasReach(target.kernel);
   const glm::dvec2 read = extent + 2.0 * target.kernel.radius;
   Fit fit;
   fit.radius = target.kernel.radius;
-  const double room = target.manualOffset.value_or(offsetWithRoom(read, kBiasReach, inner));
+  const double room = target.manualOffset.value_or(offsetWithRoom(read, reach, inner, radiusOffset(target.kernel)));
   fit.texelSize = (read + 2.0 * room) / static_cast<double>(inner);
-  fit.normalOffset = target.manualOffset.value_or(normalOffset(kBiasReach, fit.texelSize));
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
   fit.lowest = glm::dvec2(receiversLs.center()) - fit.texelSize * (0.5 * target.tileSize);
   const double margin = depthMargin(length.z, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
   const double clear = clearance(target, length.z, std::max(read.x, read.y));
@@ -61,10 +62,11 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target) {
   const int inner = innerTexels(target);
+  const double reach = biasReach(target.kernel);
   // inner * texel >= 2 radii (the sphere's and the filter's) + 2 normal offsets + the step, of which rounding takes up
   // to half on either side
-  const double fixed = target.kernel.radius + target.manualOffset.value_or(0.0);
-  const double texels = inner - snapTexels - (target.manualOffset ? 0.0 : 2.0 * std::sqrt(2.0) * kBiasReach);
+  const double fixed = target.kernel.radius + target.manualOffset.value_or(radiusOffset(target.kernel));
+  const double texels = inner - snapTexels - (target.manualOffset ? 0.0 : 2.0 * std::sqrt(2.0) * reach);
   const double texel = std::max(2.0 * (sphere.radius + fixed) / texels, finestTexel(target.reach));
   const double step = snapTexels * texel;
 
@@ -73,7 +75,7 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   Fit fit;
   fit.radius = target.kernel.radius;
   fit.texelSize = glm::dvec2(texel);
-  fit.normalOffset = target.manualOffset.value_or(normalOffset(kBiasReach, fit.texelSize));
+  fit.normalOffset = target.manualOffset.value_or(normalOffset(reach, fit.texelSize) + radiusOffset(target.kernel));
   fit.lowest = glm::dvec2(snapped) - fit.texelSize * (0.5 * target.tileSize);
   const double depthLength = 2.0 * sphere.radius + step;
   const double margin = depthMargin(depthLength, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
@@ -94,6 +96,7 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
                   glm::dvec3(glm::clamp(high, -tanHalf, tanHalf), piece.max.z)});
   }
   const int inner = innerTexels(target);
+  const double reach = biasReach(target.kernel);
   const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));
 
   // What a length in metres spans, seen from the light, at the nearest receiver; a blur is one for the whole tile.
@@ -103,11 +106,12 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   fit.perspective = true;
   fit.radius =
       target.kernel.moments ? std::min(target.kernel.radius / blurred, kWidestTangent) : tangent(target.kernel.radius);
+  const double offset = target.kernel.moments ? std::sqrt(2.0) * fit.radius : 0.0;
   glm::dvec2 room(0.0);
   for (int turn = 0; turn < 16; ++turn) {
     fit.texelSize = (extent + 2.0 * (room + fit.radius)) / static_cast<double>(inner);
     fit.normalOffset =
-        target.manualOffset ? tangent(*target.manualOffset) : punctualNormalOffset(kBiasReach, fit.texelSize);
+        target.manualOffset ? tangent(*target.manualOffset) : punctualNormalOffset(reach, fit.texelSize, offset);
     // Moved by N a metre, a direction's tangent changes by up to N (1 + tangent) / (1 - N).
     const double moved = std::min(fit.normalOffset, 0.5);
     room = glm::dvec2(moved * (1.0 + tanHalf) / (1.0 - moved));

@@ -45,7 +45,8 @@ class Plans(ServerTest):
                 if tile["tile"][2] == 0:
                     continue
                 self.assertEqual(len(tile["matrix"]), 16)
-                self.assertGreater(tile["predictedError"]["max"], 0)
+                if planned["light"] == 0:  # a lamp's tile may hold no block's middle
+                    self.assertGreater(tile["predictedError"]["max"], 0)
                 self.assertEqual(tile["casterTriangles"] + tile["culledTriangles"], report["counts"]["sceneTriangles"])
         self.assertIn("out of view", plan["lights"][3]["note"])
         self.assertEqual(plan["lights"][3]["cascades"], [])

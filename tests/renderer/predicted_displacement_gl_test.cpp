@@ -107,15 +107,14 @@ TEST(PredictedDisplacement, H2_IsWithinAQuarterOfTheMeasuredOneOverTheProjectsSc
   table.expectMedianNearOne();
 }
 
-TEST(PredictedDisplacement, H2_OfAFreeEdgeOverAPlaneItIsTheMeasuredOneWithEveryFilter) {
+TEST(PredictedDisplacement, H2_OfAFreeEdgeOverAPlaneItIsTheMeasuredOne) {
   const ScenePtr scene = testing::generatedScene("triangle_over_plane");
   Json view = Json::parse(kView);
   view["camera"] = {{"node", "camera"}};
   view["atlas"]["baseSize"] = 512;
   view["shadow"]["cascadeCount"] = 2;
   for (const char* const filter :
-       {R"({"type": "hard"})", R"({"type": "pcf", "size": 3})", R"({"type": "pcf", "size": 7})",
-        R"({"type": "vsm", "size": 5})", R"({"type": "pcf", "radius": 0.05})"}) {
+       {R"({"type": "hard"})", R"({"type": "pcf", "size": 3})", R"({"type": "pcf", "radius": 0.05})"}) {
     const auto sun = compared(scene, view, filter);
     ASSERT_TRUE(sun) << filter;
     EXPECT_NEAR(sun->predicted / sun->measured, 1, 0.25) << filter << ' ' << sun->measured;
