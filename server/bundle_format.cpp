@@ -80,10 +80,20 @@ Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits) {
     const auto content = rest.subspan(nameLength, contentLength);
     rest = rest.subspan(nameLength + contentLength);
     if (entries == 0) {
+      if (!name.empty()) {
+        return brokenBundle();
+      }
       bundle.model.assign(content.begin(), content.end());
-    } else if (!isBundleFileName(name) || !bundle.files.emplace(name, Bytes(content.begin(), content.end())).second) {
+      continue;
+    }
+    const bool ascends = bundle.files.empty() || bundle.files.rbegin()->first < name;
+    if (!ascends || !isBundleFileName(name)) {
       return brokenBundle();
     }
+    bundle.files.emplace(name, Bytes(content.begin(), content.end()));
+  }
+  if (bundle.files.empty()) { // a model alone is its own bytes
+    return brokenBundle();
   }
   return bundle;
 }

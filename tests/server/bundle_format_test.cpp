@@ -45,6 +45,23 @@ TEST(BundleFormat, NoCutIsWhole) {
   }
 }
 
+TEST(BundleFormat, HasOneFormForOneBundle) {
+  const auto isRead = [](const std::vector<std::pair<std::string, std::string>>& entries) {
+    std::string text = "gnomon bundle 1\n";
+    for (const auto& [name, content] : entries) {
+      text += static_cast<char>(name.size()) + std::string(3, '\0') + static_cast<char>(content.size()) +
+              std::string(7, '\0') + name + content;
+    }
+    return static_cast<bool>(readBundle(Bytes(text.begin(), text.end())));
+  };
+  EXPECT_TRUE(isRead({{"", "model"}, {"a", "1"}, {"b", "2"}}));
+  EXPECT_FALSE(isRead({})) << "no model";
+  EXPECT_FALSE(isRead({{"", "model"}})) << "a model alone is its own bytes";
+  EXPECT_FALSE(isRead({{"m", "model"}, {"a", "1"}})) << "the model has no name";
+  EXPECT_FALSE(isRead({{"", "model"}, {"b", "2"}, {"a", "1"}})) << "names ascend";
+  EXPECT_FALSE(isRead({{"", "model"}, {"a", "1"}, {"a", "1"}})) << "names come once";
+}
+
 TEST(BundleFormat, SurvivesLyingLengths) {
   Bytes bytes = written({{1}, {{"a", {2}}}});
   for (std::size_t at = 16; at < 28; ++at) {
