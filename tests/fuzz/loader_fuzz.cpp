@@ -1,0 +1,53 @@
+// The whole way from a model's bytes to a scene: container, schema, accessors, compression, graph, materials, images.
+#include <cmath>
+
+#include "renderer/scene/gltf_loader.h"
+#include "tests/fuzz/glb_parts.h"
+#include "tests/fuzz/sound_problems.h"
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t capacity);
+
+namespace {
+
+using namespace gnomon;
+
+/// As a server's, but so low that any file takes milliseconds.
+Limits quickLimits() {
+  Limits limits;
+  limits.maxJsonValues = 20'000;
+  limits.maxNodes = 2'000;
+  limits.maxInstances = 4'000;
+  limits.maxTriangles = 20'000;
+  limits.maxVertices = 60'000;
+  limits.maxDecodedBytes = 4u << 20;
+  limits.maxMorphedVertices = 60'000;
+  limits.maxImageSide = 512;
+  limits.maxImagePixels = 512 * 512;
+  return limits;
+}
+
+void requireWithin(const Scene& scene, const Limits& limits) {
+  fuzz::require(!scene.scenes.empty(), "a scene that loads has a scene");
+  fuzz::require(scene.summary.triangles <= limits.maxTriangles, "no more triangles than the limit");
+  for (const Image& image : scene.images) {
+    fuzz::require(image.width <= limits.maxImageSide && image.height <= limits.maxImageSide, "images within the limit");
+  }
+}
+
+} // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t capacity,
+                                               unsigned seed) {
+  return gnomon::fuzz::mutatePart(data, size, capacity, seed, LLVMFuzzerMutate);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Limits limits = quickLimits();
+  const auto scene = loadGltf({Bytes(data, data + size), {}}, limits);
+  if (scene) {
+    requireWithin(**scene, limits);
+  } else {
+    fuzz::requireSound(scene.problems());
+  }
+  return 0;
+}

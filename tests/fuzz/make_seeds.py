@@ -1,0 +1,122 @@
+"""Writes what each fuzz target starts from: FOLDER/TARGET/NAME. Nothing of it is kept in the repository.
+
+usage: make_seeds.py FOLDER SCENES [ASSETS]     SCENES: the generated test scenes; ASSETS: gathered glTF files, if any
+"""
+
+import base64
+import json
+import shutil
+import struct
+import sys
+import urllib.parse
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parent.parent
+MOST = 64 * 1024  # bytes of a seed: larger ones only make a run slow
+BOUNDARY = "a-boundary"
+
+
+def write(folder, name, content):
+    if 0 < len(content) <= MOST:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)
+
+
+def inlined(path):
+    """A .gltf with the files that it names as data URIs, or as it is where it can't be read."""
+    content = path.read_bytes()
+    try:
+        document = json.loads(content)
+        for element in document.get("buffers", []) + document.get("images", []):
+            file = path.parent / urllib.parse.unquote(element.get("uri", "data:"))
+            if not element.get("uri", "data:").startswith("data:") and file.is_file():
+                data = base64.b64encode(file.read_bytes()).decode()
+                element["uri"] = "data:application/octet-stream;base64," + data
+        return json.dumps(document).encode()
+    except (ValueError, AttributeError, TypeError, OSError):
+        return content
+
+
+def glb_of(gltf):
+    text = gltf + b" " * (-len(gltf) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+
+def models(folder, scenes, assets):
+    sources = sorted(scenes.glob("*.glb"))
+    if assets:
+        sources += sorted(path for path in assets.rglob("*") if path.suffix in (".glb", ".gltf"))
+    for number, path in enumerate(sources):
+        content = path.read_bytes() if path.suffix == ".glb" else inlined(path)
+        for target in ("loader", "container"):
+            write(folder / target, f"{number:03}_{path.name}", content)
+        if path.suffix == ".gltf":
+            write(folder / "loader", f"{number:03}_{path.stem}.glb", glb_of(content))
+
+
+def images(folder, assets):
+    sources = sorted((TESTS / "golden").glob("*.png")) + sorted((TESTS / "gallery").glob("*.png"))
+    if assets:
+        sources += sorted(path for path in assets.rglob("*") if path.suffix in (".png", ".jpg", ".jpeg"))
+    for number, path in enumerate(sources):
+        write(folder / "image", f"{number:03}_{path.name}", path.read_bytes())
+
+
+def text_of(body):
+    """A body is text, or a list of text and [text, how often]."""
+    pieces = [body] if isinstance(body, str) else body
+    return "".join(piece if isinstance(piece, str) else piece[0] * min(piece[1], 200) for piece in pieces)
+
+
+def requests(folder):
+    for path in sorted((TESTS / "bad_requests").glob("*.json")):
+        request = json.loads(path.read_text())["request"]
+        write(folder / "json", path.name, text_of(request.get("body", "")).encode("utf-8", "surrogateescape"))
+        write(folder / "query", path.name, request.get("path", "/").encode())
+    for path in sorted((TESTS / "golden").glob("*.json")) + sorted((TESTS / "hard_cases").glob("*.json")):
+        document = json.loads(path.read_text())
+        for key in ("spec", "request", "frame"):
+            if isinstance(document.get(key), dict):
+                write(folder / "json", f"{key}_{path.name}", json.dumps(document[key]).encode())
+    for number, query in enumerate(("width=64&height=48&sun=30,45&view=shadow&format=exr", "camera.orbit.azimuthDegrees=30",
+                                    "lights=[]&views=[%22color%22]", "camera.near=0.1&quality=high")):
+        write(folder / "query", f"good_{number}", f"/v1/scenes/abc/frame?{query}".encode())
+
+
+def forms(folder, scenes):
+    model = (scenes / "single_triangle.glb").read_bytes()
+    for name, parts in {
+        "scene": [("scene", None, model)],
+        "files": [("scene", "a.gltf", b"{}"), ("file", "b.bin", b"1234"), ("textures/c.png", None, b"\x89PNG")],
+        "spec": [("spec", None, b"{}"), ("scene", "a b\".glb", b"glTF")],
+    }.items():
+        body = f"multipart/form-data; boundary={BOUNDARY}\n".encode()
+        for part, file_name, content in parts:
+            body += f'--{BOUNDARY}\r\nContent-Disposition: form-data; name="{part}"'.encode()
+            if file_name is not None:
+                body += f'; filename="{file_name}"'.encode()
+            body += b"\r\nContent-Type: application/octet-stream\r\n\r\n" + content + b"\r\n"
+        write(folder / "multipart", name, body + f"--{BOUNDARY}--\r\n".encode())
+    entries = [("", b"{}"), ("b.bin", b"1234")]
+    stored = b"gnomon bundle 1\n" + b"".join(
+        struct.pack("<IQ", len(name), len(content)) + name.encode() + content for name, content in entries
+    )
+    write(folder / "multipart", "stored", stored)
+
+
+def main(folder, scenes, assets=None):
+    folder, scenes = Path(folder), Path(scenes)
+    shutil.rmtree(folder, ignore_errors=True)
+    assets = Path(assets) if assets and Path(assets).is_dir() else None
+    models(folder, scenes, assets)
+    images(folder, assets)
+    requests(folder)
+    forms(folder, scenes)
+    for target in sorted(folder.iterdir()):
+        print(f"{target.name}: {len(list(target.iterdir()))} seeds")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
