@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
@@ -30,6 +31,14 @@ void raiseDescriptorLimit() {
     limit.rlim_cur = limit.rlim_max;
     ::setrlimit(RLIMIT_NOFILE, &limit);
   }
+}
+
+/// Large blocks come from the system and go back to it at once, and no thread's heap keeps much free at its end. Left
+/// to itself the allocator raises both bounds with what it meets (mallopt(3)), and a server never gives back what it
+/// took.
+void boundHeaps() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20); // bytes
+  mallopt(M_TRIM_THRESHOLD, 1 << 20);
 }
 
 std::string addressOf(const std::string& bind, int port) {
@@ -85,6 +94,7 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
 int serve(const ServeOptions& options) {
   ShutdownSignals signals;
   raiseDescriptorLimit();
+  boundHeaps();
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
   std::thread warming(warmEncoders);
   struct Joiner {
