@@ -68,8 +68,8 @@ void write32(Bytes& bytes, std::size_t offset, std::size_t value) {
 /// A GLB that was cut, with lengths that fit what is left, so that its buffer ends too early and nothing else is wrong.
 void mendLengths(Bytes& glb) {
   if (glb.size() < 20 || glb[0] != 'g') return;
-  const std::size_t json = glb[12] | glb[13] << 8 | glb[14] << 16 | glb[15] << 24;
-  const std::size_t binary = 20 + json;
+  const std::size_t text = glb[12] | glb[13] << 8 | glb[14] << 16 | glb[15] << 24;
+  const std::size_t binary = 20 + text;
   if (glb.size() >= binary + 8) {
     glb.resize(glb.size() / 4 * 4);
     write32(glb, binary, glb.size() - binary - 8);
