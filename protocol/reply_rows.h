@@ -27,25 +27,47 @@ inline constexpr auto kRows<LightSummary> = replyRows(
 static_assert(kRowsAreComplete<LightSummary>);
 
 template <>
+inline constexpr auto kRows<MemorySummary> =
+    replyRows("MemorySummary", "Bytes of a loaded scene by what they hold; together its `memoryBytes`.",
+              field("vertices", &MemorySummary::vertices, {.says = "Positions and attributes.", .unit = "bytes"}),
+              field("indices", &MemorySummary::indices,
+                    {.says = "Triangles, their order by place, and their clusters.", .unit = "bytes"}),
+              field("images", &MemorySummary::images, {.says = "Decoded images.", .unit = "bytes"}),
+              field("deformation", &MemorySummary::deformation,
+                    {.says = "What skinned and morphed meshes are posed from.", .unit = "bytes"}),
+              field("structure", &MemorySummary::structure,
+                    {.says = "Nodes, instances, cameras, lights and materials.", .unit = "bytes"}));
+static_assert(kRowsAreComplete<MemorySummary>);
+
+template <>
 inline constexpr auto kRows<SceneSummary> = replyRows(
     "SceneSummary", "What an uploaded scene holds; counts are of its default glTF scene.",
     field("id", &SceneSummary::id, {.says = "SHA-256 of the upload, 64 lower-case hexadecimal digits."}),
     field("bytes", &SceneSummary::bytes, {.says = "Size of the upload.", .unit = "bytes"}),
     field("memoryBytes", &SceneSummary::memoryBytes, {.says = "Size of the loaded scene.", .unit = "bytes"}),
+    field("memory", &SceneSummary::memory, {.says = "The same by what it holds."}),
     field("scenes", &SceneSummary::scenes, {.says = "Scenes in the file."}),
     field("defaultScene", &SceneSummary::defaultScene, {.says = "Index of the scene that is drawn by default."}),
     field("nodes", &SceneSummary::nodes, {.says = "Nodes."}),
     field("meshes", &SceneSummary::meshes, {.says = "Meshes."}),
+    field("instances", &SceneSummary::instances, {.says = "Primitives of meshes, each as often as it is placed."}),
     field("materials", &SceneSummary::materials, {.says = "Materials."}),
+    field("textures", &SceneSummary::textures,
+          {.says = "Textures: images, each as often as it is sampled differently."}),
     field("images", &SceneSummary::images, {.says = "Images."}),
     field("triangles", &SceneSummary::triangles, {.says = "Triangles, those of reused meshes counted each time."}),
     field("vertices", &SceneSummary::vertices, {.says = "Vertices."}),
+    field("skins", &SceneSummary::skins, {.says = "Skins."}),
+    field("joints", &SceneSummary::joints, {.says = "Joints of the skins."}),
+    field("morphTargets", &SceneSummary::morphTargets, {.says = "Morph targets of the meshes."}),
     field("animations", &SceneSummary::animations, {.says = "Animations."}),
     field("boundsMin", &SceneSummary::boundsMin, {.says = "Lower corner of the scene's box.", .unit = "metres"}),
     field("boundsMax", &SceneSummary::boundsMax, {.says = "Upper corner of the scene's box.", .unit = "metres"}),
     field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
     field("lights", &SceneSummary::lights, {.says = "Its lights."}),
     field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),
+    field("extensionsIgnored", &SceneSummary::extensionsIgnored,
+          {.says = "Those of them that are not supported; the warnings tell how that shows."}),
     field("warnings", &SceneSummary::warnings,
           {.says = "What the file holds that is drawn without, or drawn differently."}));
 static_assert(kRowsAreComplete<SceneSummary>);

@@ -19,26 +19,42 @@ struct LightSummary {
   std::string type{}; ///< "directional" | "spot" | "point"
 };
 
+/// Bytes of a loaded scene by what they hold; they add up to its memoryBytes.
+struct MemorySummary {
+  std::uint64_t vertices = 0;    ///< positions and attributes
+  std::uint64_t indices = 0;     ///< and what is found from them
+  std::uint64_t images = 0;      ///< decoded
+  std::uint64_t deformation = 0; ///< of skins and morph targets: what poses are made from
+  std::uint64_t structure = 0;   ///< nodes, instances, materials
+};
+
 /// What an upload is told about its scene. Counts are of the default glTF scene.
 struct SceneSummary {
   std::string id{};              ///< SHA-256 of the bundle, 64 lower-case hexadecimal digits
   std::uint64_t bytes = 0;       ///< of the bundle
   std::uint64_t memoryBytes = 0; ///< of the loaded scene
+  MemorySummary memory{};        ///< the same by part
   int scenes = 0;
   int defaultScene = 0;
   std::uint64_t nodes = 0;
   std::uint64_t meshes = 0;
+  std::uint64_t instances = 0; ///< primitives, each as often as it is placed
   std::uint64_t materials = 0;
+  std::uint64_t textures = 0;
   std::uint64_t images = 0;
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
+  std::uint64_t skins = 0;
+  std::uint64_t joints = 0;       ///< over all skins
+  std::uint64_t morphTargets = 0; ///< over all meshes
   std::uint64_t animations = 0;
   std::array<double, 3> boundsMin{}; ///< metres
   std::array<double, 3> boundsMax{};
   std::vector<CameraSummary> cameras{};
   std::vector<LightSummary> lights{};
   std::vector<std::string> extensionsUsed{};
-  std::vector<std::string> warnings{}; ///< what the file holds that is drawn without or drawn differently
+  std::vector<std::string> extensionsIgnored{}; ///< those of them that the loader does not know
+  std::vector<std::string> warnings{};          ///< what the file holds that is drawn without or drawn differently
 };
 
 } // namespace gnomon

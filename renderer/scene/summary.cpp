@@ -1,7 +1,10 @@
 #include "renderer/scene/summary.h"
 
+#include <map>
 #include <set>
+#include <tuple>
 
+#include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/posing/deformation.h"
 
 namespace gnomon {
@@ -19,26 +22,32 @@ std::uint64_t bytesIn(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-std::uint64_t memoryBytes(const Scene& scene) {
-  std::uint64_t bytes = bytesIn(scene.positions) + bytesIn(scene.attributes) + bytesIn(scene.indices) +
-                        bytesIn(scene.welded) + bytesIn(scene.clusters) + bytesIn(scene.primitives) +
-                        bytesIn(scene.materials) + bytesIn(scene.nodes);
-  for (const SceneNode& node : scene.nodes) bytes += node.name.size();
-  for (const Image& image : scene.images) {
-    bytes += std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+std::uint64_t bytesIn(const Deformation& deformation) {
+  std::uint64_t bytes = bytesIn(deformation.posed);
+  for (const Deformable& source : deformation.deformables) {
+    bytes += bytesIn(source.mesh.positions) + bytesIn(source.mesh.attributes) + bytesIn(source.mesh.indices) +
+             bytesIn(source.mesh.sources) + bytesIn(source.influences);
+    for (const MorphTarget& target : source.targets) bytes += bytesIn(target);
   }
-  if (scene.deformation) {
-    for (const Deformable& source : scene.deformation->deformables) {
-      bytes += bytesIn(source.mesh.positions) + bytesIn(source.mesh.attributes) + bytesIn(source.mesh.indices) +
-               bytesIn(source.mesh.sources) + bytesIn(source.influences);
-      for (const MorphTarget& target : source.targets) bytes += bytesIn(target);
-    }
-    for (const Skin& skin : scene.deformation->skins) bytes += bytesIn(skin.joints) + bytesIn(skin.jointFromMesh);
-  }
-  for (const SceneView& view : scene.scenes) {
-    bytes += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
-  }
+  for (const Skin& skin : deformation.skins) bytes += bytesIn(skin.joints) + bytesIn(skin.jointFromMesh);
   return bytes;
+}
+
+MemorySummary memoryOf(const Scene& scene) {
+  MemorySummary memory;
+  memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
+  memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded) + bytesIn(scene.clusters);
+  for (const Image& image : scene.images) {
+    memory.images +=
+        std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  }
+  if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
+  memory.structure = bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes);
+  for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();
+  for (const SceneView& view : scene.scenes) {
+    memory.structure += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
+  }
+  return memory;
 }
 
 /// Nodes reachable from the scene's roots; the nodes are trees by now.
@@ -64,6 +73,22 @@ const char* nameOf(LightType type) {
   return "directional";
 }
 
+/// Of what deforms in the scene: skins, their joints, and each mesh's morph targets, which all its primitives share.
+void countDeformation(const GltfDocument& document, const Deformation& deformation, const std::set<int>& primitives,
+                      SceneSummary& summary) {
+  std::set<int> skins;
+  std::map<int, std::uint64_t> targetsOfMesh;
+  for (const PosedPrimitive& posed : deformation.posed) {
+    if (!primitives.contains(posed.primitive)) continue;
+    if (posed.skin >= 0) skins.insert(posed.skin);
+    targetsOfMesh[document.model.nodes[static_cast<std::size_t>(posed.node)].mesh] =
+        deformation.deformables[static_cast<std::size_t>(posed.deformable)].targets.size();
+  }
+  summary.skins = skins.size();
+  for (const int skin : skins) summary.joints += deformation.skins[static_cast<std::size_t>(skin)].joints.size();
+  for (const auto& [mesh, targets] : targetsOfMesh) summary.morphTargets += targets;
+}
+
 /// Counts what the scene places, each once.
 void countContents(const GltfDocument& document, const Scene& scene, const SceneView& view, SceneSummary& summary) {
   std::set<int> primitives;
@@ -74,6 +99,7 @@ void countContents(const GltfDocument& document, const Scene& scene, const Scene
   }
   std::set<int> materials;
   std::set<int> images;
+  std::set<std::tuple<int, Wrap, Wrap, bool>> textures;
   for (const int index : primitives) {
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(index)];
     summary.vertices += primitive.vertexCount;
@@ -83,12 +109,18 @@ void countContents(const GltfDocument& document, const Scene& scene, const Scene
     const Material& material = scene.materials[static_cast<std::size_t>(index)];
     for (const auto* texture : {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
                                 &material.emissive}) {
-      if (*texture) images.insert((*texture)->image);
+      if (!*texture) continue;
+      const TextureUse& use = **texture;
+      images.insert(use.image);
+      textures.insert({use.image, use.wrapS, use.wrapT, use.nearest});
     }
   }
+  summary.instances = view.instances.size();
   summary.meshes = meshes.size();
   summary.materials = materials.size();
+  summary.textures = textures.size();
   summary.images = images.size();
+  if (scene.deformation) countDeformation(document, *scene.deformation, primitives, summary);
 }
 
 } // namespace
@@ -97,7 +129,9 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
   const SceneView& view = scene.scenes[static_cast<std::size_t>(scene.defaultScene)];
   SceneSummary summary;
   summary.bytes = bundleBytes(bundle);
-  summary.memoryBytes = memoryBytes(scene);
+  summary.memory = memoryOf(scene);
+  summary.memoryBytes = summary.memory.vertices + summary.memory.indices + summary.memory.images +
+                        summary.memory.deformation + summary.memory.structure;
   summary.scenes = static_cast<int>(scene.scenes.size());
   summary.defaultScene = scene.defaultScene;
   summary.nodes = nodesOf(document.model, scene.defaultScene);
@@ -118,6 +152,7 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
   }
   if (const auto used = document.json.find("extensionsUsed"); used != document.json.end()) {
     summary.extensionsUsed = used->get<std::vector<std::string>>();
+    summary.extensionsIgnored = unsupportedOf(summary.extensionsUsed);
   }
   return summary;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 
 namespace gnomon {
@@ -87,6 +88,12 @@ void checkExtensions(const nlohmann::json& document, Findings& findings) {
       findings.warn("The extension " + inQuotes(name) + " is not supported: " + consequenceOf(name) + ".");
     }
   }
+}
+
+std::vector<std::string> unsupportedOf(const std::vector<std::string>& names) {
+  std::vector<std::string> left;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(left), [](const auto& name) { return !supported(name); });
+  return left;
 }
 
 } // namespace gnomon

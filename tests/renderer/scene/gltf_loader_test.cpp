@@ -31,6 +31,8 @@ TEST(GltfLoader, SummarizesTheDefaultScene) {
   EXPECT_EQ(summary.images, 0u);
   EXPECT_EQ(summary.triangles, 24u);
   EXPECT_EQ(summary.vertices, 24u);
+  EXPECT_EQ(summary.instances, 2u);
+  EXPECT_EQ(summary.skins + summary.joints + summary.morphTargets, 0u);
   EXPECT_EQ(summary.animations, 1u);
   EXPECT_EQ(summary.boundsMin, (std::array<double, 3>{-1, -1, -1}));
   EXPECT_EQ(summary.boundsMax, (std::array<double, 3>{6, 1, 1}));

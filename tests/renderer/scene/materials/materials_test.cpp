@@ -155,6 +155,18 @@ TEST(Materials, LeavesOutTexturesOnFurtherCoordinates) {
   EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("TEXCOORD_2")));
 }
 
+TEST(Materials, AnImageSampledInTwoWaysIsTwoTextures) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
+  builder.add("samplers", {{"wrapS", 33071}});
+  builder.add("textures", {{"source", 0}});
+  builder.json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}};
+  EXPECT_EQ(load(builder).summary.textures, 1u);
+  builder.json["textures"][1]["sampler"] = 0;
+  const SceneSummary summary = load(builder).summary;
+  EXPECT_EQ(summary.textures, 2u);
+  EXPECT_EQ(summary.images, 1u);
+}
+
 TEST(Materials, HoldsImagesAgainstTheLimitsBeforeDecoding) {
   EXPECT_THAT(problemsOf(textured(pngHeader(20'000, 20'000))),
               ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/0")));
