@@ -113,10 +113,16 @@ def write(picture, colors=144):
     lines = bytearray()
     for row in picture.rows:
         lines += b"\0" + bytes(index_of[tuple(row[i : i + 3])] for i in range(0, len(row), 3))
+    return _file(picture, 3, [(b"PLTE", b"".join(palette))], lines)
 
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    head = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 3, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"PLTE", b"".join(palette)) +
-            chunk(b"IDAT", zlib.compress(bytes(lines), 9)) + chunk(b"IEND", b""))
+def write_whole(picture):
+    """The bytes of a PNG with every color that the picture has."""
+    return _file(picture, 2, [], b"".join(b"\0" + row for row in picture.rows))
+
+
+def _file(picture, color, chunks, lines):
+    head = struct.pack(">IIBBBBB", picture.width, picture.height, 8, color, 0, 0, 0)
+    chunks = [(b"IHDR", head), *chunks, (b"IDAT", zlib.compress(bytes(lines), 9)), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in chunks)
