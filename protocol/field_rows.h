@@ -14,11 +14,11 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<Ambient> =
-    rows("Ambient", "Even light from everywhere.",
-         field("color", &Ambient::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
-         field("intensity", &Ambient::intensity,
-               {.says = "Radiance of the surroundings, in the unit of the lights.", .range = kIntensityRange}));
+inline constexpr auto kRows<Ambient> = rows(
+    "Ambient", "Light of the surroundings: a neutral studio, brighter above than at the sides and below.",
+    field("color", &Ambient::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+    field("intensity", &Ambient::intensity,
+          {.says = "Mean radiance of the surroundings above, in the unit of the lights.", .range = kIntensityRange}));
 static_assert(kRowsAreComplete<Ambient>);
 
 template <>
@@ -80,7 +80,11 @@ inline constexpr auto kRows<FrameSpec> = rows(
            .maxCount = kLimits.maxNodeOptions}),
     field("scene", &FrameSpec::scene,
           {.says = "Index of the glTF scene; absent = the file's default.", .range = kNodeRange}),
-    field("ambient", &FrameSpec::ambient, {.says = "Even light from everywhere."}),
+    field("materialVariant", &FrameSpec::materialVariant,
+          {.says = "Name of one of the file's material variants; absent = the materials that the meshes name.",
+           .maxCount = 1024}),
+    field("ambient", &FrameSpec::ambient,
+          {.says = "The surroundings: a neutral studio, brighter above than at the sides and below."}),
     field("background", &FrameSpec::background, {.says = "What stands where no surface is."}),
     field("exposure", &FrameSpec::exposure,
           {.says = "Light is multiplied by 2 to this power before tone mapping.", .unit = "stops", .range = {-32, 32}}),

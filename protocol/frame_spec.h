@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/camera.h"
@@ -11,10 +12,10 @@
 
 namespace gnomon {
 
-/// Even light from everywhere.
+/// Light of the surroundings: a neutral studio, brighter above (+Y) than at the sides and below.
 struct Ambient {
   Vec3 color{1, 1, 1};    ///< linear RGB, 0..1
-  double intensity = 0.3; ///< radiance of the surroundings, in the unit of the lights
+  double intensity = 0.3; ///< mean radiance above, weighted by the cosine, in the unit of the lights
 
   bool operator==(const Ambient&) const = default;
 };
@@ -45,8 +46,9 @@ struct FrameSpec {
   Shadow shadow;                            ///< for every light without a shadow of its own
   ShadowLightPolicy shadowLightPolicy = ShadowLightPolicy::all;
   Atlas atlas;
-  std::vector<NodeOptions> nodes; ///< of two for one node the later one counts
-  std::optional<int> scene;       ///< index of the glTF scene; absent = the file's default
+  std::vector<NodeOptions> nodes;               ///< of two for one node the later one counts
+  std::optional<int> scene;                     ///< index of the glTF scene; absent = the file's default
+  std::optional<std::string> materialVariant{}; ///< of KHR_materials_variants, by name; absent = the materials as given
   Ambient ambient;
   Background background;
   double exposure = 0; ///< stops; light is multiplied by 2^exposure before tone mapping
