@@ -20,6 +20,7 @@ FrameSpec truthKey(const Subject& subject) {
   key.camera = spec.camera;
   key.nodes = spec.nodes;
   key.scene = spec.scene;
+  key.materialVariant = spec.materialVariant;
   key.lights = spec.lights;
   for (std::size_t i = 0; i < key.lights->size(); ++i) {
     Light& light = (*key.lights)[i];

@@ -38,9 +38,10 @@ bool isCulled(const Primitive& primitive, const Material& material, DrawUse use)
 
 GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
-  const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+  const int materialIndex = materialOf(scene, instance);
+  const Material& material = scene.materials[static_cast<std::size_t>(materialIndex)];
   GroupKey key;
-  if (use == DrawUse::surface || material.alphaMode != AlphaMode::opaque) key.material = primitive.material;
+  if (use == DrawUse::surface || material.alphaMode != AlphaMode::opaque) key.material = materialIndex;
   if (isCulled(primitive, material, use)) {
     key.cull = gl::Cull::back;
     if (glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0) key.frontFace = gl::FrontFace::clockwise;

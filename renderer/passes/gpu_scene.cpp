@@ -11,10 +11,44 @@ namespace gnomon {
 namespace {
 
 shared::MaterialData materialData(const Material& material) {
-  return {
+  shared::MaterialData data{
       material.baseColorFactor,
       glm::vec4(material.emissiveFactor, material.alphaMode != AlphaMode::opaque ? material.alphaCutoff : 0.0f),
-      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength)};
+      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength),
+      glm::vec4(0),
+      glm::vec4(material.transmission, 0, 0, 0),
+      {},
+      {}};
+  if (const auto& glossy = material.specularGlossiness) {
+    data.specularGlossiness = glm::vec4(glossy->specularFactor, glossy->glossinessFactor);
+  }
+  const std::array uses{&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
+                        &material.emissive};
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const TextureTransform transform =
+        *uses[i] ? (*uses[i])->transform.value_or(TextureTransform{}) : TextureTransform{};
+    data.uvAxes[i] = glm::vec4(transform.axes[0], transform.axes[1]);
+    data.uvOffsets[i] = glm::vec4(transform.offset, 0, 0);
+  }
+  return data;
+}
+
+GLenum glFilter(MinFilter filter) {
+  switch (filter) {
+    case MinFilter::linearMipmapLinear:
+      return GL_LINEAR_MIPMAP_LINEAR;
+    case MinFilter::linearMipmapNearest:
+      return GL_LINEAR_MIPMAP_NEAREST;
+    case MinFilter::nearestMipmapLinear:
+      return GL_NEAREST_MIPMAP_LINEAR;
+    case MinFilter::nearestMipmapNearest:
+      return GL_NEAREST_MIPMAP_NEAREST;
+    case MinFilter::linear:
+      return GL_LINEAR;
+    case MinFilter::nearest:
+      return GL_NEAREST;
+  }
+  return GL_LINEAR_MIPMAP_LINEAR;
 }
 
 GLenum glWrap(Wrap wrap) {
@@ -58,11 +92,11 @@ class TextureUpload {
   }
 
   int sampler(const TextureUse& use) {
-    const auto key = std::tuple(use.wrapS, use.wrapT, use.nearest);
+    const auto key = std::tuple(use.wrapS, use.wrapT, use.nearest, use.minFilter);
     const auto [found, added] = samplers_.try_emplace(key, static_cast<int>(gpu_.samplers.size()));
     if (added) {
       gl::SamplerState state;
-      state.minFilter = GL_LINEAR_MIPMAP_LINEAR;
+      state.minFilter = glFilter(use.minFilter);
       state.magFilter = use.nearest ? GL_NEAREST : GL_LINEAR;
       state.wrapS = glWrap(use.wrapS);
       state.wrapT = glWrap(use.wrapT);
@@ -74,7 +108,7 @@ class TextureUpload {
   const Scene& scene_;
   GpuScene& gpu_;
   std::map<std::pair<int, bool>, int> textures_;
-  std::map<std::tuple<Wrap, Wrap, bool>, int> samplers_;
+  std::map<std::tuple<Wrap, Wrap, bool, MinFilter>, int> samplers_;
 };
 
 } // namespace
@@ -95,7 +129,8 @@ GpuScene uploadScene(const Scene& scene) {
   TextureUpload upload(scene, gpu);
   for (const Material& material : scene.materials) {
     data.push_back(materialData(material));
-    gpu.materials.push_back({{upload.use(material.baseColor, true), upload.use(material.metallicRoughness, false),
+    gpu.materials.push_back({{upload.use(material.baseColor, true),
+                              upload.use(material.metallicRoughness, material.specularGlossiness.has_value()),
                               upload.use(material.normal, false), upload.use(material.occlusion, false),
                               upload.use(material.emissive, true)}});
   }

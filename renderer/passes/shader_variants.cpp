@@ -7,8 +7,9 @@
 namespace gnomon {
 namespace {
 
-std::string uvName(const TextureUse& use) {
-  return use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
+std::string uvName(const TextureUse& use, std::size_t unit) {
+  const std::string uv = use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
+  return use.transform ? "movedUv(" + uv + ", " + std::to_string(unit) + ")" : uv;
 }
 
 const char* viewDefine(View view) {
@@ -63,10 +64,12 @@ void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& d
 std::vector<std::string> maskDefines(const Material* material) {
   if (material == nullptr) return {};
   std::vector<std::string> defines{"ALPHA_MASK"};
+  if (material->uniformAlpha) return defines;
   if (material->hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (material->baseColor) {
     defines.emplace_back("BASE_COLOR_TEXTURE");
     if (material->baseColor->texCoord == 1) defines.emplace_back("BASE_COLOR_UV1");
+    if (material->baseColor->transform) defines.emplace_back("TEXTURE_TRANSFORM");
   }
   return defines;
 }
@@ -101,19 +104,26 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
                                    {&material.emissive, "EMISSIVE"}}};
   std::vector<std::string> defines;
   std::array<bool, 2> uvs{};
-  for (const Slot& slot : slots) {
+  bool moved = false;
+  for (std::size_t unit = 0; unit < slots.size(); ++unit) {
+    const Slot& slot = slots[unit];
     if (!*slot.use) continue;
     const TextureUse& use = **slot.use;
+    moved = moved || use.transform;
     defines.push_back(std::string(slot.name) + "_TEXTURE");
-    defines.push_back(std::string(slot.name) + "_UV " + uvName(use));
+    defines.push_back(std::string(slot.name) + "_UV " + uvName(use, unit));
     uvs[use.texCoord == 0 ? 0 : 1] = true;
   }
+  if (moved) defines.emplace_back("TEXTURE_TRANSFORM");
   if (uvs[0]) defines.emplace_back("UV0");
   if (uvs[1]) defines.emplace_back("UV1");
   if (material.hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
-  if (material.alphaMode != AlphaMode::opaque) defines.emplace_back("ALPHA_MASK");
+  if (material.alphaMode != AlphaMode::opaque && !material.uniformAlpha) defines.emplace_back("ALPHA_MASK");
+  if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
+  if (material.unlit) defines.emplace_back("UNLIT");
+  if (material.transmission > 0) defines.emplace_back("TRANSMISSION");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (variant.numbered) defines.emplace_back(variant.emission ? "TRIANGLE_NUMBERS 2" : "TRIANGLE_NUMBERS 1");
@@ -153,6 +163,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   addShadowDefines(variant.shadows, defines);
   if (variant.visibilityLayers) defines.emplace_back("VISIBILITY_LAYERS");
   if (variant.emission) defines.emplace_back("EMISSION");
+  if (variant.unlit) defines.emplace_back("UNLIT");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (showsOneLight(variant.view)) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) {

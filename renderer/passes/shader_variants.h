@@ -22,8 +22,9 @@ gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
 gl::ProgramSource casterNodeProgram(const Material* masked, BlendedCasters blended);
 
 struct SurfaceVariant {
-  bool tangents = false;       ///< the primitive brings its own
-  bool emission = false;       ///< something in the scene glows: every program writes what it gives off
+  bool tangents = false; ///< the primitive brings its own
+  bool emission =
+      false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
   bool numbered = false;       ///< says which triangle shows (passes/views/triangle_numbers.h)
 };
@@ -49,6 +50,7 @@ struct ViewVariant {
   ToneMapping toneMapping = ToneMapping::aces;
   int samples = 1;             ///< a pixel
   bool emission = false;       ///< as in SurfaceVariant
+  bool unlit = false;          ///< some material is; `emission` is set then
   bool receiverGroups = false; ///< as in SurfaceVariant
   int lights = 0;
   bool lightLists = false; ///< each square of the picture lists its own

@@ -19,6 +19,10 @@ std::size_t wrapped(double texel, int size, Wrap wrap) {
   return static_cast<std::size_t>(std::min(texel, n - 1));
 }
 
+glm::dvec2 moved(const glm::dvec2& uv, const std::optional<TextureTransform>& transform) {
+  return transform ? glm::dmat2(transform->axes) * uv + glm::dvec2(transform->offset) : uv;
+}
+
 } // namespace
 
 double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv) {
@@ -45,12 +49,13 @@ double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint3
   const VertexAttributes& b = vertices[corner[1]];
   const VertexAttributes& c = vertices[corner[2]];
   double alpha = material.baseColorFactor.a;
+  if (material.uniformAlpha) return alpha;
   if (material.hasVertexColors) alpha *= at.mix<double>(a.color.a, b.color.a, c.color.a) / 65535.0;
   if (material.baseColor && material.baseColor->image >= 0) {
     const TextureUse& use = *material.baseColor;
     const auto uv = use.texCoord == 1 ? &VertexAttributes::uv1 : &VertexAttributes::uv0;
     alpha *= textureAlpha(tree.scene->images[static_cast<std::size_t>(use.image)], use,
-                          at.mix(glm::dvec2(a.*uv), glm::dvec2(b.*uv), glm::dvec2(c.*uv)));
+                          moved(at.mix(glm::dvec2(a.*uv), glm::dvec2(b.*uv), glm::dvec2(c.*uv)), use.transform));
   }
   return alpha;
 }

@@ -47,7 +47,7 @@ struct TracedScene::Tree {
     return scene->primitives[static_cast<std::size_t>(instance(instanceIndex).primitive)];
   }
   const Material& material(std::uint32_t instanceIndex) const {
-    return scene->materials[static_cast<std::size_t>(primitive(instanceIndex).material)];
+    return scene->materials[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))];
   }
   Triangle triangle(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
     const std::uint32_t* corner = &scene->indices[primitive(instanceIndex).firstIndex + 3 * std::size_t{triangleIndex}];

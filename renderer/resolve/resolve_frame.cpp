@@ -5,6 +5,7 @@
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"
 #include "renderer/resolve/resolve_technique.h"
+#include "renderer/resolve/resolve_variant.h"
 
 namespace gnomon {
 namespace {
@@ -48,15 +49,20 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
                    "", ""};
   }
   ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
-  const int count = static_cast<int>(scene.scenes.size());
+  const int count = fileScenes(scene);
   if (frame.scene < 0 || frame.scene >= count) {
     return Problem{ProblemCode::invalidValue, "/scene", "the file has no scene of that index",
                    "0.." + std::to_string(count - 1), std::to_string(frame.scene)};
   }
+  frame.spec.scene = frame.scene;
+  if (spec.materialVariant) {
+    const auto variant = resolveVariant(*spec.materialVariant, scene);
+    if (!variant) return variant.problems();
+    frame.scene += (1 + *variant) * count;
+  }
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
   auto camera = resolveCamera(spec.camera, view, static_cast<double>(spec.width) / spec.height);
   if (!camera) return camera.problems();
-  frame.spec.scene = frame.scene;
   frame.spec.camera = camera->camera;
   frame.view = camera->view;
 

@@ -8,11 +8,6 @@
 namespace gnomon {
 namespace {
 
-const Material& materialOf(const Scene& scene, const Instance& instance) {
-  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
-  return scene.materials[static_cast<std::size_t>(primitive.material)];
-}
-
 std::string told(const std::string& name, int index) {
   return name.empty() ? std::to_string(index) : "\"" + name + "\"";
 }
@@ -29,7 +24,8 @@ const Instance* firstWithHoles(const Scene& scene, const ResolvedFrame& frame, c
   const auto found = std::find_if(instances.begin(), instances.end(), [&](const Instance& instance) {
     const NodeSwitches node =
         frame.nodes.empty() ? NodeSwitches{} : frame.nodes[static_cast<std::size_t>(instance.node)];
-    return castsFrom(light, node) && materialOf(scene, instance).alphaMode != AlphaMode::opaque;
+    return castsFrom(light, node) &&
+           scene.materials[static_cast<std::size_t>(materialOf(scene, instance))].alphaMode != AlphaMode::opaque;
   });
   return found == instances.end() ? nullptr : &*found;
 }
@@ -46,13 +42,13 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
     if (settled.shadow->technique != ShadowTechnique::shadowVolume || pointer == last) continue;
     const Instance* instance = firstWithHoles(scene, frame, settled);
     if (instance == nullptr) continue;
-    const int primitive = instance->primitive;
-    const int material = scene.primitives[static_cast<std::size_t>(primitive)].material;
+    const int material = materialOf(scene, *instance);
     problems.add({ProblemCode::unsupportedFeature, pointer,
                   "technique shadowVolume knows no alpha: node " +
                       told(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
-                      " casts, and its material " + told(materialOf(scene, *instance).name, material) +
-                      " is masked or blended",
+                      " casts, and its material " +
+                      told(scene.materials[static_cast<std::size_t>(material)].name, material) +
+                      " is masked, blended or lets light through",
                   "opaque casters: turn the node's castShadow off, or choose another technique", "shadowVolume"});
     last = pointer;
   }

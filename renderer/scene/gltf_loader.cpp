@@ -13,6 +13,7 @@
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
+#include "renderer/scene/materials/variants.h"
 #include "renderer/scene/posing/joint_checks.h"
 #include "renderer/scene/posing/posed_nodes.h"
 #include "renderer/scene/posing/skins.h"
@@ -32,6 +33,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   auto deformation = std::make_shared<Deformation>();
   deformation->skins = readSkins(*document, views, limits, findings);
   checkJoints(*document, views, limits, findings);
+  checkVariantCount(*document, limits, findings);
   const DracoPrimitives draco = decodeDracoPrimitives(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
   const auto sources = gatherMeshes(*document, views, draco, limits, findings);
@@ -47,6 +49,9 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   const std::vector<PosedMesh> posed = poseNodes(*document, tree, meshes, *deformation, limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = flattenScenes(*document, views, tree, meshes, posed, scene->primitives, limits, findings);
+  if (findings.refused()) return findings.takeProblems();
+  scene->variants = variantNames(*document);
+  addVariantScenes(limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
   if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
   scene->nodes = namedNodes(document->model);

@@ -34,8 +34,9 @@ struct Cluster {
 
 /// One indexed triangle list with one material.
 struct Primitive {
-  int material = 0;             ///< index into Scene::materials
-  std::uint32_t baseVertex = 0; ///< added to each index
+  int material = 0;                    ///< index into Scene::materials
+  std::vector<int> variantMaterials{}; ///< one a variant of the file, -1 = `material`; empty = none differs
+  std::uint32_t baseVertex = 0;        ///< added to each index
   std::uint32_t vertexCount = 0;
   std::uint32_t firstIndex = 0; ///< into Scene::indices
   std::uint32_t indexCount = 0;
@@ -49,6 +50,22 @@ struct Primitive {
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 
+/// Which texels are mixed where a texture is shown smaller than it is: those of one level, and which levels.
+enum class MinFilter {
+  linearMipmapLinear,
+  linearMipmapNearest,
+  nearestMipmapLinear,
+  nearestMipmapNearest,
+  linear,
+  nearest
+};
+
+/// KHR_texture_transform: from a vertex's coordinates to those that the texture is read at.
+struct TextureTransform {
+  glm::mat2 axes{1};
+  glm::vec2 offset{0};
+};
+
 /// A texture as a material uses it.
 struct TextureUse {
   int image = -1;   ///< index into Scene::images
@@ -56,9 +73,17 @@ struct TextureUse {
   Wrap wrapS = Wrap::repeat;
   Wrap wrapT = Wrap::repeat;
   bool nearest = false; ///< magnification filter
+  MinFilter minFilter = MinFilter::linearMipmapLinear;
+  std::optional<TextureTransform> transform{};
 };
 
-/// glTF metallic-roughness.
+/// KHR_materials_pbrSpecularGlossiness; the diffuse color is Material::baseColorFactor, its texture baseColor.
+struct SpecularGlossiness {
+  glm::vec3 specularFactor{1}; ///< linear
+  float glossinessFactor = 1;
+};
+
+/// glTF metallic-roughness, or specular-glossiness.
 struct Material {
   std::string name;
   glm::vec4 baseColorFactor{1}; ///< linear
@@ -71,6 +96,11 @@ struct Material {
   AlphaMode alphaMode = AlphaMode::opaque;
   bool doubleSided = false;
   bool hasVertexColors = false;
+  bool unlit = false;        ///< it shows its base color, whatever the light
+  float transmission = 0;    ///< share of the light that passes where it is not reflected
+  bool uniformAlpha = false; ///< its alpha is the factor's alone: opaque but for its transmission
+  std::optional<SpecularGlossiness> specularGlossiness{}; ///< instead of metal and roughness
+  /// metallicRoughness: with `specularGlossiness` its texture, sRGB specular and alpha glossiness.
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
 };
 
@@ -84,6 +114,7 @@ struct SceneNode {
 struct Instance {
   int node = 0;      ///< index into Scene::nodes
   int primitive = 0; ///< index into Scene::primitives
+  int material = -1; ///< index into Scene::materials; -1 = the primitive's
   glm::dmat4 worldFromLocal{1};
   Aabb bounds; ///< in the world
 };
@@ -130,9 +161,21 @@ struct Scene {
   std::vector<Image> images;                      ///< 8-bit RGBA
   std::vector<SceneNode> nodes;                   ///< as the file numbers them
   std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
-  std::vector<SceneView> scenes;
+  std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
+  std::vector<std::string> variants;              ///< names of the file's material variants
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it
 };
+
+/// How many scenes the file has.
+inline int fileScenes(const Scene& scene) {
+  return static_cast<int>(scene.scenes.size() / (scene.variants.size() + 1));
+}
+
+/// Index into Scene::materials.
+inline int materialOf(const Scene& scene, const Instance& instance) {
+  return instance.material >= 0 ? instance.material
+                                : scene.primitives[static_cast<std::size_t>(instance.primitive)].material;
+}
 
 } // namespace gnomon

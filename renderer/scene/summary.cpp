@@ -132,7 +132,7 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
   summary.memory = memoryOf(scene);
   summary.memoryBytes = summary.memory.vertices + summary.memory.indices + summary.memory.images +
                         summary.memory.deformation + summary.memory.structure;
-  summary.scenes = static_cast<int>(scene.scenes.size());
+  summary.scenes = fileScenes(scene);
   summary.defaultScene = scene.defaultScene;
   summary.nodes = nodesOf(document.model, scene.defaultScene);
   summary.triangles = view.triangles;

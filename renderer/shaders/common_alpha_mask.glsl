@@ -21,11 +21,18 @@ float leastAlpha(MaterialData material) {
 float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 #endif
 
+#ifdef TEXTURE_TRANSFORM
+#include "common_texture_transform.glsl"
+#define MASK_UV movedUv(mask.uv, GNOMON_BASE_COLOR_UNIT)
+#else
+#define MASK_UV mask.uv
+#endif
+
 void discardMasked() {
   MaterialData material = materials[materialIndex];
   float alpha = material.baseColorFactor.a * mask.alpha;
 #ifdef BASE_COLOR_TEXTURE
-  alpha *= texture(baseColorTexture, mask.uv).a;
+  alpha *= texture(baseColorTexture, MASK_UV).a;
 #endif
   if (alpha < leastAlpha(material)) discard;
 }

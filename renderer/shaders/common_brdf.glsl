@@ -1,3 +1,5 @@
+#include "shared/surroundings.h"
+
 const float kPi = 3.14159265358979;
 
 struct SurfacePoint {
@@ -33,12 +35,15 @@ vec3 reflectedRadiance(SurfacePoint s, vec3 toLight) {
   return ((1.0 - fresnel) * s.albedo / kPi + fresnel * (distribution * masking)) * nl;
 }
 
-// Even surroundings of unit radiance: Lambert, and the split-sum fit of Karis, "Physically Based Shading on Mobile", 2014.
-vec3 ambientReflectance(SurfacePoint s) {
+// What a surface shows of the surroundings: Lambert, and the split-sum fit of Karis, "Physically Based Shading on
+// Mobile", 2014.
+vec3 ambientReflected(SurfacePoint s) {
   float roughness = sqrt(s.alpha);
   float nv = clamp(dot(s.normal, s.toEye), 0.0, 1.0);
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a004 = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
   vec2 scaleBias = vec2(-1.04, 1.04) * a004 + r.zw;
-  return s.albedo + s.f0 * scaleBias.x + scaleBias.y;
+  vec3 mirrored = reflect(-s.toEye, s.normal);
+  return s.albedo * irradianceAround(s.normal.y) +
+         (s.f0 * scaleBias.x + scaleBias.y) * radianceAround(mirrored.y, roughness);
 }

@@ -17,6 +17,10 @@ layout(binding = GNOMON_OCCLUSION_UNIT) uniform sampler2D occlusionTexture;
 layout(binding = GNOMON_EMISSIVE_UNIT) uniform sampler2D emissiveTexture;
 #endif
 
+#ifdef TEXTURE_TRANSFORM
+#include "common_texture_transform.glsl"
+#endif
+
 vec4 baseColor(MaterialData material) {
   vec4 color = material.baseColorFactor;
 #ifdef BASE_COLOR_TEXTURE
@@ -71,6 +75,36 @@ vec3 shadingNormal(MaterialData material, vec3 face) {
 #endif
   return n;
 }
+
+#ifdef SPECULAR_GLOSSINESS
+float perceivedBrightness(vec3 color) { return sqrt(dot(color * color, vec3(0.299, 0.587, 0.114))); }
+
+// The share of metal with which metallic-roughness shows the same diffuse and specular color, as far as it can: the
+// larger root of the quadratic in it that both colors' brightness give (Khronos, "Convert between workflows", appendix
+// of KHR_materials_pbrSpecularGlossiness).
+float metallicOf(vec3 diffuse, vec3 specular) {
+  const float dielectric = 0.04;
+  float s = perceivedBrightness(specular);
+  if (s < dielectric) return 0.0;
+  float b = perceivedBrightness(diffuse) * (1.0 - max(max(specular.r, specular.g), specular.b)) / (1.0 - dielectric) +
+            s - 2.0 * dielectric;
+  return clamp((-b + sqrt(max(b * b - 4.0 * dielectric * (dielectric - s), 0.0))) / (2.0 * dielectric), 0.0, 1.0);
+}
+
+// Turns the diffuse color into a base color; gives metal and roughness.
+vec2 fromSpecularGlossiness(MaterialData material, inout vec3 color) {
+  vec4 specular = material.specularGlossiness;
+#ifdef METALLIC_ROUGHNESS_TEXTURE
+  specular *= texture(metallicRoughnessTexture, METALLIC_ROUGHNESS_UV);
+#endif
+  float metallic = metallicOf(color, specular.rgb);
+  float left = 1.0 - max(max(specular.r, specular.g), specular.b);
+  vec3 ofDiffuse = color * (left / (1.0 - 0.04) / max(1.0 - metallic, 1e-4));
+  vec3 ofSpecular = (specular.rgb - 0.04 * (1.0 - metallic)) / max(metallic, 1e-4);
+  color = clamp(mix(ofDiffuse, ofSpecular, metallic * metallic), 0.0, 1.0);
+  return vec2(metallic, 1.0 - specular.a);
+}
+#endif
 
 vec2 metallicRoughnessOf(MaterialData material) {
   vec2 value = material.surface.xy;

@@ -42,11 +42,12 @@ Sample sampleOf(ivec2 pixel, int index) {
 
 Sample sampleAt(int index) { return sampleOf(ivec2(gl_FragCoord.xy), index); }
 
-vec3 emissionAt(int index) {
+// rgb: radiance; w: 1 = unlit.
+vec4 emissionAt(int index) {
 #ifdef EMISSION
-  return texelFetch(surfaceEmission, ivec2(gl_FragCoord.xy), index).rgb;
+  return texelFetch(surfaceEmission, ivec2(gl_FragCoord.xy), index);
 #else
-  return vec3(0.0);
+  return vec4(0.0);
 #endif
 }
 
@@ -63,8 +64,8 @@ bool alike(Sample a, Sample b) {
   if (receiverGroup(a.bits) != receiverGroup(b.bits)) return false;
 #endif
 #ifdef EMISSION
-  vec3 glowA = emissionAt(a.index);
-  vec3 glowB = emissionAt(b.index);
+  vec4 glowA = emissionAt(a.index);
+  vec4 glowB = emissionAt(b.index);
   if (any(greaterThan(abs(glowA - glowB), 0.02 * max(glowA, glowB)))) return false;
 #endif
   vec4 normals = abs(vec4(unpackSnorm2x16(a.bits.x) - unpackSnorm2x16(b.bits.x),

@@ -22,11 +22,17 @@ vec3 radianceFrom(int light, SurfacePoint s, Receiver receiver) {
   return reflected * shadowVisibility(light, receiver, toLight, reflected != vec3(0.0));
 }
 
-vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec3 emission, float occlusion) {
-#ifdef VIEW_LIGHT_CONTRIBUTION
-  return debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
+vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {
+#ifdef UNLIT
+  bool unlit = emission.w == 1.0;
 #else
-  vec3 sum = emission + frame.ambient.rgb * ambientReflectance(s) * occlusion;
+  const bool unlit = false;
+#endif
+#ifdef VIEW_LIGHT_CONTRIBUTION
+  return unlit || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
+#else
+  if (unlit) return emission.rgb;
+  vec3 sum = emission.rgb + frame.ambient.rgb * ambientReflected(s) * occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;

@@ -90,7 +90,7 @@ void stampInstance(const OutlineInput& input, std::size_t index, const std::vect
   const auto clip = [&](std::uint32_t vertex) {
     return clipFromLocal * glm::dvec4(glm::dvec3(input.scene.positions[primitive.baseVertex + vertex]), 1.0);
   };
-  const Material& material = input.scene.materials[static_cast<std::size_t>(primitive.material)];
+  const Material& material = input.scene.materials[static_cast<std::size_t>(materialOf(input.scene, instance))];
   if (material.alphaMode != AlphaMode::opaque) {
     const std::uint32_t* indices = input.scene.indices.data() + primitive.firstIndex;
     for (std::uint32_t i = 0; i < primitive.indexCount / 3; ++i) {

@@ -18,7 +18,7 @@ static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, groups) == 7 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
-static_assert(sizeof(shared::MaterialData) == 3 * 16);
+static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
 

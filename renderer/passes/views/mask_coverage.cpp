@@ -11,8 +11,8 @@ namespace {
 std::vector<std::uint8_t> maskedSlots(const PassInputs& inputs, const Survey& survey) {
   std::vector<std::uint8_t> slots = survey.visible;
   for (std::size_t i = 0; i < inputs.view.instances.size(); ++i) {
-    const Primitive& primitive = inputs.scene.primitives[static_cast<std::size_t>(inputs.view.instances[i].primitive)];
-    if (inputs.scene.materials[static_cast<std::size_t>(primitive.material)].alphaMode != AlphaMode::opaque) continue;
+    const int material = materialOf(inputs.scene, inputs.view.instances[i]);
+    if (inputs.scene.materials[static_cast<std::size_t>(material)].alphaMode != AlphaMode::opaque) continue;
     std::fill(slots.begin() + inputs.geometry.firstSlot[i], slots.begin() + inputs.geometry.firstSlot[i + 1], 0);
   }
   return slots;

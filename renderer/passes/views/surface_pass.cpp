@@ -12,8 +12,9 @@ namespace gnomon {
 namespace {
 
 bool anythingGlows(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const Material& material) { return material.emissiveFactor != glm::vec3(0.0f); });
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    return material.emissiveFactor != glm::vec3(0.0f) || material.unlit || material.transmission > 0;
+  });
 }
 
 } // namespace

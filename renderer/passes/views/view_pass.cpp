@@ -24,6 +24,8 @@ ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, cons
   variant.toneMapping = shading.spec.toneMapping;
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
+  variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
+                              [](const Material& material) { return material.unlit; });
   variant.visibilityLayers =
       showsShadow(view) && std::any_of(shading.lights.begin(), shading.lights.end(),
                                        [](const shared::LightData& light) { return light.tiles.w > 0; });

@@ -9,9 +9,19 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kSupported{
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_mesh_quantization",   "KHR_materials_emissive_strength", "KHR_meshopt_compression",    "KHR_node_visibility"};
+constexpr std::array<std::string_view, 13> kSupported{"EXT_mesh_gpu_instancing",
+                                                      "EXT_meshopt_compression",
+                                                      "KHR_draco_mesh_compression",
+                                                      "KHR_lights_punctual",
+                                                      "KHR_materials_emissive_strength",
+                                                      "KHR_materials_pbrSpecularGlossiness",
+                                                      "KHR_materials_transmission",
+                                                      "KHR_materials_unlit",
+                                                      "KHR_materials_variants",
+                                                      "KHR_mesh_quantization",
+                                                      "KHR_meshopt_compression",
+                                                      "KHR_node_visibility",
+                                                      "KHR_texture_transform"};
 
 struct Consequence {
   std::string_view extension;
@@ -21,13 +31,15 @@ struct Consequence {
 /// What happens to a file that uses, but does not require, an extension.
 constexpr std::array kConsequences{
     Consequence{"EXT_texture_webp", "the fallback image is used; without one, the texture is left out"},
-    Consequence{"KHR_materials_pbrSpecularGlossiness", "the metallic-roughness values of the material are used"},
-    Consequence{"KHR_materials_transmission", "surfaces let no light through"},
-    Consequence{"KHR_materials_unlit", "unlit materials are lit like any other"},
-    Consequence{"KHR_materials_variants", "the default materials are used"},
-    Consequence{"KHR_materials_volume", "surfaces are thin and let no light through"},
-    Consequence{"KHR_texture_basisu", "the fallback image is used; without one, the texture is left out"},
-    Consequence{"KHR_texture_transform", "textures are drawn without their offset, rotation and scale"},
+    Consequence{"KHR_materials_anisotropy", "highlights are as wide along the surface as across it"},
+    Consequence{"KHR_materials_clearcoat", "surfaces have no coat"},
+    Consequence{"KHR_materials_dispersion", "all colors pass alike"},
+    Consequence{"KHR_materials_ior", "the index of refraction is 1.5"},
+    Consequence{"KHR_materials_iridescence", "surfaces have no thin film"},
+    Consequence{"KHR_materials_sheen", "surfaces have no sheen"},
+    Consequence{"KHR_materials_specular", "reflections of what is no metal are neither weakened nor tinted"},
+    Consequence{"KHR_materials_volume", "surfaces are thin: nothing is bent or absorbed inside"},
+    Consequence{"KHR_texture_basisu", "the fallback image is used"},
 };
 
 bool supported(std::string_view name) {

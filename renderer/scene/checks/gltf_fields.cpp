@@ -11,6 +11,7 @@ using enum FieldKind;
 constexpr double kMaxOffset = 9007199254740991.0; // 2^53 - 1: the largest count that JSON numbers hold exactly
 constexpr double kMaxSparse = 2147483647.0;
 constexpr double kMaxTexCoord = 255;
+constexpr double kMaxUv = 1e9; // far beyond what floats tell apart in a texture
 constexpr double kMaxAttributeId = 4294967295.0;
 
 constexpr GltfField kFields[] = {
@@ -35,6 +36,9 @@ constexpr GltfField kFields[] = {
 
     {"asset", "version", string, {}, true},
     {"root.extensions", "KHR_lights_punctual", object, "lights"},
+    {"root.extensions", "KHR_materials_variants", object, "variants"},
+    {"variants", "variants", objects, "variant", true},
+    {"variant", "name", string, {}, true},
 
     {"scene", "name", string},
     {"scene", "nodes", references, "nodes"},
@@ -67,6 +71,10 @@ constexpr GltfField kFields[] = {
     {"primitive", "targets", referenceMaps, "accessors"},
     {"primitive", "extensions", object, "primitive.extensions"},
     {"primitive.extensions", "KHR_draco_mesh_compression", object, "draco"},
+    {"primitive.extensions", "KHR_materials_variants", object, "variantMappings"},
+    {"variantMappings", "mappings", objects, "variantMapping", true},
+    {"variantMapping", "material", reference, "materials", true},
+    {"variantMapping", "variants", references, "variants", true},
     {"draco", "bufferView", reference, "bufferViews", true},
     {.owner = "draco", .key = "attributes", .kind = integerMap, .required = true, .min = 0, .max = kMaxAttributeId},
 
@@ -128,6 +136,16 @@ constexpr GltfField kFields[] = {
     {"material", "doubleSided", boolean},
     {"material", "extensions", object, "material.extensions"},
     {"material.extensions", "KHR_materials_emissive_strength", object, "emissiveStrength"},
+    {"material.extensions", "KHR_materials_unlit", object, "unlit"},
+    {"material.extensions", "KHR_materials_transmission", object, "transmission"},
+    {.owner = "transmission", .key = "transmissionFactor", .kind = number, .min = 0, .max = 1},
+    {"transmission", "transmissionTexture", object, "textureInfo"},
+    {"material.extensions", "KHR_materials_pbrSpecularGlossiness", object, "specularGlossiness"},
+    {.owner = "specularGlossiness", .key = "diffuseFactor", .kind = numbers, .min = 0, .max = 1, .length = 4},
+    {"specularGlossiness", "diffuseTexture", object, "textureInfo"},
+    {.owner = "specularGlossiness", .key = "specularFactor", .kind = numbers, .min = 0, .max = 1, .length = 3},
+    {.owner = "specularGlossiness", .key = "glossinessFactor", .kind = number, .min = 0, .max = 1},
+    {"specularGlossiness", "specularGlossinessTexture", object, "textureInfo"},
     {.owner = "emissiveStrength", .key = "emissiveStrength", .kind = number, .min = 0},
     {.owner = "pbr", .key = "baseColorFactor", .kind = numbers, .min = 0, .max = 1, .length = 4},
     {"pbr", "baseColorTexture", object, "textureInfo"},
@@ -143,7 +161,20 @@ constexpr GltfField kFields[] = {
     {.owner = "occlusionTexture", .key = "texCoord", .kind = integer, .min = 0, .max = kMaxTexCoord},
     {.owner = "occlusionTexture", .key = "strength", .kind = number, .min = 0, .max = 1},
 
+    {"textureInfo", "extensions", object, "textureInfo.extensions"},
+    {"normalTexture", "extensions", object, "textureInfo.extensions"},
+    {"occlusionTexture", "extensions", object, "textureInfo.extensions"},
+    {"textureInfo.extensions", "KHR_texture_transform", object, "textureTransform"},
+    {.owner = "textureTransform", .key = "offset", .kind = numbers, .min = -kMaxUv, .max = kMaxUv, .length = 2},
+    {.owner = "textureTransform", .key = "rotation", .kind = number, .min = -kMaxUv, .max = kMaxUv},
+    {.owner = "textureTransform", .key = "scale", .kind = numbers, .min = -kMaxUv, .max = kMaxUv, .length = 2},
+    {.owner = "textureTransform", .key = "texCoord", .kind = integer, .min = 0, .max = kMaxTexCoord},
+
     {"texture", "source", reference, "images"},
+    {"texture", "extensions", object, "texture.extensions"},
+    {"texture.extensions", "EXT_texture_webp", object, "otherImage"},
+    {"texture.extensions", "KHR_texture_basisu", object, "otherImage"},
+    {"otherImage", "source", reference, "images"},
     {"texture", "sampler", reference, "samplers"},
     {.owner = "sampler", .key = "magFilter", .kind = integer, .allowed = "9728 9729"},
     {.owner = "sampler", .key = "minFilter", .kind = integer, .allowed = "9728 9729 9984 9985 9986 9987"},

@@ -67,6 +67,8 @@ class SchemaCheck {
     if (extensions != document.end() && extensions->is_object()) {
       const auto lights = extensions->find("KHR_lights_punctual");
       if (lights != extensions->end() && lights->is_object()) sizes_["lights"] = sizeOf(*lights, "lights");
+      const auto variants = extensions->find("KHR_materials_variants");
+      if (variants != extensions->end() && variants->is_object()) sizes_["variants"] = sizeOf(*variants, "variants");
     }
   }
 

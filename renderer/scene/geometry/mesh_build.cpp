@@ -8,6 +8,17 @@
 
 namespace gnomon {
 
+namespace {
+
+void giveVertexColors(const PrimitiveSource& source, int material, std::vector<Material>& materials) {
+  materials[static_cast<std::size_t>(material)].hasVertexColors = true;
+  for (const int other : source.variantMaterials) {
+    if (other >= 0) materials[static_cast<std::size_t>(other)].hasVertexColors = true;
+  }
+}
+
+} // namespace
+
 int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
   const std::vector<Cluster> clusters = clustersOf(mesh.indices, mesh.positions);
   const std::vector<std::uint32_t> welded = weldedIndices(mesh.indices, mesh.positions);
@@ -41,13 +52,15 @@ std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource
       TriangleMesh mesh = ordered(buildVertices(source, findings));
       if (mesh.indices.empty()) continue;
       const int material = source.material >= 0 ? source.material : defaultMaterial;
-      if (source.colors) scene.materials[static_cast<std::size_t>(material)].hasVertexColors = true;
+      if (source.colors) giveVertexColors(source, material, scene.materials);
       if (source.deforms()) {
         built[m].deformables.push_back(static_cast<int>(deformables.size()));
         deformables.push_back(buildDeformable(source, std::move(mesh), findings));
         deformables.back().material = material;
+        deformables.back().variantMaterials = source.variantMaterials;
       } else {
         built[m].primitives.push_back(appendPrimitive(mesh, material, scene));
+        scene.primitives.back().variantMaterials = source.variantMaterials;
       }
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "renderer/scene/materials/variants.h"
+
 namespace gnomon {
 
 namespace {
@@ -208,6 +210,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
                           std::to_string(ofTriangles ? triangles : vertices));
         return {};
       }
+      source.variantMaterials = variantMaterials(document, m, p);
       if (!morphFits(source, meshes[m], limits, morphed, findings)) return {};
       meshes[m].push_back(std::move(source));
     }

@@ -20,9 +20,10 @@ struct MorphSource {
 
 /// A primitive of the file whose accessors fit each other. Absent attributes are nullptr.
 struct PrimitiveSource {
-  std::string pointer; ///< its place in the glTF
-  int material = -1;   ///< -1 = the default material
-  int mode = 4;        ///< triangles, strip or fan
+  std::string pointer;                 ///< its place in the glTF
+  int material = -1;                   ///< -1 = the default material
+  std::vector<int> variantMaterials{}; ///< as in Primitive
+  int mode = 4;                        ///< triangles, strip or fan
   const AccessorView* positions = nullptr;
   const AccessorView* normals = nullptr;
   const AccessorView* tangents = nullptr;

@@ -1,5 +1,7 @@
 #include "renderer/scene/materials/materials.h"
 
+#include "renderer/scene/materials/material_extensions.h"
+
 namespace gnomon {
 
 namespace {
@@ -15,16 +17,34 @@ Wrap wrapOf(int mode) {
   }
 }
 
+MinFilter minFilterOf(int filter) {
+  switch (filter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+      return MinFilter::nearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+      return MinFilter::linear;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+      return MinFilter::nearestMipmapNearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      return MinFilter::linearMipmapNearest;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+      return MinFilter::nearestMipmapLinear;
+    default:
+      return MinFilter::linearMipmapLinear;
+  }
+}
+
 std::string nameOf(std::size_t index, const std::string& name) {
   return "material " + std::to_string(index) + (name.empty() ? "" : " " + inQuotes(name));
 }
 
 class MaterialReading {
  public:
-  MaterialReading(const tinygltf::Model& model, std::size_t index, Findings& findings)
-      : model_(model),
-        source_(model.materials[index]),
-        name_(nameOf(index, model.materials[index].name)),
+  MaterialReading(const GltfDocument& document, std::size_t index, Findings& findings)
+      : document_(document),
+        source_(document.model.materials[index]),
+        json_(document.json.at("materials")[index]),
+        name_(nameOf(index, source_.name)),
         findings_(findings) {}
 
   Material read() const {
@@ -39,11 +59,21 @@ class MaterialReading {
     material.emissiveFactor = emissiveFactor();
     material.doubleSided = source_.doubleSided;
     readAlpha(material);
-    material.baseColor = texture(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord);
-    material.metallicRoughness = texture(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord);
-    material.normal = texture(source_.normalTexture.index, source_.normalTexture.texCoord);
-    material.occlusion = texture(source_.occlusionTexture.index, source_.occlusionTexture.texCoord);
-    material.emissive = texture(source_.emissiveTexture.index, source_.emissiveTexture.texCoord);
+    material.normal = texture(json_, "normalTexture");
+    material.occlusion = texture(json_, "occlusionTexture");
+    material.emissive = texture(json_, "emissiveTexture");
+    if (const auto* glossy = materialExtension(json_, "KHR_materials_pbrSpecularGlossiness")) {
+      readSpecularGlossiness(*glossy, material);
+      material.baseColor = texture(*glossy, "diffuseTexture");
+      material.metallicRoughness = texture(*glossy, "specularGlossinessTexture");
+    } else if (const auto found = json_.find("pbrMetallicRoughness"); found != json_.end()) {
+      material.baseColor = texture(*found, "baseColorTexture");
+      material.metallicRoughness = texture(*found, "metallicRoughnessTexture");
+    }
+    material.unlit = materialExtension(json_, "KHR_materials_unlit") != nullptr;
+    if (const auto* transmission = materialExtension(json_, "KHR_materials_transmission")) {
+      readTransmission(*transmission, name_, material, findings_);
+    }
     return material;
   }
 
@@ -72,10 +102,15 @@ class MaterialReading {
     }
   }
 
-  std::optional<TextureUse> texture(int index, int texCoord) const {
-    if (index < 0) return std::nullopt;
-    const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
-    if (texture.source < 0) {
+  /// The texture that a member of `owner` names, if it does.
+  std::optional<TextureUse> texture(const nlohmann::json& owner, const char* member) const {
+    const auto info = owner.find(member);
+    if (info == owner.end()) return std::nullopt;
+    const int index = info->at("index").get<int>();
+    const int texCoord = texCoordOf(*info);
+    const tinygltf::Texture& texture = document_.model.textures[static_cast<std::size_t>(index)];
+    const int image = imageOf(document_, static_cast<std::size_t>(index), findings_);
+    if (image < 0) {
       findings_.warn("The texture " + std::to_string(index) + " of the " + name_ +
                      " has no image in a supported format; it is left out.");
       return std::nullopt;
@@ -86,19 +121,22 @@ class MaterialReading {
       return std::nullopt;
     }
     TextureUse use;
-    use.image = texture.source;
+    use.image = image;
     use.texCoord = texCoord;
+    use.transform = transformOf(*info);
     if (texture.sampler >= 0) {
-      const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(texture.sampler)];
+      const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<std::size_t>(texture.sampler)];
       use.wrapS = wrapOf(sampler.wrapS);
       use.wrapT = wrapOf(sampler.wrapT);
+      use.minFilter = minFilterOf(sampler.minFilter);
       use.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     }
     return use;
   }
 
-  const tinygltf::Model& model_;
+  const GltfDocument& document_;
   const tinygltf::Material& source_;
+  const nlohmann::json& json_;
   std::string name_;
   Findings& findings_;
 };
@@ -108,7 +146,7 @@ class MaterialReading {
 std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings) {
   std::vector<Material> materials;
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
-    materials.push_back(MaterialReading(document.model, i, findings).read());
+    materials.push_back(MaterialReading(document, i, findings).read());
   }
   materials.emplace_back();
   return materials;

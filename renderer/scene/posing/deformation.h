@@ -28,9 +28,10 @@ using MorphTarget = std::vector<MorphDelta>;
 struct Deformable {
   TriangleMesh mesh;
   std::vector<MorphTarget> targets;
-  std::vector<Influences> influences; ///< parallel to the vertices; empty = no joints
-  int greatestJoint = -1;             ///< that an influence names
-  int material = 0;                   ///< index into Scene::materials
+  std::vector<Influences> influences;  ///< parallel to the vertices; empty = no joints
+  int greatestJoint = -1;              ///< that an influence names
+  int material = 0;                    ///< index into Scene::materials
+  std::vector<int> variantMaterials{}; ///< as in Primitive
 };
 
 struct Skin {

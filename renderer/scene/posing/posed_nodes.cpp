@@ -110,6 +110,7 @@ class Posing {
         return {};
       }
       const int primitive = appendPrimitive(source.mesh, source.material, scene_);
+      scene_.primitives.back().variantMaterials = source.variantMaterials;
       applyPose(shape, primitive, scene_);
       (skinned ? made.followingSkin : made.followingNode).push_back(primitive);
       deformation_.posed.push_back({primitive, index, static_cast<int>(node), skinned ? skin : -1, weights});

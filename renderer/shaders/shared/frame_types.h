@@ -122,8 +122,12 @@ struct InstanceData {
 
 struct MaterialData {
   vec4 baseColorFactor;
-  vec4 emissiveFactor; // rgb; w: alpha cutoff
-  vec4 surface;        // metallic, roughness, normal scale, occlusion strength
+  vec4 emissiveFactor;     // rgb; w: alpha cutoff
+  vec4 surface;            // metallic, roughness, normal scale, occlusion strength
+  vec4 specularGlossiness; // rgb: specular factor; w: glossiness factor
+  vec4 passing;            // x: transmission
+  vec4 uvAxes[5];          // of each texture unit: columns of the matrix from a vertex's coordinates
+  vec4 uvOffsets[5];       // xy: added to that
 };
 
 struct LightData {

@@ -56,6 +56,65 @@ TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
   EXPECT_THAT(viewProgram({.emission = true}).defines, Contains("EMISSION"));
 }
 
+/// Every #define that only some materials need.
+const char* const kMaterialFeatures[] = {
+    "ALPHA_MASK",   "DOUBLE_SIDED", "SPECULAR_GLOSSINESS", "TEXTURE_TRANSFORM", "TANGENTS",
+    "TRANSMISSION", "UNLIT",        "VERTEX_COLORS"};
+
+TEST(ShaderVariants, AMaterialWithoutAFeatureHasNoDefineOfIt) {
+  Material plain;
+  plain.baseColor = TextureUse{0};
+  for (const char* feature : kMaterialFeatures) {
+    EXPECT_THAT(surfaceProgram(plain, {}).defines, Not(Contains(feature)));
+  }
+  EXPECT_EQ(surfaceProgram(plain, {}).defines.size(), 3u);
+  EXPECT_THAT(viewProgram({}).defines, Not(Contains("UNLIT")));
+}
+
+TEST(ShaderVariants, EachFeatureOfAMaterialIsADefineOfItsOwn) {
+  Material material;
+  const std::size_t plain = surfaceProgram(material, {}).defines.size();
+  const auto gains = [&](const Material& featured, const char* define) {
+    const auto defines = surfaceProgram(featured, {}).defines;
+    EXPECT_THAT(defines, Contains(define));
+    EXPECT_EQ(defines.size(), plain + 1) << define;
+  };
+  Material unlit;
+  unlit.unlit = true;
+  gains(unlit, "UNLIT");
+  Material glossy;
+  glossy.specularGlossiness.emplace();
+  gains(glossy, "SPECULAR_GLOSSINESS");
+  Material glass;
+  glass.transmission = 0.5f;
+  glass.alphaMode = AlphaMode::blend;
+  glass.uniformAlpha = true;
+  gains(glass, "TRANSMISSION");
+}
+
+TEST(ShaderVariants, OnlyATransformedTextureIsMoved) {
+  Material material;
+  material.alphaMode = AlphaMode::mask;
+  material.baseColor = TextureUse{0};
+  material.normal = TextureUse{1};
+  material.normal->transform.emplace();
+  const auto defines = surfaceProgram(material, {}).defines;
+  EXPECT_THAT(defines, Contains("NORMAL_UV movedUv(surface.uv0, 2)"));
+  EXPECT_THAT(defines, Contains("BASE_COLOR_UV surface.uv0"));
+  EXPECT_THAT(maskDefines(&material), Not(Contains("TEXTURE_TRANSFORM")));
+  material.baseColor->transform.emplace();
+  EXPECT_THAT(maskDefines(&material), Contains("TEXTURE_TRANSFORM"));
+}
+
+TEST(ShaderVariants, G2_TheAlphaOfGlassIsReadFromNoTexture) {
+  Material glass;
+  glass.baseColor = TextureUse{0};
+  glass.alphaMode = AlphaMode::blend;
+  glass.uniformAlpha = true;
+  EXPECT_THAT(castProgram(&glass, BlendedCasters::dither).defines,
+              ::testing::ElementsAre("ALPHA_MASK", "ALPHA_DITHER"));
+}
+
 TEST(ShaderVariants, X14_WhereNoLightTellsThemApartNoGroupsAreWritten) {
   EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains("RECEIVER_GROUPS")));
   EXPECT_THAT(surfaceProgram(Material{}, {.receiverGroups = true}).defines, Contains("RECEIVER_GROUPS"));

@@ -30,8 +30,8 @@ TEST(ExtensionGate, RefusesEveryOtherRequiredExtension) {
 }
 
 TEST(ExtensionGate, X30_NothingIsTranslucentSoThatNoThicknessIsEverAskedFor) {
-  for (const char* extension : {"KHR_materials_transmission", "KHR_materials_volume",
-                                "KHR_materials_diffuse_transmission", "KHR_materials_subsurface"}) {
+  for (const char* extension : {"KHR_materials_clearcoat", "KHR_materials_volume", "KHR_materials_diffuse_transmission",
+                                "KHR_materials_subsurface"}) {
     testing::GlbBuilder builder = testing::cube();
     builder.json["extensionsUsed"] = {extension};
     EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr(extension)));
@@ -44,7 +44,7 @@ TEST(ExtensionGate, X30_NothingIsTranslucentSoThatNoThicknessIsEverAskedFor) {
 
 TEST(ExtensionGate, WarnsOfUsedExtensions) {
   testing::GlbBuilder builder = testing::cube();
-  builder.json["extensionsUsed"] = {"KHR_texture_transform", "ACME_nope"};
+  builder.json["extensionsUsed"] = {"KHR_materials_sheen", "ACME_nope"};
   EXPECT_THAT(load(builder).summary.warnings,
               ElementsAre(HasSubstr("without their offset, rotation and scale"), HasSubstr("ACME_nope")));
 }

@@ -1,0 +1,75 @@
+#include "renderer/scene/materials/variants.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+constexpr const char* kExtension = "KHR_materials_variants";
+constexpr const char* kPointer = "/extensions/KHR_materials_variants/variants";
+
+const nlohmann::json* extensionOf(const nlohmann::json& object) {
+  const auto extensions = object.find("extensions");
+  if (extensions == object.end()) return nullptr;
+  const auto found = extensions->find(kExtension);
+  return found == extensions->end() ? nullptr : &*found;
+}
+
+} // namespace
+
+void checkVariantCount(const GltfDocument& document, const Limits& limits, Findings& findings) {
+  const std::size_t variants = variantNames(document).size();
+  std::size_t primitives = 0;
+  for (const tinygltf::Mesh& mesh : document.model.meshes) primitives += mesh.primitives.size();
+  if (variants == 0 || primitives <= limits.maxInstances / variants) return;
+  findings.tooLarge(kPointer, "The file has too many material variants for its primitives.",
+                    std::to_string(limits.maxInstances),
+                    std::to_string(variants) + " of " + std::to_string(primitives) + " primitives");
+}
+
+std::vector<std::string> variantNames(const GltfDocument& document) {
+  std::vector<std::string> names;
+  const nlohmann::json* extension = extensionOf(document.json);
+  if (extension == nullptr) return names;
+  for (const auto& variant : extension->at("variants")) names.push_back(variant.at("name").get<std::string>());
+  return names;
+}
+
+std::vector<int> variantMaterials(const GltfDocument& document, std::size_t mesh, std::size_t primitive) {
+  const nlohmann::json* extension = extensionOf(document.json.at("meshes")[mesh].at("primitives")[primitive]);
+  if (extension == nullptr || extensionOf(document.json) == nullptr) return {};
+  std::vector<int> materials(extensionOf(document.json)->at("variants").size(), -1);
+  for (const auto& mapping : extension->at("mappings")) {
+    for (const auto& variant : mapping.at("variants")) {
+      materials[variant.get<std::size_t>()] = mapping.at("material").get<int>();
+    }
+  }
+  return materials;
+}
+
+void addVariantScenes(const Limits& limits, Scene& scene, Findings& findings) {
+  const std::size_t count = scene.scenes.size();
+  std::size_t placed = 0;
+  for (const SceneView& view : scene.scenes)
+    placed += view.instances.size() + view.cameras.size() + view.lights.size() + 1;
+  if (placed > limits.maxInstances / (scene.variants.size() + 1)) {
+    findings.tooLarge(kPointer, "The scenes place too many nodes and primitives in all material variants.",
+                      std::to_string(limits.maxInstances),
+                      std::to_string(scene.variants.size() + 1) + " times " + std::to_string(placed));
+    return;
+  }
+  scene.scenes.reserve(count * (scene.variants.size() + 1));
+  for (std::size_t variant = 0; variant < scene.variants.size(); ++variant) {
+    for (std::size_t i = 0; i < count; ++i) {
+      SceneView view = scene.scenes[i];
+      for (Instance& instance : view.instances) {
+        const auto& materials = scene.primitives[static_cast<std::size_t>(instance.primitive)].variantMaterials;
+        if (!materials.empty()) instance.material = materials[variant];
+      }
+      scene.scenes.push_back(std::move(view));
+    }
+  }
+}
+
+} // namespace gnomon
