@@ -50,6 +50,20 @@ inline constexpr auto kRows<Quality> =
 static_assert(kRowsAreComplete<Quality>);
 
 template <>
+inline constexpr auto kRows<AnimationMoment> =
+    rows("AnimationMoment", "A moment of one of the file's animations, by its index or its name.",
+         field("index", &AnimationMoment::index,
+               {.says = "Index of the animation.", .range = {0, double(kLimits.maxAnimations - 1)}}),
+         field("name", &AnimationMoment::name,
+               {.says = "The first animation of that name.", .minCount = 1, .maxCount = 1024}),
+         field("timeSeconds", &AnimationMoment::timeSeconds,
+               {.says = "When; before its first and after its last keyframe, what is animated stands still.",
+                .unit = "seconds",
+                .range = {-1e9, 1e9}}))
+        .withAlternatives({"index", "name"});
+static_assert(kRowsAreComplete<AnimationMoment>);
+
+template <>
 inline constexpr auto kRows<Debug> =
     rows("Debug", "What the debug views show.",
          field("light", &Debug::light,
@@ -83,6 +97,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("materialVariant", &FrameSpec::materialVariant,
           {.says = "Name of one of the file's material variants; absent = the materials that the meshes name.",
            .maxCount = 1024}),
+    field("animation", &FrameSpec::animation,
+          {.says = "The pose of an animated scene; absent = as the file has it at rest."}),
     field("ambient", &FrameSpec::ambient,
           {.says = "The surroundings: a neutral studio, brighter above than at the sides and below."}),
     field("background", &FrameSpec::background, {.says = "What stands where no surface is."}),

@@ -28,6 +28,15 @@ struct Background {
   bool operator==(const Background&) const = default;
 };
 
+/// The moment of one of the file's animations. Neither index nor name: the file's rest pose.
+struct AnimationMoment {
+  std::optional<int> index{};        ///< into the file's animations
+  std::optional<std::string> name{}; ///< of an animation, instead of its index; the first of that name
+  double timeSeconds = 0;            ///< before its first and after its last keyframe, a channel holds that one's value
+
+  bool operator==(const AnimationMoment&) const = default;
+};
+
 /// What the debug views show.
 struct Debug {
   std::optional<int> light{}; ///< index into the lights; absent = the first that casts in this frame, or else the first
@@ -49,6 +58,7 @@ struct FrameSpec {
   std::vector<NodeOptions> nodes;               ///< of two for one node the later one counts
   std::optional<int> scene;                     ///< index of the glTF scene; absent = the file's default
   std::optional<std::string> materialVariant{}; ///< of KHR_materials_variants, by name; absent = the materials as given
+  std::optional<AnimationMoment> animation{};   ///< absent = the file's rest pose
   Ambient ambient;
   Background background;
   double exposure = 0; ///< stops; light is multiplied by 2^exposure before tone mapping

@@ -40,6 +40,8 @@ struct Limits {
   std::size_t maxJoints = 65'536;              ///< over all skins
   std::size_t maxMorphTargets = 1'024;         ///< of one mesh
   std::size_t maxMorphedVertices = 16'000'000; ///< vertices times morph targets, over all meshes
+  std::size_t maxAnimations = 4'096;
+  std::size_t maxKeyframes = 16'000'000; ///< over all animations: numbers that their samplers read
   std::size_t maxMaterials = 4'096;
   std::size_t maxImages = 1'024;
   int maxImageSide = 8192;                   ///< pixels of one image

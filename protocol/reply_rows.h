@@ -35,9 +35,19 @@ inline constexpr auto kRows<MemorySummary> =
               field("images", &MemorySummary::images, {.says = "Decoded images.", .unit = "bytes"}),
               field("deformation", &MemorySummary::deformation,
                     {.says = "What skinned and morphed meshes are posed from.", .unit = "bytes"}),
+              field("animations", &MemorySummary::animations,
+                    {.says = "Keyframes, and what else it takes to pose the scene.", .unit = "bytes"}),
               field("structure", &MemorySummary::structure,
                     {.says = "Nodes, instances, cameras, lights and materials.", .unit = "bytes"}));
 static_assert(kRowsAreComplete<MemorySummary>);
+
+template <>
+inline constexpr auto kRows<AnimationSummary> =
+    replyRows("AnimationSummary", "An animation of the file.",
+              field("name", &AnimationSummary::name, {.says = "Its name, usable as animation.name; may be empty."}),
+              field("durationSeconds", &AnimationSummary::durationSeconds,
+                    {.says = "Time of its last keyframe.", .unit = "seconds"}));
+static_assert(kRowsAreComplete<AnimationSummary>);
 
 template <>
 inline constexpr auto kRows<SceneSummary> = replyRows(
@@ -60,11 +70,11 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field("skins", &SceneSummary::skins, {.says = "Skins."}),
     field("joints", &SceneSummary::joints, {.says = "Joints of the skins."}),
     field("morphTargets", &SceneSummary::morphTargets, {.says = "Morph targets of the meshes."}),
-    field("animations", &SceneSummary::animations, {.says = "Animations."}),
     field("boundsMin", &SceneSummary::boundsMin, {.says = "Lower corner of the scene's box.", .unit = "metres"}),
     field("boundsMax", &SceneSummary::boundsMax, {.says = "Upper corner of the scene's box.", .unit = "metres"}),
     field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
     field("lights", &SceneSummary::lights, {.says = "Its lights."}),
+    field("animations", &SceneSummary::animations, {.says = "The file's animations, by their indices."}),
     field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),
     field("extensionsIgnored", &SceneSummary::extensionsIgnored,
           {.says = "Those of them that are not supported; the warnings tell how that shows."}),
@@ -123,6 +133,9 @@ inline constexpr auto kRows<Limits> = replyRows(
     field("maxMorphTargets", &Limits::maxMorphTargets, {.says = "Morph targets of one mesh."}),
     field("maxMorphedVertices", &Limits::maxMorphedVertices,
           {.says = "Vertices times morph targets, over all meshes."}),
+    field("maxAnimations", &Limits::maxAnimations, {.says = "Animations of a file."}),
+    field("maxKeyframes", &Limits::maxKeyframes,
+          {.says = "Numbers in the keyframes of all animations, those that several samplers read counted each time."}),
     field("maxMaterials", &Limits::maxMaterials, {.says = "Materials of a scene."}),
     field("maxImages", &Limits::maxImages, {.says = "Images of a scene."}),
     field("maxImageSide", &Limits::maxImageSide, {.says = "Width or height of an image.", .unit = "pixels"}),

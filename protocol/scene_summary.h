@@ -25,7 +25,13 @@ struct MemorySummary {
   std::uint64_t indices = 0;     ///< and what is found from them
   std::uint64_t images = 0;      ///< decoded
   std::uint64_t deformation = 0; ///< of skins and morph targets: what poses are made from
+  std::uint64_t animations = 0;  ///< keyframes, and what else poses are made from
   std::uint64_t structure = 0;   ///< nodes, instances, materials
+};
+
+struct AnimationSummary {
+  std::string name{};
+  double durationSeconds = 0; ///< time of its last keyframe
 };
 
 /// What an upload is told about its scene. Counts are of the default glTF scene.
@@ -45,13 +51,13 @@ struct SceneSummary {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
   std::uint64_t skins = 0;
-  std::uint64_t joints = 0;       ///< over all skins
-  std::uint64_t morphTargets = 0; ///< over all meshes
-  std::uint64_t animations = 0;
+  std::uint64_t joints = 0;          ///< over all skins
+  std::uint64_t morphTargets = 0;    ///< over all meshes
   std::array<double, 3> boundsMin{}; ///< metres
   std::array<double, 3> boundsMax{};
   std::vector<CameraSummary> cameras{};
   std::vector<LightSummary> lights{};
+  std::vector<AnimationSummary> animations{};
   std::vector<std::string> extensionsUsed{};
   std::vector<std::string> extensionsIgnored{}; ///< those of them that the loader does not know
   std::vector<std::string> warnings{};          ///< what the file holds that is drawn without or drawn differently

@@ -61,6 +61,7 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   std::vector<BrokenRule> broken;
   appendPixelRule(spec, broken);
   appendCameraRules(spec.camera, broken);
+  if (spec.animation) appendAnimationRules(*spec.animation, broken);
   if (spec.lights) {
     for (std::size_t i = 0; i < spec.lights->size(); ++i) {
       const Light& light = (*spec.lights)[i];

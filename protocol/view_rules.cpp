@@ -88,6 +88,14 @@ void appendNearFar(double near, double far, const std::string& lens, std::vector
 
 } // namespace
 
+void appendAnimationRules(const AnimationMoment& moment, std::vector<BrokenRule>& broken) {
+  appendAlternatives(moment, "/animation", broken);
+  if (moment.index || moment.name || moment.timeSeconds == 0) return;
+  broken.push_back(
+      {invalid("/animation", "A time needs the index or the name of an animation.", "index | name", "neither"),
+       {"/animation/index", "/animation/name"}});
+}
+
 void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken) {
   appendAlternatives(camera, "/camera", broken);
   if (camera.lookAt) appendLookAtRules(*camera.lookAt, broken);

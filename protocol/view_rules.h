@@ -10,6 +10,8 @@
 namespace gnomon {
 
 /// Rules across the fields of the camera, at "/camera".
+/// One of index and name, and a time only with them.
+void appendAnimationRules(const AnimationMoment& moment, std::vector<BrokenRule>& broken);
 void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken);
 
 /// Rules across the fields of a light, at "/lights/<index>". Its shadow's own rules are elsewhere.

@@ -7,6 +7,7 @@
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_frame.h"
+#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -32,7 +33,10 @@ void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene&
 
 } // namespace
 
-Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const RendererInfo& device) {
+Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const RendererInfo& device) {
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const Scene& scene = **posed;
   const auto frame = resolveFrame(scene, spec);
   if (!frame) return frame.problems();
   if (const Status able = checkDevice(spec, device); !able) return able.problems();

@@ -25,6 +25,7 @@
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_frame.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/gltf_loader.h"
 #include "renderer/shadow/predicted_error.h"
 
@@ -86,7 +87,10 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
                         progress);
 }
 
-Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tileUse) {
+Result<Frame> Renderer::render(const ScenePtr& loaded, const FrameSpec& spec, TileUse tileUse) {
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const ScenePtr& scene = *posed;
   auto resolved = resolveFrame(*scene, spec);
   if (!resolved) return resolved.problems();
   if (const Status able = checkDevice(spec, info()); !able) return able.problems();

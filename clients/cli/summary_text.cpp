@@ -62,11 +62,9 @@ std::string point(const std::array<double, 3>& p) {
 
 Branch memoryBranch(const SceneSummary& s) {
   Branch branch{"memory  " + readableBytes(s.memoryBytes), {}};
-  const std::pair<const char*, std::uint64_t> parts[] = {{"vertices", s.memory.vertices},
-                                                         {"indices", s.memory.indices},
-                                                         {"images", s.memory.images},
-                                                         {"deformation", s.memory.deformation},
-                                                         {"structure", s.memory.structure}};
+  const std::pair<const char*, std::uint64_t> parts[] = {
+      {"vertices", s.memory.vertices},       {"indices", s.memory.indices},       {"images", s.memory.images},
+      {"deformation", s.memory.deformation}, {"animations", s.memory.animations}, {"structure", s.memory.structure}};
   for (const auto& [name, bytes] : parts) {
     if (bytes > 0) branch.twigs.push_back({std::string(name) + "  " + readableBytes(bytes), {}});
   }
@@ -94,6 +92,17 @@ Branch appearanceBranch(const SceneSummary& s) {
           {{counted(s.textures, "texture", "textures") + " of " + counted(s.images, "image", "images"), {}}}};
 }
 
+Branch animationsBranch(const SceneSummary& s) {
+  Branch branch{counted(s.animations.size(), "animation", "animations"), {}};
+  for (const AnimationSummary& animation : s.animations) {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.6g s", animation.durationSeconds);
+    const std::string name = animation.name.empty() ? "" : "\"" + printable(animation.name) + "\", ";
+    branch.twigs.push_back({name + seconds, {}});
+  }
+  return branch;
+}
+
 /// What moves; only what there is.
 Branch motionBranch(const SceneSummary& s) {
   Branch branch{"motion", {}};
@@ -101,7 +110,7 @@ Branch motionBranch(const SceneSummary& s) {
     branch.twigs.push_back({counted(s.skins, "skin", "skins") + " of " + counted(s.joints, "joint", "joints"), {}});
   }
   if (s.morphTargets > 0) branch.twigs.push_back({counted(s.morphTargets, "morph target", "morph targets"), {}});
-  if (s.animations > 0) branch.twigs.push_back({counted(s.animations, "animation", "animations"), {}});
+  if (!s.animations.empty()) branch.twigs.push_back(animationsBranch(s));
   return branch;
 }
 

@@ -5,6 +5,7 @@
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"
 #include "renderer/evaluation/pareto.h"
+#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -142,7 +143,9 @@ class Run {
 
 Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer,
                                   const EvaluationTools& tools, const EvaluationListener& listener) {
-  if (const auto base = resolveFrame(*scene, evaluation.spec); !base) return inSpec(base.problems());
+  const auto posed = posedScene(scene, evaluation.spec.animation);
+  if (!posed) return inSpec(posed.problems());
+  if (const auto base = resolveFrame(**posed, evaluation.spec); !base) return inSpec(base.problems());
   return Run(scene, evaluation, tools, listener).run(renderer);
 }
 

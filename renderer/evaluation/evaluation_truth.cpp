@@ -7,6 +7,7 @@
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -21,6 +22,7 @@ FrameSpec truthKey(const Subject& subject) {
   key.nodes = spec.nodes;
   key.scene = spec.scene;
   key.materialVariant = spec.materialVariant;
+  key.animation = spec.animation;
   key.lights = spec.lights;
   for (std::size_t i = 0; i < key.lights->size(); ++i) {
     Light& light = (*key.lights)[i];
@@ -75,7 +77,10 @@ double since(std::chrono::steady_clock::time_point begin) {
 
 } // namespace
 
-Result<Subject> subjectOf(const Scene& scene, const Variant& variant, std::size_t index) {
+Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size_t index) {
+  const auto posed = posedScene(loaded, variant.spec.animation);
+  if (!posed) return posed.problems();
+  const Scene& scene = **posed;
   auto frame = resolveFrame(scene, variant.spec);
   if (!frame) return frame.problems();
   Subject subject{index, std::move(*frame), {}};
@@ -111,18 +116,22 @@ std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>
   return groups;
 }
 
-Result<const TracedScene*> Truth::traced(int scene) {
-  if (const auto known = traced_.find(scene); known != traced_.end()) return &known->second;
+Result<const TracedScene*> Truth::traced(const ResolvedFrame& frame) {
+  auto posed = posedScene(scene_, frame.spec.animation);
+  if (!posed) return posed.problems();
+  if (traced_ && &traced_->scene() == posed->get() && tracedIndex_ == frame.scene) return &*traced_;
   const auto begin = std::chrono::steady_clock::now();
-  auto built = TracedScene::build(scene_, scene);
+  auto built = TracedScene::build(*posed, frame.scene);
   if (!built) return built.problems();
   report_.buildMilliseconds += since(begin);
-  return &traced_.emplace(scene, std::move(*built)).first->second;
+  traced_ = std::move(*built);
+  tracedIndex_ = frame.scene;
+  return &*traced_;
 }
 
 Result<Reference> Truth::trace(const Subject& subject, EvaluationSteps& steps) {
   if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
-  const auto scene = traced(subject.frame.scene);
+  const auto scene = traced(subject.frame);
   if (!scene) return scene.problems();
   const FrameSpec& spec = subject.frame.spec;
   const TraceInput input{**scene, subject.frame.view, spec.width, spec.height, *spec.lights, subject.frame.nodes};

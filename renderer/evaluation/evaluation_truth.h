@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "renderer/evaluation/evaluation_steps.h"
@@ -33,10 +33,11 @@ class Truth {
   const ReferenceReport& report() const { return report_; }
 
  private:
-  Result<const TracedScene*> traced(int scene);
+  Result<const TracedScene*> traced(const ResolvedFrame& frame);
 
   std::shared_ptr<const Scene> scene_;
-  std::map<int, TracedScene> traced_; ///< by glTF scene
+  std::optional<TracedScene> traced_; ///< the last one
+  int tracedIndex_ = 0;               ///< of its glTF scene
   ReferenceReport report_;
 };
 

@@ -7,6 +7,7 @@
 #include "protocol/enum_rows.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -119,7 +120,10 @@ Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTria
   return report;
 }
 
-Result<std::string> viewClass(const Scene& scene, const FrameSpec& spec) {
+Result<std::string> viewClass(const Scene& loaded, const FrameSpec& spec) {
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const Scene& scene = **posed;
   FrameSpec settled = spec;
   settled.quality.reset();
   const auto frame = resolveFrame(scene, settled);

@@ -11,6 +11,7 @@
 #include "renderer/passes/views/probe_pass.h"
 #include "renderer/resolve/check_device.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -169,13 +170,16 @@ Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene,
 
 } // namespace
 
-Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& scene, const FrameSpec& spec,
+Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& loaded, const FrameSpec& spec,
                                std::span<const Camera> path, const Progress& progress) {
   if (path.size() < 2) {
     return Problem{ProblemCode::invalidValue, "/path", "a path has two cameras or more", "at least 2",
                    std::to_string(path.size())};
   }
   if (const Status able = checkDevice(spec, tools.device); !able) return able.problems();
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const ScenePtr& scene = *posed;
   auto frames = resolvePath(*scene, measured(spec), path);
   if (!frames) return frames.problems();
   const auto traced = tools.traced.get(scene, frames->front().scene);

@@ -24,11 +24,21 @@ GpuSceneCache::Entry& GpuSceneCache::entryOf(const std::shared_ptr<const Scene>&
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front();
   }
+  auto textures = texturesOf(*scene);
   entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
-  entries_.push_front({scene, uploadScene(*scene), {}});
+  entries_.push_front({scene, uploadScene(*scene, std::move(textures)), {}});
   entries_.front().gpu.id = ++uploads_;
   drop();
   return entries_.front();
+}
+
+/// Scenes that share their images are poses of one.
+std::shared_ptr<const GpuTextures> GpuSceneCache::texturesOf(const Scene& scene) const {
+  for (const Entry& entry : entries_) {
+    const auto other = entry.scene.lock();
+    if (other && !scene.images.empty() && other->images == scene.images) return entry.gpu.textures;
+  }
+  return uploadTextures(scene);
 }
 
 void GpuSceneCache::drop() {

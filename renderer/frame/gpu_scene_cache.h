@@ -29,6 +29,7 @@ class GpuSceneCache {
   };
 
   Entry& entryOf(const std::shared_ptr<const Scene>& scene);
+  std::shared_ptr<const GpuTextures> texturesOf(const Scene& scene) const;
   void drop();
 
   std::size_t budgetBytes_;

@@ -47,12 +47,12 @@ void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertic
 
 void bindMaterial(const GpuScene& scene, int material, const gl::Program& program) {
   program.set(GNOMON_MATERIAL, material);
-  const GpuMaterial& used = scene.materials[static_cast<std::size_t>(material)];
+  const GpuMaterial& used = scene.textures->materials[static_cast<std::size_t>(material)];
   for (GLuint unit = 0; unit < used.textures.size(); ++unit) {
     const GpuTexture& texture = used.textures[unit];
     if (texture.texture < 0) continue;
-    scene.textures[static_cast<std::size_t>(texture.texture)].bind(unit);
-    scene.samplers[static_cast<std::size_t>(texture.sampler)].bind(unit);
+    scene.textures->textures[static_cast<std::size_t>(texture.texture)].bind(unit);
+    scene.textures->samplers[static_cast<std::size_t>(texture.sampler)].bind(unit);
   }
 }
 

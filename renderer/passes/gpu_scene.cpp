@@ -66,7 +66,7 @@ GLenum glWrap(Wrap wrap) {
 /// Uploads each image once per colour space and each sampler once.
 class TextureUpload {
  public:
-  TextureUpload(const Scene& scene, GpuScene& gpu) : scene_(scene), gpu_(gpu) {}
+  TextureUpload(const Scene& scene, GpuTextures& gpu) : scene_(scene), gpu_(gpu) {}
 
   GpuTexture use(const std::optional<TextureUse>& use, bool srgb) {
     if (!use || use->image < 0) return {};
@@ -77,7 +77,7 @@ class TextureUpload {
   int texture(int image, bool srgb) {
     const auto [found, added] = textures_.try_emplace({image, srgb}, static_cast<int>(gpu_.textures.size()));
     if (added) {
-      const Image& source = scene_.images[static_cast<std::size_t>(image)];
+      const Image& source = *scene_.images[static_cast<std::size_t>(image)];
       const int levels = gl::fullLevels(source.width, source.height);
       gl::Texture made({srgb ? static_cast<GLenum>(GL_SRGB8_ALPHA8) : static_cast<GLenum>(GL_RGBA8), source.width,
                         source.height, levels, 0},
@@ -106,14 +106,26 @@ class TextureUpload {
   }
 
   const Scene& scene_;
-  GpuScene& gpu_;
+  GpuTextures& gpu_;
   std::map<std::pair<int, bool>, int> textures_;
   std::map<std::tuple<Wrap, Wrap, bool, MinFilter>, int> samplers_;
 };
 
 } // namespace
 
-GpuScene uploadScene(const Scene& scene) {
+std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene) {
+  auto gpu = std::make_shared<GpuTextures>();
+  TextureUpload upload(scene, *gpu);
+  for (const Material& material : scene.materials) {
+    gpu->materials.push_back({{upload.use(material.baseColor, true),
+                               upload.use(material.metallicRoughness, material.specularGlossiness.has_value()),
+                               upload.use(material.normal, false), upload.use(material.occlusion, false),
+                               upload.use(material.emissive, true)}});
+  }
+  return gpu;
+}
+
+GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuTextures> textures) {
   GpuScene gpu;
   gpu.positions = gl::Buffer(gl::bytesOf(scene.positions), "positions");
   gpu.attributes = gl::Buffer(gl::bytesOf(scene.attributes), "attributes");
@@ -126,15 +138,10 @@ GpuScene uploadScene(const Scene& scene) {
   gpu.bytes += gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();
 
   std::vector<shared::MaterialData> data;
-  TextureUpload upload(scene, gpu);
-  for (const Material& material : scene.materials) {
-    data.push_back(materialData(material));
-    gpu.materials.push_back({{upload.use(material.baseColor, true),
-                              upload.use(material.metallicRoughness, material.specularGlossiness.has_value()),
-                              upload.use(material.normal, false), upload.use(material.occlusion, false),
-                              upload.use(material.emissive, true)}});
-  }
+  for (const Material& material : scene.materials) data.push_back(materialData(material));
   gpu.materialData = gl::Buffer(gl::bytesOf(data), "materials");
+  gpu.bytes += textures->bytes;
+  gpu.textures = std::move(textures);
   return gpu;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/gl/buffer.h"
@@ -14,13 +15,21 @@ namespace gnomon {
 
 /// A texture of a material, ready to bind.
 struct GpuTexture {
-  int texture = -1; ///< index into GpuScene::textures; -1 = the material has none
-  int sampler = -1; ///< index into GpuScene::samplers
+  int texture = -1; ///< index into GpuTextures::textures; -1 = the material has none
+  int sampler = -1; ///< index into GpuTextures::samplers
 };
 
 /// A material's textures, in the order of their units (GNOMON_BASE_COLOR_UNIT ...).
 struct GpuMaterial {
   std::array<GpuTexture, 5> textures;
+};
+
+/// What a scene's materials read, on the device.
+struct GpuTextures {
+  std::vector<GpuMaterial> materials;
+  std::vector<gl::Texture> textures;
+  std::vector<gl::Sampler> samplers;
+  std::size_t bytes = 0; ///< of device memory, about
 };
 
 /// A scene's geometry and materials on the device. Made once per scene.
@@ -29,15 +38,16 @@ struct GpuScene {
   gl::Buffer positions;  ///< vec3
   gl::Buffer attributes; ///< VertexAttributes
   gl::Buffer indices;
-  gl::Buffer welded;       ///< indices for draws that read positions only
-  gl::Buffer materialData; ///< shared::MaterialData
-  std::vector<GpuMaterial> materials;
-  std::vector<gl::Texture> textures;
-  std::vector<gl::Sampler> samplers;
-  std::vector<gl::Buffer> anchored; ///< shared::InstanceData relative to anchorOf, one a glTF scene
-  std::size_t bytes = 0;            ///< of device memory, about
+  gl::Buffer welded;                           ///< indices for draws that read positions only
+  gl::Buffer materialData;                     ///< shared::MaterialData
+  std::shared_ptr<const GpuTextures> textures; ///< the poses of a scene share them
+  std::vector<gl::Buffer> anchored;            ///< shared::InstanceData relative to anchorOf, one a glTF scene
+  std::size_t bytes = 0;                       ///< of device memory, about
 };
 
-GpuScene uploadScene(const Scene& scene);
+std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene);
+
+/// `textures`: of this scene, or of another pose of it.
+GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuTextures> textures);
 
 } // namespace gnomon

@@ -21,8 +21,8 @@ struct Count {
 };
 
 void checkCounts(const nlohmann::json& document, const Limits& limits, Findings& findings) {
-  for (const Count& count :
-       {Count{"nodes", limits.maxNodes}, Count{"materials", limits.maxMaterials}, Count{"images", limits.maxImages}}) {
+  for (const Count& count : {Count{"nodes", limits.maxNodes}, Count{"materials", limits.maxMaterials},
+                             Count{"images", limits.maxImages}, Count{"animations", limits.maxAnimations}}) {
     const auto member = document.find(count.key);
     if (member == document.end() || member->size() <= count.limit) continue;
     findings.tooLarge(pointerTo("", count.key), "The glTF has too many " + std::string(count.key) + ".",

@@ -3,6 +3,8 @@
 #include <exception>
 #include <new>
 
+#include "renderer/scene/animation/animations.h"
+#include "renderer/scene/animation/pose_cache.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_view.h"
@@ -30,6 +32,8 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
 
   const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
+  auto motion = std::make_shared<Motion>();
+  motion->animations = readAnimations(*document, views, limits, findings);
   auto deformation = std::make_shared<Deformation>();
   deformation->skins = readSkins(*document, views, limits, findings);
   checkJoints(*document, views, limits, findings);
@@ -48,8 +52,18 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
   const std::vector<PosedMesh> posed = poseNodes(*document, tree, meshes, *deformation, limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
-  scene->scenes = flattenScenes(*document, views, tree, meshes, posed, scene->primitives, limits, findings);
+  FlatScenes flat = flattenScenes(*document, views, tree, meshes, posed, scene->primitives, !motion->animations.empty(),
+                                  limits, findings);
   if (findings.refused()) return findings.takeProblems();
+  scene->scenes = std::move(flat.views);
+  if (!motion->animations.empty()) {
+    motion->parents = tree.parents;
+    motion->order = tree.order;
+    motion->locals = tree.locals;
+    motion->views = std::move(flat.moving);
+    scene->motion = std::move(motion);
+    scene->poses = std::make_shared<PoseCache>();
+  }
   scene->variants = variantNames(*document);
   addVariantScenes(limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
@@ -60,7 +74,6 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
 
   scene->defaultScene = document->model.defaultScene < 0 ? 0 : document->model.defaultScene;
   scene->summary = summarize(*document, bundle, *scene);
-  if (scene->summary.animations > 0) findings.warn("The file has animations: it is drawn in its rest pose.");
   scene->summary.warnings = findings.takeWarnings();
   return std::shared_ptr<const Scene>(std::move(scene));
 }

@@ -148,6 +148,8 @@ inline glm::dvec3 anchorOf(const SceneView& view) {
 }
 
 struct Deformation;
+struct Motion;
+class PoseCache;
 
 /// A loaded glTF file: immutable, shared between threads. At least one scene.
 struct Scene {
@@ -157,12 +159,14 @@ struct Scene {
   std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
-  std::vector<Material> materials;                ///< at least one (the default material)
-  std::vector<Image> images;                      ///< 8-bit RGBA
-  std::vector<SceneNode> nodes;                   ///< as the file numbers them
-  std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
-  std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
-  std::vector<std::string> variants;              ///< names of the file's material variants
+  std::vector<Material> materials;                  ///< at least one (the default material)
+  std::vector<std::shared_ptr<const Image>> images; ///< 8-bit RGBA
+  std::vector<SceneNode> nodes;                     ///< as the file numbers them
+  std::shared_ptr<const Deformation> deformation;   ///< of skins and morph targets; nullptr = nothing deforms
+  std::shared_ptr<const Motion> motion;             ///< of animations; nullptr = nothing moves
+  std::shared_ptr<PoseCache> poses;                 ///< the last poses asked for; beside motion
+  std::vector<SceneView> scenes;                    ///< the file's, and then all of them again for each variant
+  std::vector<std::string> variants;                ///< names of the file's material variants
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it
 };

@@ -4,6 +4,8 @@
 #include <set>
 #include <tuple>
 
+#include "renderer/scene/animation/motion.h"
+#include "renderer/scene/animation/pose_cache.h"
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/posing/deformation.h"
 
@@ -33,19 +35,40 @@ std::uint64_t bytesIn(const Deformation& deformation) {
   return bytes;
 }
 
+/// What it takes to pose a scene anew.
+std::uint64_t bytesIn(const Motion& motion) {
+  std::uint64_t bytes = bytesIn(motion.parents) + bytesIn(motion.order) + bytesIn(motion.locals);
+  for (const Animation& animation : motion.animations) {
+    bytes += bytesIn(animation.channels);
+    for (const Sampler& sampler : animation.samplers) bytes += bytesIn(sampler.times) + bytesIn(sampler.values);
+  }
+  for (const MovingView& view : motion.views) {
+    bytes += bytesIn(view.placements) + bytesIn(view.cameras) + bytesIn(view.lights);
+  }
+  return bytes;
+}
+
+/// Of an animated scene with the poses that are kept.
 MemorySummary memoryOf(const Scene& scene) {
   MemorySummary memory;
   memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
   memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded) + bytesIn(scene.clusters);
-  for (const Image& image : scene.images) {
+  for (const auto& image : scene.images) {
     memory.images +=
-        std::uint64_t{4} * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+        std::uint64_t{4} * static_cast<std::uint64_t>(image->width) * static_cast<std::uint64_t>(image->height);
   }
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
   memory.structure = bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes);
   for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();
   for (const SceneView& view : scene.scenes) {
     memory.structure += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
+  }
+  if (scene.motion) {
+    constexpr std::uint64_t kCopies = 1 + PoseCache::kKept;
+    memory.vertices *= kCopies;
+    memory.indices *= kCopies;
+    memory.structure *= kCopies;
+    memory.animations = bytesIn(*scene.motion);
   }
   return memory;
 }
@@ -131,14 +154,16 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
   summary.bytes = bundleBytes(bundle);
   summary.memory = memoryOf(scene);
   summary.memoryBytes = summary.memory.vertices + summary.memory.indices + summary.memory.images +
-                        summary.memory.deformation + summary.memory.structure;
+                        summary.memory.deformation + summary.memory.animations + summary.memory.structure;
   summary.scenes = fileScenes(scene);
   summary.defaultScene = scene.defaultScene;
   summary.nodes = nodesOf(document.model, scene.defaultScene);
   summary.triangles = view.triangles;
   countContents(document, scene, view, summary);
-  if (const auto animations = document.json.find("animations"); animations != document.json.end()) {
-    summary.animations = animations->size();
+  if (scene.motion) {
+    for (const Animation& animation : scene.motion->animations) {
+      summary.animations.push_back({animation.name, animation.durationSeconds});
+    }
   }
   if (!view.bounds.empty()) {
     summary.boundsMin = {view.bounds.min.x, view.bounds.min.y, view.bounds.min.z};

@@ -29,8 +29,9 @@ Limits quickLimits() {
 void requireWithin(const Scene& scene, const Limits& limits) {
   fuzz::require(!scene.scenes.empty(), "a scene that loads has a scene");
   fuzz::require(scene.summary.triangles <= limits.maxTriangles, "no more triangles than the limit");
-  for (const Image& image : scene.images) {
-    fuzz::require(image.width <= limits.maxImageSide && image.height <= limits.maxImageSide, "images within the limit");
+  for (const auto& image : scene.images) {
+    fuzz::require(image->width <= limits.maxImageSide && image->height <= limits.maxImageSide,
+                  "images within the limit");
   }
 }
 

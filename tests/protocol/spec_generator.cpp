@@ -192,6 +192,10 @@ rc::Gen<FrameSpec> anySpec() {
       keepOnly(pick(0, 1), spec.quality->maxError, spec.quality->maxMilliseconds);
       if (!spec.quality->maxError && !spec.quality->maxMilliseconds) spec.quality->maxError = 0.25;
     }
+    if (spec.animation) {
+      keepOnly(pick(0, 2), spec.animation->index, spec.animation->name);
+      if (!spec.animation->index && !spec.animation->name) spec.animation->timeSeconds = 0;
+    }
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {

@@ -82,6 +82,19 @@ TEST(Validate, ACameraHasOnePlacementAndOneLens) {
   EXPECT_THAT(wrongIn(Camera{.node = 1, .perspective = Perspective{}}), IsEmpty());
 }
 
+TEST(Validate, AnAnimationHasOneNameOrIndexAndATimeOnlyWithIt) {
+  const auto wrongWith = [](const AnimationMoment& moment) {
+    FrameSpec spec;
+    spec.animation = moment;
+    return wrongIn(spec);
+  };
+  EXPECT_THAT(wrongWith({}), IsEmpty());
+  EXPECT_THAT(wrongWith({.index = 1, .timeSeconds = 2}), IsEmpty());
+  EXPECT_THAT(wrongWith({.name = "Walk"}), IsEmpty());
+  EXPECT_THAT(wrongWith({.index = 1, .name = "Walk"}), ElementsAre("/animation/name"));
+  EXPECT_THAT(wrongWith({.timeSeconds = 2}), ElementsAre("/animation"));
+}
+
 TEST(Validate, ACameraLooksSomewhere) {
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}}}), ElementsAre("/camera/target"));
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{{0, 0, 5}, {0, 0, 0}, {0, 0, 0}}}), ElementsAre("/camera/up"));

@@ -9,8 +9,9 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kSupported{"EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 14> kSupported{"EXT_mesh_gpu_instancing",
                                                       "EXT_meshopt_compression",
+                                                      "KHR_animation_pointer",
                                                       "KHR_draco_mesh_compression",
                                                       "KHR_lights_punctual",
                                                       "KHR_materials_emissive_strength",

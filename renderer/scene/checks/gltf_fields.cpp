@@ -228,10 +228,14 @@ constexpr GltfField kFields[] = {
     {"animation", "samplers", objects, "animation.sampler", true},
     {"animation.sampler", "input", reference, "accessors", true},
     {"animation.sampler", "output", reference, "accessors", true},
+    {.owner = "animation.sampler", .key = "interpolation", .kind = string, .allowed = "LINEAR STEP CUBICSPLINE"},
     {"channel", "sampler", reference, "animation.samplers", true},
     {"channel", "target", object, "target", true},
     {"target", "node", reference, "nodes"},
     {"target", "path", string, {}, true},
+    {"target", "extensions", object, "target.extensions"},
+    {"target.extensions", "KHR_animation_pointer", object, "animationPointer"},
+    {"animationPointer", "pointer", string, {}, true},
 };
 
 } // namespace

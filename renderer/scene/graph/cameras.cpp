@@ -48,35 +48,42 @@ void checkCameras(const json& document, Findings& findings) {
   }
 }
 
-std::optional<SceneCamera> cameraOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                    Findings& findings) {
-  NodeFrame frame;
-  if (!frameOf(tree.worldFromUnscaled[node], frame)) {
-    findings.warn("The camera at node " + std::to_string(node) + " is scaled to nothing and left out.");
-    return std::nullopt;
-  }
+SceneCamera unplacedCamera(const GltfDocument& document, std::size_t node, Findings& findings) {
   const tinygltf::Node& source = document.model.nodes[node];
   const tinygltf::Camera& camera = document.model.cameras[static_cast<std::size_t>(source.camera)];
-  SceneCamera placed;
-  placed.node = static_cast<int>(node);
-  placed.name = keptName(source.name.empty() ? camera.name : source.name, findings);
-  placed.eye = frame.position;
-  placed.forward = frame.forward;
-  placed.up = frame.up;
+  SceneCamera made;
+  made.node = static_cast<int>(node);
+  made.name = keptName(source.name.empty() ? camera.name : source.name, findings);
   if (camera.type == "perspective") {
     Perspective lens;
     lens.fovYDegrees = camera.perspective.yfov * 180.0 / std::numbers::pi;
     lens.near = camera.perspective.znear;
     if (camera.perspective.zfar > 0) lens.far = camera.perspective.zfar;
-    placed.perspective = lens;
+    made.perspective = lens;
   } else {
     Orthographic lens;
     lens.height = 2.0 * std::abs(camera.orthographic.ymag);
     lens.near = camera.orthographic.znear;
     lens.far = camera.orthographic.zfar;
-    placed.orthographic = lens;
+    made.orthographic = lens;
   }
-  return placed;
+  return made;
+}
+
+std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera) {
+  NodeFrame frame;
+  if (!frameOf(worldFromUnscaled, frame)) return std::nullopt;
+  camera.eye = frame.position;
+  camera.forward = frame.forward;
+  camera.up = frame.up;
+  return camera;
+}
+
+std::optional<SceneCamera> cameraOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
+                                    Findings& findings) {
+  auto camera = placedAt(tree.worldFromUnscaled[node], unplacedCamera(document, node, findings));
+  if (!camera) findings.warn("The camera at node " + std::to_string(node) + " is scaled to nothing and left out.");
+  return camera;
 }
 
 } // namespace gnomon

@@ -46,33 +46,22 @@ void checkLights(const json& document, Findings& findings) {
   }
 }
 
-std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                  Findings& findings) {
+std::optional<SceneLight> unplacedLight(const GltfDocument& document, std::size_t node, Findings& findings) {
   const tinygltf::Node& holder = document.model.nodes[node];
   const auto extension = holder.extensions.find(kExtension);
   if (extension == holder.extensions.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(extension->second.Get("light").GetNumberAsInt());
   const tinygltf::Light& source = document.model.lights[index];
 
-  NodeFrame frame;
-  const std::string name = "light at node " + std::to_string(node);
-  if (!frameOf(tree.worldFromUnscaled[node], frame) && source.type != "point") {
-    findings.warn("The " + name + " is scaled to nothing and left out.");
-    return std::nullopt;
-  }
-  SceneLight placed;
-  placed.node = static_cast<int>(node);
-  placed.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
-  Light& light = placed.light;
+  SceneLight made;
+  made.node = static_cast<int>(node);
+  made.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
+  Light& light = made.light;
   light.type = source.type == "point"  ? LightType::point
                : source.type == "spot" ? LightType::spot
                                        : LightType::directional;
-  if (light.type != LightType::point) light.direction = toTriple(frame.forward);
-  if (light.type != LightType::directional) {
-    light.position = toTriple(frame.position);
-    if (source.range > 0) light.range = source.range;
-  }
-  if (light.type == LightType::spot) placeCone(source, light, name, findings);
+  if (light.type != LightType::directional && source.range > 0) light.range = source.range;
+  if (light.type == LightType::spot) placeCone(source, light, "light at node " + std::to_string(node), findings);
   light.intensity = source.intensity;
   if (source.color.size() == 3) {
     // Colours beyond 1 become intensity, so that the light stays what it was.
@@ -80,6 +69,23 @@ std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& 
     light.color = {source.color[0] / greatest, source.color[1] / greatest, source.color[2] / greatest};
     light.intensity *= greatest;
   }
+  return made;
+}
+
+std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLight light) {
+  NodeFrame frame;
+  if (!frameOf(worldFromUnscaled, frame) && light.light.type != LightType::point) return std::nullopt;
+  if (light.light.type != LightType::point) light.light.direction = toTriple(frame.forward);
+  if (light.light.type != LightType::directional) light.light.position = toTriple(frame.position);
+  return light;
+}
+
+std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
+                                  Findings& findings) {
+  auto light = unplacedLight(document, node, findings);
+  if (!light) return std::nullopt;
+  auto placed = placedAt(tree.worldFromUnscaled[node], *std::move(light));
+  if (!placed) findings.warn("The light at node " + std::to_string(node) + " is scaled to nothing and left out.");
   return placed;
 }
 

@@ -1,13 +1,12 @@
 #include "renderer/scene/graph/node_transform.h"
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 
 namespace gnomon {
 
 namespace {
 
-NodeTransform readMatrix(const std::vector<double>& m, const std::string& pointer, Findings& findings) {
+LocalTransform readMatrix(const std::vector<double>& m, const std::string& pointer, Findings& findings) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
     findings.invalid(pointer + "/matrix", "The matrix is not affine: its last row is not 0 0 0 1.");
     return {};
@@ -16,7 +15,9 @@ NodeTransform readMatrix(const std::vector<double>& m, const std::string& pointe
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) matrix[column][row] = m[static_cast<std::size_t>(4 * column + row)];
   }
-  return {matrix, matrix};
+  LocalTransform local;
+  local.matrix = matrix;
+  return local;
 }
 
 } // namespace
@@ -34,11 +35,9 @@ void checkTransforms(const nlohmann::json& document, Findings& findings) {
   }
 }
 
-NodeTransform readTransform(const tinygltf::Node& node, const std::string& pointer, Findings& findings) {
-  if (!node.matrix.empty()) {
-    return readMatrix(node.matrix, pointer, findings);
-  }
-  glm::dmat4 rigid(1);
+LocalTransform readTransform(const tinygltf::Node& node, const std::string& pointer, Findings& findings) {
+  if (!node.matrix.empty()) return readMatrix(node.matrix, pointer, findings);
+  LocalTransform local;
   if (!node.rotation.empty()) {
     const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
     const double length = glm::length(rotation);
@@ -46,16 +45,11 @@ NodeTransform readTransform(const tinygltf::Node& node, const std::string& point
       findings.invalid(pointer + "/rotation", "The rotation is not a quaternion of length 1.");
       return {};
     }
-    rigid = glm::mat4_cast(rotation / length);
+    local.rotation = rotation / length;
   }
-  if (!node.translation.empty()) {
-    rigid[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
-  }
-  glm::dmat4 scaled = rigid;
-  if (!node.scale.empty()) {
-    for (int axis = 0; axis < 3; ++axis) scaled[axis] *= node.scale[static_cast<std::size_t>(axis)];
-  }
-  return {scaled, rigid};
+  if (!node.translation.empty()) local.translation = {node.translation[0], node.translation[1], node.translation[2]};
+  if (!node.scale.empty()) local.scale = {node.scale[0], node.scale[1], node.scale[2]};
+  return local;
 }
 
 } // namespace gnomon

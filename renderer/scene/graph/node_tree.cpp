@@ -57,6 +57,30 @@ bool hides(const nlohmann::json& node) {
 
 } // namespace
 
+NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,
+                      const std::vector<LocalTransform>& locals) {
+  NodePlaces places{std::vector<glm::dmat4>(locals.size(), glm::dmat4(1)),
+                    std::vector<glm::dmat4>(locals.size(), glm::dmat4(1))};
+  for (const int index : order) {
+    const auto node = static_cast<std::size_t>(index);
+    const NodeTransform own = transformOf(locals[node]);
+    const int parent = parents[node];
+    const glm::dmat4 worldFromParent =
+        parent < 0 ? glm::dmat4(1) : places.worldFromNode[static_cast<std::size_t>(parent)];
+    places.worldFromNode[node] = worldFromParent * own.parentFromNode;
+    places.worldFromUnscaled[node] = worldFromParent * own.parentFromUnscaled;
+  }
+  return places;
+}
+
+std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order) {
+  for (const int index : order) {
+    const auto node = static_cast<std::size_t>(index);
+    if (!finite(places.worldFromNode[node]) || !finite(places.worldFromUnscaled[node])) return node;
+  }
+  return std::nullopt;
+}
+
 NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
   const tinygltf::Model& model = document.model;
   NodeTree tree;
@@ -64,32 +88,26 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
   checkSceneRoots(model, tree.parents, findings);
   if (findings.refused()) return tree;
 
-  std::vector<std::size_t> order; // parents before children
-  order.reserve(model.nodes.size());
   for (std::size_t node = 0; node < model.nodes.size(); ++node) {
-    if (tree.parents[node] < 0) order.push_back(node);
+    if (tree.parents[node] < 0) tree.order.push_back(static_cast<int>(node));
   }
-  tree.worldFromNode.resize(model.nodes.size());
-  tree.worldFromUnscaled.resize(model.nodes.size());
+  tree.locals.resize(model.nodes.size());
   tree.hidden.resize(model.nodes.size());
   std::vector<bool> reached(model.nodes.size(), false);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::size_t node = order[i];
+  for (std::size_t i = 0; i < tree.order.size(); ++i) {
+    const auto node = static_cast<std::size_t>(tree.order[i]);
     reached[node] = true;
-    const std::string pointer = pointerTo("/nodes", node);
-    const NodeTransform transform = readTransform(model.nodes[node], pointer, findings);
+    tree.locals[node] = readTransform(model.nodes[node], pointerTo("/nodes", node), findings);
     const int parent = tree.parents[node];
     tree.hidden[node] =
         hides(document.json["nodes"][node]) || (parent >= 0 && tree.hidden[static_cast<std::size_t>(parent)]);
-    const glm::dmat4 worldFromParent =
-        parent < 0 ? glm::dmat4(1) : tree.worldFromNode[static_cast<std::size_t>(parent)];
-    tree.worldFromNode[node] = worldFromParent * transform.parentFromNode;
-    tree.worldFromUnscaled[node] = worldFromParent * transform.parentFromUnscaled;
-    if (!finite(tree.worldFromNode[node]) || !finite(tree.worldFromUnscaled[node])) {
-      findings.invalid(pointer, "The node's place in the world is not finite.");
-      return tree;
-    }
-    for (const int child : model.nodes[node].children) order.push_back(static_cast<std::size_t>(child));
+    const std::vector<int>& children = model.nodes[node].children;
+    tree.order.insert(tree.order.end(), children.begin(), children.end());
+  }
+  static_cast<NodePlaces&>(tree) = placeNodes(tree.order, tree.parents, tree.locals);
+  if (const auto lost = firstLost(tree, tree.order)) {
+    findings.invalid(pointerTo("/nodes", *lost), "The node's place in the world is not finite.");
+    return tree;
   }
   for (std::size_t node = 0; node < reached.size(); ++node) {
     if (!reached[node]) findings.invalid(pointerTo("/nodes", node), "The node is its own ancestor.");

@@ -1,20 +1,35 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/scene/findings.h"
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/graph/local_transform.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
 
 /// Where every node stands, whichever scene it belongs to.
-struct NodeTree {
-  std::vector<int> parents; ///< -1 for a root
+struct NodePlaces {
   std::vector<glm::dmat4> worldFromNode;
   std::vector<glm::dmat4> worldFromUnscaled; ///< without the node's own scale: what cameras and lights go by
-  std::vector<bool> hidden;                  ///< KHR_node_visibility hides the node or one above it
+};
+
+/// `order`: the nodes, parents before children. `parents`: -1 for a root.
+NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,
+                      const std::vector<LocalTransform>& locals);
+
+/// The first node in that order whose place is not finite.
+std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order);
+
+/// The nodes in the file's rest pose.
+struct NodeTree : NodePlaces {
+  std::vector<int> parents; ///< -1 for a root
+  std::vector<int> order;   ///< parents before children
+  std::vector<LocalTransform> locals;
+  std::vector<bool> hidden; ///< KHR_node_visibility hides the node or one above it
 };
 
 /// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.

@@ -1,40 +1,22 @@
 #include "renderer/scene/graph/scene_views.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/instancing.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_tree.h"
+#include "renderer/scene/graph/placing.h"
 
 namespace gnomon {
 
 namespace {
 
-/// Volume of the unit cube's image per volume of a box with the same edges: below this, a transform is flat.
-constexpr double kFlatVolume = 1e-12;
-
-bool isFlat(const glm::dmat4& matrix) {
-  double volume = glm::determinant(glm::dmat3(matrix));
-  for (int axis = 0; axis < 3; ++axis) {
-    const double edge = glm::length(glm::dvec3(matrix[axis]));
-    if (!(edge > 0) || !std::isfinite(edge)) return true;
-    volume /= edge;
-  }
-  return !(std::abs(volume) > kFlatVolume);
-}
-
-bool finite(const Aabb& box) {
-  const glm::dvec3 sum = box.min + box.max;
-  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
-}
-
 class Flattening {
  public:
   Flattening(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
              const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
-             const std::vector<Primitive>& primitives, const Limits& limits, Findings& findings)
+             const std::vector<Primitive>& primitives, bool moves, const Limits& limits, Findings& findings)
       : document_(document),
         accessors_(accessors),
         tree_(tree),
@@ -42,7 +24,8 @@ class Flattening {
         posed_(posed),
         primitives_(primitives),
         limits_(limits),
-        findings_(findings) {}
+        findings_(findings),
+        moves_(moves) {}
 
   std::vector<int> roots() const {
     std::vector<int> roots;
@@ -52,15 +35,17 @@ class Flattening {
     return roots;
   }
 
-  SceneView flatten(const std::vector<int>& roots, const std::string& pointer) {
-    SceneView view;
+  void flatten(const std::vector<int>& roots, const std::string& pointer) {
+    SceneView& view = scenes_.views.emplace_back();
+    if (moves_) scenes_.moving.emplace_back();
     const std::vector<int> nodes = reachedFrom(roots);
     for (const int node : nodes) {
-      if (findings_.refused()) return view;
+      if (findings_.refused()) return;
       place(static_cast<std::size_t>(node), view, pointer);
     }
-    return view;
   }
+
+  FlatScenes take() { return std::move(scenes_); }
 
  private:
   /// The nodes below the roots, ascending. The nodes are trees, so none is met twice.
@@ -77,11 +62,27 @@ class Flattening {
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
     const tinygltf::Node& source = document_.model.nodes[node];
     if (source.mesh >= 0 && !tree_.hidden[node]) placeMesh(node, view, pointer);
+    if (moves_) addMoving(node);
     if (source.camera >= 0) {
       if (auto camera = cameraOf(document_, tree_, node, findings_)) view.cameras.push_back(*std::move(camera));
     }
     if (tree_.hidden[node]) return;
     if (auto light = lightOf(document_, tree_, node, findings_)) view.lights.push_back(*std::move(light));
+  }
+
+  /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
+  void addMoving(std::size_t node) {
+    MovingView& moving = scenes_.moving.back();
+    if (document_.model.nodes[node].camera >= 0) moving.cameras.push_back(unplacedCamera(document_, node, findings_));
+    if (tree_.hidden[node]) return;
+    if (auto light = unplacedLight(document_, node, findings_)) moving.lights.push_back(*std::move(light));
+  }
+
+  void addPlacements(std::size_t node, int skin, const glm::dmat4& nodeFromCopy, const std::vector<int>& primitives) {
+    if (!moves_) return;
+    for (const int primitive : primitives) {
+      scenes_.moving.back().placements.push_back({static_cast<int>(node), primitive, skin, nodeFromCopy});
+    }
   }
 
   void placeMesh(std::size_t node, SceneView& view, const std::string& pointer) {
@@ -95,6 +96,7 @@ class Flattening {
         findings_.warn("The mesh at node " + std::to_string(node) + " follows a skin: its copies are not drawn.");
       }
       if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
+      addPlacements(node, document_.model.nodes[node].skin, glm::dmat4(1), posed_[node].followingSkin);
       placeCopy(node, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
     }
     const std::uint64_t copies = instancing ? instancing->count : 1;
@@ -102,6 +104,7 @@ class Flattening {
     for (std::uint64_t copy = 0; copy < copies && !findings_.refused(); ++copy) {
       const auto nodeFromCopy = instancing ? instancing->nodeFromCopy(copy) : glm::dmat4(1);
       if (nodeFromCopy) {
+        addPlacements(node, -1, *nodeFromCopy, primitives);
         placeCopy(node, tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
       } else {
         findings_.invalid(pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes",
@@ -114,19 +117,21 @@ class Flattening {
   void placeCopy(std::size_t node, const glm::dmat4& worldFromLocal, const std::vector<int>& primitives,
                  SceneView& view, const std::string& pointer) {
     if (primitives.empty()) return;
-    if (isFlat(worldFromLocal)) {
+    const bool flat = isFlat(worldFromLocal);
+    if (flat && !moves_) {
       findings_.warn("The mesh at node " + std::to_string(node) + " is scaled to nothing and not drawn.");
       return;
     }
     for (const int index : primitives) {
       const Primitive& primitive = primitives_[static_cast<std::size_t>(index)];
       const std::uint64_t triangles = primitive.indexCount / 3;
-      triangles_ += triangles;
+      triangles_ += triangles; // what an animation may show counts as well
       if (triangles_ > limits_.maxTriangles) {
         findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(limits_.maxTriangles),
                            std::to_string(triangles_));
         return;
       }
+      if (flat) continue;
       view.triangles += triangles;
       Instance instance;
       instance.node = static_cast<int>(node);
@@ -165,24 +170,25 @@ class Flattening {
   const std::vector<Primitive>& primitives_;
   const Limits& limits_;
   Findings& findings_;
+  bool moves_;
+  FlatScenes scenes_;
   std::uint64_t triangles_ = 0; ///< of all scenes
   std::uint64_t placed_ = 0;    ///< of all scenes; <= maxInstances
 };
 
 } // namespace
 
-std::vector<SceneView> flattenScenes(const GltfDocument& document, const std::vector<AccessorView>& accessors,
-                                     const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
-                                     const std::vector<PosedMesh>& posed, const std::vector<Primitive>& primitives,
-                                     const Limits& limits, Findings& findings) {
-  std::vector<SceneView> views;
-  Flattening flattening(document, accessors, tree, meshes, posed, primitives, limits, findings);
+FlatScenes flattenScenes(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
+                         const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
+                         const std::vector<Primitive>& primitives, bool moves, const Limits& limits,
+                         Findings& findings) {
+  Flattening flattening(document, accessors, tree, meshes, posed, primitives, moves, limits, findings);
   const auto& scenes = document.model.scenes;
   for (std::size_t i = 0; i < scenes.size() && !findings.refused(); ++i) {
-    views.push_back(flattening.flatten(scenes[i].nodes, pointerTo("/scenes", i)));
+    flattening.flatten(scenes[i].nodes, pointerTo("/scenes", i));
   }
-  if (scenes.empty()) views.push_back(flattening.flatten(flattening.roots(), "/nodes"));
-  return views;
+  if (scenes.empty()) flattening.flatten(flattening.roots(), "/nodes");
+  return flattening.take();
 }
 
 } // namespace gnomon

@@ -95,18 +95,18 @@ void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, c
 
 } // namespace
 
-std::vector<Image> loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
-                              Findings& findings) {
+std::vector<std::shared_ptr<const Image>> loadImages(const GltfDocument& document, const Limits& limits,
+                                                     std::vector<Material>& materials, Findings& findings) {
   const std::map<int, int> slots = usedImages(document, materials, findings);
   checkSizes(document, slots, limits, findings);
-  std::vector<Image> images;
+  std::vector<std::shared_ptr<const Image>> images;
   if (findings.refused()) return images;
   for (const auto& [image, slot] : slots) {
     if (slot < 0) continue;
     auto decoded = decodeImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide,
                                limits.maxImagePixels);
     if (decoded) {
-      images.push_back(*std::move(decoded));
+      images.push_back(std::make_shared<const Image>(*std::move(decoded)));
     } else {
       findings.take(located(std::move(decoded).problems(), pointerTo("/images", static_cast<std::size_t>(image))));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "protocol/limits.h"
@@ -11,7 +12,7 @@ namespace gnomon {
 
 /// Decodes the images that the materials use, after the sizes of all of them have been held against the limits,
 /// and points the materials' textures at them. A texture in a format that is not supported is left out with a warning.
-std::vector<Image> loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
-                              Findings& findings);
+std::vector<std::shared_ptr<const Image>> loadImages(const GltfDocument& document, const Limits& limits,
+                                                     std::vector<Material>& materials, Findings& findings);
 
 } // namespace gnomon

@@ -1,6 +1,8 @@
 #include "renderer/scene/materials/variants.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "renderer/scene/animation/motion.h"
 
 namespace gnomon {
 
@@ -48,28 +50,40 @@ std::vector<int> variantMaterials(const GltfDocument& document, std::size_t mesh
   return materials;
 }
 
+std::vector<SceneView> variantViews(const Scene& scene, const std::vector<SceneView>& views) {
+  std::vector<SceneView> made;
+  made.reserve(views.size() * scene.variants.size());
+  for (std::size_t variant = 0; variant < scene.variants.size(); ++variant) {
+    for (SceneView view : views) {
+      for (Instance& instance : view.instances) {
+        const auto& materials = scene.primitives[static_cast<std::size_t>(instance.primitive)].variantMaterials;
+        if (!materials.empty()) instance.material = materials[variant];
+      }
+      made.push_back(std::move(view));
+    }
+  }
+  return made;
+}
+
 void addVariantScenes(const Limits& limits, Scene& scene, Findings& findings) {
-  const std::size_t count = scene.scenes.size();
   std::size_t placed = 0;
-  for (const SceneView& view : scene.scenes)
-    placed += view.instances.size() + view.cameras.size() + view.lights.size() + 1;
+  for (std::size_t i = 0; i < scene.scenes.size(); ++i) {
+    const SceneView& view = scene.scenes[i];
+    const auto count = [](std::size_t instances, const auto& of) {
+      return instances + of.cameras.size() + of.lights.size() + 1;
+    };
+    // A pose may place more than the rest pose does.
+    placed += scene.motion ? count(scene.motion->views[i].placements.size(), scene.motion->views[i])
+                           : count(view.instances.size(), view);
+  }
   if (placed > limits.maxInstances / (scene.variants.size() + 1)) {
     findings.tooLarge(kPointer, "The scenes place too many nodes and primitives in all material variants.",
                       std::to_string(limits.maxInstances),
                       std::to_string(scene.variants.size() + 1) + " times " + std::to_string(placed));
     return;
   }
-  scene.scenes.reserve(count * (scene.variants.size() + 1));
-  for (std::size_t variant = 0; variant < scene.variants.size(); ++variant) {
-    for (std::size_t i = 0; i < count; ++i) {
-      SceneView view = scene.scenes[i];
-      for (Instance& instance : view.instances) {
-        const auto& materials = scene.primitives[static_cast<std::size_t>(instance.primitive)].variantMaterials;
-        if (!materials.empty()) instance.material = materials[variant];
-      }
-      scene.scenes.push_back(std::move(view));
-    }
-  }
+  std::vector<SceneView> views = variantViews(scene, scene.scenes);
+  for (SceneView& view : views) scene.scenes.push_back(std::move(view));
 }
 
 } // namespace gnomon

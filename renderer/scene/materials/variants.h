@@ -19,6 +19,9 @@ std::vector<std::string> variantNames(const GltfDocument& document);
 /// The materials of a primitive, as in Primitive::variantMaterials.
 std::vector<int> variantMaterials(const GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
+/// The views again for each of scene.variants, with its materials.
+std::vector<SceneView> variantViews(const Scene& scene, const std::vector<SceneView>& views);
+
 /// Adds the scenes of the file again for each of scene.variants, with its materials. Refuses what would take the placed
 /// primitives past maxInstances.
 void addVariantScenes(const Limits& limits, Scene& scene, Findings& findings);

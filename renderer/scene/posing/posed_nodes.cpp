@@ -1,10 +1,11 @@
 #include "renderer/scene/posing/posed_nodes.h"
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include "renderer/scene/animation/animation_targets.h"
+#include "renderer/scene/graph/placing.h"
 #include "renderer/scene/posing/apply_pose.h"
 #include "renderer/scene/posing/pose.h"
 
@@ -13,25 +14,6 @@ namespace gnomon {
 namespace {
 
 using nlohmann::json;
-
-/// Nodes whose weights an animation changes.
-std::set<std::size_t> nodesWithMovingWeights(const json& document) {
-  std::set<std::size_t> nodes;
-  const auto animations = document.find("animations");
-  if (animations == document.end()) return nodes;
-  for (const json& animation : *animations) {
-    for (const json& channel : animation["channels"]) {
-      const json& target = channel["target"];
-      if (target["path"] == "weights" && target.contains("node")) nodes.insert(target["node"].get<std::size_t>());
-    }
-  }
-  return nodes;
-}
-
-bool finite(const Aabb& box) {
-  const glm::dvec3 sum = box.min + box.max;
-  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
-}
 
 class Posing {
  public:

@@ -103,10 +103,10 @@ TEST(Materials, ReadsTexturesWithTheirSampler) {
   EXPECT_EQ(material.normalScale, 0.5f);
   EXPECT_EQ(material.occlusionStrength, 0.25f);
   ASSERT_EQ(scene.images.size(), 1u);
-  EXPECT_EQ(scene.images[0].width, 3);
-  EXPECT_EQ(scene.images[0].height, 2);
-  EXPECT_EQ(std::get<0>(scene.images[0].pixels).size(), 24u) << "RGBA";
-  EXPECT_EQ(std::get<0>(scene.images[0].pixels)[0], 200);
+  EXPECT_EQ(scene.images[0]->width, 3);
+  EXPECT_EQ(scene.images[0]->height, 2);
+  EXPECT_EQ(std::get<0>(scene.images[0]->pixels).size(), 24u) << "RGBA";
+  EXPECT_EQ(std::get<0>(scene.images[0]->pixels)[0], 200);
 }
 
 TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
@@ -119,7 +119,7 @@ TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
   ASSERT_EQ(scene.images.size(), 2u);
   EXPECT_EQ(onlyMaterial(scene).baseColor->image, 0);
   EXPECT_EQ(onlyMaterial(scene).emissive->image, 1);
-  EXPECT_EQ(std::get<0>(scene.images[1].pixels)[0], 20);
+  EXPECT_EQ(std::get<0>(scene.images[1]->pixels)[0], 20);
 }
 
 TEST(Materials, LeavesOutTexturesInOtherFormats) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "renderer/scene/animation/motion.h"
+
+namespace gnomon {
+
+/// What a channel moves.
+struct AnimationTarget {
+  std::size_t node = 0;
+  ChannelPath path = ChannelPath::translation;
+};
+
+/// By node and path, or by the pointer of KHR_animation_pointer where that comes to the same. Nothing for what is not
+/// animated here; `channel` has passed the schema.
+std::optional<AnimationTarget> targetOf(const nlohmann::json& document, const nlohmann::json& channel);
+
+/// What a channel without a target here would move, for a sentence; empty where it says nothing.
+std::string targetName(const nlohmann::json& channel);
+
+/// Nodes whose weights an animation changes.
+std::set<std::size_t> nodesWithMovingWeights(const nlohmann::json& document);
+
+} // namespace gnomon

@@ -1,0 +1,123 @@
+// A frame shows the scene as its animation has it, and so do the shadows, the plan and the rays.
+#include "tests/renderer/frame_fixture.h"
+#include "tests/renderer/scene/animation/animated.h"
+
+namespace gnomon {
+namespace {
+
+using testing::floatsOf;
+using testing::refusedJson;
+using testing::renderJson;
+using testing::sceneOf;
+using testing::valueAt;
+
+/// A ground of 20 by 20 m seen from straight above, and a cube 3 m over it that flies from x = -6 to x = 6 within two
+/// seconds. Seen from above and lit at 45 degrees from -X, its shadow lies 4 m further towards +X.
+ScenePtr flight() {
+  testing::GlbBuilder builder = testing::plane();
+  builder.json["nodes"][0]["scale"] = {10, 1, 10};
+  std::vector<glm::vec3> corners;
+  for (const float x : {-1.0f, 1.0f}) {
+    for (const float y : {-1.0f, 1.0f}) {
+      for (const float z : {-1.0f, 1.0f}) corners.emplace_back(x, y, z);
+    }
+  }
+  const std::vector<std::uint32_t> faces{0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  builder.addMeshNode(
+      builder.addMesh({{"attributes", {{"POSITION", builder.addAccessor(corners, "VEC3", 5126, corners.size())}}},
+                       {"indices", builder.addIndices(faces)}}));
+  builder.json["nodes"][1]["translation"] = {-6, 4, 0};
+  animate(builder, 1, "translation", {0, 2}, {-6, 4, 0, 6, 4, 0}, "VEC3");
+  return sceneOf(builder);
+}
+
+Json specOf(const std::vector<std::string>& views) {
+  return {{"width", 96},
+          {"height", 96},
+          {"camera",
+           {{"eye", {0, 30, 0}},
+            {"target", {0, 0, 0}},
+            {"up", {0, 0, -1}},
+            {"orthographic", {{"height", 20}, {"far", 60}}}}},
+          {"lights", {{{"type", "directional"}, {"direction", {1, -1, 0}}}}},
+          {"antialiasing", "none"},
+          {"views", views},
+          {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+}
+
+Json atTime(Json spec, double seconds) {
+  spec["animation"] = {{"name", "Move"}, {"timeSeconds", seconds}};
+  return spec;
+}
+
+/// A place of the ground as a share of the picture's width.
+double across(double x) {
+  return (x + 10) / 20;
+}
+
+TEST(AnimatedFrames, AShadowFollowsWhatThrowsIt) {
+  const ScenePtr scene = flight();
+  for (const double seconds : {0.0, 0.5, 0.75}) {
+    const double x = -6 + 6 * seconds;
+    const Frame frame = renderJson(scene, atTime(specOf({"shadow", "depth"}), seconds).dump());
+    EXPECT_NEAR(valueAt(frame, across(x), 0.5, 1), 25, 0.1) << "the cube's top, at " << seconds << " s";
+    EXPECT_EQ(valueAt(frame, across(x + 4), 0.5), 0) << "its shadow";
+    EXPECT_EQ(valueAt(frame, across(x + 6), 0.5), 1) << "ahead of it";
+    EXPECT_EQ(valueAt(frame, across(x - 2), 0.5), 1) << "where it came from";
+  }
+}
+
+TEST(AnimatedFrames, WithoutAnAnimationAFrameShowsTheRestPose) {
+  const ScenePtr scene = flight();
+  const Json spec = specOf({"shadow"});
+  const std::vector<float> rest = floatsOf(renderJson(scene, spec.dump()));
+  EXPECT_EQ(floatsOf(renderJson(scene, atTime(spec, 0).dump())), rest);
+  EXPECT_NE(floatsOf(renderJson(scene, atTime(spec, 1).dump())), rest);
+  EXPECT_EQ(floatsOf(renderJson(scene, spec.dump())), rest) << "poses leave nothing behind";
+  EXPECT_EQ(floatsOf(renderJson(scene, atTime(spec, 7).dump())), floatsOf(renderJson(scene, atTime(spec, 2).dump())));
+}
+
+TEST(AnimatedFrames, RaysMeetTheSamePose) {
+  const ScenePtr scene = flight();
+  const Frame frame = renderJson(scene, atTime(specOf({"shadow", "reference"}), 0.5).dump());
+  const std::vector<float>& shown = floatsOf(frame, 0);
+  const std::vector<float>& truth = floatsOf(frame, 1);
+  ASSERT_EQ(shown.size(), truth.size());
+  std::size_t wrong = 0;
+  std::size_t dark = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    wrong += (shown[i] >= 0.5f) != (truth[i] >= 0.5f) ? 1 : 0;
+    dark += truth[i] < 0.5f ? 1 : 0;
+  }
+  EXPECT_GT(dark, 60u) << "the shadow of 2 m by 2 m";
+  EXPECT_LT(wrong, 40u) << "at its edges";
+}
+
+TEST(AnimatedFrames, APlanIsOfThePose) {
+  const ScenePtr scene = flight();
+  const RendererInfo& device = testing::sharedRenderer().info();
+  const auto castersAt = [&](double seconds) {
+    Json json = atTime(specOf({"shadow"}), seconds);
+    json["camera"]["target"] = {6, 0, 0};
+    json["camera"]["eye"] = {6, 30, 0};
+    json["camera"]["orthographic"]["height"] = 2;
+    const auto plan = planFrame(*scene, *decodeFrameSpec(json.dump()), device);
+    EXPECT_TRUE(plan);
+    return plan ? plan->lights.at(0).casterTriangles : 0;
+  };
+  EXPECT_LT(castersAt(0), castersAt(1.333)) << "far from what is seen, and then casting on it";
+}
+
+TEST(AnimatedFrames, UnknownAnimationsAreRefused) {
+  const ScenePtr scene = flight();
+  Json unknown = specOf({"shadow"});
+  unknown["animation"] = {{"index", 3}};
+  const auto refused = planFrame(*scene, *decodeFrameSpec(unknown.dump()), testing::sharedRenderer().info());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].pointer, "/animation/index");
+  EXPECT_EQ(refusedJson(scene, unknown.dump()).at(0).pointer, "/animation/index");
+}
+
+} // namespace
+} // namespace gnomon

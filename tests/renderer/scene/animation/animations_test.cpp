@@ -1,0 +1,109 @@
+#include "renderer/scene/animation/animations.h"
+
+#include <limits>
+
+#include "tests/renderer/scene/animation/animated.h"
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+testing::GlbBuilder moved(const std::vector<float>& times, const std::vector<float>& values, const char* path,
+                          const char* type, const char* interpolation = "LINEAR") {
+  testing::GlbBuilder builder = testing::cube();
+  animate(builder, 0, path, times, values, type, interpolation);
+  return builder;
+}
+
+void expectRefused(const testing::GlbBuilder& builder, const char* pointer) {
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, pointer)));
+}
+
+TEST(Animations, AreListedWithNameAndDuration) {
+  testing::GlbBuilder builder = moved({0, 2.5f}, {0, 0, 0, 1, 1, 1}, "translation", "VEC3");
+  builder.add("animations", {{"channels", json::array()}, {"samplers", json::array()}});
+  const SceneSummary summary = load(builder).summary;
+  ASSERT_EQ(summary.animations.size(), 2u);
+  EXPECT_EQ(summary.animations[0].name, "Move");
+  EXPECT_EQ(summary.animations[0].durationSeconds, 2.5);
+  EXPECT_EQ(summary.animations[1].durationSeconds, 0);
+  EXPECT_THAT(summary.warnings, IsEmpty());
+}
+
+TEST(Animations, TimesAreFiniteAndIncrease) {
+  for (const auto& times : std::vector<std::vector<float>>{{1, 1}, {2, 1}, {0, kNan}, {0, kInfinity}, {-1, 0}}) {
+    expectRefused(moved(times, {0, 0, 0, 1, 1, 1}, "translation", "VEC3"), "/animations/0/samplers/0/input");
+  }
+}
+
+TEST(Animations, ValuesAreFiniteAndAsManyAsTheKeyframesTake) {
+  const char* output = "/animations/0/samplers/0/output";
+  expectRefused(moved({0, 1}, {0, 0, 0, 1, kNan, 1}, "translation", "VEC3"), output);
+  expectRefused(moved({0, 1}, {0, 0, 0}, "scale", "VEC3"), output);
+  expectRefused(moved({0, 1}, {0, 0, 0, 1, 1, 1}, "scale", "VEC3", "CUBICSPLINE"), output);
+  expectRefused(moved({0, 1}, {0, 0, 0, 1, 1, 1}, "rotation", "VEC3"), output);
+  expectRefused(moved({0, 1}, {0, 0, 0, 0, 0, 0, 0, 1}, "rotation", "VEC4"), output);
+}
+
+TEST(Animations, ACubicSplineNeedsTwoKeyframes) {
+  expectRefused(moved({0}, std::vector<float>(9), "scale", "VEC3", "CUBICSPLINE"), "/animations/0/samplers/0/input");
+}
+
+TEST(Animations, InterpolationIsOneOfThree) {
+  expectRefused(moved({0, 1}, {0, 0, 0, 1, 1, 1}, "scale", "VEC3", "QUINTIC"),
+                "/animations/0/samplers/0/interpolation");
+}
+
+TEST(Animations, ChannelsMoveWhatTheNodeHasAndNothingTwice) {
+  const char* target = "/animations/0/channels/0/target";
+  testing::GlbBuilder fixed = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "scale", "VEC3");
+  fixed.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  expectRefused(fixed, target);
+  expectRefused(moved({0, 1}, {0, 1}, "weights", "SCALAR"), target);
+  testing::GlbBuilder twice = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "scale", "VEC3");
+  animate(twice, 0, "scale", {0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3");
+  expectRefused(twice, "/animations/0/channels/1/target");
+}
+
+TEST(Animations, KeyframesAreLimited) {
+  const testing::GlbBuilder builder = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "translation", "VEC3");
+  Limits limits;
+  limits.maxKeyframes = 8; // two times and six numbers
+  EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
+  limits.maxKeyframes = 7;
+  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/animations/0/samplers/0")));
+  limits = {};
+  limits.maxAnimations = 0;
+  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/animations")));
+}
+
+TEST(Animations, PointersToNodesAreChannelsAndOthersAreTold) {
+  testing::GlbBuilder builder = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "translation", "VEC3");
+  builder.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  json& channels = builder.json["animations"][0]["channels"];
+  const auto pointTo = [&](const char* pointer) {
+    channels[0]["target"] = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  };
+  pointTo("/nodes/0/translation");
+  EXPECT_EQ(load(builder).summary.animations[0].durationSeconds, 1);
+  EXPECT_THAT(load(builder).summary.warnings, IsEmpty());
+  for (const char* other : {"/materials/0/emissiveFactor", "/nodes/1/scale", "/nodes/00/scale", "/nodes/0", "/nodes/",
+                            "/nodes/0/", "/nodes/-1/scale", ""}) {
+    pointTo(other);
+    const SceneSummary summary = load(builder).summary;
+    EXPECT_EQ(summary.animations[0].durationSeconds, 0) << other;
+    EXPECT_THAT(summary.warnings, ElementsAre(HasSubstr("is not animated"))) << other;
+  }
+}
+
+} // namespace
+} // namespace gnomon
