@@ -54,10 +54,12 @@ mat3 tangentFrame(vec3 n) {
   vec3 pyPerp = cross(py, n);
   vec3 t = pyPerp * ux.x + pxPerp * uy.x;
   vec3 b = pyPerp * ux.y + pxPerp * uy.y;
-  float longest = max(dot(t, t), dot(b, b));
-  if (!(longest > 0.0)) return mat3(vec3(0.0), vec3(0.0), n);
-  float scale = inversesqrt(longest);
-  return mat3(t * scale, -b * scale, n);
+  float size = dot(t, t);
+  if (!(size > 0.0)) return mat3(vec3(0.0), vec3(0.0), n);
+  // Both axes as long as the normal however the texture is stretched, as with MikkTSpace (Mikkelsen 2008).
+  t *= inversesqrt(size);
+  vec3 side = cross(n, t);
+  return mat3(t, dot(side, b) > 0.0 ? -side : side, n);
 #endif
 }
 #endif
