@@ -136,7 +136,6 @@ constexpr GltfField kFields[] = {
     {"material", "doubleSided", boolean},
     {"material", "extensions", object, "material.extensions"},
     {"material.extensions", "KHR_materials_emissive_strength", object, "emissiveStrength"},
-    {"material.extensions", "KHR_materials_unlit", object, "unlit"},
     {"material.extensions", "KHR_materials_transmission", object, "transmission"},
     {.owner = "transmission", .key = "transmissionFactor", .kind = number, .min = 0, .max = 1},
     {"transmission", "transmissionTexture", object, "textureInfo"},
