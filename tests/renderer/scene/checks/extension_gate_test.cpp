@@ -45,8 +45,7 @@ TEST(ExtensionGate, X30_NothingIsTranslucentSoThatNoThicknessIsEverAskedFor) {
 TEST(ExtensionGate, WarnsOfUsedExtensions) {
   testing::GlbBuilder builder = testing::cube();
   builder.json["extensionsUsed"] = {"KHR_materials_sheen", "ACME_nope"};
-  EXPECT_THAT(load(builder).summary.warnings,
-              ElementsAre(HasSubstr("surfaces have no sheen"), HasSubstr("ACME_nope")));
+  EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("surfaces have no sheen"), HasSubstr("ACME_nope")));
 }
 
 TEST(ExtensionGate, RefusesOtherVersions) {
