@@ -33,7 +33,7 @@ const Json kSun = Json::parse(R"([{"type":"directional","direction":[0,-1,0],"in
 
 float redOf(const ScenePtr& scene, const Json& spec) {
   const Frame frame = renderJson(scene, spec.dump());
-  return valueAt(frame, 0.5, 0.5);
+  return testing::valueAt(frame, 0.5, 0.5);
 }
 
 TEST(MaterialFrames, WhatIsUnlitShowsItsColorWhateverTheLight) {
