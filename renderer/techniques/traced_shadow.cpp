@@ -22,6 +22,12 @@ std::uint8_t unorm8(float share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
 }
 
+Pixels eachOnce(Pixels pixels) {
+  std::sort(pixels.begin(), pixels.end());
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  return pixels;
+}
+
 /// A shadow while it is found.
 class Finding {
  public:
@@ -108,9 +114,7 @@ class Finding {
         }
       }
     }
-    std::sort(pixels.begin(), pixels.end());
-    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
-    return pixels;
+    return eachOnce(std::move(pixels));
   }
 
   std::vector<std::uint16_t> takeValues() { return std::move(values_); }
@@ -176,9 +180,7 @@ TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, i
   Pixels doubtful = finding.whereTurnedAwayEnds();
   const Pixels masked = points.besideMasks();
   doubtful.insert(doubtful.end(), masked.begin(), masked.end());
-  std::sort(doubtful.begin(), doubtful.end());
-  doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
-  traceExactly(doubtful);
+  traceExactly(eachOnce(std::move(doubtful)));
   for (Pixels next = finding.atEdges(); !next.empty();) next = finding.atEdgesBeside(traceExactly(next));
   return {finding.takeValues(), traced};
 }
