@@ -103,34 +103,49 @@ std::int64_t texelsOf(const FrameReport& report) {
   return texels;
 }
 
-/// Of a whole frame that is not encoded, its tiles drawn anew; the first one, which compiles, is not counted.
-double millisecondsOf(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec, int repeats) {
-  std::vector<double> times;
-  for (int i = 0; i <= repeats; ++i) {
-    double whole = 0;
-    for (const StageTime& stage : orFail(renderer.render(scene, spec, TileUse::drawnAnew)).report.stages) {
-      whole += stage.milliseconds;
-    }
-    if (i > 0) times.push_back(whole);
+double millisecondsOf(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec) {
+  double whole = 0;
+  for (const StageTime& stage : orFail(renderer.render(scene, spec, TileUse::drawnAnew)).report.stages) {
+    whole += stage.milliseconds;
   }
-  return median(std::move(times));
+  return whole;
+}
+
+/// Medians of whole frames that are not encoded, their tiles drawn anew. The specs take turns, so that what slows the
+/// machine for a while slows each of them; the first turn, which compiles, is not counted.
+std::vector<double> millisecondsOf(Renderer& renderer, const ScenePtr& scene, const std::vector<FrameSpec>& specs,
+                                   int repeats) {
+  std::vector<std::vector<double>> times(specs.size());
+  for (int turn = 0; turn <= repeats; ++turn) {
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      const double milliseconds = millisecondsOf(renderer, scene, specs[i]);
+      if (turn > 0) times[i].push_back(milliseconds);
+    }
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& each : times) medians.push_back(median(std::move(each)));
+  return medians;
 }
 
 nlohmann::json ownRows(Renderer& renderer, const ScenePtr& scene, const nlohmann::json& spec, const Reference& truth,
                        int repeats) {
+  nlohmann::json refused = nlohmann::json::array();
   nlohmann::json rows = nlohmann::json::array();
+  std::vector<FrameSpec> drawn;
   for (const Way& way : ways()) {
     const FrameSpec asked = specOf(spec, way.shadow);
     auto frame = renderer.render(scene, shadowSpec(asked));
     if (!frame) { // shadow volumes serve no masked casters
-      rows.push_back({{"name", way.name}, {"refused", frame.problems().front().detail}});
+      refused.push_back({{"name", way.name}, {"refused", frame.problems().front().detail}});
       continue;
     }
-    nlohmann::json row = rowOf(way.name, truth, std::get<std::vector<float>>(frame->images.front().image.pixels));
-    row["texels"] = texelsOf(frame->report);
-    row["milliseconds"] = millisecondsOf(renderer, scene, asked, repeats);
-    rows.push_back(std::move(row));
+    rows.push_back(rowOf(way.name, truth, std::get<std::vector<float>>(frame->images.front().image.pixels)));
+    rows.back()["texels"] = texelsOf(frame->report);
+    drawn.push_back(asked);
   }
+  const std::vector<double> milliseconds = millisecondsOf(renderer, scene, drawn, repeats);
+  for (std::size_t i = 0; i < drawn.size(); ++i) rows[i]["milliseconds"] = milliseconds[i];
+  rows.insert(rows.end(), refused.begin(), refused.end());
   return rows;
 }
 
