@@ -16,7 +16,7 @@ namespace gnomon {
 
 /// A glTF whose schema, indices and byte ranges hold. The bundle that it was read from must outlive it.
 struct GltfDocument {
-  tinygltf::Model model; ///< without buffers, images, skins, animations and extras
+  tinygltf::Model model; ///< nodes, meshes, accessors, textures and samplers
   nlohmann::json json;   ///< everything that the file says
   std::vector<ResourceBytes> buffers;
   std::vector<ResourceBytes> images;                      ///< encoded

@@ -1,9 +1,11 @@
 #include "renderer/scene/gltf_loader.h"
 
+#include <algorithm>
 #include <exception>
 #include <new>
 
 #include "renderer/scene/animation/animations.h"
+#include "renderer/scene/animation/moved_properties.h"
 #include "renderer/scene/animation/pose_cache.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/findings.h"
@@ -60,6 +62,10 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
     motion->parents = tree.parents;
     motion->order = tree.order;
     motion->locals = tree.locals;
+    motion->visible = tree.visible;
+    if (std::ranges::any_of(motion->animations, [](const Animation& each) { return !each.properties.empty(); })) {
+      motion->properties = std::make_shared<const nlohmann::json>(propertiesOf(document->json));
+    }
     motion->views = std::move(flat.moving);
     scene->motion = std::move(motion);
     scene->poses = std::make_shared<PoseCache>();

@@ -39,7 +39,7 @@ std::uint64_t bytesIn(const Deformation& deformation) {
 std::uint64_t bytesIn(const Motion& motion) {
   std::uint64_t bytes = bytesIn(motion.parents) + bytesIn(motion.order) + bytesIn(motion.locals);
   for (const Animation& animation : motion.animations) {
-    bytes += bytesIn(animation.channels);
+    bytes += bytesIn(animation.channels) + bytesIn(animation.properties);
     for (const Sampler& sampler : animation.samplers) bytes += bytesIn(sampler.times) + bytesIn(sampler.values);
   }
   for (const MovingView& view : motion.views) {

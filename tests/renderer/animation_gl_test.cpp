@@ -94,6 +94,39 @@ TEST(AnimatedFrames, RaysMeetTheSamePose) {
   EXPECT_LT(wrong, 40u) << "at its edges";
 }
 
+/// A ground that shows its color, which fades from red to green, and from blue to black in the variant "night".
+ScenePtr fading() {
+  testing::GlbBuilder builder = testing::plane();
+  builder.json["nodes"][0]["scale"] = {10, 1, 10};
+  for (int i = 0; i < 2; ++i) builder.add("materials", {{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  auto& primitive = builder.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  builder.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "night"}}};
+  primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}};
+  animatePointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 2}, {1, 0, 0, 1, 0, 1, 0, 1},
+                 "VEC4");
+  animatePointer(builder, "/materials/1/pbrMetallicRoughness/baseColorFactor", {0, 2}, {0, 0, 1, 1, 0, 0, 0, 1},
+                 "VEC4");
+  return sceneOf(builder);
+}
+
+TEST(AnimatedFrames, PointersMoveMaterialsAlsoThoseOfVariants) {
+  const ScenePtr scene = fading();
+  Json spec = specOf({"color"});
+  spec["toneMapping"] = "none";
+  for (const double seconds : {0.0, 0.5, 2.0}) {
+    const auto fade = static_cast<float>(seconds / 2);
+    const auto day = floatsOf(renderJson(scene, atTime(spec, seconds).dump()));
+    EXPECT_NEAR(day[0], 1 - fade, 2e-3) << seconds;
+    EXPECT_NEAR(day[1], fade, 2e-3) << seconds;
+    Json variant = atTime(spec, seconds);
+    variant["materialVariant"] = "night";
+    const auto night = floatsOf(renderJson(scene, variant.dump()));
+    EXPECT_NEAR(night[0], 0, 2e-3) << seconds;
+    EXPECT_NEAR(night[2], 1 - fade, 2e-3) << seconds;
+  }
+}
+
 TEST(AnimatedFrames, APlanIsOfThePose) {
   const ScenePtr scene = flight();
   const RendererInfo& device = testing::sharedRenderer().info();

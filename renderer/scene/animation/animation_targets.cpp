@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "renderer/scene/gltf_json.h"
+
 namespace gnomon {
 
 namespace {
@@ -21,14 +23,12 @@ std::optional<ChannelPath> pathOf(std::string_view name) {
 }
 
 const std::string* pointerOf(const json& target) {
-  const auto extensions = target.find("extensions");
-  if (extensions == target.end()) return nullptr;
-  const auto extension = extensions->find("KHR_animation_pointer");
-  return extension == extensions->end() ? nullptr : (*extension)["pointer"].get_ptr<const std::string*>();
+  const json* extension = extensionOf(target, "KHR_animation_pointer");
+  return extension == nullptr ? nullptr : (*extension)["pointer"].get_ptr<const std::string*>();
 }
 
 /// "/nodes/3/scale"; the index has no sign and no leading zero (RFC 6901).
-std::optional<AnimationTarget> targetAt(std::string_view pointer, std::size_t nodes) {
+std::optional<NodeTarget> nodeAt(std::string_view pointer, std::size_t nodes) {
   constexpr std::string_view kNodes = "/nodes/";
   if (!pointer.starts_with(kNodes)) return std::nullopt;
   pointer.remove_prefix(kNodes.size());
@@ -37,9 +37,10 @@ std::optional<AnimationTarget> targetAt(std::string_view pointer, std::size_t no
   const auto [end, error] = std::from_chars(pointer.data(), pointer.data() + slash, node);
   const bool isIndex = error == std::errc() && end == pointer.data() + slash && (pointer[0] != '0' || slash == 1);
   if (!isIndex || node >= nodes || slash == pointer.size()) return std::nullopt;
-  const auto path = pathOf(pointer.substr(slash + 1));
-  if (!path) return std::nullopt;
-  return AnimationTarget{node, *path};
+  pointer.remove_prefix(slash + 1);
+  if (pointer == "extensions/KHR_node_visibility/visible") return NodeTarget{node, ChannelPath::visibility};
+  const auto path = pathOf(pointer);
+  return path ? std::optional(NodeTarget{node, *path}) : std::nullopt;
 }
 
 } // namespace
@@ -50,11 +51,12 @@ std::optional<AnimationTarget> targetOf(const json& document, const json& channe
   if (target["path"] == "pointer") {
     const std::string* pointer = pointerOf(target);
     if (!pointer) return std::nullopt;
-    return targetAt(*pointer, nodes == document.end() ? 0 : nodes->size());
+    if (const auto node = nodeAt(*pointer, nodes == document.end() ? 0 : nodes->size())) return node;
+    return propertyAt(document, *pointer);
   }
   const auto path = pathOf(target["path"].get_ref<const std::string&>());
   if (!path || !target.contains("node")) return std::nullopt;
-  return AnimationTarget{target["node"].get<std::size_t>(), *path};
+  return NodeTarget{target["node"].get<std::size_t>(), *path};
 }
 
 std::string targetName(const json& channel) {
@@ -70,7 +72,8 @@ std::set<std::size_t> nodesWithMovingWeights(const json& document) {
   for (const json& animation : *animations) {
     for (const json& channel : animation["channels"]) {
       const auto target = targetOf(document, channel);
-      if (target && target->path == ChannelPath::weights) nodes.insert(target->node);
+      const auto* node = target ? std::get_if<NodeTarget>(&*target) : nullptr;
+      if (node && node->path == ChannelPath::weights) nodes.insert(node->node);
     }
   }
   return nodes;

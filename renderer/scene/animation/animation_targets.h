@@ -5,19 +5,22 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 
 #include "renderer/scene/animation/motion.h"
 
 namespace gnomon {
 
-/// What a channel moves.
-struct AnimationTarget {
+struct NodeTarget {
   std::size_t node = 0;
   ChannelPath path = ChannelPath::translation;
 };
 
-/// By node and path, or by the pointer of KHR_animation_pointer where that comes to the same. Nothing for what is not
-/// animated here; `channel` has passed the schema.
+/// What a channel moves.
+using AnimationTarget = std::variant<NodeTarget, PropertyTarget>;
+
+/// By node and path, or by the pointer of KHR_animation_pointer. Nothing for what is not animated here; `channel` has
+/// passed the schema.
 std::optional<AnimationTarget> targetOf(const nlohmann::json& document, const nlohmann::json& channel);
 
 /// What a channel without a target here would move, for a sentence; empty where it says nothing.

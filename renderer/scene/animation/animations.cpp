@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
+#include <variant>
 
 #include "renderer/scene/animation/animation_targets.h"
 #include "renderer/scene/animation/sampler_build.h"
+#include "renderer/scene/animation/sampling.h"
 
 namespace gnomon {
 
@@ -32,7 +35,7 @@ class Reading {
     Animation animation;
     const auto name = source.find("name");
     if (name != source.end()) animation.name = keptName(name->get_ref<const std::string&>(), findings_);
-    std::set<std::pair<std::size_t, ChannelPath>> moved;
+    std::set<std::string> moved;
     std::map<std::pair<std::size_t, SamplerUse>, std::size_t> built;
     const json& channels = source["channels"];
     for (std::size_t i = 0; i < channels.size() && !findings_.refused(); ++i) {
@@ -42,7 +45,7 @@ class Reading {
         findings_.warn("What moves " + inQuotes(targetName(channels[i])) + " is not animated.");
         continue;
       }
-      if (!moved.insert({target->node, target->path}).second) {
+      if (!moved.insert(keyOf(*target)).second) {
         findings_.invalid(at + "/target", "Another channel of the animation moves the same.");
         return animation;
       }
@@ -50,30 +53,64 @@ class Reading {
       if (!use) return animation;
       const auto index = channels[i]["sampler"].get<std::size_t>();
       const auto [place, isNew] = built.try_emplace({index, *use}, animation.samplers.size());
+      const std::string samplerAt = pointerTo(pointer + "/samplers", index);
       if (isNew) {
-        animation.samplers.push_back(buildSampler(source["samplers"][index], pointerTo(pointer + "/samplers", index),
-                                                  accessors_, *use, limits_.maxKeyframes - keyframes_, findings_));
+        animation.samplers.push_back(buildSampler(source["samplers"][index], samplerAt, accessors_, *use,
+                                                  limits_.maxKeyframes - keyframes_, findings_));
         const Sampler& sampler = animation.samplers.back();
         keyframes_ += sampler.times.size() + sampler.values.size();
         if (sampler.times.empty()) return animation;
         animation.durationSeconds = std::max(animation.durationSeconds, double{sampler.times.back()});
       }
-      animation.channels.push_back({target->path, static_cast<int>(target->node), place->second});
+      if (const auto* node = std::get_if<NodeTarget>(&*target)) {
+        animation.channels.push_back({node->path, static_cast<int>(node->node), place->second});
+      } else {
+        const auto& property = std::get<PropertyTarget>(*target);
+        checkRange(property, animation.samplers[place->second], samplerAt + "/output");
+        animation.properties.push_back({property, place->second});
+      }
     }
     return animation;
   }
 
  private:
+  static std::string keyOf(const AnimationTarget& target) {
+    if (const auto* property = std::get_if<PropertyTarget>(&target)) return property->pointer;
+    const auto& node = std::get<NodeTarget>(target);
+    return std::to_string(node.node) + ' ' + std::to_string(static_cast<int>(node.path));
+  }
+
+  void checkRange(const PropertyTarget& property, const Sampler& sampler, const std::string& pointer) {
+    for (std::size_t keyframe = 0; keyframe < sampler.times.size(); ++keyframe) {
+      for (const float value : std::span(valueOf(sampler, keyframe), sampler.components)) {
+        if (!(double{value} < property.min) && !(double{value} > property.max) &&
+            !(property.minExcluded && double{value} == property.min)) {
+          continue;
+        }
+        return findings_.invalid(pointer,
+                                 "A keyframe's value is not one that " + inQuotes(property.pointer) + " may have.", {},
+                                 std::to_string(value) + " at keyframe " + std::to_string(keyframe));
+      }
+    }
+  }
+
   /// Nothing, and a problem, where the node does not have what the channel moves.
   std::optional<SamplerUse> useOf(const AnimationTarget& target, const std::string& pointer) {
-    const json& node = document_["nodes"][target.node];
-    if (target.path != ChannelPath::weights) {
-      if (!node.contains("matrix")) return SamplerUse{target.path, 1};
+    if (const auto* property = std::get_if<PropertyTarget>(&target)) {
+      return SamplerUse{ValueKind::numbers, property->components, 1};
+    }
+    const auto [index, path] = std::get<NodeTarget>(target);
+    const json& node = document_["nodes"][index];
+    if (path == ChannelPath::visibility) return SamplerUse{ValueKind::boolean, 1, 1};
+    if (path != ChannelPath::weights) {
+      const bool rotates = path == ChannelPath::rotation;
+      const SamplerUse use{rotates ? ValueKind::rotation : ValueKind::vector, rotates ? 4u : 3u, 1};
+      if (!node.contains("matrix")) return use;
       findings_.invalid(pointer, "A node with a matrix can't be animated.");
       return std::nullopt;
     }
     const std::size_t targets = morphTargetsOf(document_, node);
-    if (targets > 0) return SamplerUse{target.path, targets};
+    if (targets > 0) return SamplerUse{ValueKind::numbers, 1, targets};
     findings_.invalid(pointer, "The node has no morph targets whose weights could be animated.");
     return std::nullopt;
   }

@@ -1,9 +1,14 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "renderer/scene/animation/property_target.h"
+#include "renderer/scene/graph/cameras.h"
+#include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/local_transform.h"
 #include "renderer/scene/scene.h"
 
@@ -20,20 +25,27 @@ struct Sampler {
   std::vector<float> values; ///< `components` a keyframe; of a cubic spline in-tangent, value and out-tangent
 };
 
-enum class ChannelPath { translation, rotation, scale, weights };
+enum class ChannelPath { translation, rotation, scale, weights, visibility };
 
-/// What a sampler moves.
+/// What a sampler moves of a node.
 struct Channel {
   ChannelPath path = ChannelPath::translation;
   int node = 0;
   std::size_t sampler = 0; ///< index into Animation::samplers
 };
 
+/// What a sampler moves of a material, light or camera.
+struct PropertyChannel {
+  PropertyTarget target;
+  std::size_t sampler = 0; ///< index into Animation::samplers
+};
+
 struct Animation {
   std::string name;
   std::vector<Sampler> samplers;
-  std::vector<Channel> channels; ///< no two move the same
-  double durationSeconds = 0;    ///< time of the last keyframe
+  std::vector<Channel> channels;           ///< no two move the same
+  std::vector<PropertyChannel> properties; ///< alike
+  double durationSeconds = 0;              ///< time of the last keyframe
 };
 
 /// A primitive where the nodes of a scene put it, whether or not the rest pose shows it.
@@ -47,8 +59,8 @@ struct Placement {
 /// What one of the file's scenes holds, to be placed by a pose.
 struct MovingView {
   std::vector<Placement> placements;
-  std::vector<SceneCamera> cameras; ///< not placed
-  std::vector<SceneLight> lights;   ///< not placed
+  std::vector<FileCamera> cameras;
+  std::vector<FileLight> lights;
 };
 
 /// What it takes to pose an animated file anew.
@@ -57,7 +69,9 @@ struct Motion {
   std::vector<int> parents; ///< of the nodes; -1 for a root
   std::vector<int> order;   ///< the nodes, parents before children
   std::vector<LocalTransform> locals;
-  std::vector<MovingView> views; ///< one a scene
+  std::vector<bool> visible;                        ///< what KHR_node_visibility says of each node itself
+  std::shared_ptr<const nlohmann::json> properties; ///< propertiesOf() the file; nullptr = no animation moves any
+  std::vector<MovingView> views;                    ///< one a scene
 };
 
 } // namespace gnomon

@@ -2,12 +2,17 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
+#include "renderer/scene/animation/moved_properties.h"
 #include "renderer/scene/animation/sampling.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/graph/placing.h"
+#include "renderer/scene/materials/material_factors.h"
 #include "renderer/scene/materials/variants.h"
 #include "renderer/scene/posing/apply_pose.h"
 #include "renderer/scene/posing/deformation.h"
@@ -17,16 +22,18 @@ namespace gnomon {
 
 namespace {
 
+using nlohmann::json;
 using Weights = std::map<int, std::vector<double>>; ///< by node
 
-/// The nodes' transforms at a time, and the weights of those whose weights move.
+/// The nodes at a time.
 struct MovedNodes {
   std::vector<LocalTransform> locals;
-  Weights weights;
+  std::vector<bool> visible; ///< each by itself
+  Weights weights;           ///< of those whose weights move
 };
 
 MovedNodes moveNodes(const Motion& motion, const Animation& animation, double timeSeconds) {
-  MovedNodes moved{motion.locals, {}};
+  MovedNodes moved{motion.locals, motion.visible, {}};
   std::vector<double> value;
   for (const Channel& channel : animation.channels) {
     const Sampler& sampler = animation.samplers[channel.sampler];
@@ -46,10 +53,21 @@ MovedNodes moveNodes(const Motion& motion, const Animation& animation, double ti
       case ChannelPath::weights:
         moved.weights[channel.node] = value;
         break;
+      case ChannelPath::visibility:
+        moved.visible[static_cast<std::size_t>(channel.node)] = value[0] != 0;
+        break;
     }
   }
   return moved;
 }
+
+/// What a pose places by.
+struct PosedGraph {
+  NodePlaces places;
+  std::vector<bool> hidden; ///< the node or one above it is not visible
+  std::vector<SkinPose> skins;
+  std::optional<json> properties; ///< where the animation moves any
+};
 
 std::vector<SkinPose> poseSkins(const Scene& scene, const NodePlaces& places) {
   std::vector<SkinPose> skins;
@@ -73,15 +91,23 @@ bool poseVertices(const std::vector<SkinPose>& skins, const Weights& weights, Sc
   return true;
 }
 
-/// False where an instance is not finite. What is flat, and what has no direction left, is left out.
-bool placeView(const MovingView& moving, const NodePlaces& places, const std::vector<SkinPose>& skins,
-               const Scene& scene, SceneView& view) {
+/// The file's materials, which stand before the default material.
+void repaint(const json& properties, std::vector<Material>& materials) {
+  const auto sources = properties.find("materials");
+  for (std::size_t i = 0; sources != properties.end() && i < sources->size(); ++i) {
+    materials[i] = repainted(materials[i], (*sources)[i]);
+  }
+}
+
+/// False where an instance is not finite. What is flat is left out.
+bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene, SceneView& view) {
   view.instances.reserve(moving.placements.size());
   for (const Placement& placement : moving.placements) {
-    const glm::dmat4 worldFromLocal =
-        placement.skin >= 0 ? skins[static_cast<std::size_t>(placement.skin)].worldFromLocal
-                            : places.worldFromNode[static_cast<std::size_t>(placement.node)] * placement.nodeFromCopy;
-    if (isFlat(worldFromLocal)) continue;
+    const auto node = static_cast<std::size_t>(placement.node);
+    const glm::dmat4 worldFromLocal = placement.skin >= 0
+                                          ? graph.skins[static_cast<std::size_t>(placement.skin)].worldFromLocal
+                                          : graph.places.worldFromNode[node] * placement.nodeFromCopy;
+    if (graph.hidden[node] || isFlat(worldFromLocal)) continue;
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(placement.primitive)];
     Instance instance;
     instance.node = placement.node;
@@ -93,15 +119,27 @@ bool placeView(const MovingView& moving, const NodePlaces& places, const std::ve
     view.triangles += primitive.indexCount / 3;
     view.instances.push_back(instance);
   }
-  for (const SceneCamera& camera : moving.cameras) {
-    auto placed = placedAt(places.worldFromUnscaled[static_cast<std::size_t>(camera.node)], camera);
+  return true;
+}
+
+void placeCameras(const MovingView& moving, const PosedGraph& graph, SceneView& view) {
+  for (const FileCamera& file : moving.cameras) {
+    const SceneCamera camera =
+        graph.properties ? withLens((*graph.properties)["cameras"][file.source], file.camera) : file.camera;
+    auto placed = placedAt(graph.places.worldFromUnscaled[static_cast<std::size_t>(camera.node)], camera);
     if (placed) view.cameras.push_back(*std::move(placed));
   }
-  for (const SceneLight& light : moving.lights) {
-    auto placed = placedAt(places.worldFromUnscaled[static_cast<std::size_t>(light.node)], light);
+}
+
+void placeLights(const MovingView& moving, const PosedGraph& graph, SceneView& view) {
+  for (const FileLight& file : moving.lights) {
+    SceneLight light = file.light;
+    const auto node = static_cast<std::size_t>(light.node);
+    if (graph.hidden[node]) continue;
+    if (graph.properties) light.light = lightFrom(lightsOf(*graph.properties)[file.source]);
+    auto placed = placedAt(graph.places.worldFromUnscaled[node], std::move(light));
     if (placed) view.lights.push_back(*std::move(placed));
   }
-  return true;
 }
 
 } // namespace
@@ -112,17 +150,27 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animati
                      std::to_string(timeSeconds) + " seconds"};
   const Motion& motion = *scene.motion;
   const MovedNodes moved = moveNodes(motion, animation, timeSeconds);
-  const NodePlaces places = placeNodes(motion.order, motion.parents, moved.locals);
-  if (firstLost(places, motion.order)) return lost;
+  PosedGraph graph;
+  graph.places = placeNodes(motion.order, motion.parents, moved.locals);
+  if (firstLost(graph.places, motion.order)) return lost;
+  graph.hidden = hiddenNodes(motion.order, motion.parents, moved.visible);
+  if (!animation.properties.empty()) {
+    auto properties = movedProperties(*motion.properties, animation, timeSeconds);
+    if (!properties) return std::move(properties).problems();
+    graph.properties = *std::move(properties);
+  }
 
   auto posed = std::make_shared<Scene>(scene);
   posed->motion.reset();
   posed->poses.reset();
-  const std::vector<SkinPose> skins = poseSkins(scene, places);
-  if (!poseVertices(skins, moved.weights, *posed)) return lost;
+  if (graph.properties) repaint(*graph.properties, posed->materials);
+  graph.skins = poseSkins(scene, graph.places);
+  if (!poseVertices(graph.skins, moved.weights, *posed)) return lost;
   posed->scenes.assign(motion.views.size(), {});
   for (std::size_t i = 0; i < motion.views.size(); ++i) {
-    if (!placeView(motion.views[i], places, skins, *posed, posed->scenes[i])) return lost;
+    if (!placeInstances(motion.views[i], graph, *posed, posed->scenes[i])) return lost;
+    placeCameras(motion.views[i], graph, posed->scenes[i]);
+    placeLights(motion.views[i], graph, posed->scenes[i]);
   }
   std::vector<SceneView> variants = variantViews(*posed, posed->scenes);
   for (SceneView& view : variants) posed->scenes.push_back(std::move(view));

@@ -8,25 +8,11 @@ namespace {
 
 using nlohmann::json;
 
-std::size_t componentsOf(const SamplerUse& use) {
-  if (use.path == ChannelPath::weights) return use.weights;
-  return use.path == ChannelPath::rotation ? 4 : 3;
-}
-
-/// Floats, and what normalized integers come to for rotations and weights (glTF 2.0, 3.11).
 bool isOfType(const AccessorView& view, const SamplerUse& use) {
-  const bool isFloat = view.componentType == ComponentType::float32;
-  const bool isInteger = view.normalized && view.componentType != ComponentType::uint32;
-  switch (use.path) {
-    case ChannelPath::translation:
-    case ChannelPath::scale:
-      return view.components == 3 && isFloat;
-    case ChannelPath::rotation:
-      return view.components == 4 && (isFloat || isInteger);
-    case ChannelPath::weights:
-      break;
-  }
-  return view.components == 1 && (isFloat || isInteger);
+  if (static_cast<std::size_t>(view.components) != use.components) return false;
+  if (use.kind == ValueKind::boolean) return view.componentType == ComponentType::uint8 && !view.normalized;
+  if (view.componentType == ComponentType::float32) return true;
+  return use.kind != ValueKind::vector && view.normalized && view.componentType != ComponentType::uint32;
 }
 
 Interpolation interpolationOf(const json& source) {
@@ -101,9 +87,13 @@ Sampler buildSampler(const json& source, const std::string& pointer, const std::
   }
   Sampler sampler;
   sampler.interpolation = interpolationOf(source);
-  sampler.components = componentsOf(use);
-  sampler.isRotation = use.path == ChannelPath::rotation;
+  sampler.components = use.components * use.elements;
+  sampler.isRotation = use.kind == ValueKind::rotation;
   const bool isSpline = sampler.interpolation == Interpolation::cubicSpline;
+  if (use.kind == ValueKind::boolean && sampler.interpolation != Interpolation::step) {
+    findings.invalid(pointer + "/interpolation", "What is true or false changes in steps.", "STEP");
+    return {};
+  }
   if (isSpline && input.count < 2) {
     findings.invalid(pointer + "/input", "A cubic spline needs two keyframes.", ">= 2", std::to_string(input.count));
     return {};
@@ -114,7 +104,7 @@ Sampler buildSampler(const json& source, const std::string& pointer, const std::
                       std::to_string(numbers));
     return {};
   }
-  const std::size_t wanted = input.count * (isSpline ? 3 : 1) * use.weights;
+  const std::size_t wanted = input.count * (isSpline ? 3 : 1) * use.elements;
   if (output.count != wanted) {
     findings.invalid(pointer + "/output", "The accessor does not have a value for each keyframe.",
                      std::to_string(wanted), std::to_string(output.count));

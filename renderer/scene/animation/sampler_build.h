@@ -11,10 +11,19 @@
 
 namespace gnomon {
 
+/// Of what kind a sampler's values are, and so of what type their accessor may be (glTF 2.0, 3.11).
+enum class ValueKind {
+  vector,   ///< floats
+  rotation, ///< quaternions; floats, or what normalized integers come to
+  numbers,  ///< floats, or what normalized integers come to
+  boolean   ///< unsigned bytes, in steps
+};
+
 /// What a sampler's values are: it may serve several.
 struct SamplerUse {
-  ChannelPath path = ChannelPath::translation;
-  std::size_t weights = 1; ///< values a keyframe: of the path weights one a morph target
+  ValueKind kind = ValueKind::vector;
+  std::size_t components = 3; ///< of an element of the accessor
+  std::size_t elements = 1;   ///< a keyframe
 
   auto operator<=>(const SamplerUse&) const = default;
 };

@@ -10,12 +10,6 @@ namespace {
 /// Cosine of the angle from which two rotations are too close for a division by its sine.
 constexpr double kNearlySame = 1 - 1e-9;
 
-/// Where a keyframe's numbers stand: of a cubic spline the value is the middle one of three.
-const float* valueOf(const Sampler& sampler, std::size_t keyframe) {
-  const std::size_t rows = sampler.interpolation == Interpolation::cubicSpline ? 3 : 1;
-  return sampler.values.data() + (keyframe * rows + rows / 2) * sampler.components;
-}
-
 void copyKeyframe(const Sampler& sampler, std::size_t keyframe, std::span<double> value) {
   std::copy_n(valueOf(sampler, keyframe), sampler.components, value.begin());
 }
@@ -60,6 +54,11 @@ void makeUnit(const float* nearest, std::span<double> value) {
 }
 
 } // namespace
+
+const float* valueOf(const Sampler& sampler, std::size_t keyframe) {
+  const std::size_t rows = sampler.interpolation == Interpolation::cubicSpline ? 3 : 1;
+  return sampler.values.data() + (keyframe * rows + rows / 2) * sampler.components;
+}
 
 void sample(const Sampler& sampler, double timeSeconds, std::span<double> value) {
   const std::vector<float>& times = sampler.times;

@@ -9,11 +9,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kDrawn[] = {"asset",       "scene",     "scenes",   "nodes",    "meshes", "accessors",
-                                  "bufferViews", "materials", "textures", "samplers", "cameras"};
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kDrawn[] = {"asset",     "scene",       "scenes",   "nodes",   "meshes",
+                                  "accessors", "bufferViews", "textures", "samplers"};
 
-/// A copy without extras and without the extensions that are not read. Recursion is bounded by the JSON's depth,
-/// which parseJsonText() has limited.
+/// A copy without extras and with no extension but Draco's. Recursion is bounded by the JSON's depth, which
+/// parseJsonText() has limited.
 json pruned(const json& value) {
   if (value.is_array()) {
     json array = json::array();
@@ -25,11 +26,8 @@ json pruned(const json& value) {
   for (const auto& [key, member] : value.items()) {
     if (key == "extras") continue;
     if (key == "extensions" && member.is_object()) {
-      for (const char* read :
-           {"KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_emissive_strength"}) {
-        const auto extension = member.find(read);
-        if (extension != member.end()) object[key][read] = pruned(*extension);
-      }
+      const auto extension = member.find(kDraco);
+      if (extension != member.end()) object[key][kDraco] = pruned(*extension);
     } else {
       object[key] = pruned(member);
     }
@@ -44,7 +42,7 @@ void dropCompressedIndices(json& drawn) {
   for (json& mesh : *meshes) {
     for (json& primitive : mesh["primitives"]) {
       const auto extensions = primitive.find("extensions");
-      if (extensions != primitive.end() && extensions->contains("KHR_draco_mesh_compression")) {
+      if (extensions != primitive.end() && extensions->contains(kDraco)) {
         primitive.erase("indices");
       }
     }
@@ -76,10 +74,6 @@ Result<tinygltf::Model> typedModel(const json& document) {
     for (const char* key : kDrawn) {
       const auto member = document.find(key);
       if (member != document.end()) drawn[key] = pruned(*member);
-    }
-    const auto extensions = document.find("extensions");
-    if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
-      drawn["extensions"]["KHR_lights_punctual"] = pruned((*extensions)["KHR_lights_punctual"]);
     }
     dropCompressedIndices(drawn);
     const std::string text = drawn.dump();

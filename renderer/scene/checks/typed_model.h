@@ -7,9 +7,9 @@
 
 namespace gnomon {
 
-/// The typed model of a document that has passed checkSchema(). tinygltf is given only what is drawn: no buffers,
-/// images or extras, so that it has no file to open, nothing to decode and no depth to recurse into.
-/// Primitives that Draco compresses have no indices in it.
+/// The typed model of a document that has passed checkSchema(). tinygltf is given what the scene graph, the
+/// meshes and the textures are made of, and nothing with bytes or extras: it has no file to open, nothing to decode and
+/// no depth to recurse into. Primitives that Draco compresses have no indices in it.
 Result<tinygltf::Model> typedModel(const nlohmann::json& document);
 
 } // namespace gnomon

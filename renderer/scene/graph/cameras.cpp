@@ -1,7 +1,12 @@
 #include "renderer/scene/graph/cameras.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
+
+#include "renderer/scene/gltf_json.h"
+#include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {
 
@@ -48,26 +53,35 @@ void checkCameras(const json& document, Findings& findings) {
   }
 }
 
-SceneCamera unplacedCamera(const GltfDocument& document, std::size_t node, Findings& findings) {
-  const tinygltf::Node& source = document.model.nodes[node];
-  const tinygltf::Camera& camera = document.model.cameras[static_cast<std::size_t>(source.camera)];
-  SceneCamera made;
-  made.node = static_cast<int>(node);
-  made.name = keptName(source.name.empty() ? camera.name : source.name, findings);
-  if (camera.type == "perspective") {
+SceneCamera withLens(const json& source, SceneCamera camera) {
+  if (source["type"] == "perspective") {
+    const json& from = source["perspective"];
     Perspective lens;
-    lens.fovYDegrees = camera.perspective.yfov * 180.0 / std::numbers::pi;
-    lens.near = camera.perspective.znear;
-    if (camera.perspective.zfar > 0) lens.far = camera.perspective.zfar;
-    made.perspective = lens;
+    lens.fovYDegrees = from["yfov"].get<double>() * 180.0 / std::numbers::pi;
+    lens.near = from["znear"].get<double>();
+    if (const auto far = from.find("zfar"); far != from.end()) lens.far = far->get<double>();
+    camera.perspective = lens;
   } else {
+    const json& from = source["orthographic"];
     Orthographic lens;
-    lens.height = 2.0 * std::abs(camera.orthographic.ymag);
-    lens.near = camera.orthographic.znear;
-    lens.far = camera.orthographic.zfar;
-    made.orthographic = lens;
+    lens.height = 2.0 * std::abs(from["ymag"].get<double>());
+    lens.near = from["znear"].get<double>();
+    lens.far = from["zfar"].get<double>();
+    camera.orthographic = lens;
   }
-  return made;
+  return camera;
+}
+
+std::optional<FileCamera> cameraAt(const json& document, std::size_t node, Findings& findings) {
+  const json& holder = document["nodes"][node];
+  const auto index = holder.find("camera");
+  if (index == holder.end()) return std::nullopt;
+  FileCamera camera{{}, index->get<std::size_t>()};
+  const json& source = document["cameras"][camera.source];
+  camera.camera.node = static_cast<int>(node);
+  camera.camera.name = keptName(nameOf(holder).empty() ? nameOf(source) : nameOf(holder), findings);
+  camera.camera = withLens(source, std::move(camera.camera));
+  return camera;
 }
 
 std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera) {
@@ -76,13 +90,6 @@ std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCa
   camera.eye = frame.position;
   camera.forward = frame.forward;
   camera.up = frame.up;
-  return camera;
-}
-
-std::optional<SceneCamera> cameraOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                    Findings& findings) {
-  auto camera = placedAt(tree.worldFromUnscaled[node], unplacedCamera(document, node, findings));
-  if (!camera) findings.warn("The camera at node " + std::to_string(node) + " is scaled to nothing and left out.");
   return camera;
 }
 

@@ -1,25 +1,32 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
-#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/scene.h"
 
+/// The file's cameras. The JSON has passed the schema check.
 namespace gnomon {
+
+/// A camera as it hangs on a node: not placed.
+struct FileCamera {
+  SceneCamera camera;
+  std::size_t source = 0; ///< index into the file's cameras
+};
 
 /// Checks what the schema can't: the lens that the type asks for, and far beyond near.
 void checkCameras(const nlohmann::json& document, Findings& findings);
 
-/// The camera that hangs on a node, not placed. REQUIRES: the node has one.
-SceneCamera unplacedCamera(const GltfDocument& document, std::size_t node, Findings& findings);
+/// `camera` with the lens of one of the file's cameras, which has passed checkCameras().
+SceneCamera withLens(const nlohmann::json& source, SceneCamera camera);
+
+/// The camera that hangs on a node, if there is one.
+std::optional<FileCamera> cameraAt(const nlohmann::json& document, std::size_t node, Findings& findings);
 
 /// Nothing where the matrix leaves it no direction.
 std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera);
-
-/// The camera that hangs on a node; nothing, and a warning, where the node's matrix leaves it no direction.
-std::optional<SceneCamera> cameraOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                    Findings& findings);
 
 } // namespace gnomon

@@ -1,9 +1,13 @@
 #include "renderer/scene/graph/lights.h"
 
 #include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "renderer/core/vec3.h"
+#include "renderer/scene/gltf_json.h"
+#include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {
 
@@ -19,21 +23,16 @@ double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
-void placeCone(const tinygltf::Light& source, Light& light, const std::string& name, Findings& findings) {
-  light.innerConeDegrees = degrees(source.spot.innerConeAngle);
-  light.outerConeDegrees = degrees(source.spot.outerConeAngle);
-  if (light.outerConeDegrees <= kWidestConeDegrees) return;
-  light.outerConeDegrees = kWidestConeDegrees;
-  light.innerConeDegrees = std::min(light.innerConeDegrees, kWidestConeDegrees - 0.1);
-  findings.warn("The " + name + " has a cone of 90 degrees; it is drawn with 89.9.");
-}
-
 } // namespace
 
+const json& lightsOf(const json& document) {
+  static const json kNone = json::array();
+  const json* extension = extensionOf(document, kExtension);
+  return extension == nullptr ? kNone : (*extension)["lights"];
+}
+
 void checkLights(const json& document, Findings& findings) {
-  const auto extensions = document.find("extensions");
-  if (extensions == document.end() || !extensions->contains(kExtension)) return;
-  const json& lights = (*extensions)[kExtension]["lights"];
+  const json& lights = lightsOf(document);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i]["type"] != "spot") continue;
     const std::string pointer = pointerTo("/extensions/KHR_lights_punctual/lights", i) + "/spot";
@@ -46,30 +45,47 @@ void checkLights(const json& document, Findings& findings) {
   }
 }
 
-std::optional<SceneLight> unplacedLight(const GltfDocument& document, std::size_t node, Findings& findings) {
-  const tinygltf::Node& holder = document.model.nodes[node];
-  const auto extension = holder.extensions.find(kExtension);
-  if (extension == holder.extensions.end()) return std::nullopt;
-  const auto index = static_cast<std::size_t>(extension->second.Get("light").GetNumberAsInt());
-  const tinygltf::Light& source = document.model.lights[index];
-
-  SceneLight made;
-  made.node = static_cast<int>(node);
-  made.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
-  Light& light = made.light;
-  light.type = source.type == "point"  ? LightType::point
-               : source.type == "spot" ? LightType::spot
-                                       : LightType::directional;
-  if (light.type != LightType::directional && source.range > 0) light.range = source.range;
-  if (light.type == LightType::spot) placeCone(source, light, "light at node " + std::to_string(node), findings);
-  light.intensity = source.intensity;
-  if (source.color.size() == 3) {
+Light lightFrom(const json& source) {
+  const std::string type = source["type"].get<std::string>();
+  Light light;
+  light.type = type == "point" ? LightType::point : type == "spot" ? LightType::spot : LightType::directional;
+  const auto range = source.find("range");
+  if (light.type != LightType::directional && range != source.end()) light.range = range->get<double>();
+  if (light.type == LightType::spot) {
+    const json& spot = source["spot"];
+    light.innerConeDegrees = degrees(spot.value("innerConeAngle", 0.0));
+    light.outerConeDegrees = degrees(spot.value("outerConeAngle", kDefaultOuterCone));
+    if (light.outerConeDegrees > kWidestConeDegrees) {
+      light.outerConeDegrees = kWidestConeDegrees;
+      light.innerConeDegrees = std::min(light.innerConeDegrees, kWidestConeDegrees - 0.1);
+    }
+  }
+  light.intensity = source.value("intensity", 1.0);
+  if (const auto color = source.find("color"); color != source.end()) {
+    const auto rgb = color->get<std::array<double, 3>>();
     // Colours beyond 1 become intensity, so that the light stays what it was.
-    const double greatest = std::max({1.0, source.color[0], source.color[1], source.color[2]});
-    light.color = {source.color[0] / greatest, source.color[1] / greatest, source.color[2] / greatest};
+    const double greatest = std::max({1.0, rgb[0], rgb[1], rgb[2]});
+    light.color = {rgb[0] / greatest, rgb[1] / greatest, rgb[2] / greatest};
     light.intensity *= greatest;
   }
-  return made;
+  return light;
+}
+
+std::optional<FileLight> lightAt(const json& document, std::size_t node, Findings& findings) {
+  const json& holder = document["nodes"][node];
+  const json* extension = extensionOf(holder, kExtension);
+  if (extension == nullptr) return std::nullopt;
+  const auto index = (*extension)["light"].get<std::size_t>();
+  const json& source = lightsOf(document)[index];
+  FileLight light{{}, index};
+  light.light.node = static_cast<int>(node);
+  light.light.name = keptName(nameOf(holder).empty() ? nameOf(source) : nameOf(holder), findings);
+  light.light.light = lightFrom(source);
+  if (light.light.light.type == LightType::spot &&
+      degrees(source["spot"].value("outerConeAngle", kDefaultOuterCone)) > kWidestConeDegrees) {
+    findings.warn("The light at node " + std::to_string(node) + " has a cone of 90 degrees; it is drawn with 89.9.");
+  }
+  return light;
 }
 
 std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLight light) {
@@ -78,15 +94,6 @@ std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLig
   if (light.light.type != LightType::point) light.light.direction = toTriple(frame.forward);
   if (light.light.type != LightType::directional) light.light.position = toTriple(frame.position);
   return light;
-}
-
-std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                  Findings& findings) {
-  auto light = unplacedLight(document, node, findings);
-  if (!light) return std::nullopt;
-  auto placed = placedAt(tree.worldFromUnscaled[node], *std::move(light));
-  if (!placed) findings.warn("The light at node " + std::to_string(node) + " is scaled to nothing and left out.");
-  return placed;
 }
 
 } // namespace gnomon

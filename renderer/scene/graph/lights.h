@@ -1,26 +1,35 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
-#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/scene.h"
 
+/// KHR_lights_punctual. The JSON has passed the schema check.
 namespace gnomon {
+
+/// A light as it hangs on a node: not placed.
+struct FileLight {
+  SceneLight light;
+  std::size_t source = 0; ///< index into the file's lights
+};
+
+/// The file's lights; empty where it has none.
+const nlohmann::json& lightsOf(const nlohmann::json& document);
 
 /// Checks what the schema can't: that a spot light has a cone, wider outside than inside.
 void checkLights(const nlohmann::json& document, Findings& findings);
 
-/// The KHR_lights_punctual light that hangs on a node, not placed; nothing where there is none.
-std::optional<SceneLight> unplacedLight(const GltfDocument& document, std::size_t node, Findings& findings);
+/// One of the file's lights, without a place. It has passed checkLights().
+Light lightFrom(const nlohmann::json& source);
+
+/// The light that hangs on a node, if there is one.
+std::optional<FileLight> lightAt(const nlohmann::json& document, std::size_t node, Findings& findings);
 
 /// Nothing where it needs a direction and the matrix leaves it none.
 std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLight light);
-
-/// The KHR_lights_punctual light that hangs on a node, if there is one.
-std::optional<SceneLight> lightOf(const GltfDocument& document, const NodeTree& tree, std::size_t node,
-                                  Findings& findings);
 
 } // namespace gnomon

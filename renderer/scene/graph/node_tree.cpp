@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "renderer/scene/gltf_json.h"
 #include "renderer/scene/graph/node_transform.h"
 
 namespace gnomon {
@@ -49,10 +50,8 @@ bool finite(const glm::dmat4& matrix) {
 }
 
 bool hides(const nlohmann::json& node) {
-  const auto extensions = node.find("extensions");
-  if (extensions == node.end()) return false;
-  const auto visibility = extensions->find("KHR_node_visibility");
-  return visibility != extensions->end() && !visibility->value("visible", true);
+  const nlohmann::json* visibility = extensionOf(node, "KHR_node_visibility");
+  return visibility != nullptr && !visibility->value("visible", true);
 }
 
 } // namespace
@@ -71,6 +70,17 @@ NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& par
     places.worldFromUnscaled[node] = worldFromParent * own.parentFromUnscaled;
   }
   return places;
+}
+
+std::vector<bool> hiddenNodes(const std::vector<int>& order, const std::vector<int>& parents,
+                              const std::vector<bool>& visible) {
+  std::vector<bool> hidden(parents.size());
+  for (const int index : order) {
+    const auto node = static_cast<std::size_t>(index);
+    const int parent = parents[node];
+    hidden[node] = !visible[node] || (parent >= 0 && hidden[static_cast<std::size_t>(parent)]);
+  }
+  return hidden;
 }
 
 std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order) {
@@ -92,18 +102,17 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
     if (tree.parents[node] < 0) tree.order.push_back(static_cast<int>(node));
   }
   tree.locals.resize(model.nodes.size());
-  tree.hidden.resize(model.nodes.size());
+  tree.visible.resize(model.nodes.size());
   std::vector<bool> reached(model.nodes.size(), false);
   for (std::size_t i = 0; i < tree.order.size(); ++i) {
     const auto node = static_cast<std::size_t>(tree.order[i]);
     reached[node] = true;
     tree.locals[node] = readTransform(model.nodes[node], pointerTo("/nodes", node), findings);
-    const int parent = tree.parents[node];
-    tree.hidden[node] =
-        hides(document.json["nodes"][node]) || (parent >= 0 && tree.hidden[static_cast<std::size_t>(parent)]);
+    tree.visible[node] = !hides(document.json["nodes"][node]);
     const std::vector<int>& children = model.nodes[node].children;
     tree.order.insert(tree.order.end(), children.begin(), children.end());
   }
+  tree.hidden = hiddenNodes(tree.order, tree.parents, tree.visible);
   static_cast<NodePlaces&>(tree) = placeNodes(tree.order, tree.parents, tree.locals);
   if (const auto lost = firstLost(tree, tree.order)) {
     findings.invalid(pointerTo("/nodes", *lost), "The node's place in the world is not finite.");

@@ -24,12 +24,17 @@ NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& par
 /// The first node in that order whose place is not finite.
 std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order);
 
+/// Which nodes are hidden with what is above them. `visible`: each by itself.
+std::vector<bool> hiddenNodes(const std::vector<int>& order, const std::vector<int>& parents,
+                              const std::vector<bool>& visible);
+
 /// The nodes in the file's rest pose.
 struct NodeTree : NodePlaces {
   std::vector<int> parents; ///< -1 for a root
   std::vector<int> order;   ///< parents before children
   std::vector<LocalTransform> locals;
-  std::vector<bool> hidden; ///< KHR_node_visibility hides the node or one above it
+  std::vector<bool> visible; ///< what KHR_node_visibility says of each node itself
+  std::vector<bool> hidden;  ///< the node or one above it is not visible
 };
 
 /// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.

@@ -59,23 +59,32 @@ class Flattening {
     return nodes;
   }
 
+  /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
     const tinygltf::Node& source = document_.model.nodes[node];
-    if (source.mesh >= 0 && !tree_.hidden[node]) placeMesh(node, view, pointer);
-    if (moves_) addMoving(node);
-    if (source.camera >= 0) {
-      if (auto camera = cameraOf(document_, tree_, node, findings_)) view.cameras.push_back(*std::move(camera));
+    if (source.mesh >= 0 && (moves_ || !tree_.hidden[node])) placeMesh(node, view, pointer);
+    if (const auto camera = cameraAt(document_.json, node, findings_)) {
+      if (moves_) scenes_.moving.back().cameras.push_back(*camera);
+      if (auto placed = placedAt(tree_.worldFromUnscaled[node], camera->camera)) {
+        view.cameras.push_back(*std::move(placed));
+      } else {
+        warnOfNoScale("camera", node);
+      }
     }
-    if (tree_.hidden[node]) return;
-    if (auto light = lightOf(document_, tree_, node, findings_)) view.lights.push_back(*std::move(light));
+    if (const auto light = lightAt(document_.json, node, findings_)) {
+      if (moves_) scenes_.moving.back().lights.push_back(*light);
+      if (tree_.hidden[node]) return;
+      if (auto placed = placedAt(tree_.worldFromUnscaled[node], light->light)) {
+        view.lights.push_back(*std::move(placed));
+      } else {
+        warnOfNoScale("light", node);
+      }
+    }
   }
 
-  /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
-  void addMoving(std::size_t node) {
-    MovingView& moving = scenes_.moving.back();
-    if (document_.model.nodes[node].camera >= 0) moving.cameras.push_back(unplacedCamera(document_, node, findings_));
-    if (tree_.hidden[node]) return;
-    if (auto light = unplacedLight(document_, node, findings_)) moving.lights.push_back(*std::move(light));
+  void warnOfNoScale(const char* what, std::size_t node) {
+    findings_.warn("The " + std::string(what) + " at node " + std::to_string(node) +
+                   " is scaled to nothing and left out.");
   }
 
   void addPlacements(std::size_t node, int skin, const glm::dmat4& nodeFromCopy, const std::vector<int>& primitives) {
@@ -131,7 +140,7 @@ class Flattening {
                            std::to_string(triangles_));
         return;
       }
-      if (flat) continue;
+      if (flat || tree_.hidden[node]) continue;
       view.triangles += triangles;
       Instance instance;
       instance.node = static_cast<int>(node);

@@ -4,19 +4,7 @@
 
 namespace gnomon {
 
-namespace {
-
 using nlohmann::json;
-
-template <int kSize>
-glm::vec<kSize, float> vectorAt(const json& object, const char* key, glm::vec<kSize, float> usual) {
-  const auto member = object.find(key);
-  if (member == object.end()) return usual;
-  for (int i = 0; i < kSize; ++i) usual[i] = (*member)[static_cast<std::size_t>(i)].template get<float>();
-  return usual;
-}
-
-} // namespace
 
 const json* materialExtension(const json& object, const char* name) {
   const auto extensions = object.find("extensions");

@@ -14,6 +14,15 @@ namespace gnomon {
 /// Of a material or a textureInfo; nullptr = it has none of that name.
 const nlohmann::json* materialExtension(const nlohmann::json& object, const char* name);
 
+/// The numbers of a member; `usual` where there is none.
+template <int kSize>
+glm::vec<kSize, float> vectorAt(const nlohmann::json& object, const char* key, glm::vec<kSize, float> usual) {
+  const auto member = object.find(key);
+  if (member == object.end()) return usual;
+  for (int i = 0; i < kSize; ++i) usual[i] = (*member)[static_cast<std::size_t>(i)].template get<float>();
+  return usual;
+}
+
 /// KHR_texture_transform may say another set of coordinates than the textureInfo.
 int texCoordOf(const nlohmann::json& textureInfo);
 std::optional<TextureTransform> transformOf(const nlohmann::json& textureInfo);

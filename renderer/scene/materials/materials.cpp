@@ -1,6 +1,8 @@
 #include "renderer/scene/materials/materials.h"
 
+#include "renderer/scene/gltf_json.h"
 #include "renderer/scene/materials/material_extensions.h"
+#include "renderer/scene/materials/material_factors.h"
 
 namespace gnomon {
 
@@ -34,7 +36,7 @@ MinFilter minFilterOf(int filter) {
   }
 }
 
-std::string nameOf(std::size_t index, const std::string& name) {
+std::string numbered(std::size_t index, const std::string& name) {
   return "material " + std::to_string(index) + (name.empty() ? "" : " " + inQuotes(name));
 }
 
@@ -42,72 +44,25 @@ class MaterialReading {
  public:
   MaterialReading(const GltfDocument& document, std::size_t index, Findings& findings)
       : document_(document),
-        source_(document.model.materials[index]),
         json_(document.json.at("materials")[index]),
-        name_(nameOf(index, source_.name)),
+        name_(numbered(index, nameOf(json_))),
         findings_(findings) {}
 
   Material read() const {
-    Material material;
-    const auto& pbr = source_.pbrMetallicRoughness;
-    material.name = source_.name;
-    for (int i = 0; i < 4; ++i) material.baseColorFactor[i] = static_cast<float>(pbr.baseColorFactor[std::size_t(i)]);
-    material.metallicFactor = static_cast<float>(pbr.metallicFactor);
-    material.roughnessFactor = static_cast<float>(pbr.roughnessFactor);
-    material.normalScale = static_cast<float>(source_.normalTexture.scale);
-    material.occlusionStrength = static_cast<float>(source_.occlusionTexture.strength);
-    material.emissiveFactor = emissiveFactor();
-    material.doubleSided = source_.doubleSided;
-    readAlpha(material);
-    material.normal = texture(json_, "normalTexture");
-    material.occlusion = texture(json_, "occlusionTexture");
-    material.emissive = texture(json_, "emissiveTexture");
-    if (const auto* glossy = materialExtension(json_, "KHR_materials_pbrSpecularGlossiness")) {
-      readSpecularGlossiness(*glossy, material);
-      material.baseColor = texture(*glossy, "diffuseTexture");
-      material.metallicRoughness = texture(*glossy, "specularGlossinessTexture");
-    } else if (const auto found = json_.find("pbrMetallicRoughness"); found != json_.end()) {
-      material.baseColor = texture(*found, "baseColorTexture");
-      material.metallicRoughness = texture(*found, "metallicRoughnessTexture");
-    }
-    material.unlit = materialExtension(json_, "KHR_materials_unlit") != nullptr;
-    if (const auto* transmission = materialExtension(json_, "KHR_materials_transmission")) {
-      readTransmission(*transmission, name_, material, findings_);
+    Material material = readFactors(json_, name_, findings_);
+    const auto textures = texturesOf(material);
+    const auto infos = textureInfosOf(json_);
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      if (infos[i] != nullptr) *textures[i] = texture(*infos[i]);
     }
     return material;
   }
 
  private:
-  glm::vec3 emissiveFactor() const {
-    double strength = 1;
-    const auto extension = source_.extensions.find("KHR_materials_emissive_strength");
-    if (extension != source_.extensions.end() && extension->second.Has("emissiveStrength")) {
-      strength = extension->second.Get("emissiveStrength").GetNumberAsDouble();
-    }
-    glm::dvec3 factor(0);
-    if (source_.emissiveFactor.size() == 3) {
-      factor = {source_.emissiveFactor[0], source_.emissiveFactor[1], source_.emissiveFactor[2]};
-    }
-    return glm::vec3(factor * strength);
-  }
-
-  void readAlpha(Material& material) const {
-    if (source_.alphaMode == "MASK") {
-      material.alphaMode = AlphaMode::mask;
-      material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
-    } else if (source_.alphaMode == "BLEND") {
-      material.alphaMode = AlphaMode::blend;
-      material.alphaCutoff = 0.5f;
-      findings_.warn("The " + name_ + " is blended; the camera sees it solid where its alpha is at least 0.5.");
-    }
-  }
-
-  /// The texture that a member of `owner` names, if it does.
-  std::optional<TextureUse> texture(const nlohmann::json& owner, const char* member) const {
-    const auto info = owner.find(member);
-    if (info == owner.end()) return std::nullopt;
-    const int index = info->at("index").get<int>();
-    const int texCoord = texCoordOf(*info);
+  /// The texture that a textureInfo names; nothing, and a warning, where it can't be drawn.
+  std::optional<TextureUse> texture(const nlohmann::json& info) const {
+    const int index = info.at("index").get<int>();
+    const int texCoord = texCoordOf(info);
     const tinygltf::Texture& texture = document_.model.textures[static_cast<std::size_t>(index)];
     const int image = imageOf(document_, static_cast<std::size_t>(index), findings_);
     if (image < 0) {
@@ -123,7 +78,7 @@ class MaterialReading {
     TextureUse use;
     use.image = image;
     use.texCoord = texCoord;
-    use.transform = transformOf(*info);
+    use.transform = transformOf(info);
     if (texture.sampler >= 0) {
       const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<std::size_t>(texture.sampler)];
       use.wrapS = wrapOf(sampler.wrapS);
@@ -135,7 +90,6 @@ class MaterialReading {
   }
 
   const GltfDocument& document_;
-  const tinygltf::Material& source_;
   const nlohmann::json& json_;
   std::string name_;
   Findings& findings_;
@@ -145,7 +99,8 @@ class MaterialReading {
 
 std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings) {
   std::vector<Material> materials;
-  for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+  const auto sources = document.json.find("materials");
+  for (std::size_t i = 0; sources != document.json.end() && i < sources->size(); ++i) {
     materials.push_back(MaterialReading(document, i, findings).read());
   }
   materials.emplace_back();

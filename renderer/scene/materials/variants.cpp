@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "renderer/scene/animation/motion.h"
+#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
@@ -10,13 +11,6 @@ namespace {
 
 constexpr const char* kExtension = "KHR_materials_variants";
 constexpr const char* kPointer = "/extensions/KHR_materials_variants/variants";
-
-const nlohmann::json* extensionOf(const nlohmann::json& object) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end()) return nullptr;
-  const auto found = extensions->find(kExtension);
-  return found == extensions->end() ? nullptr : &*found;
-}
 
 } // namespace
 
@@ -32,16 +26,17 @@ void checkVariantCount(const GltfDocument& document, const Limits& limits, Findi
 
 std::vector<std::string> variantNames(const GltfDocument& document) {
   std::vector<std::string> names;
-  const nlohmann::json* extension = extensionOf(document.json);
+  const nlohmann::json* extension = extensionOf(document.json, kExtension);
   if (extension == nullptr) return names;
   for (const auto& variant : extension->at("variants")) names.push_back(variant.at("name").get<std::string>());
   return names;
 }
 
 std::vector<int> variantMaterials(const GltfDocument& document, std::size_t mesh, std::size_t primitive) {
-  const nlohmann::json* extension = extensionOf(document.json.at("meshes")[mesh].at("primitives")[primitive]);
-  if (extension == nullptr || extensionOf(document.json) == nullptr) return {};
-  std::vector<int> materials(extensionOf(document.json)->at("variants").size(), -1);
+  const nlohmann::json* extension =
+      extensionOf(document.json.at("meshes")[mesh].at("primitives")[primitive], kExtension);
+  if (extension == nullptr || extensionOf(document.json, kExtension) == nullptr) return {};
+  std::vector<int> materials(extensionOf(document.json, kExtension)->at("variants").size(), -1);
   for (const auto& mapping : extension->at("mappings")) {
     for (const auto& variant : mapping.at("variants")) {
       materials[variant.get<std::size_t>()] = mapping.at("material").get<int>();

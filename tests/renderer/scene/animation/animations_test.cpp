@@ -90,9 +90,7 @@ TEST(Animations, PointersToNodesAreChannelsAndOthersAreTold) {
   testing::GlbBuilder builder = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "translation", "VEC3");
   builder.json["extensionsUsed"] = {"KHR_animation_pointer"};
   json& channels = builder.json["animations"][0]["channels"];
-  const auto pointTo = [&](const char* pointer) {
-    channels[0]["target"] = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
-  };
+  const auto pointTo = [&](const char* pointer) { channels[0]["target"] = pointerTarget(pointer); };
   pointTo("/nodes/0/translation");
   EXPECT_EQ(load(builder).summary.animations[0].durationSeconds, 1);
   EXPECT_THAT(load(builder).summary.warnings, IsEmpty());
@@ -103,6 +101,46 @@ TEST(Animations, PointersToNodesAreChannelsAndOthersAreTold) {
     EXPECT_EQ(summary.animations[0].durationSeconds, 0) << other;
     EXPECT_THAT(summary.warnings, ElementsAre(HasSubstr("is not animated"))) << other;
   }
+}
+
+TEST(Animations, KeyframesOfAPropertyLieInItsRange) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.add("materials", json::object());
+  animatePointer(builder, "/materials/0/pbrMetallicRoughness/roughnessFactor", {0, 1}, {0.5f, 1.5f}, "SCALAR");
+  expectRefused(builder, "/animations/0/samplers/0/output");
+  // Only the middle row of a spline is values; its tangents may be any.
+  testing::GlbBuilder spline = testing::cube();
+  spline.add("materials", json::object());
+  animatePointer(spline, "/materials/0/pbrMetallicRoughness/roughnessFactor", {0, 1}, {-9, 0.5f, 9, -9, 1, 9}, "SCALAR",
+                 "CUBICSPLINE");
+  EXPECT_THAT(problemsOf(spline), IsEmpty());
+}
+
+TEST(Animations, APropertyIsMovedOnceAndByValuesOfItsSize) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.add("materials", json::object());
+  animatePointer(builder, "/materials/0/emissiveFactor", {0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3");
+  testing::GlbBuilder twice = builder;
+  animatePointer(twice, "/materials/0/emissiveFactor", {0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3");
+  expectRefused(twice, "/animations/0/channels/1/target");
+  testing::GlbBuilder narrow = testing::cube();
+  narrow.add("materials", json::object());
+  animatePointer(narrow, "/materials/0/emissiveFactor", {0, 1}, {0, 1}, "SCALAR");
+  expectRefused(narrow, "/animations/0/samplers/0/output");
+}
+
+TEST(Animations, VisibilityChangesInStepsOfBytes) {
+  const auto blinking = [](const std::vector<std::uint8_t>& values, const char* interpolation) {
+    testing::GlbBuilder builder = testing::cube();
+    addChannel(builder, pointerTarget("/nodes/0/extensions/KHR_node_visibility/visible"), {0, 1},
+               builder.addAccessor(values, "SCALAR", 5121, values.size()), interpolation);
+    return builder;
+  };
+  EXPECT_THAT(problemsOf(blinking({1, 0}, "STEP")), IsEmpty());
+  expectRefused(blinking({1, 0}, "LINEAR"), "/animations/0/samplers/0/interpolation");
+  testing::GlbBuilder floats = testing::cube();
+  animatePointer(floats, "/nodes/0/extensions/KHR_node_visibility/visible", {0, 1}, {1, 0}, "SCALAR", "STEP");
+  expectRefused(floats, "/animations/0/samplers/0/output");
 }
 
 } // namespace
