@@ -1,6 +1,9 @@
-// The whole way from a model's bytes to a scene: container, schema, accessors, compression, graph, materials, images.
+// The whole way from a model's bytes to a scene: container, schema, accessors, compression, graph, materials, images;
+// and to what its first animations make of it.
+#include <algorithm>
 #include <cmath>
 
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/gltf_loader.h"
 #include "tests/fuzz/glb_parts.h"
 #include "tests/fuzz/sound_problems.h"
@@ -35,6 +38,32 @@ void requireWithin(const Scene& scene, const Limits& limits) {
   }
 }
 
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// At its ends, between them, and beyond them.
+void requirePoses(const std::shared_ptr<const Scene>& scene) {
+  const std::size_t most = std::min<std::size_t>(scene->summary.animations.size(), 2);
+  for (std::size_t i = 0; i < most; ++i) {
+    const double duration = scene->summary.animations[i].durationSeconds;
+    for (const double seconds : {-1.0, 0.0, duration / 3, duration, 2 * duration + 1}) {
+      AnimationMoment moment;
+      moment.index = static_cast<int>(i);
+      moment.timeSeconds = seconds;
+      const auto posed = posedScene(scene, moment);
+      if (!posed) {
+        fuzz::requireSound(posed.problems());
+        continue;
+      }
+      for (const SceneView& view : (*posed)->scenes) {
+        fuzz::require(view.bounds.empty() || (isFinite(view.bounds.min) && isFinite(view.bounds.max)),
+                      "what an animation places is finite");
+      }
+    }
+  }
+}
+
 } // namespace
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t capacity,
@@ -47,6 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto scene = loadGltf({Bytes(data, data + size), {}}, limits);
   if (scene) {
     requireWithin(**scene, limits);
+    requirePoses(*scene);
   } else {
     fuzz::requireSound(scene.problems());
   }
