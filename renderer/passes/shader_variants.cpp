@@ -7,9 +7,17 @@
 namespace gnomon {
 namespace {
 
-std::string uvName(const TextureUse& use, std::size_t unit) {
+/// How a texture is read, and how far its coordinates go in a step: `TEXEL(map)` and `STEP(derivative)`.
+void addTextureDefines(const std::string& name, const TextureUse& use, std::size_t unit,
+                       std::vector<std::string>& defines) {
   const std::string uv = use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
-  return use.transform ? "movedUv(" + uv + ", " + std::to_string(unit) + ")" : uv;
+  const std::string at = ", " + std::to_string(unit) + ")";
+  defines.push_back(name + "_TEXTURE");
+  defines.push_back(name + "_TEXEL(map) " +
+                    (use.transform ? "movedTexel(map, " + uv + at : "texture(map, " + uv + ")"));
+  if (name != "NORMAL") return;
+  const std::string step = "derivative(" + uv + ")";
+  defines.push_back("NORMAL_STEP(derivative) " + (use.transform ? "movedStep(" + step + at : step));
 }
 
 const char* viewDefine(View view) {
@@ -110,8 +118,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
     if (!*slot.use) continue;
     const TextureUse& use = **slot.use;
     moved = moved || use.transform;
-    defines.push_back(std::string(slot.name) + "_TEXTURE");
-    defines.push_back(std::string(slot.name) + "_UV " + uvName(use, unit));
+    addTextureDefines(slot.name, use, unit, defines);
     uvs[use.texCoord == 0 ? 0 : 1] = true;
   }
   if (moved) defines.emplace_back("TEXTURE_TRANSFORM");

@@ -23,16 +23,16 @@ float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 
 #ifdef TEXTURE_TRANSFORM
 #include "common_texture_transform.glsl"
-#define MASK_UV movedUv(mask.uv, GNOMON_BASE_COLOR_UNIT)
+#define MASK_TEXEL movedTexel(baseColorTexture, mask.uv, GNOMON_BASE_COLOR_UNIT)
 #else
-#define MASK_UV mask.uv
+#define MASK_TEXEL texture(baseColorTexture, mask.uv)
 #endif
 
 void discardMasked() {
   MaterialData material = materials[materialIndex];
   float alpha = material.baseColorFactor.a * mask.alpha;
 #ifdef BASE_COLOR_TEXTURE
-  alpha *= texture(baseColorTexture, MASK_UV).a;
+  alpha *= MASK_TEXEL.a;
 #endif
   if (alpha < leastAlpha(material)) discard;
 }

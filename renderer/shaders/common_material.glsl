@@ -24,7 +24,7 @@ layout(binding = GNOMON_EMISSIVE_UNIT) uniform sampler2D emissiveTexture;
 vec4 baseColor(MaterialData material) {
   vec4 color = material.baseColorFactor;
 #ifdef BASE_COLOR_TEXTURE
-  color *= texture(baseColorTexture, BASE_COLOR_UV);
+  color *= BASE_COLOR_TEXEL(baseColorTexture);
 #endif
 #ifdef VERTEX_COLORS
   color *= surface.color;
@@ -48,8 +48,8 @@ mat3 tangentFrame(vec3 n) {
 #else
   vec3 px = dFdx(surface.relative);
   vec3 py = dFdy(surface.relative);
-  vec2 ux = dFdx(NORMAL_UV);
-  vec2 uy = dFdy(NORMAL_UV);
+  vec2 ux = NORMAL_STEP(dFdx);
+  vec2 uy = NORMAL_STEP(dFdy);
   vec3 pxPerp = cross(n, px);
   vec3 pyPerp = cross(py, n);
   vec3 t = pyPerp * ux.x + pxPerp * uy.x;
@@ -71,7 +71,7 @@ vec3 shadingNormal(MaterialData material, vec3 face) {
   if (dot(n, face) < 0.0) n = -n;
 #endif
 #ifdef NORMAL_TEXTURE
-  vec3 texel = texture(normalTexture, NORMAL_UV).xyz * 2.0 - 1.0;
+  vec3 texel = NORMAL_TEXEL(normalTexture).xyz * 2.0 - 1.0;
   texel.xy *= material.surface.z;
   n = tangentFrame(normalize(n)) * texel;
 #endif
@@ -97,7 +97,7 @@ float metallicOf(vec3 diffuse, vec3 specular) {
 vec2 fromSpecularGlossiness(MaterialData material, inout vec3 color) {
   vec4 specular = material.specularGlossiness;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-  specular *= texture(metallicRoughnessTexture, METALLIC_ROUGHNESS_UV);
+  specular *= METALLIC_ROUGHNESS_TEXEL(metallicRoughnessTexture);
 #endif
   float metallic = metallicOf(color, specular.rgb);
   float left = 1.0 - max(max(specular.r, specular.g), specular.b);
@@ -111,14 +111,14 @@ vec2 fromSpecularGlossiness(MaterialData material, inout vec3 color) {
 vec2 metallicRoughnessOf(MaterialData material) {
   vec2 value = material.surface.xy;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-  value *= texture(metallicRoughnessTexture, METALLIC_ROUGHNESS_UV).bg;
+  value *= METALLIC_ROUGHNESS_TEXEL(metallicRoughnessTexture).bg;
 #endif
   return value;
 }
 
 float occlusionOf(MaterialData material) {
 #ifdef OCCLUSION_TEXTURE
-  return mix(1.0, texture(occlusionTexture, OCCLUSION_UV).r, material.surface.w);
+  return mix(1.0, OCCLUSION_TEXEL(occlusionTexture).r, material.surface.w);
 #else
   return 1.0;
 #endif
@@ -127,7 +127,7 @@ float occlusionOf(MaterialData material) {
 vec3 emissionOf(MaterialData material) {
   vec3 emission = material.emissiveFactor.rgb;
 #ifdef EMISSIVE_TEXTURE
-  emission *= texture(emissiveTexture, EMISSIVE_UV).rgb;
+  emission *= EMISSIVE_TEXEL(emissiveTexture).rgb;
 #endif
   return emission;
 }

@@ -1,6 +1,9 @@
 // What materials look like and cast, seen in rendered frames.
+#include <array>
+#include <cmath>
 #include <numeric>
 
+#include "renderer/image/image_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {
@@ -68,6 +71,50 @@ TEST(MaterialFrames, SpecularGlossinessMatchesTheSameMetalAndDielectric) {
     const float shown = redOf(testing::sceneOf(ground(Json::parse(glossy))), fromAbove(kSun));
     EXPECT_NEAR(shown, redOf(testing::sceneOf(ground(Json::parse(metallic))), fromAbove(kSun)), 0.02f * shown);
   }
+}
+
+/// A ground that shows a texture of 4 x 4 colors at these corners' coordinates, in the order of testing::plane().
+testing::GlbBuilder pictured(const std::array<glm::dvec2, 4>& corners, const Json& transform) {
+  testing::GlbBuilder builder = ground({{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  std::vector<std::uint8_t> texels;
+  for (int i = 0; i < 16; ++i) {
+    for (const int step : {17, 53, 91}) texels.push_back(static_cast<std::uint8_t>(i * step % 256));
+  }
+  const Image image{4, 4, {"R", "G", "B"}, texels};
+  builder.add("images", {{"bufferView", builder.addView(*encodePng(image, 1))}, {"mimeType", "image/png"}});
+  builder.add("textures", {{"source", 0}});
+  builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"extensions", transform}};
+  std::vector<glm::vec2> coordinates(corners.begin(), corners.end());
+  builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      builder.addAccessor(coordinates, "VEC2", 5126, coordinates.size());
+  return builder;
+}
+
+/// KHR_texture_transform's own formula: translation * rotation * scale, for a picture with v downwards.
+TEST(MaterialFrames, TexturesAreLaidAsTheirTransformSays) {
+  const double angle = 0.4;
+  const glm::dvec2 scale(1.5, -0.75);
+  const glm::dvec2 offset(0.2, 0.6);
+  const std::array<glm::dvec2, 4> plain{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  std::array<glm::dvec2, 4> moved{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec2 scaled = plain[i] * scale;
+    moved[i] = offset + glm::dvec2(std::cos(angle) * scaled.x + std::sin(angle) * scaled.y,
+                                   -std::sin(angle) * scaled.x + std::cos(angle) * scaled.y);
+  }
+  Json transform;
+  transform["KHR_texture_transform"] = {
+      {"offset", {offset.x, offset.y}}, {"rotation", angle}, {"scale", {scale.x, scale.y}}};
+  Json spec = fromAbove(Json::array());
+  spec["camera"]["eye"] = {0, 20, 0};
+  const auto pictureOf = [&](const testing::GlbBuilder& builder) {
+    return floatsOf(renderJson(testing::sceneOf(builder), spec.dump()));
+  };
+  const std::vector<float> shown = pictureOf(pictured(plain, transform));
+  const std::vector<float> wanted = pictureOf(pictured(moved, Json::object()));
+  ASSERT_EQ(shown.size(), wanted.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) ASSERT_NEAR(shown[i], wanted[i], 4e-3) << i;
+  EXPECT_NE(shown, pictureOf(pictured(plain, Json::object())));
 }
 
 TEST(MaterialFrames, G2_TheShadowOfGlassIsScaledByWhatItKeeps) {

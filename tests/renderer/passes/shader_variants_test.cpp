@@ -21,7 +21,7 @@ TEST(ShaderVariants, OnlyTheCoordinatesThatATextureReadsAreInterpolated) {
   material.normal = TextureUse{1, 1};
   const auto defines = surfaceProgram(material, {}).defines;
   EXPECT_THAT(defines, Contains("NORMAL_TEXTURE"));
-  EXPECT_THAT(defines, Contains("NORMAL_UV surface.uv1"));
+  EXPECT_THAT(defines, Contains("NORMAL_TEXEL(map) texture(map, surface.uv1)"));
   EXPECT_THAT(defines, Contains("UV1"));
   EXPECT_THAT(defines, Not(Contains("UV0")));
 }
@@ -99,8 +99,8 @@ TEST(ShaderVariants, OnlyATransformedTextureIsMoved) {
   material.normal = TextureUse{1};
   material.normal->transform.emplace();
   const auto defines = surfaceProgram(material, {}).defines;
-  EXPECT_THAT(defines, Contains("NORMAL_UV movedUv(surface.uv0, 2)"));
-  EXPECT_THAT(defines, Contains("BASE_COLOR_UV surface.uv0"));
+  EXPECT_THAT(defines, Contains("NORMAL_TEXEL(map) movedTexel(map, surface.uv0, 2)"));
+  EXPECT_THAT(defines, Contains("BASE_COLOR_TEXEL(map) texture(map, surface.uv0)"));
   EXPECT_THAT(maskDefines(&material), Not(Contains("TEXTURE_TRANSFORM")));
   material.baseColor->transform.emplace();
   EXPECT_THAT(maskDefines(&material), Contains("TEXTURE_TRANSFORM"));
