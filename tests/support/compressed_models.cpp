@@ -147,6 +147,7 @@ GlbBuilder dracoModel(const Shape& shape, bool edgebreaker) {
   encoder.SetAttributeQuantization(0, 14);
   encoder.SetAttributeQuantization(1, 10);
   encoder.SetAttributeQuantization(2, 12);
+  encoder.SetSpeedOptions(0, 0); // the smallest stream: by all the predictions that there are
   encoder.SetTrackEncodedProperties(true);
   draco::EncoderBuffer encoded;
   if (!encoder.EncodeToBuffer(&encoded).ok()) return {};

@@ -1,11 +1,80 @@
 #include "renderer/scene/decode/draco_stream.h"
 
-#include <algorithm>
+#include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_data.h>
+#include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_tex_coords_decoder.h>
+#include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_tex_coords_portable_decoder.h>
+#include <draco/compression/attributes/prediction_schemes/prediction_scheme_wrap_decoding_transform.h>
 #include <draco/compression/config/decoder_options.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
+#include <draco/mesh/mesh_attribute_corner_table.h>
 #include <type_traits>
+
+#include "renderer/scene/decode/draco_kept.h"
+
+// Draco 1.5 takes memory and many seconds for as many orientations as a stream states, up to 2^31, though each belongs
+// to a corner of a triangle (bitstream specification 2.2, "Prediction Texture Coordinates Portable"). These definitions
+// stand in for the library's, which calls its own by symbol; test: Draco.OrientationsAreNoMoreThanCorners.
+namespace draco {
+
+using Wrapping = PredictionSchemeWrapDecodingTransform<int, int>;
+using OfCorners = MeshPredictionSchemeData<CornerTable>;
+using OfAttribute = MeshPredictionSchemeData<MeshAttributeCornerTable>;
+template <class MeshData>
+using Portable = MeshPredictionSchemeTexCoordsPortableDecoder<int, Wrapping, MeshData>;
+template <class MeshData>
+using Deprecated = MeshPredictionSchemeTexCoordsDecoder<int, Wrapping, MeshData>;
+
+namespace {
+
+/// Where each of them is kept: `resize` and then `set`. A bit 0 turns the orientation over.
+template <class Resize, class Set>
+bool decodeOrientations(DecoderBuffer& buffer, int corners, Resize resize, Set set) {
+  std::uint32_t count = 0;
+  RAnsBitDecoder bits;
+  if (!buffer.Decode(&count) || count > static_cast<std::uint32_t>(corners) || !bits.StartDecoding(&buffer)) {
+    return false;
+  }
+  resize(static_cast<int>(count));
+  bool orientation = true;
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    orientation = orientation == bits.DecodeNextBit();
+    set(i, orientation);
+  }
+  bits.EndDecoding();
+  return true;
+}
+
+} // namespace
+
+template <>
+bool Portable<OfCorners>::DecodePredictionData(DecoderBuffer* buffer) {
+  return decodeOrientations(
+             *buffer, mesh_data().corner_table()->num_corners(), [&](int n) { predictor_.ResizeOrientations(n); },
+             [&](int i, bool v) { predictor_.set_orientation(i, v); }) &&
+         MeshPredictionSchemeDecoder::DecodePredictionData(buffer);
+}
+
+template <>
+bool Portable<OfAttribute>::DecodePredictionData(DecoderBuffer* buffer) {
+  return decodeOrientations(
+             *buffer, mesh_data().corner_table()->num_corners(), [&](int n) { predictor_.ResizeOrientations(n); },
+             [&](int i, bool v) { predictor_.set_orientation(i, v); }) &&
+         MeshPredictionSchemeDecoder::DecodePredictionData(buffer);
+}
+
+// No encoder of the version that glTF has writes these.
+template <>
+bool Deprecated<OfCorners>::DecodePredictionData(DecoderBuffer*) {
+  return false;
+}
+template <>
+bool Deprecated<OfAttribute>::DecodePredictionData(DecoderBuffer*) {
+  return false;
+}
+
+} // namespace draco
 
 namespace gnomon {
 
@@ -112,66 +181,6 @@ bool run(draco::MeshDecoder&& decoder, std::span<const std::uint8_t> stream, dra
   return decoder.Decode(draco::DecoderOptions(), &buffer, &mesh).ok();
 }
 
-std::optional<ComponentType> typeOf(draco::DataType type) {
-  switch (type) {
-    case draco::DT_INT8:
-      return ComponentType::int8;
-    case draco::DT_UINT8:
-      return ComponentType::uint8;
-    case draco::DT_INT16:
-      return ComponentType::int16;
-    case draco::DT_UINT16:
-      return ComponentType::uint16;
-    case draco::DT_UINT32:
-      return ComponentType::uint32;
-    case draco::DT_FLOAT32:
-      return ComponentType::float32;
-    default:
-      return std::nullopt;
-  }
-}
-
-/// One value a point; nothing where the attribute is none that a glTF may have.
-std::optional<DracoAttribute> attributeOf(const draco::PointAttribute& source, std::uint32_t points) {
-  const auto type = typeOf(source.data_type());
-  if (!type || source.num_components() < 1 || source.num_components() > 4) return std::nullopt;
-  DracoAttribute attribute{*type, source.num_components(), {}};
-  const std::size_t bytes = bytesOf(*type) * static_cast<std::size_t>(attribute.components);
-  if (source.byte_stride() != static_cast<std::int64_t>(bytes)) return std::nullopt;
-  attribute.bytes.resize(bytes * points);
-  for (std::uint32_t point = 0; point < points; ++point) {
-    const draco::AttributeValueIndex value = source.mapped_index(draco::PointIndex(point));
-    if (value.value() >= source.size()) return std::nullopt;
-    source.GetValue(value, attribute.bytes.data() + bytes * point);
-  }
-  return attribute;
-}
-
-std::optional<DracoMesh> keep(const draco::Mesh& mesh, const std::set<std::uint32_t>& wanted,
-                              const std::string& pointer, Findings& findings) {
-  DracoMesh kept;
-  kept.points = mesh.num_points();
-  kept.corners.reserve(std::size_t{3} * mesh.num_faces());
-  for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
-    for (const auto& corner : mesh.face(draco::FaceIndex(face))) kept.corners.push_back(corner.value());
-  }
-  const auto outside = [&](std::uint32_t corner) { return corner >= mesh.num_points(); };
-  if (std::any_of(kept.corners.begin(), kept.corners.end(), outside)) {
-    findings.invalid(pointer, "The Draco data is damaged.");
-    return std::nullopt;
-  }
-  for (const std::uint32_t id : wanted) {
-    const draco::PointAttribute* source = mesh.GetAttributeByUniqueId(id);
-    auto attribute = source ? attributeOf(*source, mesh.num_points()) : std::nullopt;
-    if (!attribute) {
-      findings.invalid(pointer, "The Draco data has no attribute " + std::to_string(id) + " that a glTF may have.");
-      return std::nullopt;
-    }
-    kept.attributes.emplace(id, *std::move(attribute));
-  }
-  return kept;
-}
-
 } // namespace
 
 std::optional<DracoMesh> decodeDraco(std::span<const std::uint8_t> stream, const DracoClaims& claims,
@@ -193,7 +202,7 @@ std::optional<DracoMesh> decodeDraco(std::span<const std::uint8_t> stream, const
     findings.warn("The Draco data at " + pointer + " holds " + std::to_string(mesh.num_points()) +
                   " vertices where the accessors say " + std::to_string(claims.points) + ".");
   }
-  return keep(mesh, wanted, pointer, findings);
+  return keptMesh(mesh, wanted, pointer, findings);
 }
 
 } // namespace gnomon

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
 #include "tests/renderer/scene/load.h"
 #include "tests/support/compressed_models.h"
 
@@ -31,6 +36,10 @@ TEST(Draco, DecodesWhatWasEncoded) {
       const glm::dvec3 ring = 2.0 * glm::normalize(glm::dvec3(p.x, 0, p.z));
       EXPECT_NEAR(glm::length(p - ring), 0.75, 1e-3);
       EXPECT_GT(glm::dot(glm::normalize(p - ring), glm::dvec3(scene.attributes[i].normal)), 0.999);
+      const glm::dvec2 angle = glm::dvec2(scene.attributes[i].uv0) * 2.0 * std::numbers::pi;
+      EXPECT_NEAR(2 * std::cos(angle.x), ring.x, 0.005);
+      EXPECT_NEAR(2 * std::sin(angle.x), ring.z, 0.005);
+      EXPECT_NEAR(0.75 * std::sin(angle.y), p.y, 0.005);
     }
   }
 }
@@ -156,6 +165,20 @@ TEST(Draco, TakesCutAndFlippedBytes) {
         for (const Problem& problem : problemsOf(builder)) EXPECT_NE(problem.code, ProblemCode::internal);
       }
     }
+  }
+}
+
+/// Of each count that the stream states in four bytes, wherever that is: a decoder that follows it takes seconds.
+TEST(Draco, OrientationsAreNoMoreThanCorners) {
+  const testing::GlbBuilder sound = model();
+  const auto length = sound.json["bufferViews"][0]["byteLength"].get<std::size_t>();
+  for (std::size_t at = 11; at + 4 <= length; ++at) {
+    testing::GlbBuilder builder = sound;
+    std::fill_n(builder.binary.begin() + static_cast<std::ptrdiff_t>(at), 3, 0xFF);
+    builder.binary[at + 3] = 0x7F;
+    const auto begin = std::chrono::steady_clock::now();
+    for (const Problem& problem : problemsOf(builder)) EXPECT_NE(problem.code, ProblemCode::internal);
+    ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2)) << "at byte " << at;
   }
 }
 
