@@ -8,7 +8,7 @@
 namespace gnomon::codec {
 
 /// Rises whenever anything in this header changes, so that a stale module is refused and not called.
-inline constexpr std::uint32_t kTableVersion = 1;
+inline constexpr std::uint32_t kTableVersion = 2;
 
 inline constexpr const char* kTableFunction = "gnomonImageCodec";
 
@@ -18,7 +18,7 @@ struct Sink {
   bool (*accept)(void* target, const std::uint8_t* bytes, std::size_t size) = nullptr;
 };
 
-enum class Format : std::uint32_t { png, jpeg };
+enum class Format : std::uint32_t { png, jpeg, webp };
 enum class Compression : std::uint32_t { none, rle, zip, piz };
 
 /// Interleaved rows, first row on top.
@@ -51,9 +51,13 @@ struct Table {
                     const Sink& message) = nullptr;
 
   /// Fills width * height * 4 bytes with RGBA, straight alpha, no colour conversion. Fails where the encoded picture
-  /// is not exactly width x height.
+  /// is not exactly width x height. A WebP must have no alpha.
   bool (*decode)(Format format, const std::uint8_t* encoded, std::size_t size, int width, int height,
                  std::uint8_t* rgba, const Sink& message) = nullptr;
+
+  /// Puts the alpha of a picture that has one into every fourth byte, and leaves the others as they are.
+  bool (*decodeAlpha)(Format format, const std::uint8_t* encoded, std::size_t size, int width, int height,
+                      std::uint8_t* rgba, const Sink& message) = nullptr;
 };
 
 using TableFunction = const Table* (*)();

@@ -82,6 +82,23 @@ Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
   return Done{};
 }
 
+/// What is handed to the library: a file, and another one for its alpha where that is read on its own.
+struct Essential {
+  Bytes picture;
+  Bytes alpha{};
+};
+
+Result<Essential> essentialOf(codec::Format format, EncodedBytes encoded) {
+  if (format == codec::Format::webp) {
+    auto webp = essentialWebp(encoded);
+    if (!webp) return std::move(webp).problems();
+    return Essential{std::move(webp->color), std::move(webp->alpha)};
+  }
+  auto picture = format == codec::Format::png ? essentialPng(encoded) : essentialJpeg(encoded);
+  if (!picture) return std::move(picture).problems();
+  return Essential{*std::move(picture)};
+}
+
 } // namespace
 
 Result<Bytes> encodePng(const Image& image, int level) {
@@ -127,8 +144,16 @@ Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compr
 
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
   const auto format = formatOf(encoded);
-  if (!format) return unsupportedImage("the image is neither a PNG nor a JPEG");
-  return *format == codec::Format::png ? pngSize(encoded) : jpegSize(encoded);
+  if (!format) return unsupportedImage("the image is no PNG, JPEG or WebP");
+  switch (*format) {
+    case codec::Format::png:
+      return pngSize(encoded);
+    case codec::Format::jpeg:
+      return jpegSize(encoded);
+    case codec::Format::webp:
+      return webpSize(encoded);
+  }
+  return unsupportedImage("the image is no PNG, JPEG or WebP");
 }
 
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
@@ -136,14 +161,17 @@ Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, st
   if (!size) return size.problems();
   if (auto status = checkSize(*size, maxSide, maxPixels); !status) return std::move(status).problems();
   const codec::Format format = *formatOf(encoded);
-  const auto essential = format == codec::Format::png ? essentialPng(encoded) : essentialJpeg(encoded);
+  const auto essential = essentialOf(format, encoded);
   if (!essential) return essential.problems();
   auto codec = imageCodec();
   if (!codec) return std::move(codec).problems();
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) * 4);
   std::string message;
-  if (!(*codec)->decode(format, essential->data(), essential->size(), size->width, size->height, rgba.data(),
-                        sinkInto(message))) {
+  const auto decodeWith = [&](auto decode, const Bytes& file) {
+    return decode(format, file.data(), file.size(), size->width, size->height, rgba.data(), sinkInto(message));
+  };
+  if (!decodeWith((*codec)->decode, essential->picture) ||
+      (!essential->alpha.empty() && !decodeWith((*codec)->decodeAlpha, essential->alpha))) {
     return failure(ProblemCode::malformed, "the image could not be decoded", message);
   }
   return Image{size->width, size->height, {"R", "G", "B", "A"}, std::move(rgba)};

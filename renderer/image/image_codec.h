@@ -32,10 +32,10 @@ Result<Bytes> encodePng(const Image& image, int level);
 /// The bytes depend on nothing but the arguments.
 Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType);
 
-/// Size of a PNG or JPEG, told by its signature and header; anything else is unsupportedFeature.
+/// Size of a PNG, JPEG or still WebP, told by its signature and header; anything else is unsupportedFeature.
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
 
-/// Decodes a PNG or JPEG to 8-bit RGBA, refusing before any pixel is decoded when it is larger than
+/// Decodes a PNG, JPEG or still WebP to 8-bit RGBA, refusing before any pixel is decoded when it is larger than
 /// `maxSide` a side or `maxPixels` in all.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
 

@@ -1,4 +1,4 @@
-// PNG and JPEG as they come in a model: what their headers claim, their parts, their pixels.
+// PNG, JPEG and WebP as they come in a model: what their headers claim, their parts, their pixels.
 #include "renderer/image/image_codec.h"
 #include "renderer/image/image_container.h"
 #include "tests/fuzz/sound_problems.h"

@@ -14,6 +14,12 @@ from pathlib import Path
 TESTS = Path(__file__).resolve().parent.parent
 MOST = 64 * 1024  # bytes of a seed: larger ones only make a run slow
 BOUNDARY = "a-boundary"
+# Four pixels with alpha each, as Python has no encoder for them.
+WEBP = {
+    "lossless": "UklGRigAAABXRUJQVlA4TBwAAAAvAUAAEDUISIj8P+WLUyrDr/8Fssnumr9CcSgO",
+    "lossy": "UklGRmAAAABXRUJQVlA4WAoAAAAQAAAAAQAAAQAAQUxQSAUAAAAAAAFk/wBWUDggNAAAALABAJ0BKgIAAgACgEIliAJ0AQ72o4AA/ub5et3n"
+    "7Dy1SW2wA+HqaL1f6+8odiY6yd4gAAA=",
+}
 
 
 def write(folder, name, content):
@@ -57,9 +63,11 @@ def models(folder, scenes, assets):
 def images(folder, assets):
     sources = sorted((TESTS / "golden").glob("*.png")) + sorted((TESTS / "gallery").glob("*.png"))
     if assets:
-        sources += sorted(path for path in assets.rglob("*") if path.suffix in (".png", ".jpg", ".jpeg"))
+        sources += sorted(path for path in assets.rglob("*") if path.suffix in (".png", ".jpg", ".jpeg", ".webp"))
     for number, path in enumerate(sources):
         write(folder / "image", f"{number:03}_{path.name}", path.read_bytes())
+    for name, text in WEBP.items():
+        write(folder / "image", f"{name}.webp", base64.b64decode(text))
 
 
 def text_of(body):

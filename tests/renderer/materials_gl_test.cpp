@@ -1,10 +1,12 @@
 // What materials look like and cast, seen in rendered frames.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
 #include "renderer/image/image_codec.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/webp_builder.h"
 
 namespace gnomon {
 namespace {
@@ -138,6 +140,34 @@ TEST(MaterialFrames, G2_TheShadowOfGlassIsScaledByWhatItKeeps) {
       EXPECT_NEAR(mean, transmission, 0.06) << technique;
     }
   }
+}
+
+TEST(MaterialFrames, ATextureInWebpLooksAndCastsLikeTheSamePng) {
+  constexpr int kSide = 8;
+  Bytes rgba;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    for (const int value : {20 + 3 * i, 250 - 2 * i, 128, i % 3 == 0 ? 0 : 200}) {
+      rgba.push_back(static_cast<std::uint8_t>(value));
+    }
+  }
+  const auto frameOf = [&](const Bytes& image, const Json& texture) {
+    testing::GlbBuilder builder = ground(Json::parse(
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"alphaMode":"MASK","doubleSided":true})"));
+    builder.add("images", {{"bufferView", builder.addView(image)}});
+    builder.add("textures", texture);
+    builder.addRoot({{"mesh", 0}, {"translation", {0, 2, 0}}});
+    Json spec = fromAbove(kSun);
+    spec["views"] = {"color", "shadow"};
+    return renderJson(testing::sceneOf(builder), spec.dump());
+  };
+  const auto png = encodePng({kSide, kSide, {"R", "G", "B", "A"}, rgba}, 1);
+  ASSERT_TRUE(png);
+  const Frame expected = frameOf(*png, {{"source", 0}});
+  const Frame frame =
+      frameOf(testing::losslessWebp(kSide, kSide, rgba), {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});
+  for (const std::size_t view : {0u, 1u}) EXPECT_EQ(floatsOf(frame, view), floatsOf(expected, view));
+  const auto [least, most] = std::minmax_element(floatsOf(frame).begin(), floatsOf(frame).end());
+  EXPECT_GT(*most, 2 * *least) << "the texture is seen";
 }
 
 TEST(MaterialFrames, AVariantIsChosenByName) {

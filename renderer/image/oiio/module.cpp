@@ -22,6 +22,6 @@ bool setUpLibrary() noexcept {
 extern "C" __attribute__((visibility("default"))) const gnomon::codec::Table* gnomonImageCodec() {
   using namespace gnomon::codec;
   static const bool ready = setUpLibrary();
-  static const Table table{kTableVersion, encodePng, encodeExr, decode};
+  static const Table table{kTableVersion, encodePng, encodeExr, decode, decodeAlpha};
   return ready ? &table : nullptr;
 }

@@ -16,6 +16,9 @@ bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compre
 bool decode(Format format, const std::uint8_t* encoded, std::size_t size, int width, int height, std::uint8_t* rgba,
             const Sink& message);
 
+bool decodeAlpha(Format format, const std::uint8_t* encoded, std::size_t size, int width, int height,
+                 std::uint8_t* rgba, const Sink& message);
+
 inline bool fail(const Sink& message, const std::string& text) {
   message.accept(message.target, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   return false;

@@ -9,8 +9,9 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kSupported{"EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 15> kSupported{"EXT_mesh_gpu_instancing",
                                                       "EXT_meshopt_compression",
+                                                      "EXT_texture_webp",
                                                       "KHR_animation_pointer",
                                                       "KHR_draco_mesh_compression",
                                                       "KHR_lights_punctual",
@@ -31,7 +32,6 @@ struct Consequence {
 
 /// What happens to a file that uses, but does not require, an extension.
 constexpr std::array kConsequences{
-    Consequence{"EXT_texture_webp", "the fallback image is used; without one, the texture is left out"},
     Consequence{"KHR_materials_anisotropy", "highlights are as wide along the surface as across it"},
     Consequence{"KHR_materials_clearcoat", "surfaces have no coat"},
     Consequence{"KHR_materials_dispersion", "all colors pass alike"},

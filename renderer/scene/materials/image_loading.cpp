@@ -12,14 +12,13 @@ namespace {
 
 using Encoded = std::span<const std::uint8_t>;
 
-bool startsWith(Encoded bytes, std::string_view signature, std::size_t offset = 0) {
-  return bytes.size() >= offset + signature.size() &&
-         std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, signature.size()) == signature;
+bool startsWith(Encoded bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() &&
+         std::string_view(reinterpret_cast<const char*>(bytes.data()), signature.size()) == signature;
 }
 
-/// The name of a known format that is not decoded; empty for PNG, JPEG and bytes of no known format.
+/// The name of a known format that is not decoded; empty for those that are, and for bytes of no known format.
 std::string_view unsupportedFormat(Encoded bytes) {
-  if (startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8)) return "WebP";
   if (startsWith(bytes, "\xABKTX 20\xBB")) return "KTX 2";
   if (startsWith(bytes, "DDS ")) return "DDS";
   return {};

@@ -35,6 +35,8 @@ std::optional<TextureTransform> transformOf(const json& textureInfo) {
 
 int imageOf(const GltfDocument& document, std::size_t texture, Findings& findings) {
   const json& source = document.json.at("textures")[texture];
+  const json* webp = materialExtension(source, "EXT_texture_webp");
+  if (webp && webp->contains("source")) return webp->at("source").get<int>();
   const int image = source.value("source", -1);
   if (image < 0 && materialExtension(source, "KHR_texture_basisu")) {
     findings.unsupported(pointerTo("/textures", texture),

@@ -27,8 +27,8 @@ glm::vec<kSize, float> vectorAt(const nlohmann::json& object, const char* key, g
 int texCoordOf(const nlohmann::json& textureInfo);
 std::optional<TextureTransform> transformOf(const nlohmann::json& textureInfo);
 
-/// The image of a texture in a format of glTF's own; -1 = none. Refuses a texture that has nothing but
-/// KHR_texture_basisu.
+/// The image of a texture: its WebP where it has one, else that in a format of glTF's own; -1 = none. Refuses a texture
+/// that has nothing but KHR_texture_basisu.
 int imageOf(const GltfDocument& document, std::size_t texture, Findings& findings);
 
 /// The factors; textures are left to the caller.

@@ -40,10 +40,11 @@ TEST(ImageSize, ReadsAJpegsFrameHeaderBehindOtherSegments) {
   }
 }
 
-TEST(ImageSize, KnowsTwoSignaturesOnly) {
+TEST(ImageSize, KnowsThreeSignaturesOnly) {
   EXPECT_EQ(codeOf({}), ProblemCode::unsupportedFeature);
   EXPECT_EQ(codeOf({'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0}), ProblemCode::unsupportedFeature);
   EXPECT_EQ(codeOf({0x89, 'P', 'N', 'G'}), ProblemCode::unsupportedFeature);
+  EXPECT_EQ(codeOf({'R', 'I', 'F', 'F', 4, 0, 0, 0, 'W', 'A', 'V', 'E'}), ProblemCode::unsupportedFeature);
 }
 
 TEST(ImageSize, RefusesSizesThatAreNone) {

@@ -2,6 +2,7 @@
 
 #include "renderer/image/image_codec.h"
 #include "tests/renderer/scene/load.h"
+#include "tests/support/webp_builder.h"
 
 namespace gnomon {
 namespace {
@@ -123,28 +124,63 @@ TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
 }
 
 TEST(Materials, LeavesOutTexturesInOtherFormats) {
-  for (const std::string_view signature :
-       {std::string_view("RIFF\0\0\0\0WEBPVP8 ", 16), std::string_view("\xABKTX 20\xBB\r\n\x1A\n", 12)}) {
-    const Scene scene = load(textured(Bytes(signature.begin(), signature.end())));
-    EXPECT_FALSE(onlyMaterial(scene).baseColor);
-    EXPECT_THAT(scene.images, IsEmpty());
-    EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"picture\"")));
-  }
+  const std::string_view signature("\xABKTX 20\xBB\r\n\x1A\n", 12);
+  const Scene scene = load(textured(Bytes(signature.begin(), signature.end())));
+  EXPECT_FALSE(onlyMaterial(scene).baseColor);
+  EXPECT_THAT(scene.images, IsEmpty());
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"picture\"")));
 }
 
 TEST(Materials, UsesTheFallbackOfATexture) {
   testing::GlbBuilder builder = textured(png(2, 2, 10));
   builder.add("images", {{"bufferView", builder.addView(Bytes(16, 0))}});
-  builder.json["extensionsUsed"] = {"EXT_texture_webp"};
-  builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
-  Scene scene = load(builder);
+  builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
+  builder.json["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 1}}}};
+  const Scene scene = load(builder);
   EXPECT_TRUE(onlyMaterial(scene).baseColor);
   EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("fallback")));
+}
 
+TEST(Materials, LeavesOutTexturesWithoutAnImage) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
   builder.json["textures"][0].erase("source");
-  scene = load(builder);
+  const Scene scene = load(builder);
   EXPECT_FALSE(onlyMaterial(scene).baseColor);
-  EXPECT_THAT(scene.summary.warnings, Contains(HasSubstr("texture 0 of the material 0")));
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("texture 0 of the material 0")));
+}
+
+/// The plane whose texture has a PNG as its fallback and this WebP.
+testing::GlbBuilder texturedTwice(const Bytes& webp) {
+  testing::GlbBuilder builder = textured(png(2, 2, 10));
+  builder.add("images", {{"bufferView", builder.addView(webp)}, {"mimeType", "image/webp"}});
+  builder.json["extensionsUsed"] = {"EXT_texture_webp"};
+  builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
+  return builder;
+}
+
+TEST(Materials, WebpWinsOverTheFallback) {
+  const Bytes pixel{200, 100, 50, 25};
+  testing::GlbBuilder builder = texturedTwice(testing::losslessWebp(1, 1, pixel));
+  for (const bool required : {false, true}) {
+    if (required) builder.json["extensionsRequired"] = {"EXT_texture_webp"};
+    if (required) builder.json["textures"][0].erase("source");
+    const Scene scene = load(builder);
+    EXPECT_THAT(scene.summary.warnings, IsEmpty());
+    ASSERT_EQ(scene.images.size(), 1u);
+    EXPECT_EQ(std::get<0>(scene.images[0]->pixels), pixel) << "straight alpha";
+  }
+  builder.json["textures"][0] = {{"source", 0}, {"extensions", {{"EXT_texture_webp", json::object()}}}};
+  EXPECT_EQ(std::get<0>(load(builder).images.at(0)->pixels)[0], 10) << "the extension names no image";
+}
+
+TEST(Materials, RefusesWebpThatIsBrokenAnimatedOrTooLarge) {
+  const Bytes whole = testing::losslessWebp(1, 1, {1, 2, 3, 4});
+  EXPECT_THAT(problemsOf(texturedTwice(Bytes(whole.begin(), whole.end() - 2))),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/1")));
+  EXPECT_THAT(problemsOf(texturedTwice(testing::webpFile(testing::webpChunk("VP8X", testing::webpCanvas(2, 1, 1))))),
+              ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/images/1")));
+  EXPECT_THAT(problemsOf(texturedTwice(testing::losslessWebp(16384, 16384, {}))),
+              ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/1")));
 }
 
 TEST(Materials, LeavesOutTexturesOnFurtherCoordinates) {
