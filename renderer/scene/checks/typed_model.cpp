@@ -35,16 +35,21 @@ json pruned(const json& value) {
   return object;
 }
 
-/// tinygltf refuses indices without a buffer view, as compressed primitives have them.
-void dropCompressedIndices(json& drawn) {
+/// tinygltf refuses indices whose accessor has no buffer view: those of compressed primitives, and those that are zeros
+/// but for sparse values.
+void dropIndices(json& drawn) {
   const auto meshes = drawn.find("meshes");
   if (meshes == drawn.end()) return;
   for (json& mesh : *meshes) {
-    for (json& primitive : mesh["primitives"]) {
-      const auto extensions = primitive.find("extensions");
-      if (extensions != primitive.end() && extensions->contains(kDraco)) {
-        primitive.erase("indices");
-      }
+    for (json& primitive : mesh["primitives"]) primitive.erase("indices");
+  }
+}
+
+void restoreIndices(const json& document, tinygltf::Model& model) {
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    auto& primitives = model.meshes[m].primitives;
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      primitives[p].indices = document.at("meshes")[m].at("primitives")[p].value("indices", -1);
     }
   }
 }
@@ -75,7 +80,7 @@ Result<tinygltf::Model> typedModel(const json& document) {
       const auto member = document.find(key);
       if (member != document.end()) drawn[key] = pruned(*member);
     }
-    dropCompressedIndices(drawn);
+    dropIndices(drawn);
     const std::string text = drawn.dump();
     drawn = nullptr;
     if (text.size() > std::numeric_limits<unsigned int>::max()) return refused;
@@ -90,6 +95,7 @@ Result<tinygltf::Model> typedModel(const json& document) {
                                     "")) {
       return refused;
     }
+    restoreIndices(document, model);
     return model;
   } catch (const std::exception&) {
     return refused;

@@ -153,6 +153,40 @@ TEST(AccessorView, CountsWithoutBytesMeetTheLimits) {
   EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/meshes/0/primitives/0")));
 }
 
+TEST(AccessorView, IndicesWithoutABufferViewAreZerosUnderTheirSparseValues) {
+  testing::GlbBuilder builder = testing::plane(); // six indices
+  const int places = builder.addView(std::vector<std::uint8_t>{4, 5});
+  const int values = builder.addView(std::vector<std::uint16_t>{1, 2});
+  json& primitive = builder.json["meshes"][0]["primitives"][0];
+  json indices = {{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}};
+  primitive["indices"] = builder.add("accessors", indices);
+  EXPECT_THAT(load(builder).primitives, ::testing::IsEmpty()) << "triangles of one corner";
+
+  indices["sparse"] = {{"count", 2},
+                       {"indices", {{"bufferView", places}, {"componentType", 5121}}},
+                       {"values", {{"bufferView", values}}}};
+  primitive["indices"] = builder.add("accessors", indices);
+  const Scene sparse = load(builder);
+  primitive["indices"] = builder.addShortIndices({0, 1, 2});
+  const Scene plain = load(builder);
+  EXPECT_EQ(sparse.indices.size(), 3u);
+  EXPECT_EQ(sparse.indices, plain.indices);
+  EXPECT_EQ(sparse.positions, plain.positions);
+}
+
+TEST(AccessorView, CountsOfIndicesWithoutBytesMeetTheLimits) {
+  testing::GlbBuilder builder = testing::plane();
+  const std::int64_t counts[] = {4'000'000'000, 9'007'199'254'740'991};
+  for (const std::int64_t count : counts) {
+    for (const int mode : {4, 5, 6}) {
+      json& primitive = builder.json["meshes"][0]["primitives"][0];
+      primitive["mode"] = mode;
+      primitive["indices"] = builder.add("accessors", {{"componentType", 5125}, {"count", count}, {"type", "SCALAR"}});
+      EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/meshes/0/primitives/0")));
+    }
+  }
+}
+
 TEST(AccessorView, ManySparseAccessorsOnTheSameBytesMeetTheLimits) {
   testing::GlbBuilder builder = testing::triangle();
   const int indices = builder.addView(std::vector<std::uint8_t>{0, 1, 2});
