@@ -170,6 +170,27 @@ TEST(MaterialFrames, ATextureInWebpLooksAndCastsLikeTheSamePng) {
   EXPECT_GT(*most, 2 * *least) << "the texture is seen";
 }
 
+TEST(MaterialFrames, ATextureIsReadAtTheCoordinatesThatItNames) {
+  const auto png = encodePng({2, 1, {"R", "G", "B"}, Bytes{51, 51, 51, 204, 204, 204}}, 1);
+  ASSERT_TRUE(png);
+  const auto shownWith = [&](int texCoord) {
+    testing::GlbBuilder builder = ground(Json::parse(
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"extensions":{"KHR_materials_unlit":{}}})"));
+    builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = texCoord;
+    builder.add("images", {{"bufferView", builder.addView(*png)}});
+    builder.add("samplers", {{"magFilter", 9728}, {"minFilter", 9728}});
+    builder.add("textures", {{"source", 0}, {"sampler", 0}});
+    for (const int set : {0, 1, 2, 3}) {
+      const std::vector<float> corners(8, set == 2 ? 0.75f : 0.25f); // the bright texel, and the dark one
+      builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_" + std::to_string(set)] =
+          builder.addAccessor(corners, "VEC2", 5126, 4);
+    }
+    return redOf(testing::sceneOf(builder), fromAbove(Json::array()));
+  };
+  for (const int set : {0, 1, 3}) EXPECT_NEAR(shownWith(set), 0.0331f, 2e-3f) << set;
+  EXPECT_NEAR(shownWith(2), 0.6038f, 4e-3f);
+}
+
 TEST(MaterialFrames, AVariantIsChosenByName) {
   testing::GlbBuilder builder = ground(Json::parse(
       R"({"pbrMetallicRoughness":{"baseColorFactor":[0.25,0,0,1]},"extensions":{"KHR_materials_unlit":{}}})"));

@@ -17,13 +17,17 @@ class PrimitiveGathering {
     source_.pointer = std::move(pointer);
   }
 
-  PrimitiveSource gather() {
+  PrimitiveSource gather(std::vector<int> variantMaterials, const std::vector<UvSets>& uvSets) {
     source_.material = primitive_.material;
+    source_.variantMaterials = std::move(variantMaterials);
     source_.mode = primitive_.mode;
     source_.positions = attribute("POSITION", {3});
     source_.normals = attribute("NORMAL", {3});
     source_.tangents = attribute("TANGENT", {4});
-    source_.texCoords = {attribute("TEXCOORD_0", {2}), attribute("TEXCOORD_1", {2})};
+    const UvSets sets = uvSetsOf(source_.material, source_.variantMaterials, uvSets);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      source_.texCoords[i] = attribute("TEXCOORD_" + std::to_string(sets[i]), {2});
+    }
     source_.colors = attribute("COLOR_0", {3, 4});
     gatherJoints();
     for (std::size_t i = 0; i < primitive_.targets.size(); ++i) gatherTarget(i);
@@ -172,8 +176,8 @@ std::size_t PrimitiveSource::triangles() const {
 
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
                                                        const std::vector<AccessorView>& views,
-                                                       const DracoPrimitives& draco, const Limits& limits,
-                                                       Findings& findings) {
+                                                       const DracoPrimitives& draco, const std::vector<UvSets>& uvSets,
+                                                       const Limits& limits, Findings& findings) {
   std::vector<std::vector<PrimitiveSource>> meshes(document.model.meshes.size());
   std::size_t triangles = 0;
   std::size_t vertices = 0;
@@ -191,7 +195,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
       PrimitiveSource source =
           PrimitiveGathering(primitive, views, document, compressed == draco.end() ? nullptr : &compressed->second,
                              pointer, findings)
-              .gather();
+              .gather(variantMaterials(document, m, p), uvSets);
       if (!source.positions) {
         findings.warn("Mesh " + std::to_string(m) + " has a primitive without positions, which is not drawn.");
         continue;
@@ -210,7 +214,6 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
                           std::to_string(ofTriangles ? triangles : vertices));
         return {};
       }
-      source.variantMaterials = variantMaterials(document, m, p);
       if (!morphFits(source, meshes[m], limits, morphed, findings)) return {};
       meshes[m].push_back(std::move(source));
     }

@@ -8,6 +8,7 @@
 #include "protocol/limits.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/geometry/accessor_view.h"
+#include "renderer/scene/materials/uv_sets.h"
 
 namespace gnomon {
 
@@ -27,7 +28,7 @@ struct PrimitiveSource {
   const AccessorView* positions = nullptr;
   const AccessorView* normals = nullptr;
   const AccessorView* tangents = nullptr;
-  std::array<const AccessorView*, 2> texCoords{};
+  std::array<const AccessorView*, 2> texCoords{}; ///< what uv0 and uv1 hold, by the materials' choice
   const AccessorView* colors = nullptr;
   const AccessorView* indices = nullptr;
   std::vector<MorphSource> targets;
@@ -41,11 +42,11 @@ struct PrimitiveSource {
 };
 
 /// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning.
-/// Refuses before anything is allocated when the whole would pass the limits. `views` and `draco` must outlive the
-/// result.
+/// Refuses before anything is allocated when the whole would pass the limits. `uvSets`: one a material. `views` and
+/// `draco` must outlive the result.
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
                                                        const std::vector<AccessorView>& views,
-                                                       const DracoPrimitives& draco, const Limits& limits,
-                                                       Findings& findings);
+                                                       const DracoPrimitives& draco, const std::vector<UvSets>& uvSets,
+                                                       const Limits& limits, Findings& findings);
 
 } // namespace gnomon

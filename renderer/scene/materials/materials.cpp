@@ -36,16 +36,12 @@ MinFilter minFilterOf(int filter) {
   }
 }
 
-std::string numbered(std::size_t index, const std::string& name) {
-  return "material " + std::to_string(index) + (name.empty() ? "" : " " + inQuotes(name));
-}
-
 class MaterialReading {
  public:
   MaterialReading(const GltfDocument& document, std::size_t index, Findings& findings)
       : document_(document),
         json_(document.json.at("materials")[index]),
-        name_(numbered(index, nameOf(json_))),
+        name_(nameOfMaterial(index, nameOf(json_))),
         findings_(findings) {}
 
   Material read() const {
@@ -62,7 +58,6 @@ class MaterialReading {
   /// The texture that a textureInfo names; nothing, and a warning, where it can't be drawn.
   std::optional<TextureUse> texture(const nlohmann::json& info) const {
     const int index = info.at("index").get<int>();
-    const int texCoord = texCoordOf(info);
     const tinygltf::Texture& texture = document_.model.textures[static_cast<std::size_t>(index)];
     const int image = imageOf(document_, static_cast<std::size_t>(index), findings_);
     if (image < 0) {
@@ -70,14 +65,9 @@ class MaterialReading {
                      " has no image in a supported format; it is left out.");
       return std::nullopt;
     }
-    if (texCoord > 1) {
-      findings_.warn("The texture " + std::to_string(index) + " of the " + name_ + " uses TEXCOORD_" +
-                     std::to_string(texCoord) + ", but only 0 and 1 are read; it is left out.");
-      return std::nullopt;
-    }
     TextureUse use;
     use.image = image;
-    use.texCoord = texCoord;
+    use.texCoord = texCoordOf(info);
     use.transform = transformOf(info);
     if (texture.sampler >= 0) {
       const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<std::size_t>(texture.sampler)];
@@ -96,6 +86,10 @@ class MaterialReading {
 };
 
 } // namespace
+
+std::string nameOfMaterial(std::size_t index, const std::string& name) {
+  return "material " + std::to_string(index) + (name.empty() ? "" : " " + inQuotes(name));
+}
 
 std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings) {
   std::vector<Material> materials;

@@ -183,14 +183,6 @@ TEST(Materials, RefusesWebpThatIsBrokenAnimatedOrTooLarge) {
               ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/1")));
 }
 
-TEST(Materials, LeavesOutTexturesOnFurtherCoordinates) {
-  testing::GlbBuilder builder = textured(png(2, 2, 10));
-  builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2;
-  const Scene scene = load(builder);
-  EXPECT_FALSE(onlyMaterial(scene).baseColor);
-  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("TEXCOORD_2")));
-}
-
 TEST(Materials, AnImageSampledInTwoWaysIsTwoTextures) {
   testing::GlbBuilder builder = textured(png(2, 2, 10));
   builder.add("samplers", {{"wrapS", 33071}});
