@@ -43,12 +43,12 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   checkVariantCount(*document, limits, findings);
   const DracoPrimitives draco = decodeDracoPrimitives(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
+
   auto scene = std::make_shared<Scene>();
   scene->materials = readMaterials(*document, findings);
   const std::vector<UvSets> uvSets = placeUvSets(*document, scene->materials, findings);
   const auto sources = gatherMeshes(*document, views, draco, uvSets, limits, findings);
   if (findings.refused()) return findings.takeProblems();
-
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
   const std::vector<BuiltMesh> meshes =
       buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings);
