@@ -9,12 +9,25 @@ in MaskVertex {
 } mask;
 
 #ifdef ALPHA_DITHER
-// As many of each 4 x 4 texels as alpha says, spread evenly (Bayer, "An optimum method for two-level rendition of
-// continuous-tone pictures", ICC 1973): none at alpha 0, all at 1.
+// A well mixed number. (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: pcg.)
+uint hashOf(uint seed) {
+  uint state = seed * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+  return (word >> 22) ^ word;
+}
+
+// Of 4 x 4 texels as many as alpha says, spread evenly (Bayer, "An optimum method for two-level rendition of
+// continuous-tone pictures", ICC 1973): none at alpha 0, all at 1. What lies behind each other lets through the product
+// of its shares, so the patterns of surfaces must not agree: those of a pane's two sides are the two coordinates of one
+// (0, 4, 2)-net (Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals", 1967);
+// and each triangle exchanges, in each 4 x 4 texels, the ranks as a hash says, which leaves them as even.
 float leastAlpha(MaterialData material) {
   uvec2 p = uvec2(gl_FragCoord.xy);
   uint x = p.x ^ p.y;
   uint rank = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
+  if (!gl_FrontFacing) rank ^= (rank & 1u) * 12u ^ (rank & 2u) << 2;
+  uint surface = hashOf(uint(gl_PrimitiveID) + hashOf(uint(casterNode) + hashOf(uint(materialIndex))));
+  rank ^= hashOf((p.x >> 2) + hashOf((p.y >> 2) + surface)) >> 28;
   return (float(rank) + 0.5) / 16.0;
 }
 #else

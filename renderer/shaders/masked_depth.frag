@@ -1,8 +1,10 @@
 #include "shared/frame_types.h"
+#if defined(CASTER_NODE) || defined(ALPHA_DITHER)
+flat in int casterNode;
+#endif
 #include "common_alpha_mask.glsl"
 
 #ifdef CASTER_NODE
-flat in int casterNode;
 layout(location = 0) out int node;
 #endif
 

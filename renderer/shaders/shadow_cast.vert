@@ -4,7 +4,7 @@
 
 layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromAnchored;
 
-#ifdef CASTER_NODE
+#if defined(CASTER_NODE) || defined(ALPHA_DITHER)
 layout(location = GNOMON_NODE) in vec4 nodeRow;
 flat out int casterNode;
 #endif
@@ -12,7 +12,7 @@ flat out int casterNode;
 void main() {
   gl_Position = clipFromAnchored * vec4(relativeFromLocal(position), 1.0);
   passMask();
-#ifdef CASTER_NODE
+#if defined(CASTER_NODE) || defined(ALPHA_DITHER)
   casterNode = int(nodeRow.w);
 #endif
 }
