@@ -92,17 +92,23 @@ Receiver receiverAt(const TracedScene::Tree& tree, const glm::dvec3& eye, const 
   const double side = glm::dot(normal, glm::dvec3(point.normal)) < 0 ? -1.0 : 1.0;
   // The ray began at the eye, or where it came near the scene.
   const double sight = std::min(glm::length(point.position - eye), glm::length(2.0 * tree.bounds.halfExtent()));
-  return {point.position, side * normal, triangle.largest(), 4 * kHalfUnit * sight, point.instance, point.triangle};
+  return {point.position, side * normal, triangle, 4 * kHalfUnit * sight, point.instance, point.triangle};
 }
 
 std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
   const Receiver& from = ray.from;
-  const glm::dvec3 largest = glm::max(from.largest, caster.largest());
+  const glm::dvec3 largest = glm::max(from.corners.largest(), caster.largest());
   const double height =
       std::max({glm::dot(from.normal, caster.a - from.position), glm::dot(from.normal, caster.b - from.position),
                 glm::dot(from.normal, caster.c - from.position)});
   if (height <= roundingAlong(from.normal, largest) + from.unsure) return std::nullopt;
   const glm::dvec3 normal = unitAlong(caster.area());
+  // The plane of a small triangle is known no farther than about it: of a large one beside it, the plane tells.
+  const auto off = [&](const glm::dvec3& corner) { return std::abs(glm::dot(normal, corner - caster.a)); };
+  if (std::max({off(from.corners.a), off(from.corners.b), off(from.corners.c)}) <=
+      roundingAlong(normal, largest) + from.unsure) {
+    return std::nullopt;
+  }
   const double across = glm::dot(normal, ray.direction);
   const double away = glm::dot(normal, caster.a - from.position);
   const double distance = away / across;

@@ -14,9 +14,9 @@ namespace gnomon {
 /// A point of a triangle as the start of rays.
 struct Receiver {
   glm::dvec3 position{0};
-  glm::dvec3 normal{0};  ///< unit length, on the eye's side; zero where the triangle has no area
-  glm::dvec3 largest{0}; ///< of the triangle's coordinates
-  double unsure = 0;     ///< metres: of two surfaces as close as this, the ray that found it may have met either
+  glm::dvec3 normal{0}; ///< unit length, on the eye's side; zero where the triangle has no area
+  Triangle corners;     ///< of the triangle
+  double unsure = 0;    ///< metres: of two surfaces as close as this, the ray that found it may have met either
   std::uint32_t instance = kNoSurface;
   std::uint32_t triangle = 0;
 };
@@ -45,9 +45,9 @@ std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const 
 std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const ShadowRay> rays);
 
 /// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
-/// it does not rise over the plane of the receiver, or lies behind its point, or beyond the light. What vertices and
-/// the camera's rays lose by being rounded decides for light: neither a coplanar triangle nor a neighbour in a flat
-/// mesh casts.
+/// it does not rise over the plane of the receiver, or the receiver's triangle lies in its plane, or it lies behind
+/// the receiver's point, or beyond the light. What vertices and the camera's rays lose by being rounded decides for
+/// light: neither a coplanar triangle nor a neighbour in a flat mesh casts.
 std::optional<double> meets(const ShadowRay& ray, const Triangle& caster);
 
 } // namespace gnomon

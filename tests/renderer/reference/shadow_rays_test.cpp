@@ -10,7 +10,7 @@ ShadowRay slanted(double length) {
   ShadowRay ray;
   ray.from.position = {10, 0, 0};
   ray.from.normal = {0, 1, 0};
-  ray.from.largest = {10, 0, 10};
+  ray.from.corners = {{9, 0, -10}, {9, 0, 10}, {10, 0, 0}};
   ray.direction = glm::normalize(glm::dvec3(1, 1, 0));
   ray.length = length;
   return ray;
@@ -36,9 +36,29 @@ TEST(ShadowRays, PassWhatDoesNotRiseOverTheReceiversPlane) {
   // Heights are known to within the rounding of heights: those of a level floor are exact, however far it reaches.
   EXPECT_TRUE(meets(slanted(kFar), {{9, 1e-9, -5}, {9, 1e-9, 5}, {1e7, 2e-9, 0}}));
   ShadowRay raised = slanted(kFar);
-  raised.from.position.y = raised.from.largest.y = 1;
+  raised.from.position.y = 1;
+  raised.from.corners = {{9, 1, -10}, {9, 1, 10}, {10, 1, 0}};
   EXPECT_FALSE(meets(raised, {{9, 1 + 1e-7, -5}, {9, 1, 5}, {12, 1, 0}}));
   EXPECT_TRUE(meets(raised, {{9, 1 + 1e-6, -5}, {9, 1, 5}, {12, 1, 0}}));
+}
+
+TEST(ShadowRays, PassTheLargeSheetInWhosePlaneASmallReceiverLies) {
+  // A strip 1 cm wide of a floor 1 m over the anchor, one of its corners off by a rounding: 10 m on, its plane is off
+  // by a thousand times as much.
+  constexpr double kRounding = 0x1p-24;
+  ShadowRay ray = slanted(kFar);
+  ray.from.position = {9.995, 1, 0};
+  ray.from.corners = {{10, 1 + kRounding, 0}, {9.99, 1, 0.1}, {9.99, 1, -0.1}};
+  ray.from.normal = unitAlong(ray.from.corners.area());
+  ray.from.normal *= ray.from.normal.y < 0 ? -1.0 : 1.0;
+  const Triangle sheet{{0, 1, -10}, {0, 1, 10}, {20, 1, 0}};
+  EXPECT_GT(glm::dot(ray.from.normal, sheet.a - ray.from.position), 1e-5) << "it rises over the receiver's plane";
+  const auto raised = [&](double height) {
+    return Triangle{{0, 1 + height, -10}, {0, 1 + height, 10}, {20, 1 + height, 0}};
+  };
+  EXPECT_FALSE(meets(ray, raised(1e-9)));
+  EXPECT_FALSE(meets(ray, raised(kRounding)));
+  EXPECT_TRUE(meets(ray, raised(1e-6)));
 }
 
 TEST(ShadowRays, PassTrianglesAlongTheirWayOrWithoutAnArea) {
