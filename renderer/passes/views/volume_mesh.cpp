@@ -151,9 +151,10 @@ void addCaps(const Scene& scene, const VolumeCaster& caster, const Instance& ins
              std::span<const std::int8_t> turns, VolumeMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const std::vector<std::uint8_t> beyond = beyondFar(scene, primitive, instance, camera);
+  VolumeEnds& ends = caster.caps == VolumeCaps::turnedAway ? mesh.awayCaps : mesh.caps;
   for (const int side : {0, 1}) {
-    IndexedDraws& caps = mesh.caps[side];
-    IndexedDraws& capsBeyond = mesh.capsBeyond[side];
+    IndexedDraws& caps = ends.sides[side];
+    IndexedDraws& capsBeyond = ends.beyond[side];
     const std::size_t first = caps.indices.size();
     const std::size_t firstBeyond = capsBeyond.indices.size();
     for (std::size_t t = 0; t < turns.size(); ++t) {

@@ -18,15 +18,20 @@ struct IndexedDraws {
   std::vector<gl::DrawCommand> commands;
 };
 
+/// What closes volumes towards the light: the casters' own triangles, in their own order, over the scene's positions.
+/// Those whose corners go round against the clock seen from the light, and the others.
+struct VolumeEnds {
+  IndexedDraws sides[2];
+  IndexedDraws beyond[2]; ///< those of them that reach behind the camera's far plane
+};
+
 /// The shadow volumes of one light: closed, front faces outside. They reach to infinity.
 struct VolumeMesh {
   /// w < 0: in the primitive's own space; else homogeneous and relative to the eye.
   std::vector<glm::vec4> places;
-  IndexedDraws walls; ///< from the silhouettes away from the light, and what closes them there; over `places`
-  /// What closes them towards the light: the casters' own triangles, in their own order, over the scene's positions.
-  /// Those whose corners go round against the clock seen from the light, and the others.
-  IndexedDraws caps[2];
-  IndexedDraws capsBeyond[2]; ///< those of them that reach behind the camera's far plane
+  IndexedDraws walls;  ///< from the silhouettes away from the light, and what closes them there; over `places`
+  VolumeEnds caps;     ///< lit surfaces may lie in their planes
+  VolumeEnds awayCaps; ///< of solids, turned away from the light: what touches them is in the dark
 };
 
 /// Everitt and Kilgard, "Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002; for

@@ -48,7 +48,8 @@ UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool wei
 
 /// A surface in the plane of a caster is not in the caster's shadow, but other corners round its depths otherwise. So
 /// near ends are drawn this much farther from the eye: corners snap to steps of 1/256 pixel, by half of one in either
-/// triangle, along both axes. What this takes out of a volume lies right behind the caster.
+/// triangle, along both axes. What this takes out of a volume lies right behind the caster. What is turned away on a
+/// solid has no lit surface in its plane, and keeps its place: a pane a hair behind another is in its shadow.
 constexpr gl::DepthOffset kBehindTheirPlane{-0.0078125f, -2.0f};
 
 /// Draws parts of volumes into the stencil: +1 for each back face behind the surface, -1 for each front face. Equal
@@ -76,18 +77,27 @@ class VolumeDraws {
 
   /// The near ends are drawn as the survey drew them, bit by bit: what it clipped is clipped. Before the near plane,
   /// nothing counts; behind the far one, `beyond` draws the rest.
-  Status caps(const IndexedDraws& caps, gl::FrontFace frontFace, bool beyond) {
+  Status caps(const VolumeEnds& ends, const gl::DepthOffset& offset) {
+    for (const int side : {0, 1}) {
+      const auto frontFace = side == 0 ? gl::FrontFace::counterClockwise : gl::FrontFace::clockwise;
+      if (const Status done = capsOf(ends.sides[side], frontFace, offset, false); !done) return done;
+      if (const Status done = capsOf(ends.beyond[side], frontFace, offset, true); !done) return done;
+    }
+    return Done{};
+  }
+
+ private:
+  Status capsOf(const IndexedDraws& caps, gl::FrontFace frontFace, const gl::DepthOffset& offset, bool beyond) {
     gl::ProgramSource program = depthProgram("survey.vert", nullptr);
     if (beyond) program.defines.emplace_back("BEYOND_FAR");
     gl::PipelineState state = state_;
     state.frontFace = frontFace;
-    state.depthOffset = kBehindTheirPlane;
+    state.depthOffset = offset;
     state.depthClamp = beyond;
     state.clipDistances = beyond ? 1 : 0;
     return draw(caps, {{{&inputs_.gpu.positions, sizeof(glm::vec3), 0, 0}, instances()}}, false, program, state);
   }
 
- private:
   gl::VertexStream instances() const { return {&inputs_.instances, sizeof(shared::InstanceData), 0, 1}; }
 
   Status draw(const IndexedDraws& draws, const Streams& streams, bool weighted, const gl::ProgramSource& source,
@@ -112,11 +122,8 @@ Status countVolumes(const PassInputs& inputs, const VolumeCounts& counts, const 
   bindInputs(inputs);
   VolumeDraws draws(inputs, counts, drawn);
   if (const Status done = draws.walls(mesh); !done) return done;
-  for (const int side : {0, 1}) {
-    const auto frontFace = side == 0 ? gl::FrontFace::counterClockwise : gl::FrontFace::clockwise;
-    if (const Status done = draws.caps(mesh.caps[side], frontFace, false); !done) return done;
-    if (const Status done = draws.caps(mesh.capsBeyond[side], frontFace, true); !done) return done;
-  }
+  if (const Status done = draws.caps(mesh.caps, kBehindTheirPlane); !done) return done;
+  if (const Status done = draws.caps(mesh.awayCaps, gl::DepthOffset{}); !done) return done;
   return Done{};
 }
 

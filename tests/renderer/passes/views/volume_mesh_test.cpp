@@ -79,11 +79,13 @@ std::map<std::pair<Place, Place>, int> balance(const Model& model, const VolumeM
     addTriangle(placeOf(mesh.places[walls[i]]), placeOf(mesh.places[walls[i + 1]]), placeOf(mesh.places[walls[i + 2]]));
   }
   const auto corner = [&](std::uint32_t vertex) { return placeOf(glm::vec4(model.scene.positions[vertex], -1.0f)); };
-  for (const int side : {0, 1}) {
-    const auto& caps = mesh.caps[side].indices;
-    for (std::size_t i = 0; i < caps.size(); i += 3) {
-      const std::size_t second = side == 0 ? 1 : 2; // those turned the other way bound the volume from behind
-      addTriangle(corner(caps[i]), corner(caps[i + second]), corner(caps[i + 3 - second]));
+  for (const VolumeEnds* ends : {&mesh.caps, &mesh.awayCaps}) {
+    for (const int side : {0, 1}) {
+      const auto& caps = ends->sides[side].indices;
+      for (std::size_t i = 0; i < caps.size(); i += 3) {
+        const std::size_t second = side == 0 ? 1 : 2; // those turned the other way bound the volume from behind
+        addTriangle(corner(caps[i]), corner(caps[i + second]), corner(caps[i + 3 - second]));
+      }
     }
   }
   return sums;
@@ -122,16 +124,17 @@ TEST(VolumeMesh, OnlyTheTrianglesThatThrowItBoundAVolume) {
   const glm::dvec4 light(-1, -1, -1, 1); // sees the three faces at the origin, not the slanted one
   const Model model = modelOf(kCorners, kTetrahedron, true);
   const VolumeMesh to = meshOf(model, cameraAt({9, 9, 9}), light, VolumeCaps::turnedTo);
-  EXPECT_EQ(to.caps[0].indices, (std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 2, 0, 3}));
-  EXPECT_TRUE(to.caps[1].indices.empty());
+  EXPECT_EQ(to.caps.sides[0].indices, (std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 2, 0, 3}));
+  EXPECT_TRUE(to.caps.sides[1].indices.empty());
   const VolumeMesh away = meshOf(model, cameraAt({9, 9, 9}), light, VolumeCaps::turnedAway);
-  EXPECT_TRUE(away.caps[0].indices.empty());
-  EXPECT_EQ(away.caps[1].indices, (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_TRUE(away.caps.sides[1].indices.empty());
+  EXPECT_TRUE(away.awayCaps.sides[0].indices.empty());
+  EXPECT_EQ(away.awayCaps.sides[1].indices, (std::vector<std::uint32_t>{1, 2, 3}));
   EXPECT_EQ(away.walls.indices.size(), 3u * (3 * 2 + 1)) << "three walls, and the far end";
   glm::dmat4 mirror(1.0);
   mirror[0][0] = -1;
   const Model mirrored = modelOf(kCorners, kTetrahedron, true, mirror);
-  EXPECT_EQ(meshOf(mirrored, cameraAt({9, 9, 9}), {1, -1, -1, 1}, VolumeCaps::turnedAway).caps[0].indices,
+  EXPECT_EQ(meshOf(mirrored, cameraAt({9, 9, 9}), {1, -1, -1, 1}, VolumeCaps::turnedAway).awayCaps.sides[0].indices,
             (std::vector<std::uint32_t>{1, 2, 3}));
 }
 
@@ -164,7 +167,7 @@ TEST(VolumeMesh, WhatReachesBehindTheFarPlaneIsThereTwice) {
   const auto beyond = [&](double far) {
     camera.far = far;
     const VolumeMesh mesh = meshOf(model, camera, {0.3, 0.2, 5, 1}, VolumeCaps::all);
-    return mesh.capsBeyond[0].indices.size() + mesh.capsBeyond[1].indices.size();
+    return mesh.caps.beyond[0].indices.size() + mesh.caps.beyond[1].indices.size();
   };
   EXPECT_EQ(beyond(std::numeric_limits<double>::infinity()), 0u);
   EXPECT_EQ(beyond(6), 0u);
