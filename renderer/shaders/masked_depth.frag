@@ -2,6 +2,9 @@
 #if defined(CASTER_NODE) || defined(ALPHA_DITHER)
 flat in int casterNode;
 #endif
+#ifdef ALPHA_DITHER
+flat in int provokingVertex;
+#endif
 #include "common_alpha_mask.glsl"
 
 #ifdef CASTER_NODE

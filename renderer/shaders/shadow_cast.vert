@@ -8,11 +8,17 @@ layout(location = GNOMON_LIGHT_CLIP) uniform mat4 clipFromAnchored;
 layout(location = GNOMON_NODE) in vec4 nodeRow;
 flat out int casterNode;
 #endif
+#ifdef ALPHA_DITHER
+flat out int provokingVertex; // which triangle it is, whatever else is drawn
+#endif
 
 void main() {
   gl_Position = clipFromAnchored * vec4(relativeFromLocal(position), 1.0);
   passMask();
 #if defined(CASTER_NODE) || defined(ALPHA_DITHER)
   casterNode = int(nodeRow.w);
+#endif
+#ifdef ALPHA_DITHER
+  provokingVertex = gl_VertexID;
 #endif
 }
