@@ -110,7 +110,7 @@ std::string headOf(const RendererInfo& info, const nlohmann::json& spec, const A
          ", antialiasing none, " + std::to_string(sums.scenes()) +
          " scenes, each as a whole in view under one sun, maps of 4 x 1024. Shares are of all receivers of all scenes "
          "together; times are medians over the scenes of a whole warm frame, tiles drawn anew, as multiples of the "
-         "hard map's. Displacements are medians over the scenes.\n\n";
+         "hard map's, and the largest multiple of a scene. Displacements are medians over the scenes.\n\n";
 }
 
 } // namespace

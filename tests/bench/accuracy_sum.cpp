@@ -84,17 +84,17 @@ EvaluationReport AccuracySums::report() const {
 
 std::string AccuracySums::table(const EvaluationReport& all) const {
   std::string out =
-      "| shadows | x hard map | misclassified % | false shadow % | false lit % | interior % | worst scene % | edge, px "
-      "| "
-      "scenes refused |\n|---|---|---|---|---|---|---|---|---|\n";
+      "| shadows | x hard map | at most x | misclassified % | false shadow % | false lit % | interior % "
+      "| worst scene % | edge, px | scenes refused |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const EvaluationRow& row = all.rows[i];
     if (!row.metrics) continue;
     const char* const mark = row.pareto.value_or(false) ? "**" : "";
     out += "| " + (mark + sums_[i].name) + mark + " | " + rounded(*row.milliseconds, 2) + " | " +
-           percent(row.metrics->misclassified) + " | " + percent(row.metrics->falseShadow) + " | " +
-           percent(row.metrics->falseLit) + " | " + percent(row.metrics->interior) + " | " + percent(sums_[i].worst) +
-           " | " + rounded(median(sums_[i].displacements), 2) + " | " + std::to_string(sums_[i].refused) + " |\n";
+           rounded(std::ranges::max(sums_[i].ratios), 2) + " | " + percent(row.metrics->misclassified) + " | " +
+           percent(row.metrics->falseShadow) + " | " + percent(row.metrics->falseLit) + " | " +
+           percent(row.metrics->interior) + " | " + percent(sums_[i].worst) + " | " +
+           rounded(median(sums_[i].displacements), 2) + " | " + std::to_string(sums_[i].refused) + " |\n";
   }
   return out;
 }
