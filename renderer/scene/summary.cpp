@@ -45,6 +45,7 @@ std::uint64_t bytesIn(const Motion& motion) {
   for (const MovingView& view : motion.views) {
     bytes += bytesIn(view.placements) + bytesIn(view.cameras) + bytesIn(view.lights);
   }
+  if (motion.properties) bytes += motion.properties->dump().size();
   return bytes;
 }
 
