@@ -1,7 +1,6 @@
 #include "renderer/scene/animation/animation_targets.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <utility>
 
@@ -27,20 +26,18 @@ const std::string* pointerOf(const json& target) {
   return extension == nullptr ? nullptr : (*extension)["pointer"].get_ptr<const std::string*>();
 }
 
-/// "/nodes/3/scale"; the index has no sign and no leading zero (RFC 6901).
+/// "/nodes/3/scale".
 std::optional<NodeTarget> nodeAt(std::string_view pointer, std::size_t nodes) {
   constexpr std::string_view kNodes = "/nodes/";
   if (!pointer.starts_with(kNodes)) return std::nullopt;
   pointer.remove_prefix(kNodes.size());
   const std::size_t slash = std::min(pointer.find('/'), pointer.size());
-  std::size_t node = 0;
-  const auto [end, error] = std::from_chars(pointer.data(), pointer.data() + slash, node);
-  const bool isIndex = error == std::errc() && end == pointer.data() + slash && (pointer[0] != '0' || slash == 1);
-  if (!isIndex || node >= nodes || slash == pointer.size()) return std::nullopt;
+  const auto node = indexIn(pointer.substr(0, slash), nodes);
+  if (!node || slash == pointer.size()) return std::nullopt;
   pointer.remove_prefix(slash + 1);
-  if (pointer == "extensions/KHR_node_visibility/visible") return NodeTarget{node, ChannelPath::visibility};
+  if (pointer == "extensions/KHR_node_visibility/visible") return NodeTarget{*node, ChannelPath::visibility};
   const auto path = pathOf(pointer);
-  return path ? std::optional(NodeTarget{node, *path}) : std::nullopt;
+  return path ? std::optional(NodeTarget{*node, *path}) : std::nullopt;
 }
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "renderer/scene/animation/property_target.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "renderer/scene/checks/gltf_fields.h"
+#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
@@ -25,12 +25,9 @@ const GltfField* fieldOf(std::string_view owner, std::string_view key) {
   return found == fields.end() ? nullptr : &*found;
 }
 
-/// The element of an array; its index has no sign and no leading zero (RFC 6901).
-const json* elementOf(const json& array, std::string_view index) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), number);
-  const bool isIndex = error == std::errc() && end == index.data() + index.size() && (index[0] != '0' || index == "0");
-  return isIndex && number < array.size() ? &array[number] : nullptr;
+const json* elementOf(const json& array, std::string_view token) {
+  const auto index = indexIn(token, array.size());
+  return index ? &array[*index] : nullptr;
 }
 
 /// Takes the first token off a pointer.
@@ -39,11 +36,6 @@ std::string_view nextToken(std::string_view& pointer) {
   const std::string_view token = pointer.substr(0, pointer.find('/'));
   pointer.remove_prefix(token.size());
   return token;
-}
-
-const json* memberOf(const json& object, std::string_view key) {
-  const auto member = object.find(key);
-  return member == object.end() ? nullptr : &*member;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "renderer/scene/decode/draco_stream.h"
+#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
@@ -11,11 +12,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
-
-bool isCompressed(const json& primitive) {
-  const auto extensions = primitive.find("extensions");
-  return extensions != primitive.end() && extensions->contains(kExtension);
-}
 
 const char* nameOf(ComponentType type) {
   switch (type) {
@@ -143,7 +139,7 @@ DracoPrimitives decodeDracoPrimitives(const GltfDocument& document, const Limits
     const tinygltf::Mesh& mesh = document.model.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const json& source = document.json["meshes"][m]["primitives"][p];
-      if (!isCompressed(source)) continue;
+      if (extensionOf(source, kExtension) == nullptr) continue;
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
       auto primitive =
           PrimitiveDecoding(document, mesh.primitives[p], source, pointer, findings).decode(limits, budget);

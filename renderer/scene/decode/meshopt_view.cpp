@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "renderer/scene/gltf_json.h"
+
 namespace gnomon {
 
 namespace {
@@ -12,10 +14,8 @@ constexpr const char* kNames[] = {"EXT_meshopt_compression", "KHR_meshopt_compre
 
 /// The name under which an object has the extension; nullptr if it has none.
 const char* nameIn(const json& object) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end()) return nullptr;
   for (const char* name : kNames) {
-    if (extensions->contains(name)) return name;
+    if (extensionOf(object, name) != nullptr) return name;
   }
   return nullptr;
 }

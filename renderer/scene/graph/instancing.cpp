@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "renderer/scene/gltf_json.h"
+
 namespace gnomon {
 
 namespace {
@@ -52,10 +54,10 @@ std::optional<glm::dmat4> Instancing::nodeFromCopy(std::size_t copy) const {
 std::optional<Instancing> instancingOf(const GltfDocument& document, const std::vector<AccessorView>& views,
                                        std::size_t node, Findings& findings) {
   const json& source = document.json["nodes"][node];
-  const auto extensions = source.find("extensions");
-  if (extensions == source.end() || !extensions->contains("EXT_mesh_gpu_instancing")) return std::nullopt;
+  const json* extension = extensionOf(source, "EXT_mesh_gpu_instancing");
+  if (extension == nullptr) return std::nullopt;
   const std::string pointer = pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
-  const json& attributes = (*extensions)["EXT_mesh_gpu_instancing"]["attributes"];
+  const json& attributes = (*extension)["attributes"];
   if (attributes.empty()) {
     findings.invalid(pointer, "The instancing names no attribute.");
     return std::nullopt;

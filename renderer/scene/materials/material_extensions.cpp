@@ -6,22 +6,15 @@ namespace gnomon {
 
 using nlohmann::json;
 
-const json* materialExtension(const json& object, const char* name) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end()) return nullptr;
-  const auto found = extensions->find(name);
-  return found == extensions->end() ? nullptr : &*found;
-}
-
 int texCoordOf(const json& textureInfo) {
-  const json* transform = materialExtension(textureInfo, "KHR_texture_transform");
+  const json* transform = extensionOf(textureInfo, "KHR_texture_transform");
   if (transform && transform->contains("texCoord")) return transform->at("texCoord").get<int>();
   return textureInfo.value("texCoord", 0);
 }
 
 /// The extension's matrix: translation * rotation * scale, with v downwards.
 std::optional<TextureTransform> transformOf(const json& textureInfo) {
-  const json* extension = materialExtension(textureInfo, "KHR_texture_transform");
+  const json* extension = extensionOf(textureInfo, "KHR_texture_transform");
   if (!extension) return std::nullopt;
   const glm::vec2 scale = vectorAt<2>(*extension, "scale", glm::vec2(1));
   const double rotation = extension->value("rotation", 0.0);
@@ -35,10 +28,10 @@ std::optional<TextureTransform> transformOf(const json& textureInfo) {
 
 int imageOf(const GltfDocument& document, std::size_t texture, Findings& findings) {
   const json& source = document.json.at("textures")[texture];
-  const json* webp = materialExtension(source, "EXT_texture_webp");
+  const json* webp = extensionOf(source, "EXT_texture_webp");
   if (webp && webp->contains("source")) return webp->at("source").get<int>();
   const int image = source.value("source", -1);
-  if (image < 0 && materialExtension(source, "KHR_texture_basisu")) {
+  if (image < 0 && extensionOf(source, "KHR_texture_basisu")) {
     findings.unsupported(pointerTo("/textures", texture),
                          "The texture has only a KTX 2 image (KHR_texture_basisu), which is not supported, and no "
                          "fallback image.");

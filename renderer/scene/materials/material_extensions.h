@@ -6,19 +6,17 @@
 
 #include "renderer/scene/findings.h"
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/gltf_json.h"
 #include "renderer/scene/scene.h"
 
 /// What extensions say of a material or of a texture's use. The JSON has passed the schema check.
 namespace gnomon {
 
-/// Of a material or a textureInfo; nullptr = it has none of that name.
-const nlohmann::json* materialExtension(const nlohmann::json& object, const char* name);
-
 /// The numbers of a member; `usual` where there is none.
 template <int kSize>
 glm::vec<kSize, float> vectorAt(const nlohmann::json& object, const char* key, glm::vec<kSize, float> usual) {
-  const auto member = object.find(key);
-  if (member == object.end()) return usual;
+  const nlohmann::json* member = memberOf(object, key);
+  if (member == nullptr) return usual;
   for (int i = 0; i < kSize; ++i) usual[i] = (*member)[static_cast<std::size_t>(i)].template get<float>();
   return usual;
 }

@@ -12,14 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-const json* memberOf(const json* object, const char* key) {
-  if (object == nullptr) return nullptr;
-  const auto member = object->find(key);
-  return member == object->end() ? nullptr : &*member;
-}
-
 float numberAt(const json* object, const char* key, float usual) {
-  const json* member = memberOf(object, key);
+  const json* member = object == nullptr ? nullptr : memberOf(*object, key);
   return member == nullptr ? usual : member->get<float>();
 }
 
@@ -45,13 +39,13 @@ void readAlpha(const json& source, const std::string& name, Material& material, 
 Material readFactors(const json& source, const std::string& name, Findings& findings) {
   Material material;
   material.name = nameOf(source);
-  if (const json* pbr = memberOf(&source, "pbrMetallicRoughness")) {
+  if (const json* pbr = memberOf(source, "pbrMetallicRoughness")) {
     material.baseColorFactor = vectorAt<4>(*pbr, "baseColorFactor", glm::vec4(1));
     material.metallicFactor = numberAt(pbr, "metallicFactor", 1);
     material.roughnessFactor = numberAt(pbr, "roughnessFactor", 1);
   }
-  material.normalScale = numberAt(memberOf(&source, "normalTexture"), "scale", 1);
-  material.occlusionStrength = numberAt(memberOf(&source, "occlusionTexture"), "strength", 1);
+  material.normalScale = numberAt(memberOf(source, "normalTexture"), "scale", 1);
+  material.occlusionStrength = numberAt(memberOf(source, "occlusionTexture"), "strength", 1);
   material.emissiveFactor = emissiveOf(source);
   material.doubleSided = source.value("doubleSided", false);
   readAlpha(source, name, material, findings);
@@ -67,11 +61,15 @@ Material readFactors(const json& source, const std::string& name, Findings& find
 
 std::array<const json*, 5> textureInfosOf(const json& source) {
   const json* glossy = extensionOf(source, "KHR_materials_pbrSpecularGlossiness");
-  const json* workflow = glossy != nullptr ? glossy : memberOf(&source, "pbrMetallicRoughness");
-  return {memberOf(workflow, glossy != nullptr ? "diffuseTexture" : "baseColorTexture"),
-          memberOf(workflow, glossy != nullptr ? "specularGlossinessTexture" : "metallicRoughnessTexture"),
-          memberOf(&source, "normalTexture"), memberOf(&source, "occlusionTexture"),
-          memberOf(&source, "emissiveTexture")};
+  const json* pbr = memberOf(source, "pbrMetallicRoughness");
+  const json* color = glossy != nullptr ? memberOf(*glossy, "diffuseTexture")
+                      : pbr != nullptr  ? memberOf(*pbr, "baseColorTexture")
+                                        : nullptr;
+  const json* surface = glossy != nullptr ? memberOf(*glossy, "specularGlossinessTexture")
+                        : pbr != nullptr  ? memberOf(*pbr, "metallicRoughnessTexture")
+                                          : nullptr;
+  return {color, surface, memberOf(source, "normalTexture"), memberOf(source, "occlusionTexture"),
+          memberOf(source, "emissiveTexture")};
 }
 
 Material repainted(const Material& loaded, const json& source) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <malloc.h>
 #include <nlohmann/json.hpp>
@@ -117,45 +118,53 @@ void expectNothingKept(std::size_t before, std::size_t largest) {
   EXPECT_LE(after, before + before / 20 + largest / 20) << "bytes held before, and after";
 }
 
-TEST(BrokenFiles, EachModelCutAt200Places) {
-  const std::vector<Model> all = models();
-  if (all.empty()) GTEST_SKIP() << "no models in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
+/// What `breakModel` does to each model: answered soundly, and nothing of it is kept.
+void expectSurvived(const std::vector<Model>& all, const std::function<void(const Model&, Answers&)>& breakModel) {
   const Limits limits = quickLimits();
   for (const Model& model : all) {
     (void)loadGltf(model.bundle, limits);
     const std::size_t before = heldBytes();
     Answers answers;
-    for (std::size_t cut = 0; cut < kCuts; ++cut) {
-      answers.add(cutShort(model.bundle, cut), model.name);
-    }
+    breakModel(model, answers);
     expectNothingKept(before, model.bundle.model.size());
     std::cout << model.name << ": " << answers.refused << " refused, " << answers.loaded << " loaded" << std::endl;
   }
 }
 
-TEST(BrokenFiles, EachModelWith1000BytesChanged) {
-  const std::vector<Model> all = models();
-  if (all.empty()) GTEST_SKIP() << "no models in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
-  const Limits limits = quickLimits();
-  for (const Model& model : all) {
-    (void)loadGltf(model.bundle, limits);
-    const std::size_t before = heldBytes();
-    std::mt19937 random(20);
-    Answers answers;
-    const int together = model.bundle.model.size() < kLargeModel ? 1 : 10;
-    for (int file = 0; file < kFlips / together; ++file) {
-      SceneBundle bundle = model.bundle;
-      std::vector<Bytes*> parts{&bundle.model};
-      for (auto& [name, content] : bundle.files) parts.push_back(&content);
-      for (int flip = 0; flip < together; ++flip) {
-        Bytes& part = *parts[random() % parts.size()];
-        if (!part.empty()) part[random() % part.size()] ^= static_cast<std::uint8_t>(1 + random() % 255);
-      }
-      answers.add(bundle, model.name);
+void cutEverywhere(const Model& model, Answers& answers) {
+  for (std::size_t cut = 0; cut < kCuts; ++cut) answers.add(cutShort(model.bundle, cut), model.name);
+}
+
+void changeBytes(const Model& model, Answers& answers) {
+  std::mt19937 random(20);
+  const int together = model.bundle.model.size() < kLargeModel ? 1 : 10;
+  for (int file = 0; file < kFlips / together; ++file) {
+    SceneBundle bundle = model.bundle;
+    std::vector<Bytes*> parts{&bundle.model};
+    for (auto& [name, content] : bundle.files) parts.push_back(&content);
+    for (int flip = 0; flip < together; ++flip) {
+      Bytes& part = *parts[random() % parts.size()];
+      if (!part.empty()) part[random() % part.size()] ^= static_cast<std::uint8_t>(1 + random() % 255);
     }
-    expectNothingKept(before, model.bundle.model.size());
-    std::cout << model.name << ": " << answers.refused << " refused, " << answers.loaded << " loaded" << std::endl;
+    answers.add(bundle, model.name);
   }
+}
+
+class BrokenFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (all_.empty()) GTEST_SKIP() << "no models in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
+  }
+
+  const std::vector<Model> all_ = models();
+};
+
+TEST_F(BrokenFiles, EachModelCutAt200Places) {
+  expectSurvived(all_, cutEverywhere);
+}
+
+TEST_F(BrokenFiles, EachModelWith1000BytesChanged) {
+  expectSurvived(all_, changeBytes);
 }
 
 } // namespace
