@@ -1,4 +1,4 @@
-#include "protocol/output_options.h"
+#include "protocol/spec/output_options.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/render.h"
 

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "protocol/capabilities.h"
-#include "protocol/frame_report.h"
-#include "protocol/frame_spec.h"
-#include "protocol/limits.h"
-#include "protocol/result.h"
-#include "protocol/scene_summary.h"
+#include "protocol/base/result.h"
+#include "protocol/report/capabilities.h"
+#include "protocol/report/frame_report.h"
+#include "protocol/report/scene_summary.h"
+#include "protocol/spec/frame_spec.h"
+#include "protocol/spec/limits.h"
+#include "renderer/charts/evaluation_chart.h"
+#include "renderer/charts/evaluation_csv.h"
 #include "renderer/core/progress.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"

@@ -2,10 +2,10 @@
 #include <array>
 #include <memory>
 
-#include "clients/cli/commands.h"
+#include "clients/cli/commands/commands.h"
 #include "clients/web/web_files.h"
-#include "server/serve.h"
-#include "server/serve_flags.h"
+#include "server/process/serve.h"
+#include "server/process/serve_flags.h"
 
 namespace gnomon {
 namespace {

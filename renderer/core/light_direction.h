@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 
 namespace gnomon {
 

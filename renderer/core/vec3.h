@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "protocol/camera.h"
+#include "protocol/spec/camera.h"
 
 namespace gnomon {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "protocol/evaluation.h"
+#include "protocol/evaluation/evaluation.h"
 
 namespace gnomon {
 

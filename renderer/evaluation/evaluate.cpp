@@ -1,6 +1,6 @@
 #include "renderer/evaluation/evaluate.h"
 
-#include "protocol/problem_json.h"
+#include "protocol/json/problem_json.h"
 #include "renderer/evaluation/camera_path.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "protocol/evaluation.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/evaluation/evaluation.h"
 #include "renderer/core/progress.h"
 #include "renderer/frame/frame.h"
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "protocol/limits.h"
+#include "protocol/base/elapsed.h"
+#include "protocol/spec/limits.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/plan_input.h"
@@ -71,10 +72,6 @@ void addPrediction(const FrameReport& report, int light, std::optional<Predicted
   predicted->edgeLength = length;
 }
 
-double since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
-
 } // namespace
 
 Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size_t index) {
@@ -123,7 +120,7 @@ Result<const TracedScene*> Truth::traced(const ResolvedFrame& frame) {
   const auto begin = std::chrono::steady_clock::now();
   auto built = TracedScene::build(*posed, frame.scene);
   if (!built) return built.problems();
-  report_.buildMilliseconds += since(begin);
+  report_.buildMilliseconds += millisecondsSince(begin);
   traced_ = std::move(*built);
   tracedIndex_ = frame.scene;
   return &*traced_;

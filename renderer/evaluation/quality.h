@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "protocol/evaluation.h"
-#include "protocol/quality.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/evaluation/evaluation.h"
+#include "protocol/spec/quality.h"
 
 /// Settings that meet a target. Part of the door: see render.h. Pure.
 namespace gnomon {

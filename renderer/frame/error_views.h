@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/output_options.h"
+#include "protocol/spec/output_options.h"
 #include "renderer/frame/measured_shadow.h"
 #include "renderer/image/image.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "protocol/frame_report.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/image/image.h"
 
 /// Part of the door: see render.h.

@@ -1,6 +1,6 @@
 #include "renderer/frame/light_reports.h"
 
-#include "protocol/enum_rows.h"
+#include "protocol/spec/enum_rows.h"
 #include "renderer/shadow/bias.h"
 
 namespace gnomon {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/frame_report.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/shadow/predicted_error.h"
 #include "renderer/shadow/shadow_plan.h"
 

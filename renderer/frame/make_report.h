@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/frame_report.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/frame/draw_views.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/predicted_error.h"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "protocol/error_metrics.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/report/error_metrics.h"
 #include "renderer/reference/reference.h"
 #include "renderer/resolve/resolve_frame.h"
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/reference/traced_scene.h"
 
 namespace gnomon {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "protocol/capabilities.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/report/capabilities.h"
 
 namespace gnomon::gl {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/capabilities.h"
+#include "protocol/report/capabilities.h"
 
 namespace gnomon::gl {
 

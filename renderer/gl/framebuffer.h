@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/core/rect.h"
 #include "renderer/gl/object.h"
 #include "renderer/gl/texture.h"

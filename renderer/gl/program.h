@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/gl/object.h"
 
 namespace gnomon::gl {

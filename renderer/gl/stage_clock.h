@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/frame_report.h"
+#include "protocol/report/frame_report.h"
 
 namespace gnomon::gl {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/output_options.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/output_options.h"
 #include "renderer/image/image.h"
 
 namespace gnomon {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/image/codec_table.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"

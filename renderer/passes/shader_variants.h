@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "protocol/output_options.h"
-#include "protocol/shadow_options.h"
+#include "protocol/spec/output_options.h"
+#include "protocol/spec/shadow_options.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/scene.h"
 

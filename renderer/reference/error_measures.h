@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/error_metrics.h"
+#include "protocol/report/error_metrics.h"
 #include "renderer/reference/reference.h"
 
 namespace gnomon {

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kPlaces = 512; ///< traced by one core at a time
+constexpr std::size_t kRaysAtOnce = 512; ///< traced by one core at a time
 
 struct Eye {
   const TraceInput& input;
@@ -98,7 +98,7 @@ std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm
   const Eye eye{input, input.traced.tree(),
                 instancesWhere(input, [](const NodeSwitches& node) { return node.visible; })};
   std::vector<SurfacePoint> points(places.size());
-  forEachPiece(places.size(), kPlaces, [&](std::size_t first, std::size_t last) {
+  forEachPiece(places.size(), kRaysAtOnce, [&](std::size_t first, std::size_t last) {
     for (; first < last; first += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, last - first);
       trace(eye, places.subspan(first, count), std::span(points).subspan(first, count));

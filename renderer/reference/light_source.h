@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/core/camera_view.h"
 
 namespace gnomon {

@@ -6,7 +6,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kPlaces = 4096; ///< found by one core at a time
+constexpr std::size_t kPointsAtOnce = 4096; ///< found by one core at a time
 
 } // namespace
 
@@ -15,7 +15,7 @@ std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm:
   const TracedScene::Tree& tree = input.traced.tree();
   const glm::dvec2 size(input.width, input.height);
   std::vector<SurfacePoint> points(places.size());
-  forEachPiece(places.size(), kPlaces, [&](std::size_t first, std::size_t last) {
+  forEachPiece(places.size(), kPointsAtOnce, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (triangles[i].instance == kNoSurface) continue;
       const SightLine line = sightLine(input.camera, tree.anchor, size, glm::dvec2(places[i]));

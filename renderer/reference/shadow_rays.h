@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"

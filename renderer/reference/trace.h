@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/scene/node_switches.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

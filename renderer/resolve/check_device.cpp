@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/limits.h"
-#include "protocol/problem_list.h"
+#include "protocol/base/problem_list.h"
+#include "protocol/spec/limits.h"
 #include "renderer/passes/tiles/moments_pass.h"
 
 namespace gnomon {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "protocol/capabilities.h"
-#include "protocol/frame_spec.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/report/capabilities.h"
+#include "protocol/spec/frame_spec.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {

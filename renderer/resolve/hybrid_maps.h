@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/capabilities.h"
+#include "protocol/report/capabilities.h"
 #include "renderer/resolve/resolve_frame.h"
 
 namespace gnomon {

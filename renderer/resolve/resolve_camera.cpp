@@ -10,12 +10,12 @@ namespace gnomon {
 namespace {
 
 /// The smallest sphere around the box, which holds the scene. A scene without surfaces is a metre wide.
-struct Sphere {
+struct BoundingSphere {
   glm::dvec3 center{0};
   double radius = 1;
 };
 
-Sphere sphereAround(const Aabb& bounds) {
+BoundingSphere sphereAround(const Aabb& bounds) {
   if (bounds.empty()) return {};
   const double radius = glm::length(bounds.halfExtent());
   return {bounds.center(), radius > 0 ? radius : 1.0};
@@ -32,7 +32,7 @@ void orient(CameraView& view, const EyeTarget& place) {
 /// The least distance from `target` at which a camera that looks along `forward` sees all corners of the scene's box.
 double framingDistance(const Aabb& bounds, const EyeTarget& directions, const Camera& camera, double aspect) {
   const double margin = 1.05;
-  const Sphere sphere = sphereAround(bounds);
+  const BoundingSphere sphere = sphereAround(bounds);
   if (bounds.empty() || camera.orthographic) return 2 * sphere.radius * margin;
   CameraView view;
   orient(view, directions);
@@ -86,7 +86,7 @@ Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scen
   Camera& out = resolved.camera;
   out.perspective = camera.perspective;
   out.orthographic = camera.orthographic;
-  const Sphere sphere = sphereAround(scene.bounds);
+  const BoundingSphere sphere = sphereAround(scene.bounds);
 
   if (camera.lookAt) {
     out.lookAt = camera.lookAt;

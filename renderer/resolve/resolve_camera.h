@@ -1,7 +1,7 @@
 #pragma once
 
-#include "protocol/camera.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/camera.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/scene/scene.h"
 

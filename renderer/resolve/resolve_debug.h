@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "protocol/frame_spec.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/frame_spec.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {

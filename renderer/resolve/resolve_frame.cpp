@@ -1,6 +1,6 @@
 #include "renderer/resolve/resolve_frame.h"
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/resolve/resolve_camera.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/frame_spec.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/frame_spec.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"

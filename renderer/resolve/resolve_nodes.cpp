@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "protocol/limits.h"
-#include "protocol/problem_list.h"
+#include "protocol/base/problem_list.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 namespace {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "protocol/light.h"
-#include "protocol/node_options.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/light.h"
+#include "protocol/spec/node_options.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 

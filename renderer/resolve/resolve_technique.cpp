@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/problem_list.h"
+#include "protocol/base/problem_list.h"
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/resolve/resolve_frame.h"
 
 namespace gnomon {

@@ -5,13 +5,14 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kNamesTold = 20;
+constexpr std::size_t kVariantsNamed = 20;
 
 std::string namesOf(const std::vector<std::string>& variants) {
   if (variants.empty()) return "the file has no material variants";
   std::string names = "one of ";
-  for (std::size_t i = 0; i < std::min(variants.size(), kNamesTold); ++i) names += (i == 0 ? "" : ", ") + variants[i];
-  if (variants.size() > kNamesTold) names += " and " + std::to_string(variants.size() - kNamesTold) + " more";
+  for (std::size_t i = 0; i < std::min(variants.size(), kVariantsNamed); ++i)
+    names += (i == 0 ? "" : ", ") + variants[i];
+  if (variants.size() > kVariantsNamed) names += " and " + std::to_string(variants.size() - kVariantsNamed) + " more";
   return names;
 }
 

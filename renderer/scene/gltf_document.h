@@ -6,8 +6,8 @@
 #include <tiny_gltf.h>
 #include <vector>
 
-#include "protocol/limits.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/container/resource_bytes.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene_bundle.h"

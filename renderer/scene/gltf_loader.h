@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "protocol/limits.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/scene_bundle.h"
 

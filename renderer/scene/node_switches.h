@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 
 namespace gnomon {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "protocol/camera.h"
-#include "protocol/light.h"
-#include "protocol/scene_summary.h"
+#include "protocol/report/scene_summary.h"
+#include "protocol/spec/camera.h"
+#include "protocol/spec/light.h"
 #include "renderer/core/aabb.h"
 #include "renderer/image/image.h"
 

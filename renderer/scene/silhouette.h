@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/scene/mesh_edges.h"
 #include "renderer/scene/scene.h"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 #include "renderer/core/rect.h"
 
 namespace gnomon {

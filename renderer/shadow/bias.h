@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 
 namespace gnomon {
 

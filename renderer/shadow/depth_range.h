@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/shadow/depth_interval.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "protocol/frame_report.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/shadow/shadow_plan.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 #include "renderer/shadow/depth_interval.h"
 
 namespace gnomon {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/shadow_options.h"
+#include "protocol/spec/shadow_options.h"
 
 namespace gnomon {
 

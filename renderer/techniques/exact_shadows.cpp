@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "protocol/base/elapsed.h"
 #include "renderer/passes/views/mask_coverage.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
@@ -11,10 +12,6 @@
 
 namespace gnomon {
 namespace {
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Draws the next light's layer by shadow volumes; `counts` is made for the first of them.
 Status volumeShadow(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, const Light& light,

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "protocol/evaluation_chart.h"
-#include "protocol/sweeps.h"
+#include "protocol/evaluation/sweeps.h"
+#include "renderer/charts/evaluation_chart.h"
 #include "renderer/evaluation/pareto.h"
 #include "renderer/render.h"
 #include "tests/bench/accuracy_sum.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/evaluation.h"
+#include "protocol/evaluation/evaluation.h"
 
 namespace gnomon::bench {
 

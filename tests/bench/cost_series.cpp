@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "protocol/enum_rows.h"
+#include "protocol/spec/enum_rows.h"
 #include "tests/bench/bodies_scene.h"
 #include "tests/support/files.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/bench/depth_floor.h"
 #include "tests/support/files.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/bench/depth_floor.h"
 
 namespace gnomon::bench {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "protocol/evaluation_json.h"
-#include "protocol/json_codec.h"
+#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/traced_scene.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/svg.h"
+#include "renderer/charts/svg.h"
 
 namespace gnomon::bench {
 namespace {

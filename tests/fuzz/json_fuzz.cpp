@@ -1,9 +1,9 @@
 // Frame specs and evaluations as JSON. What is taken is written again, and read back the same.
 #include <nlohmann/json.hpp>
 
-#include "protocol/evaluation_json.h"
-#include "protocol/json_codec.h"
-#include "protocol/problem_json.h"
+#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/json/problem_json.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {

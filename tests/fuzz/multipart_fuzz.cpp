@@ -2,8 +2,8 @@
 // back.
 #include <algorithm>
 
-#include "server/bundle_format.h"
-#include "server/multipart.h"
+#include "server/scenes/bundle_format.h"
+#include "server/scenes/multipart.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // A request's target: path, query, and the frame spec that the query gives.
-#include "protocol/json_codec.h"
-#include "server/url.h"
+#include "protocol/json/json_codec.h"
+#include "server/http/url.h"
 #include "tests/fuzz/sound_problems.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "tests/fuzz/require.h"
 
 namespace gnomon::fuzz {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/render.h"
 #include "tests/support/compare_images.h"

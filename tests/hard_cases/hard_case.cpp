@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "protocol/enum_rows.h"
+#include "protocol/spec/enum_rows.h"
 
 namespace gnomon::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 
 namespace gnomon::testing {
 

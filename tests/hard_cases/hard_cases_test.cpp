@@ -5,7 +5,7 @@
 #include <iostream>
 #include <map>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/hard_cases/hard_case.h"
 #include "tests/hard_cases/hard_table.h"

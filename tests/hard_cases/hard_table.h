@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 
 namespace gnomon::testing {
 

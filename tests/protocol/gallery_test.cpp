@@ -1,7 +1,7 @@
 // The requests of tests/gallery are ones that a server takes.
 #include <nlohmann/json.hpp>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/protocol/found_problems.h"
 #include "tests/support/files.h"
 

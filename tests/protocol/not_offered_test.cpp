@@ -1,5 +1,5 @@
 // What users of the described systems may look for and not find; README.md, Limitations, says why it is not there.
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/protocol/found_problems.h"
 
 namespace gnomon {

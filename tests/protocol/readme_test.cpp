@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/field_list.h"
+#include "protocol/fields/field_list.h"
 #include "tests/support/files.h"
 
 namespace gnomon {

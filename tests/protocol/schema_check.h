@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 
 namespace gnomon {
 

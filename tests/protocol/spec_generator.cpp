@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "protocol/field_rows.h"
-#include "protocol/shadow_rules.h"
+#include "protocol/spec/field_rows.h"
+#include "protocol/spec/shadow_rules.h"
 
 namespace gnomon {
 namespace {

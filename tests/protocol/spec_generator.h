@@ -2,7 +2,7 @@
 
 #include <rapidcheck.h>
 
-#include "protocol/frame_spec.h"
+#include "protocol/spec/frame_spec.h"
 
 namespace gnomon {
 

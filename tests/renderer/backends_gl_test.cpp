@@ -2,7 +2,7 @@
 // time.
 #include <gtest/gtest.h>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/files.h"
 

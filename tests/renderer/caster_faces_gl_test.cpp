@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -1,5 +1,5 @@
 // Which light and which tile the debug views show.
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

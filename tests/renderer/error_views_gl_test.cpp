@@ -2,7 +2,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/shaders/shared/heat_map.h"
 #include "tests/renderer/frame_fixture.h"
 

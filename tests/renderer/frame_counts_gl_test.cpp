@@ -1,5 +1,5 @@
 // Only what the scene needs is done: what adds nothing to a picture adds no tile, no draw call and no triangle.
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

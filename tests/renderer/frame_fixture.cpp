@@ -1,6 +1,6 @@
 #include "tests/renderer/frame_fixture.h"
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/support/files.h"
 
 namespace gnomon::testing {

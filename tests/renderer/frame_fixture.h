@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/glb_builder.h"
 

@@ -1,5 +1,5 @@
 // What a plan says, held against the frame.
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

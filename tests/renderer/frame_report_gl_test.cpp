@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <map>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/shadow/light_basis.h"
 #include "tests/renderer/frame_fixture.h"
 

@@ -1,5 +1,5 @@
 // What a frame's node switches and a light's culling mask do, seen in rendered frames.
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -1,7 +1,7 @@
 // Spot and point lights' shadows, seen in rendered frames.
 #include <cmath>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

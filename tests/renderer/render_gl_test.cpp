@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "protocol/json_codec.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/renderer/frame_fixture.h"
 

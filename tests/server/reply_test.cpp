@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "server/frame_reply.h"
-#include "server/reply_text.h"
-#include "server/request_id.h"
-#include "server/request_log.h"
+#include "server/frames/frame_reply.h"
+#include "server/http/reply_text.h"
+#include "server/http/request_id.h"
+#include "server/http/request_log.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "protocol/light.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/light.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"

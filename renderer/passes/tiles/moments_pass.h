@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/tiles/tile_cache.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "protocol/frame_spec.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/frame_spec.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/tiles/tile_cache.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/passes/draw_list.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/tiles/tile_casters.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/core/black_body.h"
 #include "renderer/core/light_direction.h"
 #include "renderer/core/vec3.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/light.h"
+#include "protocol/spec/light.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/shaders/shared/frame_types.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/output_options.h"
+#include "protocol/spec/output_options.h"
 #include "renderer/image/image.h"
 #include "renderer/passes/views/view_pass.h"
 #include "renderer/shadow/shadow_plan.h"

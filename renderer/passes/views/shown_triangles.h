@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/passes/views/surface_pass.h"
 
 namespace gnomon {

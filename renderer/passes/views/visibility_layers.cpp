@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 

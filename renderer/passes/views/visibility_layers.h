@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/gl/texture.h"
 
 namespace gnomon {

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "protocol/light.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/light.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"

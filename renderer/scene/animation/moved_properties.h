@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/scene/animation/motion.h"
 
 namespace gnomon {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

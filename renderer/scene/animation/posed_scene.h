@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "protocol/frame_spec.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/frame_spec.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

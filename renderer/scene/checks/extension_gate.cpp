@@ -65,7 +65,7 @@ std::vector<std::pair<std::size_t, std::string>> namesIn(const nlohmann::json& d
   return names;
 }
 
-const std::string* stringAt(const nlohmann::json& document, const char* key) {
+const std::string* assetMember(const nlohmann::json& document, const char* key) {
   const auto asset = document.find("asset");
   if (asset == document.end() || !asset->is_object()) return nullptr;
   const auto value = asset->find(key);
@@ -75,14 +75,14 @@ const std::string* stringAt(const nlohmann::json& document, const char* key) {
 } // namespace
 
 void checkVersion(const nlohmann::json& document, Findings& findings) {
-  const std::string* version = stringAt(document, "version");
+  const std::string* version = assetMember(document, "version");
   if (!version) {
     findings.invalid("/asset/version", "The glTF does not say its version.", "2.x");
   } else if (!version->starts_with("2.")) {
     findings.refuse(
         {ProblemCode::unsupportedFeature, "/asset/version", "Only glTF 2 is supported.", "2.x", inQuotes(*version)});
   }
-  const std::string* minVersion = stringAt(document, "minVersion");
+  const std::string* minVersion = assetMember(document, "minVersion");
   if (minVersion && *minVersion != "2.0") {
     findings.refuse({ProblemCode::unsupportedFeature, "/asset/minVersion", "The glTF asks for a newer reader.", "2.0",
                      inQuotes(*minVersion)});

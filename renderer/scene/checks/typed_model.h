@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 
 namespace gnomon {
 

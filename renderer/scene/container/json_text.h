@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "protocol/limits.h"
-#include "protocol/result.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/image/image.h"
 
 namespace gnomon {

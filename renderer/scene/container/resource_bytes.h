@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 #include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {

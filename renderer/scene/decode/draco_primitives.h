@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/gltf_document.h"
 

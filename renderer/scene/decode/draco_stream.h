@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/decode/decode_budget.h"
 #include "renderer/scene/geometry/accessor_view.h"

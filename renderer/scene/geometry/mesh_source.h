@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/materials/uv_sets.h"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/core/finite.h"
+
 namespace gnomon {
 
 namespace {
@@ -30,10 +32,6 @@ std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, Findings& 
     return {};
   }
   return corners;
-}
-
-bool finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 } // namespace

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/finite.h"
 #include "renderer/scene/geometry/triangle_list.h"
 
 namespace gnomon {
 
 namespace {
-
-bool finite(const glm::dvec4& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
 
 /// The unit vector along v, or zero where there is none.
 glm::dvec3 directionOf(const glm::dvec3& v) {

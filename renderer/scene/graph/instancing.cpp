@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "renderer/core/finite.h"
 #include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
@@ -22,14 +23,6 @@ const AccessorView** memberOf(Instancing& instancing, const std::string& name) {
   if (name == "TRANSLATION") return &instancing.translations;
   if (name == "ROTATION") return &instancing.rotations;
   return name == "SCALE" ? &instancing.scales : nullptr;
-}
-
-bool finite(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column) {
-    const glm::dvec4 sum = matrix[column] - matrix[column]; // NaN where it is not finite
-    if (sum != glm::dvec4(0)) return false;
-  }
-  return true;
 }
 
 } // namespace

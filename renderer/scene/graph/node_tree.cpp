@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "renderer/core/finite.h"
 #include "renderer/scene/gltf_json.h"
 #include "renderer/scene/graph/node_transform.h"
 
@@ -38,15 +39,6 @@ void checkSceneRoots(const tinygltf::Model& model, const std::vector<int>& paren
                        "a child of node " + std::to_string(parent));
     }
   }
-}
-
-bool finite(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      if (!std::isfinite(matrix[column][row])) return false;
-    }
-  }
-  return true;
 }
 
 bool hides(const nlohmann::json& node) {

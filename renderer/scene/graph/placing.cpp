@@ -21,9 +21,4 @@ bool isFlat(const glm::dmat4& matrix) {
   return !(std::abs(volume) > kFlatVolume);
 }
 
-bool finite(const Aabb& box) {
-  const glm::dvec3 sum = box.min + box.max;
-  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
-}
-
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/core/finite.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/instancing.h"
 #include "renderer/scene/graph/lights.h"

@@ -24,7 +24,7 @@ std::string_view unsupportedFormat(Encoded bytes) {
   return {};
 }
 
-std::string nameOf(const GltfDocument& document, int index) {
+std::string imageName(const GltfDocument& document, int index) {
   const auto& image = document.json["images"][static_cast<std::size_t>(index)];
   std::string name = "image " + std::to_string(index);
   if (const auto found = image.find("name"); found != image.end()) name += ' ' + inQuotes(found->get<std::string>());
@@ -45,7 +45,7 @@ std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material
     if (format.empty()) {
       slot = next++;
     } else {
-      findings.warn("The " + nameOf(document, image) + " is " + std::string(format) +
+      findings.warn("The " + imageName(document, image) + " is " + std::string(format) +
                     ", which is not supported; the textures that use it are left out.");
     }
   }

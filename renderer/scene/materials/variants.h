@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/gltf_document.h"
 #include "renderer/scene/scene.h"

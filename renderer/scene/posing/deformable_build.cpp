@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/finite.h"
+
 namespace gnomon {
 
 namespace {
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 glm::vec3 readOr0(const AccessorView* view, std::uint32_t vertex) {
   return view ? glm::vec3(view->read(vertex)) : glm::vec3(0);

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/gltf_document.h"

@@ -2,18 +2,11 @@
 
 #include <cmath>
 
+#include "renderer/core/finite.h"
+
 namespace gnomon {
 
 namespace {
-
-bool finite(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      if (!std::isfinite(matrix[column][row])) return false;
-    }
-  }
-  return true;
-}
 
 bool isOfFloatMatrices(const tinygltf::Accessor& accessor) {
   return accessor.type == TINYGLTF_TYPE_MAT4 && accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;

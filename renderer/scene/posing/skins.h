@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/gltf_document.h"

@@ -1,7 +1,7 @@
 // What an evaluation decides without drawing: the front, medians, who shares a reference, and when to stop.
 #include <gtest/gtest.h>
 
-#include "protocol/evaluation_json.h"
+#include "protocol/evaluation/evaluation_json.h"
 #include "renderer/evaluation/camera_path.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"

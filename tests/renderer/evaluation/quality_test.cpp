@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/validate.h"
+#include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {

@@ -12,7 +12,7 @@
 namespace gnomon::gl {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::unique_ptr<Context> made(Backend backend) {
   Result<std::unique_ptr<Context>> context = createContext({.backend = backend});

@@ -6,8 +6,8 @@
 namespace gnomon::gl {
 namespace {
 
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 class DebugLog : public GlTest {};
 

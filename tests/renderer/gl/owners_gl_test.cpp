@@ -13,7 +13,7 @@
 namespace gnomon::gl {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Moves an owner every way there is and checks what is left behind.
 template <class Owner>

@@ -6,7 +6,7 @@
 namespace gnomon::gl {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class Programs : public GlTest {
  protected:

@@ -6,8 +6,8 @@
 namespace gnomon {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(ShaderSources, areFoundByName) {
   ASSERT_FALSE(shaderSources().empty());

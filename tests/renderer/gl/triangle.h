@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "protocol/result.h"
+#include "protocol/base/result.h"
 
 namespace gnomon::gl {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/limits.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 namespace {

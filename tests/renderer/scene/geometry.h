@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "protocol/camera.h"
+#include "protocol/spec/camera.h"
 
 namespace gnomon {
 

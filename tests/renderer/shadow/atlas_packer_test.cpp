@@ -13,7 +13,7 @@
 namespace gnomon {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 bool overlap(const Rect& a, const Rect& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;

@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(CascadePlan, M13_CascadesMeetExactlyAtTheSplitDistances) {
   PlanInput input = simplePlan(1, 50);

@@ -11,7 +11,7 @@
 namespace gnomon {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 bool drawn(const ShadowPlan& plan) {
   return std::any_of(plan.tiles.begin(), plan.tiles.end(), [](const ShadowTile& t) { return t.rect.width > 0; });

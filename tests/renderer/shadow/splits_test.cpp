@@ -9,8 +9,8 @@
 namespace gnomon {
 namespace {
 
-using testing::DoubleNear;
-using testing::ElementsAre;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
 
 Partition logarithmic(double pssmFactor) {
   Partition partition;

@@ -1,0 +1,42 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "clients/cli/commands/commands.h"
+#include "clients/cli/remote/http_client.h"
+#include "clients/cli/terminal/problem_text.h"
+
+namespace gnomon::cli {
+namespace {
+
+struct HealthOptions {
+  std::string url = "http://127.0.0.1:8080";
+  int timeoutSeconds = 3;
+};
+
+int runHealth(const HealthOptions& options) {
+  HttpCall call;
+  call.path = "/readyz";
+  call.patience = std::chrono::seconds(options.timeoutSeconds);
+  const auto reply = callServer(options.url, call);
+  if (!reply) return printProblems(reply.problems());
+  if (reply->status == 200) {
+    std::cout << "ready\n";
+    return kExitOk;
+  }
+  return printProblems({{ProblemCode::unavailable, options.url, "is not ready", "200", std::to_string(reply->status)}});
+}
+
+} // namespace
+
+Subcommand addHealthCommand(CLI::App& app) {
+  auto options = std::make_shared<HealthOptions>();
+  auto* command = app.add_subcommand("health", "Ask a server whether it is ready: exit 0 when it is, else 1");
+  command->add_option("--url", options->url, "The server's address")->envname("GNOMON_URL")->capture_default_str();
+  command->add_option("--timeout", options->timeoutSeconds, "Seconds to wait for an answer")
+      ->check(CLI::Range(1, 600))
+      ->capture_default_str();
+  return {[command] { return command->parsed(); }, [options] { return runHealth(*options); }};
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,54 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "clients/cli/commands/commands.h"
+#include "clients/cli/files/scene_file.h"
+#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/progress.h"
+#include "clients/cli/terminal/summary_text.h"
+#include "protocol/json/json_codec.h"
+#include "renderer/render.h"
+
+namespace gnomon::cli {
+namespace {
+
+struct InspectOptions {
+  std::string scene;
+  bool json = false;
+};
+
+Result<SceneSummary> inspect(const std::string& path) {
+  auto progress = Progress::onTerminal();
+  progress.stage("reading " + path);
+  const auto bundle = readSceneFile(path);
+  if (!bundle) return bundle.problems();
+  progress.stage("loading the scene");
+  const auto scene = loadScene(*bundle);
+  if (!scene) return scene.problems();
+  return summaryOf(**scene);
+}
+
+int runInspect(const InspectOptions& options) {
+  const auto summary = inspect(options.scene);
+  if (!summary) return printProblems(summary.problems());
+  if (options.json) {
+    std::cout << toJson(*summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  } else {
+    std::cout << summaryText(options.scene, *summary);
+  }
+  return kExitOk;
+}
+
+} // namespace
+
+Subcommand addInspectCommand(CLI::App& app) {
+  auto options = std::make_shared<InspectOptions>();
+  auto* command = app.add_subcommand("inspect", "Say what a scene holds, and what of it is drawn differently");
+  command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  command->add_flag("--json", options->json, "The server's summary as JSON instead of a tree");
+  return {[command] { return command->parsed(); }, [options] { return runInspect(*options); }};
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,86 @@
+#include "clients/cli/files/file_io.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iostream>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gnomon::cli {
+namespace {
+
+Problem fileProblem(ProblemCode code, const std::string& path, const std::string& detail) {
+  return {code, path, detail, "", ""};
+}
+
+Problem tooLarge(const std::string& path, std::size_t maxBytes, const std::string& actual) {
+  return {ProblemCode::tooLarge, path, "the file is too large", std::to_string(maxBytes) + " bytes", actual};
+}
+
+bool writeAll(int file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+} // namespace
+
+Result<Bytes> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return fileProblem(ProblemCode::notFound, path.string(), "no such file");
+  if (!std::filesystem::is_regular_file(status)) {
+    return fileProblem(ProblemCode::invalidValue, path.string(), "is not a file");
+  }
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return fileProblem(ProblemCode::notFound, path.string(), error.message());
+  if (size > maxBytes) return tooLarge(path.string(), maxBytes, std::to_string(size) + " bytes");
+
+  Bytes bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    return fileProblem(ProblemCode::notFound, path.string(), "can't be read");
+  }
+  return bytes;
+}
+
+Result<std::string> readText(const std::string& path, std::size_t maxBytes) {
+  if (path != "-") {
+    auto bytes = readFile(path, maxBytes);
+    if (!bytes) return bytes.problems();
+    return std::string(bytes->begin(), bytes->end());
+  }
+  std::string text(maxBytes + 1, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
+  if (text.size() > maxBytes) return tooLarge("standard input", maxBytes, "more");
+  return text;
+}
+
+Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
+  if (path == "-") {
+    if (writeAll(STDOUT_FILENO, bytes)) return Done{};
+    return fileProblem(ProblemCode::internal, "standard output", std::strerror(errno));
+  }
+  // Beside the target, because a rename is one step only within a file system.
+  std::string temporary = path + ".XXXXXX";
+  const int file = ::mkostemp(temporary.data(), O_CLOEXEC);
+  if (file < 0) return fileProblem(ProblemCode::invalidValue, path, std::strerror(errno));
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  const bool written = writeAll(file, bytes) && ::fchmod(file, 0666 & ~mask) == 0;
+  const int writeError = errno;
+  const bool closed = ::close(file) == 0;
+  if (written && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return Done{};
+  const int error = written ? errno : writeError;
+  ::unlink(temporary.c_str());
+  return fileProblem(ProblemCode::invalidValue, path, std::strerror(error));
+}
+
+} // namespace gnomon::cli

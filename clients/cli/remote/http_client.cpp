@@ -1,0 +1,99 @@
+#include "clients/cli/remote/http_client.h"
+
+#include <algorithm>
+#include <httplib.h>
+#include <optional>
+
+namespace gnomon::cli {
+namespace {
+
+constexpr std::size_t kChunk = 256 * 1024; // bytes handed to the socket at once
+
+struct Address {
+  std::string origin; // "http://host:port"
+  std::string prefix; // "" or "/path", no slash at its end
+};
+
+std::optional<Address> parseAddress(std::string url) {
+  while (url.ends_with('/')) url.pop_back();
+  const auto scheme = url.find("://");
+  if (scheme == std::string::npos) return std::nullopt;
+  const std::string name = url.substr(0, scheme);
+  if ((name != "http" && name != "https") || url.find_first_of("?# \r\n") != std::string::npos) return std::nullopt;
+  const auto host = scheme + 3;
+  const auto path = url.find('/', host);
+  if (host == url.size() || path == host) return std::nullopt;
+  return Address{url.substr(0, path), path == std::string::npos ? "" : url.substr(path)};
+}
+
+httplib::ContentProvider bodyProvider(std::string_view body, const std::function<void(double)>& onSent) {
+  return [body, onSent](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+    const std::size_t size = std::min(length, kChunk);
+    const bool sent = sink.write(body.data() + offset, size);
+    if (sent && onSent) onSent(static_cast<double>(offset + size) / static_cast<double>(body.size()));
+    return sent;
+  };
+}
+
+/// A POST whose reply is given away piece by piece.
+httplib::Result sendAndStream(httplib::Client& client, const std::string& path, httplib::Headers headers,
+                              const HttpCall& call) {
+  int status = 0;
+  std::string refusal;
+  httplib::Request request;
+  request.method = "POST";
+  request.path = path;
+  request.headers = std::move(headers);
+  request.set_header("Content-Type", call.contentType);
+  request.body = call.body;
+  request.response_handler = [&](const httplib::Response& reply) {
+    status = reply.status;
+    return true;
+  };
+  request.content_receiver = [&](const char* bytes, std::size_t count, std::uint64_t, std::uint64_t) {
+    if (status == 200) {
+      call.onReceived({bytes, count});
+    } else {
+      refusal.append(bytes, count);
+    }
+    return true;
+  };
+  auto result = client.send(request);
+  if (result) result->body = std::move(refusal);
+  return result;
+}
+
+httplib::Result send(httplib::Client& client, const std::string& path, const HttpCall& call) {
+  httplib::Headers headers;
+  for (const auto& [name, value] : call.headers) headers.emplace(name, value);
+  if (call.method == "HEAD") return client.Head(path, headers);
+  if (call.method == "GET") return client.Get(path, headers);
+  if (call.onReceived) return sendAndStream(client, path, std::move(headers), call);
+  return client.Post(path, headers, call.body.size(), bodyProvider(call.body, call.onSent), call.contentType);
+}
+
+} // namespace
+
+Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
+  const auto address = parseAddress(server);
+  if (!address) return Problem{ProblemCode::invalidValue, server, "is not a server's address", "http://HOST:PORT", ""};
+  try {
+    httplib::Client client(address->origin);
+    if (!client.is_valid()) {
+      return Problem{ProblemCode::invalidValue, server, "is not a server's address", "http://HOST:PORT", ""};
+    }
+    client.set_connection_timeout(std::min(call.patience, std::chrono::seconds{10}));
+    client.set_read_timeout(call.patience);
+    client.set_write_timeout(call.patience);
+    client.set_tcp_nodelay(true);
+    const auto reply = send(client, address->prefix + call.path, call);
+    if (!reply)
+      return Problem{ProblemCode::unavailable, server, "no reply: " + httplib::to_string(reply.error()), "", ""};
+    const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
+    return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};
+  } catch (const std::exception& error) {
+    return Problem{ProblemCode::internal, server, std::string("the call failed: ") + error.what(), "", ""};
+  }
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "protocol/base/result.h"
+
+namespace gnomon::cli {
+
+struct HttpCall {
+  std::string method = "GET"; ///< GET, HEAD or POST
+  std::string path = "/";     ///< below the server's address
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string contentType;            ///< of the body
+  std::string_view body;              ///< POST only; must live as long as the call
+  std::chrono::seconds patience{120}; ///< for each wait on the network
+  std::function<void(double)> onSent; ///< told the share of the body that is on its way, 0..1
+  /// Given each piece of the body of a 200 as it comes; the reply is then without it.
+  std::function<void(std::string_view)> onReceived;
+};
+
+struct HttpReply {
+  int status = 0;
+  std::string contentType;
+  std::string body;
+  int retryAfterSeconds = 0; ///< 0 = the server named none
+};
+
+/// One call to `server` ("http://host:port" or "https://…", with or without a path in front). A reply of any status is
+/// a value; a problem means that there was none: a bad address, nobody there, no answer in time.
+Result<HttpReply> callServer(const std::string& server, const HttpCall& call);
+
+} // namespace gnomon::cli

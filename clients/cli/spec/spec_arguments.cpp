@@ -1,0 +1,138 @@
+#include "clients/cli/spec/spec_arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "clients/cli/spec/json_path.h"
+#include "protocol/json/json_codec.h"
+
+namespace gnomon::cli {
+namespace {
+
+template <class Number>
+std::optional<Number> parseWhole(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// The camera's lens stays; how the eye was placed goes.
+void replacePlacement(Json& spec, const char* key, Json value) {
+  Json& camera = spec["camera"];
+  if (!camera.is_object()) camera = Json::object();
+  for (const char* placement : {"eye", "target", "up", "orbit", "node", "fit"}) camera.erase(placement);
+  camera[key] = std::move(value);
+}
+
+/// The target of an orbit that the spec has stays.
+Json orbitOf(const Json& spec, const std::vector<double>& numbers) {
+  Json orbit = Json::object();
+  const Json::json_pointer oldTarget("/camera/orbit/target");
+  if (spec.contains(oldTarget)) orbit["target"] = spec[oldTarget];
+  orbit["azimuthDegrees"] = numbers[0];
+  orbit["elevationDegrees"] = numbers[1];
+  if (numbers.size() > 2) orbit["distance"] = numbers[2];
+  return orbit;
+}
+
+Json cameraNode(const std::string& text) {
+  if (const auto index = parseWhole<int>(text)) return *index;
+  return text;
+}
+
+bool isDirectional(const Json& light) {
+  return light.is_object() && (!light.contains("type") || light["type"] == "directional");
+}
+
+/// Gives the index of the light that is the sun now.
+std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
+  Json& lights = spec["lights"];
+  if (!lights.is_array()) lights = Json::array();
+  auto light = std::find_if(lights.begin(), lights.end(), isDirectional);
+  if (light == lights.end()) {
+    lights.push_back({{"type", "directional"}});
+    light = lights.end() - 1;
+  }
+  light->erase("direction");
+  (*light)["sun"] = {{"azimuthDegrees", sun[0]}, {"elevationDegrees", sun[1]}};
+  return static_cast<std::size_t>(light - lights.begin());
+}
+
+/// Lays the flags over `spec` and notes which flag set what.
+Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) {
+  const auto set = [&](const char* key, Json value, const char* flag) {
+    spec[key] = std::move(value);
+    origins[std::string("/") + key] = flag;
+  };
+  if (flags.width) set("width", *flags.width, "--width");
+  if (flags.height) set("height", *flags.height, "--height");
+  if (flags.camera) {
+    replacePlacement(spec, "node", cameraNode(*flags.camera));
+    origins["/camera/node"] = "--camera";
+  }
+  if (flags.orbit) {
+    Json orbit = orbitOf(spec, *flags.orbit);
+    replacePlacement(spec, "orbit", std::move(orbit));
+    origins["/camera/orbit"] = "--orbit";
+  }
+  if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
+  if (!flags.views.empty()) set("views", flags.views, "--view");
+  if (flags.format) {
+    if (!spec["output"].is_object()) spec["output"] = Json::object();
+    spec["output"]["format"] = *flags.format;
+    origins["/output/format"] = "--output";
+  }
+  Problems problems;
+  for (const auto& [path, text] : flags.sets) {
+    const auto value = valueOf(text);
+    const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
+    for (Problem problem : done ? Problems() : done.problems()) {
+      if (!value) problem.pointer = pointerOf(path) + problem.pointer;
+      problems.push_back(std::move(problem));
+    }
+    origins[pointerOf(path)] = "--set " + path;
+  }
+  if (!problems.empty()) return problems;
+  return Done{};
+}
+
+} // namespace
+
+ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments) {
+  // First by itself: a duplicate key, say, would be gone once the flags are laid over it.
+  auto given = decodeFrameSpec(specJson);
+  if (!given) return {given.problems(), {}, "{}"};
+  Json spec = Json::parse(specJson, nullptr, false);
+  if (!spec.is_object()) spec = Json::object(); // an empty text is a spec, too
+  FlagOrigins origins;
+  if (auto applied = applyFlags(spec, arguments, origins); !applied) return {applied.problems(), origins, "{}"};
+  std::string json = spec.dump();
+  return {decodeFrameSpec(json), origins, json};
+}
+
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t least, std::size_t most) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0;;) {
+    const auto comma = text.find(',', begin);
+    const auto number = parseWhole<double>(text.substr(begin, comma - begin));
+    if (!number || !std::isfinite(*number) || numbers.size() == most) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) break;
+    begin = comma + 1;
+  }
+  if (numbers.size() < least) return std::nullopt;
+  return numbers;
+}
+
+std::optional<std::array<int, 2>> parseSize(std::string_view text) {
+  const auto cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto width = parseWhole<int>(text.substr(0, cross)), height = parseWhole<int>(text.substr(cross + 1));
+  if (!width || !height) return std::nullopt;
+  return std::array<int, 2>{*width, *height};
+}
+
+} // namespace gnomon::cli

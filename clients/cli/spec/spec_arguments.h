@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/cli/terminal/problem_text.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/frame_spec.h"
+
+namespace gnomon::cli {
+
+/// What the flags of `render` say about the picture.
+struct SpecArguments {
+  std::optional<int> width;                 ///< --width, --size
+  std::optional<int> height;                ///< --height, --size
+  std::optional<std::string> camera;        ///< --camera: a node's index when it is a number, else its name
+  std::optional<std::vector<double>> orbit; ///< --orbit: azimuth, elevation, distance if a third
+  std::optional<std::array<double, 2>> sun; ///< --sun: azimuth, elevation
+  std::vector<std::string> views;           ///< --view
+  std::optional<std::string> format;        ///< from the output's suffix: "png" | "exr"
+  std::vector<std::pair<std::string, std::string>> sets; ///< --set: dotted path, value
+};
+
+/// A spec and where its parts came from.
+struct ResolvedSpec {
+  Result<FrameSpec> spec;
+  FlagOrigins origins;
+  std::string json; ///< as it was written, the flags laid over it; "{}" where it can't be read
+};
+
+/// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above, then checked as the
+/// server checks a request. --camera and --orbit replace the placement and keep the lens; --sun turns the first
+/// directional light, or adds one.
+ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments);
+
+/// "135,40" -> {135, 40}. Nothing unless there are `least` to `most` finite numbers and nothing else.
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t least, std::size_t most);
+
+/// "1280x720" -> {1280, 720}.
+std::optional<std::array<int, 2>> parseSize(std::string_view text);
+
+} // namespace gnomon::cli

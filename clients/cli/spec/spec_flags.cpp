@@ -1,0 +1,91 @@
+#include "clients/cli/spec/spec_flags.h"
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon::cli {
+
+void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
+  const auto refuse = [](const char* flag, const char* need) { throw CLI::ValidationError(flag, need); };
+  command.add_option("--width", arguments.width, "Pixels across")->group("Picture");
+  command.add_option("--height", arguments.height, "Pixels down")->group("Picture");
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&arguments, refuse](const std::string& text) {
+            const auto size = parseSize(text);
+            if (!size) refuse("--size", "needs WIDTHxHEIGHT, e.g. 1280x720");
+            arguments.width = (*size)[0];
+            arguments.height = (*size)[1];
+          },
+          "Both at once")
+      ->type_name("WxH")
+      ->excludes("--width")
+      ->excludes("--height")
+      ->group("Picture");
+  command
+      .add_option_function<std::string>(
+          "--sun",
+          [&arguments, refuse](const std::string& text) {
+            const auto sun = parseNumbers(text, 2, 2);
+            if (!sun) refuse("--sun", "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40");
+            arguments.sun = {(*sun)[0], (*sun)[1]};
+          },
+          "Put the sun there: degrees clockwise from north (-Z), degrees above the horizon")
+      ->type_name("AZ,EL")
+      ->group("Picture");
+  auto* camera = command.add_option("--camera", arguments.camera, "Look through a camera of the scene")
+                     ->type_name("NODE")
+                     ->group("Picture");
+  command
+      .add_option_function<std::string>(
+          "--orbit",
+          [&arguments, refuse](const std::string& text) {
+            arguments.orbit = parseNumbers(text, 2, 3);
+            if (!arguments.orbit) refuse("--orbit", "needs AZIMUTH,ELEVATION in degrees and perhaps ,DISTANCE");
+          },
+          "Look at the scene from there; the distance, in metres, is found when absent")
+      ->type_name("AZ,EL[,DIST]")
+      ->excludes(camera)
+      ->group("Picture");
+  command
+      .add_option("--view", arguments.views,
+                  "What to show: color, depth, normal, cascades, shadow, atlas, tile, texelGrid, texelDensity, "
+                  "blendWeight, bias, casterIds, lightContribution, reference, error, edgeDistance. Repeatable")
+      ->type_name("NAME")
+      ->take_all()
+      ->group("Picture");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&arguments, refuse](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const auto equals = text.find('=');
+              if (equals == std::string::npos || equals == 0)
+                refuse("--set", "needs PATH=VALUE, e.g. shadow.filter.size=7");
+              arguments.sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+            }
+          },
+          "Set any field of the spec by its dotted path. Repeatable")
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->group("Picture");
+}
+
+void addWhereFlags(CLI::App& command, WhereOptions& where) {
+  auto* backend = command.add_option_function<std::string>(
+      "--backend",
+      [&where](const std::string& name) {
+        where.backend.backend = name == "egl" ? Backend::egl : name == "osmesa" ? Backend::osmesa : Backend::automatic;
+      },
+      "Graphics context; auto is EGL, then OSMesa");
+  backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");
+  auto* gpu =
+      command.add_flag("--require-gpu", where.backend.requireGpu, "Refuse to render in software")->group("Where");
+  command.add_option("--server", where.server, "Work on this server instead of in this process")
+      ->type_name("URL")
+      ->excludes(backend)
+      ->excludes(gpu)
+      ->group("Where");
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,79 @@
+#include "clients/cli/terminal/progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <unistd.h>
+
+namespace gnomon::cli {
+namespace {
+
+constexpr std::array kSpinner{"⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧", "⠇", "⠏"};
+constexpr int kBarWidth = 24;
+constexpr std::chrono::milliseconds kTick{80};
+constexpr const char* kClearLine = "\r\x1b[K";
+
+std::string bar(double share) {
+  const int filled = static_cast<int>(std::clamp(share, 0.0, 1.0) * kBarWidth);
+  std::string text = " ";
+  for (int i = 0; i < kBarWidth; ++i) text += i < filled ? "━" : "─";
+  return text + " " + std::to_string(static_cast<int>(share * 100)) + " %";
+}
+
+} // namespace
+
+Progress::Progress(bool shown) {
+  if (shown) thread_ = std::thread([this] { run(); });
+}
+
+Progress Progress::onTerminal() {
+  return Progress(::isatty(STDERR_FILENO) == 1);
+}
+
+Progress::~Progress() {
+  finish();
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Progress::stage(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  stage_ = name;
+  share_ = -1;
+  started_ = Clock::now();
+  draw();
+}
+
+void Progress::share(double done) {
+  const std::lock_guard lock(mutex_);
+  share_ = done;
+}
+
+void Progress::finish() {
+  const std::lock_guard lock(mutex_);
+  if (!stage_.empty() && thread_.joinable()) std::fputs(kClearLine, stderr);
+  stage_.clear();
+}
+
+/// With the mutex held.
+void Progress::draw() {
+  if (stage_.empty() || !thread_.joinable()) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
+  std::fprintf(stderr, "%s%s %s%s  %.1f s", kClearLine, kSpinner[frame_ % kSpinner.size()], stage_.c_str(),
+               share_ < 0 ? "" : bar(share_).c_str(), seconds);
+  std::fflush(stderr);
+}
+
+void Progress::run() {
+  std::unique_lock lock(mutex_);
+  while (!changed_.wait_for(lock, kTick, [this] { return stopping_; })) {
+    ++frame_;
+    draw();
+  }
+}
+
+} // namespace gnomon::cli

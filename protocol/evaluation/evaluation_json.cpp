@@ -1,0 +1,192 @@
+#include "protocol/evaluation/evaluation_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "protocol/evaluation/evaluation_codec.h"
+#include "protocol/evaluation/evaluation_rows.h"
+#include "protocol/evaluation/sweeps.h"
+#include "protocol/fields/field_list.h"
+#include "protocol/spec/validate.h"
+#include "protocol/spec/view_rules.h"
+
+namespace gnomon {
+namespace {
+
+/// The same problems, seen from the document that `place` is in.
+Problems within(Problems problems, const std::string& place) {
+  for (Problem& problem : problems) problem.pointer.insert(0, place);
+  return problems;
+}
+
+/// The rules across fields of the spec that stands at /spec.
+std::vector<BrokenRule> rulesOfSpec(const FrameSpec& spec) {
+  std::vector<BrokenRule> rules = brokenRules(spec);
+  for (BrokenRule& rule : rules) {
+    rule.problem.pointer.insert(0, "/spec");
+    for (std::string& read : rule.reads) read.insert(0, "/spec");
+  }
+  return rules;
+}
+
+bool isField(const std::string& path) {
+  static const std::vector<FieldEntry> fields = frameFields();
+  return std::any_of(fields.begin(), fields.end(), [&](const FieldEntry& field) {
+    return field.path.starts_with(path) &&
+           (field.path.size() == path.size() || field.path[path.size()] == '.' || field.path[path.size()] == '[');
+  });
+}
+
+/// A null leaves nothing behind that the decoder could find fault with.
+void checkRemovals(const Json& patch, const std::string& path, const Place& place, ProblemList& problems) {
+  for (const auto& [key, value] : patch.items()) {
+    const Place inner(place, key);
+    const std::string innerPath = path.empty() ? key : path + "." + key;
+    if (value.is_object()) checkRemovals(value, innerPath, inner, problems);
+    if (!value.is_null() || isField(innerPath)) continue;
+    problems.add({.code = ProblemCode::invalidValue,
+                  .pointer = inner.pointer(),
+                  .detail = "There is no field of this name that could be taken away."});
+  }
+}
+
+/// What is wrong with a path besides its values.
+void checkPath(const CameraPath& path, ProblemList& problems) {
+  if (path.cameras.has_value() == path.step.has_value()) {
+    problems.add({.code = ProblemCode::invalidValue,
+                  .pointer = "/path",
+                  .detail = "A path is of cameras or of steps.",
+                  .limit = "cameras | step",
+                  .actual = path.step ? "both" : "neither"});
+  } else if (path.frames && !path.step) {
+    problems.add({.code = ProblemCode::invalidValue,
+                  .pointer = "/path/frames",
+                  .detail = "frames counts steps; a list of cameras has its own length."});
+  }
+  constexpr std::size_t kCameraPlace = std::string_view("/camera").size();
+  for (std::size_t i = 0; path.cameras && i < path.cameras->size(); ++i) {
+    std::vector<BrokenRule> broken;
+    appendCameraRules((*path.cameras)[i], broken);
+    for (BrokenRule& rule : broken) {
+      rule.problem.pointer.replace(0, kCameraPlace, "/path/cameras/" + std::to_string(i));
+      problems.add(std::move(rule.problem));
+    }
+  }
+}
+
+Problem targetProblem(const std::string& pointer) {
+  return {.code = ProblemCode::invalidValue,
+          .pointer = pointer,
+          .detail = "An evaluation measures settings; a target would choose them. Leave quality out."};
+}
+
+/// Reads variants over a spec that may have problems of its own, which are not told once more.
+class VariantReader {
+ public:
+  VariantReader(const Json& spec, ProblemList& problems)
+      : spec_(spec), problems_(problems), known_(problems.problems()) {}
+
+  /// What `patch` makes of the spec; its problems, put at `place`, where it gives no good one.
+  void read(const std::string& name, const Json& patch, const std::string& place, std::vector<Variant>& variants) {
+    Json merged = spec_;
+    merged.merge_patch(patch);
+    const Result<FrameSpec> spec = decodeFrameSpec(merged.dump());
+    if (!spec) {
+      for (const Problem& problem : spec.problems()) {
+        if (!isKnown("/spec" + problem.pointer)) problems_.add(within({problem}, place).front());
+      }
+    } else if (spec->quality) {
+      if (!spec_.contains("quality")) problems_.add(targetProblem(place + "/quality"));
+    } else {
+      variants.push_back({{patch.dump()}, name, *spec});
+    }
+  }
+
+ private:
+  bool isKnown(const std::string& pointer) const {
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const Problem& problem) { return problem.pointer == pointer; });
+  }
+
+  const Json& spec_;
+  ProblemList& problems_;
+  const Problems known_;
+};
+
+/// The spec as it was written, or of nothing where it is no object.
+Json specOf(const Json& request) {
+  return request.contains("spec") && request["spec"].is_object() ? request["spec"] : Json::object();
+}
+
+std::vector<Variant> readVariants(const EvaluationRequest& request, const Json& spec, ProblemList& problems) {
+  std::vector<Variant> variants;
+  VariantReader reader(spec, problems);
+  if (request.sweep) {
+    for (const SweepVariant& each : sweepVariants(*request.sweep, spec)) {
+      reader.read(each.name, each.patch, "/sweep", variants);
+    }
+    return variants;
+  }
+  for (std::size_t i = 0; i < request.variants->size(); ++i) {
+    const Json patch = Json::parse((*request.variants)[i].json);
+    const std::string place = "/variants/" + std::to_string(i);
+    ProblemList removals;
+    checkRemovals(patch, "", Place(), removals);
+    for (Problem& problem : within(std::move(removals).take(), place)) problems.add(std::move(problem));
+    reader.read(variantName(patch), patch, place, variants);
+  }
+  return variants;
+}
+
+} // namespace
+
+Result<Evaluation> decodeEvaluation(std::string_view json) {
+  ProblemList problems;
+  const std::optional<JsonNode> root = readJson(json, problems);
+  if (!root) return std::move(problems).take();
+  EvaluationRequest request;
+  decodeValue(*root, Notes{}, Place(), problems, request);
+  for (Problem& problem : problemsBeyond(problems.problems(), rulesOfSpec(request.spec))) {
+    problems.add(std::move(problem));
+  }
+  const bool goodPath = std::none_of(problems.problems().begin(), problems.problems().end(),
+                                     [](const Problem& problem) { return pointsInto(problem.pointer, "/path"); });
+  if (request.path && goodPath) checkPath(*request.path, problems);
+  if (request.spec.quality) problems.add(targetProblem("/spec/quality"));
+
+  Evaluation evaluation{request.spec, {}, request.repeats, request.referenceSamples, request.path};
+  const Json document = jsonOf(*root);
+  const bool given[] = {document.contains("variants"), document.contains("sweep")};
+  if (document.is_object() && given[0] == given[1]) {
+    problems.add({.code = ProblemCode::invalidValue,
+                  .detail = "An evaluation is of variants or of a sweep.",
+                  .limit = "variants | sweep",
+                  .actual = given[0] ? "both" : "neither"});
+  } else if (request.variants || request.sweep) {
+    evaluation.variants = readVariants(request, specOf(document), problems);
+  }
+  if (problems.empty()) return evaluation;
+  return std::move(problems).take();
+}
+
+Json toJson(const EvaluationReport& report) {
+  return encodeValue(report);
+}
+Json toJson(const EvaluationRow& row) {
+  return encodeValue(row);
+}
+Json toJson(const EvaluationStep& step) {
+  return encodeValue(step);
+}
+
+std::optional<EvaluationReport> readEvaluationReport(std::string_view json) {
+  const Json document = Json::parse(json, nullptr, false);
+  if (!document.is_object() || !document.contains("rows")) return std::nullopt;
+  EvaluationReport report;
+  ProblemList unknown;
+  decodeValue(nodeOf(document), Notes{}, Place(), unknown, report);
+  if (report.rows.empty()) return std::nullopt;
+  return report;
+}
+
+} // namespace gnomon

@@ -1,0 +1,52 @@
+#include "protocol/json/json_codec.h"
+
+#include "protocol/fields/field_decode.h"
+#include "protocol/fields/field_encode.h"
+#include "protocol/json/spec_decode.h"
+#include "protocol/report/reply_rows.h"
+#include "protocol/spec/validate.h"
+
+namespace gnomon {
+
+Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems) {
+  FrameSpec spec;
+  decodeValue(root, Notes{}, Place(), problems, spec);
+  for (Problem& problem : problemsBeyond(problems.problems(), brokenRules(spec))) problems.add(std::move(problem));
+  if (problems.empty()) return spec;
+  return std::move(problems).take();
+}
+
+Result<FrameSpec> decodeFrameSpec(std::string_view json) {
+  if (json.find_first_not_of(" \t\r\n") == std::string_view::npos) return FrameSpec{};
+  ProblemList problems;
+  const std::optional<JsonNode> root = readJson(json, problems);
+  if (!root) return std::move(problems).take();
+  return decodeFrameTree(*root, std::move(problems));
+}
+
+Json toJson(const FrameSpec& spec) {
+  return encodeValue(spec);
+}
+Json toJson(const FrameReport& report) {
+  return encodeValue(report);
+}
+Json toJson(const PlanReport& report) {
+  return encodeValue(report);
+}
+Json toJson(const SceneSummary& summary) {
+  return encodeValue(summary);
+}
+Json toJson(const RendererInfo& info) {
+  return encodeValue(info);
+}
+Json toJson(const FrameReply& reply) {
+  return encodeValue(reply);
+}
+Json toJson(const SceneList& list) {
+  return encodeValue(list);
+}
+Json toJson(const Capabilities& capabilities) {
+  return encodeValue(capabilities);
+}
+
+} // namespace gnomon

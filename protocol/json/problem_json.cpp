@@ -1,0 +1,103 @@
+#include "protocol/json/problem_json.h"
+
+#include <cassert>
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/text.h"
+#include "protocol/fields/spellings.h"
+
+namespace gnomon {
+
+/// `says` is the title.
+template <>
+inline constexpr std::array kSpellings<ProblemCode>{
+    spelling(ProblemCode::malformed, "malformed", "The request is not what it claims to be"),
+    spelling(ProblemCode::invalidValue, "invalidValue", "A value cannot be taken"),
+    spelling(ProblemCode::notFound, "notFound", "There is no such thing"),
+    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "This route has no such method"),
+    spelling(ProblemCode::notAcceptable, "notAcceptable", "None of the accepted forms can be given"),
+    spelling(ProblemCode::lengthRequired, "lengthRequired", "The length of the body is needed"),
+    spelling(ProblemCode::tooLarge, "tooLarge", "A limit was passed"),
+    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "This route takes no body of that type"),
+    spelling(ProblemCode::invalidScene, "invalidScene", "The glTF breaks the rules of glTF"),
+    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "This needs a feature that Gnomon does not have"),
+    spelling(ProblemCode::hashMismatch, "hashMismatch", "The bytes are not the ones that were named"),
+    spelling(ProblemCode::busy, "busy", "The server has enough to do"),
+    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "There was not enough time"),
+    spelling(ProblemCode::unavailable, "unavailable", "The server is not ready"),
+    spelling(ProblemCode::backend, "backend", "The graphics context failed"),
+    spelling(ProblemCode::internal, "internal", "The server made a mistake"),
+};
+static_assert(spellsAll<ProblemCode>());
+
+namespace {
+
+Json entry(const Problem& problem) {
+  Json json = {{"code", std::string(problemName(problem.code))},
+               {"pointer", asUtf8(problem.pointer)},
+               {"detail", asUtf8(problem.detail)}};
+  if (!problem.limit.empty()) json["limit"] = asUtf8(problem.limit);
+  if (!problem.actual.empty()) json["actual"] = asUtf8(problem.actual);
+  return json;
+}
+
+Json textSchema(const char* description) {
+  return {{"type", "string"}, {"description", description}};
+}
+
+} // namespace
+
+std::string_view problemName(ProblemCode code) {
+  return spell(code);
+}
+
+std::string_view problemTitle(ProblemCode code) {
+  return kSpellings<ProblemCode>[static_cast<std::size_t>(code)].says;
+}
+
+Json problemJson(const Problems& problems, int status, std::string_view instance) {
+  assert(!problems.empty());
+  const Problem& first = problems.front();
+  std::string detail = asUtf8(first.detail);
+  if (problems.size() > 1) {
+    detail = "There are " + std::to_string(problems.size()) + " problems, the first at \"" + asUtf8(first.pointer) +
+             "\": " + detail;
+  }
+  Json json = {{"type", "/problems/" + std::string(problemName(first.code))},
+               {"title", std::string(problemTitle(first.code))},
+               {"status", status},
+               {"detail", detail}};
+  if (!instance.empty()) json["instance"] = asUtf8(instance);
+  json["problems"] = Json::array();
+  for (const Problem& problem : problems) json["problems"].push_back(entry(problem));
+  return json;
+}
+
+Json problemSchema() {
+  Json codes = Json::array();
+  for (const Spelling& spelling : kSpellings<ProblemCode>) codes.push_back(std::string(spelling.name));
+  const Json item = {
+      {"type", "object"},
+      {"description", "One thing that is wrong."},
+      {"additionalProperties", false},
+      {"required", {"code", "pointer", "detail"}},
+      {"properties",
+       {{"code", {{"type", "string"}, {"enum", codes}, {"description", "What kind of thing is wrong."}}},
+        {"pointer", textSchema("Where: a JSON pointer, a query key or a part's name; empty = the whole.")},
+        {"detail", textSchema("One sentence for people.")},
+        {"limit", textSchema("What would have been accepted.")},
+        {"actual", textSchema("What came, shortened.")}}}};
+  return {{"type", "object"},
+          {"description", "Everything that is wrong with a request, as RFC 9457 has it."},
+          {"additionalProperties", false},
+          {"required", {"type", "title", "status", "detail", "problems"}},
+          {"properties",
+           {{"type", textSchema("/problems/ and the first problem's code.")},
+            {"title", textSchema("The kind of the first problem, for people.")},
+            {"status", {{"type", "integer"}, {"description", "The HTTP status."}}},
+            {"detail", textSchema("The first problem, for people, and how many there are.")},
+            {"instance", textSchema("The request's id.")},
+            {"problems", {{"type", "array"}, {"minItems", 1}, {"items", item}, {"description", "Every problem."}}}}}};
+}
+
+} // namespace gnomon

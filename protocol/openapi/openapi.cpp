@@ -1,0 +1,201 @@
+#include "protocol/openapi/openapi.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "protocol/fields/field_list.h"
+#include "protocol/openapi/openapi_parts.h"
+
+namespace gnomon {
+namespace {
+
+using namespace openapi;
+
+Json textPart(const char* description) {
+  return {{"type", "string"}, {"description", description}};
+}
+
+/// The parts of an upload: the model, and the files that it names under their own file names.
+Json uploadParts() {
+  const Json files = {{"type", "array"},
+                      {"items", {{"type", "string"}}},
+                      {"description", "A file that the model names, with its name as the part's file name."}};
+  return {{"scene", textPart("The model, glTF or GLB.")}, {"file", files}};
+}
+
+/// A scene as the whole body, or as a form with the files that it names.
+Json sceneBody() {
+  const Json form = {{"schema",
+                      {{"type", "object"},
+                       {"description", "The model and every file that it names."},
+                       {"required", {"scene"}},
+                       {"properties", uploadParts()},
+                       {"additionalProperties", textPart("A file that the model names, under its name.")}}}};
+  return {
+      {"required", true},
+      {"content",
+       {{"model/gltf-binary", bytesContent()}, {"model/gltf+json", bytesContent()}, {"multipart/form-data", form}}}};
+}
+
+Json specBody() {
+  return {{"description", "Absent or {} = every default."},
+          {"required", false},
+          {"content", {{"application/json", schemaContent("FrameSpec")}}}};
+}
+
+Json renderBody() {
+  Json parts = uploadParts();
+  parts["spec"] = reference("schemas/FrameSpec");
+  const Json form = {{"schema",
+                      {{"type", "object"},
+                       {"description", "The model, every file that it names, and what to show of it."},
+                       {"required", {"scene"}},
+                       {"properties", parts},
+                       {"additionalProperties", textPart("A file that the model names, under its name.")}}},
+                     {"encoding", {{"spec", {{"contentType", "application/json"}}}}}};
+  return {{"required", true}, {"content", {{"multipart/form-data", form}}}};
+}
+
+/// A frame in the form that Accept asks for.
+Json frameReplies(std::initializer_list<const char*> statuses) {
+  const Json content = {{"image/png", bytesContent()},
+                        {"image/x-exr", bytesContent()},
+                        {"multipart/mixed", bytesContent()},
+                        {"application/json", schemaContent("FrameReply")}};
+  const char* description =
+      "The frame: image/png = the first view; image/x-exr = every view as named layers; multipart/mixed = every "
+      "picture and the report; application/json = the report with the pictures in base64.";
+  return replies({{"200", success(description, content, {"ETag", "Server-Timing"})}}, statuses);
+}
+
+Json sceneReplies(std::initializer_list<const char*> statuses) {
+  const Json content = {{"application/json", schemaContent("SceneSummary")}};
+  return replies({{"200", success("The scene was known already.", content, {"Location"})},
+                  {"201", success("The scene is new.", content, {"Location"})}},
+                 statuses);
+}
+
+/// A query key for each field outside of lists, and the short forms.
+Json queryParameters() {
+  Json parameters = Json::array({reference("parameters/sceneId"), reference("parameters/ifNoneMatch")});
+  const auto add = [&](const std::string& name, const std::string& description, Json schema) {
+    Json parameter = {{"name", name}, {"in", "query"}, {"description", description}};
+    schema.erase("description");
+    const bool isText = !schema.contains("type") || schema["type"] != "array";
+    if (isText) {
+      parameter["schema"] = std::move(schema);
+    } else {
+      parameter["content"] = {{"application/json", {{"schema", std::move(schema)}}}};
+    }
+    parameters.push_back(std::move(parameter));
+  };
+  add("sun", "AZIMUTH,ELEVATION in degrees: one directional light; short for lights.",
+      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+$"}, {"examples", {"135,40"}}});
+  add("lights", "The lights.", {{"type", "array"}, {"items", reference("schemas/Light")}});
+  for (const FieldEntry& field : frameFields()) {
+    if (field.path.find("[]") != std::string::npos) continue;
+    if (field.path == "views") add("view", "The one view to show; short for views.", field.schema["items"]);
+    if (field.path == "output.format") add("format", "Short for output.format.", field.schema);
+    add(field.path, field.schema.value("description", field.says), field.schema);
+  }
+  return parameters;
+}
+
+Json jsonReply(const char* description, const char* schema) {
+  return {{"200", success(description, {{"application/json", schemaContent(schema)}})}};
+}
+
+Json sceneRoute() {
+  Json put = operation("putScene", "Upload a scene by name",
+                       sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503"}));
+  Json get = operation("getScene", "What a scene holds", replies(jsonReply("Its summary.", "SceneSummary"), {"404"}));
+  Json head =
+      operation("headScene", "Whether a scene is there", replies({{"200", success("It is there.", Json())}}, {"404"}));
+  Json remove = operation("deleteScene", "Remove a scene", replies({{"204", success("It is gone.", Json())}}, {"404"}));
+  return {{"put", withBody(withScene(std::move(put)), sceneBody())},
+          {"get", withScene(std::move(get))},
+          {"head", withScene(std::move(head))},
+          {"delete", withScene(std::move(remove))}};
+}
+
+Json scenesRoute() {
+  Json post = operation("postScene", "Upload a scene; its name is the hash of its bytes",
+                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503"}));
+  Json get = operation("listScenes", "The scenes that there are", jsonReply("All of them.", "SceneList"));
+  return {{"get", std::move(get)}, {"post", withBody(std::move(post), sceneBody())}};
+}
+
+Json framesRoute() {
+  Json post = operation(
+      "renderFrame", "Render a frame",
+      frameReplies({"304", "400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  post["parameters"] = Json::array({reference("parameters/sceneId"), reference("parameters/ifNoneMatch")});
+  return {{"post", withBody(std::move(post), specBody())}};
+}
+
+Json planRoute() {
+  Json post = operation("planFrame", "Decide a frame without rendering it",
+                        replies(jsonReply("What it would do.", "PlanReport"),
+                                {"400", "404", "408", "411", "413", "415", "422", "503", "504"}));
+  return {{"post", withBody(withScene(std::move(post)), specBody())}};
+}
+
+Json frameRoute() {
+  Json get = operation("getFrame", "Render a frame from a query string, for links and <img>",
+                       frameReplies({"304", "400", "404", "406", "422", "429", "500", "503", "504"}));
+  get["description"] = "Keys are a field's dotted path; values are JSON or bare words.";
+  get["parameters"] = queryParameters();
+  return {{"get", std::move(get)}};
+}
+
+Json renderRoute() {
+  Json post =
+      operation("render", "Upload a scene and render a frame of it in one go",
+                frameReplies({"304", "400", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  post["parameters"] = Json::array({reference("parameters/ifNoneMatch")});
+  return {{"post", withBody(std::move(post), renderBody())}};
+}
+
+Json getRoute(const char* id, const char* summary, Json responses) {
+  return {{"get", operation(id, summary, std::move(responses))}};
+}
+
+Json paths() {
+  const Json document = {{"application/json", {{"schema", {{"type", "object"}}}}}};
+  const Json probe = {{"200", success("Yes.", {{"text/plain", bytesContent()}})}};
+  Json paths = Json::object();
+  paths["/v1/scenes"] = scenesRoute();
+  paths["/v1/scenes/{id}"] = sceneRoute();
+  paths["/v1/scenes/{id}/frames"] = framesRoute();
+  paths["/v1/scenes/{id}/frame"] = frameRoute();
+  paths["/v1/scenes/{id}/plan"] = planRoute();
+  paths["/v1/scenes/{id}/evaluations"] = evaluationsRoute();
+  paths["/v1/render"] = renderRoute();
+  paths["/v1/capabilities"] =
+      getRoute("capabilities", "What this server can do", jsonReply("Its renderer and limits.", "Capabilities"));
+  paths["/openapi.json"] = getRoute("openApi", "This document", {{"200", success("OpenAPI 3.1.", document)}});
+  paths["/livez"] = getRoute("live", "Whether the process lives", probe);
+  paths["/readyz"] = getRoute("ready", "Whether frames can be asked for", replies(probe, {"503"}));
+  paths["/"] =
+      getRoute("page", "A page to try it all", {{"200", success("The page.", {{"text/html", bytesContent()}})}});
+  return paths;
+}
+
+} // namespace
+
+Json openApi() {
+  return {{"openapi", "3.1.0"},
+          {"info",
+           {{"title", "Gnomon"},
+            {"version", "1"},
+            {"description",
+             "A glTF scene, a camera and lights in; shadowed pictures out. glTF's conventions: "
+             "right-handed, +Y up, metres. Angles are degrees. What is unknown, repeated, of the wrong "
+             "type or out of range is refused with its place, never changed or passed over."},
+            {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}}},
+          {"paths", paths()},
+          {"components", openApiComponents()}};
+}
+
+} // namespace gnomon

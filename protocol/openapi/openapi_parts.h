@@ -1,0 +1,24 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "protocol/json/json_codec.h"
+
+/// What the routes' descriptions are put together from.
+namespace gnomon::openapi {
+
+Json reference(const std::string& place); ///< to a component: "schemas/FrameSpec"
+Json schemaContent(const std::string& schema);
+Json bytesContent(); ///< bytes of a media type have no schema of their own in OpenAPI 3.1
+
+Json success(const char* description, Json content, std::initializer_list<const char*> headers = {});
+
+/// A route's replies: `good`, and the refusals of these statuses.
+Json replies(Json good, std::initializer_list<const char*> statuses);
+
+Json operation(const char* id, const char* summary, Json responses);
+Json withScene(Json operation); ///< of a route with {id}
+Json withBody(Json operation, Json body);
+
+} // namespace gnomon::openapi

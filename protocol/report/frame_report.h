@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/report/error_metrics.h"
+#include "protocol/spec/frame_spec.h"
+#include "protocol/spec/quality.h"
+
+namespace gnomon {
+
+/// One stage's time. Names and order: queue load upload survey plan shadow shade reference readback encode; reference
+/// is there where a view holds a shadow against rays.
+struct StageTime {
+  std::string stage{};
+  double milliseconds = 0;
+};
+
+/// One tile: a cascade, or a face of a spot or point light. What has no meaning for a tile without a surface in it,
+/// which is not drawn, is 0 or absent.
+struct CascadeReport {
+  double near = 0;                   ///< metres: view depth where it begins; face: distance along its direction
+  double far = 0;                    ///< metres: where it ends
+  std::array<int, 4> tile{};         ///< x y width height in the atlas, texels, border included
+  int border = 0;                    ///< texels on each side of the tile that only filters read
+  std::array<double, 2> texelSize{}; ///< metres across and along; of a face: at its far end
+  /// The tile's clip space from world space, column by column: x y -1..1 over the whole tile, z 0 (near the light)..1.
+  std::optional<std::array<double, 16>> matrix{};
+  /// Metres that a surface is moved along its normal, times the sine of normal and light; of a face: at its far end. Of
+  /// a manual bias: its depth times its normalOffsetScale, whatever the angle and the place.
+  double normalOffset = 0;
+  /// What rounding asks for besides, towards the light, of the tile's depth 0..1; of a face: at its far end. A manual
+  /// bias's depth and slope come on top.
+  double depthBias = 0;
+  double depthBiasMetres = 0; ///< the same in metres
+  std::optional<PredictedError> predictedError{};
+  std::uint64_t casterTriangles = 0; ///< drawn into this tile
+  std::uint64_t culledTriangles = 0; ///< not drawn: they can't shadow anything that this cascade serves
+  bool reused = false;               ///< drawn for an earlier frame; nothing was drawn for this one
+  std::uint64_t drawCalls = 0;
+  std::optional<double> cpuMilliseconds{}; ///< of drawing it; absent in a plan, and where not drawn
+  std::optional<double> gpuMilliseconds{}; ///< the same on the device; absent where its driver has no timer, too
+};
+
+struct LightReport {
+  int light = 0; ///< index into the effective spec's lights
+  bool shadowed = false;
+  int askedTileSize = 0;   ///< texels; 0 = no shadow was asked for
+  int grantedTileSize = 0; ///< texels; 0 = none
+  std::string note{};      ///< why no shadow was drawn, or what was decided differently; empty = as asked
+  /// Directional: the view depths of its cascades without a guard, for the next frame's depthRange.previous.
+  std::optional<PreviousRange> depthRange{};
+  std::vector<CascadeReport> cascades{};
+  std::optional<std::uint64_t>
+      tracedPixels{}; ///< pixels that rays decided; techniques hybrid and rayTraced, not in a plan
+  // Over its tiles:
+  std::optional<PredictedError> predictedError{};
+  std::uint64_t casterTriangles = 0;
+  std::uint64_t drawCalls = 0;
+  std::optional<double> cpuMilliseconds{};
+  std::optional<double> gpuMilliseconds{};
+};
+
+/// One pass. Names and order: survey, shadow; surfaces, visibility and view as the views ask for them. Two `surfaces`
+/// have other samples a pixel, and so have two `visibility`.
+struct PassReport {
+  std::string pass{};
+  std::optional<View> view{};              ///< of pass view
+  double cpuMilliseconds = 0;              ///< from its first call to its last
+  std::optional<double> gpuMilliseconds{}; ///< by the device's clock; absent where its driver has no timer
+  std::uint64_t drawCalls = 0;
+  std::uint64_t triangles = 0;
+};
+
+/// Bytes on the device. Driver padding is not known, and not counted.
+struct MemoryReport {
+  std::uint64_t scene = 0;   ///< geometry, materials and textures; kept between frames
+  std::uint64_t atlas = 0;   ///< of this frame
+  std::uint64_t targets = 0; ///< depth, surfaces, visibility and views of this frame
+};
+
+struct FrameCounts {
+  std::uint64_t sceneTriangles = 0;    ///< in the chosen glTF scene
+  std::uint64_t surveyedTriangles = 0; ///< drawn by the survey: inside the view
+  std::uint64_t shadedTriangles = 0;   ///< drawn for the surfaces to light: in clusters that the survey saw
+  std::uint64_t casterTriangles = 0;   ///< drawn into all tiles
+  std::uint64_t drawCalls = 0;
+};
+
+/// What a frame's rendering gives besides its pictures.
+struct FrameReport {
+  FrameSpec spec{};                   ///< effective: every default resolved, so that it can be asked for again
+  std::array<double, 2> depthRange{}; ///< nearest and farthest surface in view, metres; 0 0 = nothing in view
+  std::array<int, 2> atlasSize{};     ///< texels that the atlas really took; 0 0 = no atlas
+  std::vector<LightReport> lights{};
+  std::optional<PredictedError> predictedError{}; ///< over all tiles; absent = none is drawn
+  std::optional<ErrorMetrics> error{};    ///< of debug.light; present where a view shows an error or a reference
+  std::optional<QualityReport> quality{}; ///< present where the spec names a target
+  FrameCounts counts{};
+  MemoryReport memory{};
+  std::vector<PassReport> passes{};
+  std::vector<StageTime> stages{};
+  std::vector<std::string> warnings{};
+};
+
+/// What a frame would do, decided without drawing it: the boxes around what the camera may see stand in for its
+/// surfaces. So every tile holds what the frame's would, and perhaps more, and the predicted errors are rather too
+/// large.
+struct PlanReport {
+  FrameSpec spec{};                   ///< effective: every default resolved, so that it can be asked for again
+  std::array<double, 2> depthRange{}; ///< nearest and farthest box in view, metres; 0 0 = nothing in view
+  std::array<int, 2> atlasSize{};     ///< texels that the atlas would take; 0 0 = no atlas
+  std::vector<LightReport> lights{};  ///< without times
+  std::optional<PredictedError> predictedError{};
+  std::vector<std::string> warnings{};
+};
+
+} // namespace gnomon

@@ -1,0 +1,172 @@
+#pragma once
+
+#include "protocol/fields/spellings.h"
+#include "protocol/spec/frame_spec.h"
+
+/// The spelling of every enum that a frame's specification can hold.
+namespace gnomon {
+
+template <>
+inline constexpr std::array kSpellings<LightType>{
+    spelling(LightType::directional, "directional", "from everywhere in one direction, as the sun"),
+    spelling(LightType::spot, "spot", "from a point, within a cone"),
+    spelling(LightType::point, "point", "from a point, to all sides"),
+};
+static_assert(spellsAll<LightType>());
+
+template <>
+inline constexpr std::array kSpellings<ShadowTechnique>{
+    spelling(ShadowTechnique::shadowMap, "shadowMap",
+             "depths seen from the light, filtered: fast, and as exact as its texels"),
+    spelling(ShadowTechnique::hybrid, "hybrid",
+             "shadow maps where they are sure, rays where they are not: exact and sharp"),
+    spelling(ShadowTechnique::shadowVolume, "shadowVolume",
+             "stencilled shadow volumes: exact and sharp, drawn by the device"),
+    spelling(ShadowTechnique::rayTraced, "rayTraced",
+             "rays for every pixel: exact, and soft where the light has a size"),
+};
+static_assert(spellsAll<ShadowTechnique>());
+
+template <>
+inline constexpr std::array kSpellings<ShadowSize>{
+    spelling(ShadowSize::XSmall, "XSmall", "an eighth of atlas.baseSize"),
+    spelling(ShadowSize::Small, "Small", "a quarter of atlas.baseSize"),
+    spelling(ShadowSize::Medium, "Medium", "half of atlas.baseSize"),
+    spelling(ShadowSize::Large, "Large", "atlas.baseSize"),
+    spelling(ShadowSize::XLarge, "XLarge", "twice atlas.baseSize"),
+};
+static_assert(spellsAll<ShadowSize>());
+
+template <>
+inline constexpr std::array kSpellings<ShadowLightPolicy>{
+    spelling(ShadowLightPolicy::all, "all", "every light whose shadow is enabled"),
+    spelling(ShadowLightPolicy::first, "first", "the first directional light alone"),
+};
+static_assert(spellsAll<ShadowLightPolicy>());
+
+template <>
+inline constexpr std::array kSpellings<ShadowImportance>{
+    spelling(ShadowImportance::low, "low", "a quarter of the tile's side"),
+    spelling(ShadowImportance::medium, "medium", "half of the tile's side"),
+    spelling(ShadowImportance::high, "high", "the whole"),
+};
+static_assert(spellsAll<ShadowImportance>());
+
+template <>
+inline constexpr std::array kSpellings<PartitionMode>{
+    spelling(PartitionMode::manual, "manual", "at `splits`"),
+    spelling(PartitionMode::uniform, "uniform", "into equal lengths"),
+    spelling(PartitionMode::logarithmic, "logarithmic", "into equal ratios, mixed with equal lengths by `pssmFactor`"),
+};
+static_assert(spellsAll<PartitionMode>());
+
+template <>
+inline constexpr std::array kSpellings<DepthRangeMode>{
+    spelling(DepthRangeMode::automatic, "automatic", "the nearest and farthest surface in this frame"),
+    spelling(DepthRangeMode::manual, "manual", "from `min` to `max`"),
+};
+static_assert(spellsAll<DepthRangeMode>());
+
+template <>
+inline constexpr std::array kSpellings<Stabilization>{
+    spelling(Stabilization::none, "none", "the tightest fit; sharpest for stills"),
+    spelling(Stabilization::projectionSnapping, "projectionSnapping", "a sphere's fit moved by whole texels"),
+    spelling(Stabilization::viewSnapping, "viewSnapping", "a sphere's fit whose centre lies on a grid in the world"),
+};
+static_assert(spellsAll<Stabilization>());
+
+template <>
+inline constexpr std::array kSpellings<FilterType>{
+    spelling(FilterType::hard, "hard", "one sample, a sharp edge"),
+    spelling(FilterType::pcf, "pcf", "percentage-closer filtering over `size` x `size` texels, or over a disc"),
+    spelling(FilterType::vsm, "vsm", "variance shadow map, blurred"),
+    spelling(FilterType::evsm, "evsm", "exponential variance shadow map, blurred: leaks less light"),
+    spelling(FilterType::msm, "msm", "moment shadow map of four moments, blurred: leaks less light"),
+};
+static_assert(spellsAll<FilterType>());
+
+template <>
+inline constexpr std::array kSpellings<BiasMode>{
+    spelling(BiasMode::automatic, "automatic", "from the texels' size, the filter and the slope: nothing to tune"),
+    spelling(BiasMode::manual, "manual", "by `depth`, `slope` and `normalOffsetScale`"),
+};
+static_assert(spellsAll<BiasMode>());
+
+template <>
+inline constexpr std::array kSpellings<BlendedCasters>{
+    spelling(BlendedCasters::dither, "dither", "by a 4x4 pattern that lets as much light through as their alpha"),
+    spelling(BlendedCasters::threshold, "threshold", "where their alpha is at least a half"),
+};
+static_assert(spellsAll<BlendedCasters>());
+
+template <>
+inline constexpr std::array kSpellings<View>{
+    spelling(View::color, "color", "the shaded scene"),
+    spelling(View::depth, "depth", "distance along the view axis: metres in EXR, near-to-far grey in PNG"),
+    spelling(View::normal, "normal", "world-space shading normal: -1..1 in EXR, 0..1 in PNG"),
+    spelling(View::cascades, "cascades",
+             "the shaded scene tinted by cascade: green, blue, purple, red; grey without tiles"),
+    spelling(View::shadow, "shadow", "the share of `debug.light` that arrives, 0..1; 1 where it casts no shadow"),
+    spelling(View::atlas, "atlas",
+             "the shadow atlas at its own size: grey with tiles outlined and named light.tile, or raw depth"),
+    spelling(View::tile, "tile", "the depths of one tile, `debug.tile` of `debug.light`, at its own size"),
+    spelling(View::texelGrid, "texelGrid",
+             "the shaded scene with the texels of `debug.light` as a checkerboard; grey without tiles"),
+    spelling(View::texelDensity, "texelDensity",
+             "pixels that a texel of `debug.light` spans at most: a heat map (1/16 to 16), or numbers; 0 = no texel"),
+    spelling(View::blendWeight, "blendWeight", "share of the next cascade of `debug.light`, 0..1; 0 = none"),
+    spelling(View::bias, "bias",
+             "metres that a point is moved for `debug.light`: a heat map (0.1 mm to 1 m), or numbers; 0 = no tile"),
+    spelling(View::casterIds, "casterIds",
+             "the node that throws the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
+    spelling(View::lightContribution, "lightContribution",
+             "the shaded scene in nothing but `debug.light`: no other light, surroundings, glow or background"),
+    spelling(
+        View::reference, "reference",
+        "the share of `debug.light` that each pixel really sees, traced by rays; 1 where nothing receives its shadow"),
+    spelling(View::error, "error",
+             "red where the shadow of `debug.light` is false, blue where its light is; or shadow less reference"),
+    spelling(View::edgeDistance, "edgeDistance",
+             "pixels from each edge of the shadow of `debug.light` to the nearest true one: a heat map (0 to 16), or "
+             "numbers; -1 = no edge"),
+};
+static_assert(spellsAll<View>());
+
+template <>
+inline constexpr std::array kSpellings<ImageFormat>{
+    spelling(ImageFormat::png, "png", "8 bits a channel, sRGB"),
+    spelling(ImageFormat::exr, "exr", "linear light, every view a named layer"),
+};
+static_assert(spellsAll<ImageFormat>());
+
+template <>
+inline constexpr std::array kSpellings<ExrCompression>{
+    spelling(ExrCompression::none, "none"),
+    spelling(ExrCompression::rle, "rle"),
+    spelling(ExrCompression::zip, "zip"),
+    spelling(ExrCompression::piz, "piz"),
+};
+static_assert(spellsAll<ExrCompression>());
+
+template <>
+inline constexpr std::array kSpellings<ExrPixelType>{
+    spelling(ExrPixelType::half, "half", "16 bits"),
+    spelling(ExrPixelType::float_, "float", "32 bits"),
+};
+static_assert(spellsAll<ExrPixelType>());
+
+template <>
+inline constexpr std::array kSpellings<ToneMapping>{
+    spelling(ToneMapping::aces, "aces", "a film-like curve"),
+    spelling(ToneMapping::none, "none", "light as it is, cut off at 1"),
+};
+static_assert(spellsAll<ToneMapping>());
+
+template <>
+inline constexpr std::array kSpellings<Antialiasing>{
+    spelling(Antialiasing::none, "none", "one sample a pixel"),
+    spelling(Antialiasing::msaa4x, "msaa4x", "four samples a pixel"),
+};
+static_assert(spellsAll<Antialiasing>());
+
+} // namespace gnomon

@@ -1,0 +1,158 @@
+#include "protocol/spec/shadow_rules.h"
+
+#include "protocol/fields/field_checks.h"
+#include "protocol/spec/enum_rows.h"
+
+namespace gnomon {
+namespace {
+
+void appendPartitionRules(const Shadow& shadow, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  const Partition& partition = shadow.partition;
+  const std::string splits = pointer + "/partition/splits";
+  const std::string mode = pointer + "/partition/mode";
+  if (partition.mode != PartitionMode::manual) {
+    if (partition.splits.empty()) return;
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = splits,
+                       .detail = "splits need partition mode manual.",
+                       .actual = "mode " + std::string(spell(partition.mode))},
+                      {mode}});
+    return;
+  }
+  if (partition.splits.size() != static_cast<std::size_t>(shadow.cascadeCount)) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = splits,
+                       .detail = "Partition mode manual needs one split for each cascade.",
+                       .limit = std::to_string(shadow.cascadeCount),
+                       .actual = std::to_string(partition.splits.size())},
+                      {mode, splits, pointer + "/cascadeCount"}});
+  }
+  for (std::size_t i = 1; i < partition.splits.size(); ++i) {
+    if (partition.splits[i] > partition.splits[i - 1]) continue;
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = splits + "/" + std::to_string(i),
+                       .detail = "Each split must be more than the one before.",
+                       .limit = "more than " + numberText(partition.splits[i - 1]),
+                       .actual = numberText(partition.splits[i])},
+                      {mode, splits}});
+  }
+}
+
+void appendDepthRangeRules(const DepthRange& range, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  const std::string mode = pointer + "/mode";
+  const std::string min = pointer + "/min";
+  const std::string max = pointer + "/max";
+  const bool manual = range.mode == DepthRangeMode::manual;
+  for (const auto& [value, place] : {std::pair(range.min, min), std::pair(range.max, max)}) {
+    if (value.has_value() == manual) continue;
+    broken.push_back(
+        {{.code = ProblemCode::invalidValue,
+          .pointer = place,
+          .detail = manual ? "depthRange mode manual needs min and max." : "min and max need depthRange mode manual.",
+          .actual = manual ? "absent" : "mode automatic"},
+         {mode, place}});
+  }
+  if (manual && range.min && range.max && *range.min >= *range.max) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = max,
+                       .detail = "max must be more than min.",
+                       .limit = "more than " + numberText(*range.min),
+                       .actual = numberText(*range.max)},
+                      {mode, min, max}});
+  }
+}
+
+void appendPreviousRangeRules(const DepthRange& range, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  const std::string previous = pointer + "/previous";
+  if (range.guardDistance && !range.previous) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/guardDistance",
+                       .detail = "guardDistance guards a previous range; without one the range is this frame's own."},
+                      {previous}});
+  }
+  if (!range.previous) return;
+  if (range.mode == DepthRangeMode::manual) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = previous,
+                       .detail = "previous needs depthRange mode automatic.",
+                       .actual = "mode manual"},
+                      {pointer + "/mode"}});
+  }
+  if (range.previous->near >= range.previous->far) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = previous + "/far",
+                       .detail = "far must be more than near.",
+                       .limit = "more than " + numberText(range.previous->near),
+                       .actual = numberText(range.previous->far)},
+                      {previous}});
+  }
+}
+
+void appendFilterRules(const Filter& filter, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  if (filter.type != FilterType::hard || !filter.radius) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = pointer + "/radius",
+                     .detail = "A hard shadow has no radius.",
+                     .limit = "filter type pcf, vsm, evsm or msm",
+                     .actual = "hard"},
+                    {pointer + "/type"}});
+}
+
+void appendBiasRules(const Bias& bias, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  if (bias.mode == BiasMode::manual) return;
+  for (const auto& [value, name] : {std::pair(bias.depth, "depth"), std::pair(bias.slope, "slope"),
+                                    std::pair(bias.normalOffsetScale, "normalOffsetScale")}) {
+    if (!value) continue;
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/" + name,
+                       .detail = std::string(name) + " needs bias mode manual.",
+                       .actual = "mode automatic"},
+                      {pointer + "/mode"}});
+  }
+}
+
+} // namespace
+
+int tileSide(ShadowSize size, const Atlas& atlas) {
+  constexpr int kLarge = static_cast<int>(ShadowSize::Large);
+  const int steps = static_cast<int>(size) - kLarge;
+  return steps >= 0 ? atlas.baseSize << steps : atlas.baseSize >> -steps;
+}
+
+void appendAtlasRules(const Atlas& atlas, std::vector<BrokenRule>& broken) {
+  if (atlas.baseSize <= atlas.size) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = "/atlas/baseSize",
+                     .detail = "baseSize can't be more than the atlas' size.",
+                     .limit = "at most " + std::to_string(atlas.size),
+                     .actual = std::to_string(atlas.baseSize)},
+                    {"/atlas/size", "/atlas/baseSize"}});
+}
+
+void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::string& pointer,
+                       std::vector<BrokenRule>& broken) {
+  appendPartitionRules(shadow, pointer, broken);
+  appendDepthRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
+  appendPreviousRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
+  appendFilterRules(shadow.filter, pointer + "/filter", broken);
+  appendBiasRules(shadow.bias, pointer + "/bias", broken);
+  if (shadow.technique == ShadowTechnique::hybrid && atlas.samples != 1) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/technique",
+                       .detail = "Technique hybrid needs an atlas of one depth a texel.",
+                       .limit = "atlas.samples 1",
+                       .actual = std::to_string(atlas.samples)},
+                      {pointer + "/technique", "/atlas/samples"}});
+  }
+  const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
+  if (side > atlas.size && atlas.baseSize <= atlas.size) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer + "/size",
+                       .detail = "One tile of this size is larger than the atlas.",
+                       .limit = "at most " + std::to_string(atlas.size) + " texels",
+                       .actual = std::to_string(side) + " texels"},
+                      {pointer + "/size", "/atlas/size", "/atlas/baseSize"}});
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,104 @@
+#include "protocol/spec/validate.h"
+
+#include <algorithm>
+
+#include "protocol/fields/field_checks.h"
+#include "protocol/spec/field_rows.h"
+#include "protocol/spec/shadow_rules.h"
+#include "protocol/spec/view_rules.h"
+
+namespace gnomon {
+namespace {
+
+void appendPixelRule(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
+  if (pixels <= kLimits.maxFramePixels) return;
+  broken.push_back({{.code = ProblemCode::tooLarge,
+                     .pointer = "/width",
+                     .detail = "width times height is more than one frame may have.",
+                     .limit = std::to_string(kLimits.maxFramePixels) + " pixels",
+                     .actual = std::to_string(pixels) + " pixels"},
+                    {"/width", "/height"}});
+}
+
+void appendNodeRules(const std::vector<NodeOptions>& nodes, std::vector<BrokenRule>& broken) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].node) continue;
+    const std::string pointer = "/nodes/" + std::to_string(i) + "/node";
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer,
+                       .detail = "A node's index or name is needed.",
+                       .actual = "absent"},
+                      {pointer}});
+  }
+}
+
+void appendDebugRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  if (!spec.debug.light || !spec.lights) return;
+  const int count = static_cast<int>(spec.lights->size());
+  if (*spec.debug.light < count) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = "/debug/light",
+                     .detail = "The frame has no light of that index.",
+                     .limit = count == 0 ? "no lights" : "0.." + std::to_string(count - 1),
+                     .actual = std::to_string(*spec.debug.light)},
+                    {"/lights"}});
+}
+
+void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken) {
+  if (quality.maxError.has_value() != quality.maxMilliseconds.has_value()) return;
+  broken.push_back({{.code = ProblemCode::invalidValue,
+                     .pointer = "/quality",
+                     .detail = "A target is one of maxError and maxMilliseconds.",
+                     .limit = "maxError | maxMilliseconds",
+                     .actual = quality.maxError ? "both" : "neither"},
+                    {"/quality"}});
+}
+
+} // namespace
+
+std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
+  std::vector<BrokenRule> broken;
+  appendPixelRule(spec, broken);
+  appendCameraRules(spec.camera, broken);
+  if (spec.animation) appendAnimationRules(*spec.animation, broken);
+  if (spec.lights) {
+    for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+      const Light& light = (*spec.lights)[i];
+      appendLightRules(light, i, broken);
+      if (light.shadow) {
+        appendShadowRules(*light.shadow, spec.atlas, "/lights/" + std::to_string(i) + "/shadow", broken);
+      }
+    }
+  }
+  appendShadowRules(spec.shadow, spec.atlas, "/shadow", broken);
+  appendAtlasRules(spec.atlas, broken);
+  appendNodeRules(spec.nodes, broken);
+  appendDebugRules(spec, broken);
+  if (spec.quality) appendQualityRules(*spec.quality, broken);
+  return broken;
+}
+
+Problems problemsBeyond(const Problems& found, const std::vector<BrokenRule>& broken) {
+  const auto isWrong = [&](const std::string& pointer) {
+    return std::any_of(found.begin(), found.end(), [&](const Problem& problem) {
+      return pointsInto(problem.pointer, pointer) || pointsInto(pointer, problem.pointer);
+    });
+  };
+  Problems result;
+  for (const BrokenRule& rule : broken) {
+    if (std::none_of(rule.reads.begin(), rule.reads.end(), isWrong)) result.push_back(rule.problem);
+  }
+  return result;
+}
+
+Problems validate(const FrameSpec& spec) {
+  ProblemList problems;
+  checkAll(spec, Notes{}, Place(), problems);
+  if (problems.empty()) {
+    for (BrokenRule& rule : brokenRules(spec)) problems.add(std::move(rule.problem));
+  }
+  return std::move(problems).take();
+}
+
+} // namespace gnomon

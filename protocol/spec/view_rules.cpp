@@ -1,0 +1,160 @@
+#include "protocol/spec/view_rules.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "protocol/fields/field_checks.h"
+#include "protocol/spec/field_rows.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double kShortest = 1e-9; ///< metres; anything shorter has no direction
+constexpr double kParallel = 1e-6; ///< sine of the least angle between two directions
+
+double length(const Vec3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec3 unit(const Vec3& v) {
+  const double by = length(v);
+  return {v[0] / by, v[1] / by, v[2] / by};
+}
+
+std::string vecText(const Vec3& v) {
+  return numberText(v[0]) + " " + numberText(v[1]) + " " + numberText(v[2]);
+}
+
+Problem invalid(std::string pointer, std::string detail, std::string limit = "", std::string actual = "") {
+  return {ProblemCode::invalidValue, std::move(pointer), std::move(detail), std::move(limit), std::move(actual)};
+}
+
+/// Of each group of alternatives at most one is given.
+template <Described T>
+void appendAlternatives(const T& value, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  for (const Alternatives& group : kRows<T>.alternatives) {
+    std::string names;
+    std::vector<std::string> given;
+    forEachField<T>([&]<class F>(const F& field) {
+      if constexpr (requires { (value.*field.member).has_value(); }) {
+        for (const std::string_view name : group) {
+          if (name != field.name) continue;
+          const std::string shown = field.inlined ? "eye, target and up" : std::string(name);
+          names += names.empty() ? shown : " | " + shown;
+          if ((value.*field.member).has_value()) given.emplace_back(field.inlined ? "" : name);
+        }
+      }
+    });
+    for (std::size_t i = 1; i < given.size(); ++i) {
+      broken.push_back({invalid(pointer + "/" + given[i], "Only one of these can be given.", names), {}});
+    }
+  }
+}
+
+void appendLookAtRules(const EyeTarget& lookAt, std::vector<BrokenRule>& broken) {
+  const Vec3 view = minus(lookAt.target, lookAt.eye);
+  if (length(view) < kShortest) {
+    broken.push_back({invalid("/camera/target", "The target is where the eye is, so there is no direction to look in.",
+                              "any place but the eye", vecText(lookAt.target)),
+                      {"/camera/eye", "/camera/target"}});
+    return;
+  }
+  if (length(lookAt.up) < kShortest) {
+    broken.push_back(
+        {invalid("/camera/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
+         {"/camera/up"}});
+  } else if (length(cross(unit(view), unit(lookAt.up))) < kParallel) {
+    broken.push_back({invalid("/camera/up", "up is parallel to the direction of view.", "any direction but the view's",
+                              vecText(lookAt.up)),
+                      {"/camera/eye", "/camera/target", "/camera/up"}});
+  }
+}
+
+void appendNearFar(double near, double far, const std::string& lens, std::vector<BrokenRule>& broken) {
+  if (near < far) return;
+  broken.push_back(
+      {invalid(lens + "/far", "far must be more than near.", "more than " + numberText(near), numberText(far)),
+       {lens + "/near", lens + "/far"}});
+}
+
+} // namespace
+
+void appendAnimationRules(const AnimationMoment& moment, std::vector<BrokenRule>& broken) {
+  appendAlternatives(moment, "/animation", broken);
+  if (moment.index || moment.name || moment.timeSeconds == 0) return;
+  broken.push_back(
+      {invalid("/animation", "A time needs the index or the name of an animation.", "index | name", "neither"),
+       {"/animation/index", "/animation/name"}});
+}
+
+void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken) {
+  appendAlternatives(camera, "/camera", broken);
+  if (camera.lookAt) appendLookAtRules(*camera.lookAt, broken);
+  if (camera.perspective && camera.perspective->near && camera.perspective->far) {
+    appendNearFar(*camera.perspective->near, *camera.perspective->far, "/camera/perspective", broken);
+  }
+  if (camera.orthographic) {
+    appendNearFar(camera.orthographic->near, camera.orthographic->far, "/camera/orthographic", broken);
+  }
+}
+
+void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenRule>& broken) {
+  const std::string pointer = "/lights/" + std::to_string(index);
+  const std::string type = std::string(spell(light.type));
+  const bool directional = light.type == LightType::directional;
+
+  const auto require = [&](bool given, const char* name, std::vector<std::string> reads, const std::string& detail) {
+    reads.push_back(pointer + "/type");
+    if (!given) broken.push_back({invalid(pointer + "/" + name, detail, "", "absent"), std::move(reads)});
+  };
+  const auto forbid = [&](bool given, const char* name) {
+    if (!given) return;
+    broken.push_back(
+        {invalid(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
+  };
+
+  appendAlternatives(light, pointer, broken);
+  switch (light.type) {
+    case LightType::directional:
+      require(light.direction || light.sun, "direction", {pointer + "/direction", pointer + "/sun"},
+              "A light of type directional needs direction or sun.");
+      forbid(light.position.has_value(), "position");
+      forbid(light.range.has_value(), "range");
+      forbid(light.radius.has_value(), "radius");
+      break;
+    case LightType::spot:
+      require(light.direction.has_value(), "direction", {pointer + "/direction"},
+              "A light of type spot needs a direction.");
+      break;
+    case LightType::point:
+      forbid(light.direction.has_value(), "direction");
+      break;
+  }
+  if (!directional) {
+    require(light.position.has_value(), "position", {pointer + "/position"},
+            "A light of type " + type + " needs a position.");
+    forbid(light.sun.has_value(), "sun");
+    forbid(light.angularDiameterDegrees.has_value(), "angularDiameterDegrees");
+  }
+  if (light.direction && length(*light.direction) < kShortest) {
+    broken.push_back({invalid(pointer + "/direction", "This direction is zero.", "any direction of some length",
+                              vecText(*light.direction)),
+                      {pointer + "/direction"}});
+  }
+  if (light.innerConeDegrees >= light.outerConeDegrees) {
+    broken.push_back({invalid(pointer + "/innerConeDegrees", "The inner cone must be narrower than the outer.",
+                              "less than " + numberText(light.outerConeDegrees), numberText(light.innerConeDegrees)),
+                      {pointer + "/innerConeDegrees", pointer + "/outerConeDegrees"}});
+  }
+}
+
+} // namespace gnomon

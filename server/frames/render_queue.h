@@ -1,0 +1,70 @@
+#pragma once
+
+#include <future>
+#include <memory>
+
+#include "renderer/render.h"
+#include "server/frames/job_queue.h"
+
+namespace gnomon {
+
+/// One frame that is wanted.
+struct FrameJob {
+  ScenePtr scene;
+  FrameSpec spec;
+  Clock::time_point deadline;
+  std::function<bool()> clientGone;
+  TileUse tiles = TileUse::kept;
+};
+
+/// Shimmer that is wanted along a path of cameras. One job, whatever its length.
+struct ShimmerJob {
+  ScenePtr scene;
+  FrameSpec spec;
+  std::vector<Camera> path;
+  Clock::time_point deadline;
+  std::function<bool()> clientGone;
+};
+
+/// A frame and how long its job waited for its turn.
+struct QueuedFrame {
+  Frame frame;
+  double queueMs = 0;
+};
+
+/// A bounded queue in front of the thread that makes, owns and uses the renderer.
+class RenderQueue {
+ public:
+  /// Returns once the renderer has drawn a first small shadowed frame, or with why it could not.
+  static Result<std::unique_ptr<RenderQueue>> start(const RendererOptions& options, std::size_t limit);
+
+  const RendererInfo& info() const { return info_; }
+
+  /// The frame, once it is drawn or its deadline has passed.
+  std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
+
+  /// Flips in 1,000 points and a frame; the path is left early when the deadline has passed or the client is gone.
+  std::variant<double, Problems, QueueFull> shimmer(ShimmerJob job);
+
+  /// True while a new job would not wait long: the queue is less than three quarters full.
+  bool hasRoom() const;
+  std::size_t waiting() const { return jobs_.waiting(); }
+  std::size_t limit() const { return jobs_.limit(); }
+
+  /// Runs what waits until `deadline`, drops the rest and ends the renderer's thread.
+  void close(Clock::time_point deadline);
+
+ private:
+  explicit RenderQueue(std::size_t limit);
+
+  /// What `work` gives on the queue's thread, told how long it waited.
+  template <class T>
+  std::variant<T, Problems, QueueFull> ask(Clock::time_point deadline, std::function<bool()> clientGone,
+                                           std::function<Result<T>(Renderer&, double waitedMs)> work);
+
+  std::optional<Renderer> renderer_; ///< touched on the queue's thread only
+  RendererInfo info_;
+  JobQueue jobs_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,66 @@
+#include "server/handlers/scenes_handlers.h"
+
+#include "server/http/ascii.h"
+#include "server/http/json_reply.h"
+#include "server/http/problem_reply.h"
+#include "server/scenes/bundle_format.h"
+#include "server/scenes/upload.h"
+
+namespace gnomon {
+namespace {
+
+HttpReply store(Services& services, HttpRequest& request, const std::optional<std::string>& expectedId) {
+  const auto bundle = bundleFromRequest(request, services.limits);
+  if (!bundle) {
+    return problemReply(bundle.problems(), request.id);
+  }
+  const auto stored = services.store.put(*bundle, expectedId);
+  if (!stored) {
+    return problemReply(stored.problems(), request.id);
+  }
+  HttpReply reply = jsonReply(toJson(stored->loaded.summary), stored->isNew ? 201 : 200);
+  reply.headers.emplace_back("Location", "/v1/scenes/" + stored->loaded.summary.id);
+  return reply;
+}
+
+} // namespace
+
+HttpReply postScene(Services& services, RouteCall call) {
+  return store(services, call.request, std::nullopt);
+}
+
+HttpReply putScene(Services& services, RouteCall call) {
+  const std::string& id = call.values.at("id");
+  if (!isSceneId(id)) {
+    return problemReply({{ProblemCode::invalidValue, "id", "The address must end with the upload's SHA-256.",
+                          "64 lower-case hexadecimal digits", asciiExcerpt(id)}},
+                        call.request.id);
+  }
+  return store(services, call.request, id);
+}
+
+HttpReply listScenes(Services& services, RouteCall) {
+  Json scenes = Json::array();
+  for (Json& summary : services.store.summaries()) {
+    scenes.push_back(std::move(summary));
+  }
+  return jsonReply({{"scenes", std::move(scenes)}});
+}
+
+HttpReply getScene(Services& services, RouteCall call) {
+  auto summary = services.store.summary(call.values.at("id"));
+  return summary ? jsonReply(*summary) : problemReply(summary.problems(), call.request.id);
+}
+
+HttpReply deleteScene(Services& services, RouteCall call) {
+  const std::string& id = call.values.at("id");
+  if (!services.store.remove(id)) {
+    return problemReply({{ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)}},
+                        call.request.id);
+  }
+  HttpReply reply;
+  reply.status = 204;
+  return reply;
+}
+
+} // namespace gnomon

@@ -1,0 +1,122 @@
+#include "server/http/negotiation.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "server/http/ascii.h"
+
+namespace gnomon {
+namespace {
+
+struct MediaRange {
+  std::string type;
+  int quality = 1000; ///< thousandths
+};
+
+/// Thousandths from "0", "0.5", "1.000"; anything else counts as 0, so that it is never chosen by mistake.
+int qualityOf(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size() && value >= 0 && value <= 1;
+  return good ? static_cast<int>(value * 1000 + 0.5) : 0;
+}
+
+std::vector<MediaRange> rangesOf(std::string_view accept) {
+  std::vector<MediaRange> ranges;
+  for (const std::string& entry : split(accept, ',')) {
+    const std::vector<std::string> parts = split(entry, ';');
+    if (parts.empty() || parts.front().empty()) {
+      continue;
+    }
+    MediaRange range{lowerCase(parts.front())};
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      const std::string parameter = lowerCase(parts[i]);
+      if (parameter.starts_with("q=")) {
+        range.quality = qualityOf(std::string_view(parameter).substr(2));
+      }
+    }
+    ranges.push_back(std::move(range));
+  }
+  return ranges;
+}
+
+/// 3 = the type itself, 2 = "image/*", 1 = "*/*", 0 = not covered.
+int specificity(std::string_view range, std::string_view type) {
+  if (range == type) {
+    return 3;
+  }
+  if (range == "*/*") {
+    return 1;
+  }
+  const bool group = range.ends_with("/*") && type.starts_with(range.substr(0, range.size() - 1));
+  return group ? 2 : 0;
+}
+
+struct Liking {
+  int quality = 0;
+  int how = 0; ///< specificity of the range that said so
+};
+
+Liking likingOf(const std::vector<MediaRange>& ranges, std::string_view type) {
+  Liking liking;
+  for (const MediaRange& range : ranges) {
+    const int how = specificity(range.type, type);
+    if (how > liking.how) {
+      liking = {range.quality, how};
+    }
+  }
+  return liking;
+}
+
+} // namespace
+
+std::string_view mediaTypeOf(ImageFormat format) {
+  return format == ImageFormat::png ? "image/png" : "image/x-exr";
+}
+
+std::string_view mediaTypeOf(FrameForm form) {
+  switch (form.form) {
+    case ReplyForm::image:
+      return mediaTypeOf(form.format);
+    case ReplyForm::multipart:
+      return "multipart/mixed";
+    case ReplyForm::json:
+      return "application/json";
+  }
+  return "";
+}
+
+std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers) {
+  if (!accept || trimmed(*accept).empty()) {
+    return 0;
+  }
+  const std::vector<MediaRange> ranges = rangesOf(*accept);
+  std::optional<std::size_t> best;
+  Liking most;
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    const Liking liking = likingOf(ranges, offers[i]);
+    if (liking.quality > most.quality ||
+        (liking.quality == most.quality && liking.quality > 0 && liking.how > most.how)) {
+      best = i;
+      most = liking;
+    }
+  }
+  return best;
+}
+
+std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat) {
+  const ImageFormat other = specFormat == ImageFormat::png ? ImageFormat::exr : ImageFormat::png;
+  const std::array<FrameForm, 4> forms{{{ReplyForm::image, specFormat},
+                                        {ReplyForm::image, other},
+                                        {ReplyForm::multipart, specFormat},
+                                        {ReplyForm::json, specFormat}}};
+  std::array<std::string_view, 4> offers;
+  std::transform(forms.begin(), forms.end(), offers.begin(), [](FrameForm form) { return mediaTypeOf(form); });
+  const auto best = preferred(accept, offers);
+  return best ? std::optional(forms[*best]) : std::nullopt;
+}
+
+} // namespace gnomon

@@ -1,0 +1,162 @@
+#include "server/http/request_body.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace gnomon {
+namespace {
+
+BodyRefusal refusal(int status, ProblemCode code, std::string detail, std::string limit = "", std::string actual = "") {
+  return {status, {code, "", std::move(detail), std::move(limit), std::move(actual)}};
+}
+
+BodyRefusal tooLarge(std::size_t limit, const std::string& actual) {
+  return refusal(413, ProblemCode::tooLarge, "The body is larger than this route takes.",
+                 std::to_string(limit) + " bytes", actual);
+}
+
+BodyRefusal brokenChunks(std::string detail) {
+  return refusal(400, ProblemCode::malformed, std::move(detail));
+}
+
+/// Takes bytes off the socket in the order that the body's framing needs them.
+class BodyReader {
+ public:
+  BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease)
+      : reader_(reader), rule_(rule), pace_(pace), lease_(lease) {}
+
+  /// Appends `count` bytes to the body; false = refused.
+  bool append(std::size_t count) {
+    while (count > 0) {
+      if (reader_.buffered().empty() && !more(std::min<std::size_t>(count, 64 * 1024))) {
+        return false;
+      }
+      const std::string_view bytes = reader_.buffered().substr(0, count);
+      if (!lease_.grow(bytes.size())) {
+        refused = refusal(429, ProblemCode::busy, "Uploads that are under way fill the memory set aside for them.");
+        return false;
+      }
+      body.insert(body.end(), bytes.begin(), bytes.end());
+      count -= bytes.size();
+      reader_.consume(bytes.size());
+    }
+    return true;
+  }
+
+  /// A line without its CR LF; false = refused.
+  bool line(std::string& text) {
+    constexpr std::size_t kMost = 1024;
+    while (true) {
+      const std::size_t end = reader_.buffered().find("\r\n");
+      if (end != std::string_view::npos) {
+        text = reader_.buffered().substr(0, end);
+        reader_.consume(end + 2);
+        return true;
+      }
+      if (reader_.buffered().size() > kMost) {
+        refused = brokenChunks("A chunk's line is too long.");
+        return false;
+      }
+      if (!more(kMost)) {
+        return false;
+      }
+    }
+  }
+
+  bool chunks() {
+    std::string text;
+    while (true) {
+      if (!line(text)) {
+        return false;
+      }
+      std::size_t size = 0;
+      const std::string_view digits = std::string_view(text).substr(0, text.find_first_of("; \t"));
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), size, 16);
+      if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
+        refused = brokenChunks("A chunk's size is not a hexadecimal number.");
+        return false;
+      }
+      if (size == 0) {
+        return trailers();
+      }
+      if (size > rule_.maxBytes - body.size()) {
+        refused = tooLarge(rule_.maxBytes, "");
+        return false;
+      }
+      if (!append(size) || !line(text)) {
+        return false;
+      }
+      if (!text.empty()) {
+        refused = brokenChunks("A chunk is longer than its size says.");
+        return false;
+      }
+    }
+  }
+
+  Bytes body;
+  BodyRefusal refused;
+
+ private:
+  bool trailers() {
+    std::string text;
+    for (std::size_t count = 0; count <= kMaxHeaders; ++count) {
+      if (!line(text)) {
+        return false;
+      }
+      if (text.empty()) {
+        return true;
+      }
+    }
+    refused = brokenChunks("The chunked body has too many trailers.");
+    return false;
+  }
+
+  bool more(std::size_t most) {
+    const auto deadline = std::min(pace_.deadline(start_, body.size()), Clock::now() + pace_.stall);
+    const SocketWait waited = reader_.receive(most, deadline);
+    if (waited == SocketWait::timedOut) {
+      refused = refusal(408, ProblemCode::deadlineExceeded, "The body arrived too slowly.");
+    } else if (waited == SocketWait::closed) {
+      refused = refusal(400, ProblemCode::malformed, "The connection ended before the body did.");
+    }
+    return waited == SocketWait::ready;
+  }
+
+  SocketReader& reader_;
+  const BodyRule& rule_;
+  const Pace& pace_;
+  ByteLease& lease_;
+  Clock::time_point start_ = Clock::now();
+};
+
+} // namespace
+
+std::optional<BodyRefusal> refuseBody(const RequestHead& head, const BodyRule& rule) {
+  if (rule.framing == BodyRule::Framing::none) {
+    if (head.chunked || head.contentLength.value_or(0) > 0) {
+      return refusal(413, ProblemCode::tooLarge, "This route takes no body.", "0 bytes");
+    }
+    return std::nullopt;
+  }
+  const bool isOptional = rule.framing == BodyRule::Framing::length;
+  if (isOptional ? head.chunked : !head.chunked && !head.contentLength) {
+    return refusal(411, ProblemCode::lengthRequired, "This route needs a body with a Content-Length.");
+  }
+  if (head.contentLength.value_or(0) > rule.maxBytes) {
+    return tooLarge(rule.maxBytes, std::to_string(*head.contentLength) + " bytes");
+  }
+  return std::nullopt;
+}
+
+std::variant<Bytes, BodyRefusal> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule,
+                                          const Pace& pace, ByteLease& lease) {
+  BodyReader body(reader, rule, pace, lease);
+  const bool whole =
+      head.chunked ? body.chunks() : body.append(static_cast<std::size_t>(head.contentLength.value_or(0)));
+  if (!whole) {
+    return std::move(body.refused);
+  }
+  return std::move(body.body);
+}
+
+} // namespace gnomon

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "server/http/http_reply.h"
+#include "server/http/socket_io.h"
+
+namespace gnomon {
+
+/// What the log tells of a request besides its reply.
+struct RequestRecord {
+  std::string id;
+  std::string method;
+  std::string target; ///< as it came; shortened in the log
+  std::size_t requestBytes = 0;
+  bool delivered = true; ///< false = the client was gone before the whole reply was sent
+  Clock::time_point start = Clock::now();
+};
+
+/// The line's text: one JSON object, no scene contents.
+std::string requestLine(const RequestRecord& record, const HttpReply& reply, double milliseconds);
+
+/// Writes the line to the log (standard error). Never throws.
+void logRequest(const RequestRecord& record, const HttpReply& reply) noexcept;
+
+/// One line about the server itself: {"event": …, "detail": …}. Never throws.
+void logEvent(std::string_view event, std::string_view detail) noexcept;
+
+} // namespace gnomon

@@ -1,0 +1,100 @@
+#include "server/http/url.h"
+
+namespace gnomon {
+namespace {
+
+Problem malformedUrl(std::string detail) {
+  return {ProblemCode::malformed, "", std::move(detail), "", ""};
+}
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') {
+    return c - '0';
+  }
+  if (c >= 'a' && c <= 'f') {
+    return c - 'a' + 10;
+  }
+  if (c >= 'A' && c <= 'F') {
+    return c - 'A' + 10;
+  }
+  return -1;
+}
+
+} // namespace
+
+Result<std::string> percentDecode(std::string_view text, bool plusIsSpace) {
+  std::string decoded;
+  decoded.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    char c = text[i];
+    if (c == '+' && plusIsSpace) {
+      c = ' ';
+    } else if (c == '%') {
+      const int high = i + 2 < text.size() ? hexDigit(text[i + 1]) : -1;
+      const int low = high >= 0 ? hexDigit(text[i + 2]) : -1;
+      if (low < 0) {
+        return malformedUrl("The address holds a '%' that two hexadecimal digits do not follow.");
+      }
+      c = static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      return malformedUrl("The address holds a control character.");
+    }
+    decoded.push_back(c);
+  }
+  return decoded;
+}
+
+Result<Url> parseTarget(std::string_view target) {
+  if (target.empty() || target.front() != '/') {
+    return malformedUrl("The request target must begin with '/'.");
+  }
+  const std::size_t mark = target.find('?');
+  std::string_view path = target.substr(1, mark == std::string_view::npos ? mark : mark - 1);
+  Url url;
+  while (!path.empty()) {
+    const std::size_t slash = path.find('/');
+    auto segment = percentDecode(path.substr(0, slash), false);
+    if (!segment) {
+      return std::move(segment).problems();
+    }
+    if (*segment == "." || *segment == "..") {
+      return malformedUrl("The path must not hold '.' or '..'.");
+    }
+    url.path.push_back(*std::move(segment));
+    if (slash == std::string_view::npos) {
+      break;
+    }
+    path.remove_prefix(slash + 1);
+    if (path.empty()) {
+      url.path.emplace_back(); // a trailing slash is another path
+    }
+  }
+  if (mark == std::string_view::npos) {
+    return url;
+  }
+  std::string_view query = target.substr(mark + 1);
+  while (!query.empty()) {
+    const std::size_t end = query.find('&');
+    const std::string_view pair = query.substr(0, end);
+    query.remove_prefix(end == std::string_view::npos ? query.size() : end + 1);
+    if (pair.empty()) {
+      continue;
+    }
+    const std::size_t equals = pair.find('=');
+    auto key = percentDecode(pair.substr(0, equals), true);
+    auto value = equals == std::string_view::npos ? Result<std::string>(std::string())
+                                                  : percentDecode(pair.substr(equals + 1), true);
+    if (!key) {
+      return std::move(key).problems();
+    }
+    if (!value) {
+      return std::move(value).problems();
+    }
+    url.query.emplace_back(*std::move(key), *std::move(value));
+  }
+  return url;
+}
+
+} // namespace gnomon

@@ -1,0 +1,144 @@
+#include "server/process/serve.h"
+
+#include <csignal>
+#include <cstdio>
+#include <malloc.h>
+#include <sys/resource.h>
+#include <thread>
+#include <unistd.h>
+
+#include "server/handlers/routes.h"
+#include "server/http/http_server.h"
+#include "server/http/request_log.h"
+#include "server/process/shutdown_signals.h"
+
+namespace gnomon {
+namespace {
+
+/// One sentence a problem, for the person at the terminal.
+int failed(const Problems& problems) {
+  for (const Problem& problem : problems) {
+    const std::string actual = problem.actual.empty() ? "" : " (" + problem.actual + ")";
+    std::fprintf(stderr, "gnomon: %s%s\n", problem.detail.c_str(), actual.c_str());
+  }
+  return 1;
+}
+
+/// Every connection is a descriptor: as many as the system lets us have.
+void raiseDescriptorLimit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0) {
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
+/// Large blocks come from the system and go back to it at once, and no thread's heap keeps much free at its end. Left
+/// to itself the allocator raises both bounds with what it meets (mallopt(3)), and a server never gives back what it
+/// took.
+void boundHeaps() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20); // bytes
+  mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
+std::string addressOf(const std::string& bind, int port) {
+  const bool ipv6 = bind.find(':') != std::string::npos;
+  return "http://" + (ipv6 ? "[" + bind + "]" : bind) + ":" + std::to_string(port);
+}
+
+[[noreturn]] void endNow(const char* why) {
+  logEvent("ended", why);
+  ::_exit(1); // no destructors: threads may be stuck, and nothing on disk is half-written
+}
+
+/// Runs the listener until a signal comes, then lets what is under way finish. 0, or 1 when accepting failed.
+int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, HttpServer& server, Services& services) {
+  StopSignal listenerEnded;
+  bool inOrder = false;
+  std::thread listening([&] {
+    inOrder = server.run();
+    listenerEnded.raise();
+  });
+  signals.wait(listenerEnded, Clock::time_point::max());
+  services.draining = true;
+  logEvent("draining", "no new work is taken");
+  if (!listenerEnded.raised() && options.drainSeconds > 0 &&
+      signals.wait(listenerEnded, Clock::now() + std::chrono::seconds(options.drainSeconds)) ==
+          ShutdownSignals::Event::signal) {
+    endNow("a second signal came");
+  }
+  StopSignal done;
+  const auto grace = Clock::now() + std::chrono::seconds(options.graceSeconds);
+  std::thread finishing([&] {
+    server.stop();
+    services.queue.close(grace);
+    listening.join();
+    done.raise();
+  });
+  constexpr std::chrono::seconds kSlack{5}; // for a frame that began just before the grace ended
+  switch (signals.wait(done, grace + kSlack)) {
+    case ShutdownSignals::Event::signal:
+      endNow("a second signal came");
+    case ShutdownSignals::Event::timeout:
+      endNow("the grace is over and work is still running");
+    case ShutdownSignals::Event::done:
+      break;
+  }
+  finishing.join();
+  logEvent("ended", inOrder ? "all work was finished" : "connections could not be accepted any more");
+  return inOrder ? 0 : 1;
+}
+
+} // namespace
+
+int serve(const ServeOptions& options) {
+  ShutdownSignals signals;
+  raiseDescriptorLimit();
+  boundHeaps();
+  std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
+  std::thread warming(warmEncoders);
+  struct Joiner {
+    std::thread& thread;
+    ~Joiner() { thread.join(); }
+  } const joiner{warming};
+
+  Limits limits;
+  limits.maxSceneBytes = options.maxSceneBytes;
+  auto store = SceneStore::open({options.storeDirectory, options.sceneMemoryBytes, limits});
+  if (!store) {
+    return failed(store.problems());
+  }
+  auto queue = RenderQueue::start({.backend = options.backend,
+                                   .gpuSceneBytes = options.gpuSceneBytes,
+                                   .tracedSceneBytes = options.tracedSceneBytes,
+                                   .tileCacheBytes = options.tileCacheBytes},
+                                  options.queueLimit);
+  if (!queue) {
+    return failed(queue.problems());
+  }
+  const RendererInfo& info = (*queue)->info();
+  logEvent("renderer", info.backend + " " + info.platform + ": " + info.renderer + ", " + info.version);
+
+  Services services{**store,
+                    **queue,
+                    limits,
+                    std::chrono::seconds(options.requestTimeoutSeconds),
+                    options.frameMemoryBytes,
+                    ByteBudget(options.frameMemoryBytes),
+                    options.page,
+                    std::chrono::seconds(options.evaluationTimeoutSeconds),
+                    std::counting_semaphore<>(options.maxEvaluations),
+                    {}};
+  ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
+  auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
+  if (!server) {
+    return failed(server.problems());
+  }
+  const std::string address = addressOf(options.bind, (*server)->port());
+  logEvent("listening", address);
+  std::printf("listening on %s\n", address.c_str());
+  std::fflush(stdout);
+  return runUntilSignalled(options, signals, **server, services);
+}
+
+} // namespace gnomon

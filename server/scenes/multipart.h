@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
+#include "renderer/scene/scene_bundle.h"
+
+namespace gnomon {
+
+/// One part of a multipart/form-data body. `content` looks into the body.
+struct FormPart {
+  std::string name;
+  std::optional<std::string> fileName;
+  std::string contentType; ///< empty = not given
+  std::string_view content;
+};
+
+/// The boundary that a Content-Type names, 1..70 characters of RFC 2046; nothing when there is none.
+std::optional<std::string> boundaryOf(std::string_view contentType);
+
+/// The parts of a body (RFC 7578), in order. Strict: every part is closed, has one Content-Disposition form-data with a
+/// name, and at most `maxParts` come. Nothing is copied but the names.
+Result<std::vector<FormPart>> parseMultipart(std::string_view body, std::string_view boundary, std::size_t maxParts);
+
+/// An upload: the part `scene` is the model; a part `file` (or `files`) is a file under its file name, any other part
+/// a file under its own name. Parts named in `others` are left to the caller.
+Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others);
+
+} // namespace gnomon

@@ -1,0 +1,201 @@
+#include "server/scenes/scene_store.h"
+
+#include <malloc.h>
+
+#include "server/http/request_log.h"
+#include "server/scenes/bundle_format.h"
+
+namespace gnomon {
+namespace {
+
+constexpr int kLoadsAtOnce = 2; ///< a load may need many times the memory of its file
+
+Problem unknownScene(const std::string& id) {
+  return {ProblemCode::notFound, "", "No scene with this id is stored.", "", id};
+}
+
+std::string summaryText(const SceneSummary& summary) {
+  return toJson(summary).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Gives the place back when the load is over, however it ends, and to the system what the load took: the allocator
+/// keeps a heap for each thread, and what many loads leave free in all of them adds up.
+class LoadPlace {
+ public:
+  explicit LoadPlace(std::counting_semaphore<>& places) : places_(places) { places_.acquire(); }
+  ~LoadPlace() {
+    malloc_trim(0);
+    places_.release();
+  }
+  LoadPlace(const LoadPlace&) = delete;
+  LoadPlace& operator=(const LoadPlace&) = delete;
+
+ private:
+  std::counting_semaphore<>& places_;
+};
+
+} // namespace
+
+SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory)
+    : limits_(options.limits),
+      memoryBytes_(options.memoryBytes),
+      cache_(options.memoryBytes),
+      directory_(std::move(directory)),
+      loads_(kLoadsAtOnce) {}
+
+Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& options) {
+  std::optional<SceneDirectory> directory;
+  if (!options.directory.empty()) {
+    auto opened = SceneDirectory::open(options.directory, options.limits.maxSceneBytes);
+    if (!opened) {
+      return std::move(opened).problems();
+    }
+    directory = *std::move(opened);
+  }
+  return std::unique_ptr<SceneStore>(new SceneStore(options, std::move(directory)));
+}
+
+Result<LoadedScene> SceneStore::load(const std::string& id, const SceneBundle& bundle) {
+  const LoadPlace place(loads_);
+  auto scene = loadScene(bundle, limits_);
+  if (!scene) {
+    return std::move(scene).problems();
+  }
+  LoadedScene loaded{*scene, summaryOf(**scene)};
+  loaded.summary.id = id;
+  loaded.summary.bytes = bundleBytes(bundle);
+  if (loaded.summary.memoryBytes > memoryBytes_) {
+    return Problem{ProblemCode::tooLarge, "", "The loaded scene would not fit the memory set aside for scenes.",
+                   std::to_string(memoryBytes_) + " bytes", std::to_string(loaded.summary.memoryBytes) + " bytes"};
+  }
+  return loaded;
+}
+
+Result<StoredScene> SceneStore::put(const SceneBundle& bundle, const std::optional<std::string>& expectedId) {
+  const std::string id = bundleId(bundle);
+  if (expectedId && *expectedId != id) {
+    return Problem{ProblemCode::hashMismatch, "", "The uploaded bytes have another SHA-256 than the address names.",
+                   *expectedId, id};
+  }
+  bool isNew = false;
+  auto loaded = loading_.run("put " + id, [&]() -> Result<LoadedScene> {
+    const bool stored = directory_ && directory_->contains(id);
+    auto known = cache_.get(id);
+    isNew = directory_ ? !stored : !known;
+    if (!known) {
+      auto fresh = load(id, bundle);
+      if (!fresh) {
+        return fresh;
+      }
+      known = *std::move(fresh);
+    }
+    if (directory_ && !stored) {
+      if (auto written = directory_->write(id, bundle, summaryText(known->summary)); !written) {
+        return std::move(written).problems();
+      }
+    }
+    cache_.put(*known);
+    return *std::move(known);
+  });
+  if (!loaded) {
+    return std::move(loaded).problems();
+  }
+  return StoredScene{*std::move(loaded), isNew};
+}
+
+Result<LoadedScene> SceneStore::use(const std::string& id, const SceneBundle& bundle) {
+  if (auto known = cache_.get(id)) {
+    return *std::move(known);
+  }
+  return loading_.run("use " + id, [&] {
+    auto loaded = load(id, bundle);
+    if (loaded) {
+      cache_.put(*loaded);
+    }
+    return loaded;
+  });
+}
+
+Result<LoadedScene> SceneStore::get(const std::string& id) {
+  if (auto known = cache_.get(id)) {
+    return *std::move(known);
+  }
+  if (!directory_ || !isSceneId(id)) {
+    return unknownScene(id);
+  }
+  return loading_.run("get " + id, [&]() -> Result<LoadedScene> {
+    if (auto known = cache_.get(id)) { // another flight landed meanwhile
+      return *std::move(known);
+    }
+    auto bundle = directory_->read(id);
+    if (!bundle) {
+      return std::move(bundle).problems();
+    }
+    auto loaded = load(id, *bundle);
+    if (loaded) {
+      cache_.put(*loaded);
+    }
+    return loaded;
+  });
+}
+
+bool SceneStore::contains(const std::string& id) {
+  return isSceneId(id) && (cache_.get(id) || (directory_ && directory_->contains(id)));
+}
+
+std::optional<Json> SceneStore::storedSummary(const std::string& id) const {
+  const auto text = directory_->readSummary(id);
+  if (!text) {
+    return std::nullopt;
+  }
+  Json summary = Json::parse(*text, nullptr, false);
+  if (!summary.is_object() || summary.value("id", Json()) != id) {
+    logEvent("store", "the summary beside this scene is damaged; the scene is loaded instead: " + id);
+    return std::nullopt;
+  }
+  return summary;
+}
+
+Result<Json> SceneStore::summary(const std::string& id) {
+  if (!contains(id)) {
+    return unknownScene(id);
+  }
+  if (const auto known = cache_.get(id)) {
+    return toJson(known->summary);
+  }
+  if (auto stored = storedSummary(id)) {
+    return *std::move(stored);
+  }
+  auto loaded = get(id);
+  if (!loaded) {
+    return std::move(loaded).problems();
+  }
+  return toJson(loaded->summary);
+}
+
+std::vector<Json> SceneStore::summaries() {
+  std::vector<Json> all;
+  if (!directory_) {
+    for (const SceneSummary& summary : cache_.summaries()) {
+      all.push_back(toJson(summary));
+    }
+    return all;
+  }
+  for (const std::string& id : directory_->ids()) {
+    if (auto found = summary(id)) {
+      all.push_back(*std::move(found));
+    }
+  }
+  return all;
+}
+
+bool SceneStore::remove(const std::string& id) {
+  if (!isSceneId(id)) {
+    return false;
+  }
+  const bool fromMemory = cache_.remove(id);
+  const bool fromDisk = directory_ && directory_->remove(id);
+  return fromMemory || fromDisk;
+}
+
+} // namespace gnomon

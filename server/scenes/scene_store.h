@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <semaphore>
+#include <string>
+#include <vector>
+
+#include "protocol/json/json_codec.h"
+#include "server/scenes/scene_cache.h"
+#include "server/scenes/scene_directory.h"
+#include "server/scenes/single_flight.h"
+
+namespace gnomon {
+
+struct SceneStoreOptions {
+  std::string directory;                ///< empty = scenes live in memory only, and the least used are forgotten
+  std::size_t memoryBytes = 2ull << 30; ///< loaded scenes that are kept
+  Limits limits;                        ///< what a scene may be
+};
+
+/// A scene that was put into the store.
+struct StoredScene {
+  LoadedScene loaded;
+  bool isNew = true;
+};
+
+/// Scenes by id. Loading happens on the calling thread, once however many ask, and only a few at a time. Any thread.
+class SceneStore {
+ public:
+  static Result<std::unique_ptr<SceneStore>> open(const SceneStoreOptions& options);
+
+  /// Loads the bundle, and keeps it if it can be loaded. With `expectedId`, hashMismatch when its id is another.
+  Result<StoredScene> put(const SceneBundle& bundle, const std::optional<std::string>& expectedId = std::nullopt);
+
+  /// The loaded bundle, kept in memory as long as the budget lets it, and never written to the directory. `id` is its
+  /// bundleId.
+  Result<LoadedScene> use(const std::string& id, const SceneBundle& bundle);
+
+  /// The scene, loaded from the directory where it is not in memory.
+  Result<LoadedScene> get(const std::string& id);
+
+  bool contains(const std::string& id);
+  Result<Json> summary(const std::string& id);
+  std::vector<Json> summaries(); ///< of all scenes, by ascending id
+  bool remove(const std::string& id);
+
+ private:
+  SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory);
+  Result<LoadedScene> load(const std::string& id, const SceneBundle& bundle);
+  std::optional<Json> storedSummary(const std::string& id) const;
+
+  Limits limits_;
+  std::size_t memoryBytes_;
+  SceneCache cache_;
+  std::optional<SceneDirectory> directory_;
+  SingleFlight<Result<LoadedScene>> loading_;
+  std::counting_semaphore<> loads_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,101 @@
+#include "clients/cli/terminal/problem_text.h"
+
+#include <gtest/gtest.h>
+
+#include "clients/cli/files/output_files.h"
+#include "clients/cli/terminal/summary_text.h"
+
+namespace gnomon::cli {
+namespace {
+
+TEST(ProblemLine, SaysWhereWhatAndWhich) {
+  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/width", "too wide", "1..8192", "9000"}),
+            "/width: too wide; allowed: 1..8192; got: 9000");
+  EXPECT_EQ(problemLine({ProblemCode::malformed, "", "not JSON", "", ""}), "not JSON");
+}
+
+TEST(ProblemLine, NamesTheFlagThatSetThePlaceOrWhatHoldsIt) {
+  const FlagOrigins origins{{"/camera/orbit", "--orbit"}, {"/width", "--width"}};
+  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/camera/orbit/distance", "no", "", ""}, origins),
+            "--orbit (/camera/orbit/distance): no");
+  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/camera", "no", "", ""}, origins), "/camera: no");
+  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/widths", "no", "", ""}, origins), "/widths: no");
+}
+
+TEST(ProblemLine, CantSteerTheTerminal) {
+  EXPECT_EQ(problemLine({ProblemCode::invalidScene, "", "a\x1b[2Jb\nc\x7f", "", ""}), "a?[2Jb?c?");
+}
+
+TEST(OutputFiles, FormatIsTheSuffix) {
+  EXPECT_EQ(formatOf("a/frame.png"), "png");
+  EXPECT_EQ(formatOf("frame.b.exr"), "exr");
+  for (const char* name : {"-", "frame", "frame.jpg", "frame.PNG", ".png", "png"}) EXPECT_FALSE(formatOf(name)) << name;
+}
+
+TEST(OutputFiles, SeveralPicturesGetTheirViewsNames) {
+  EXPECT_EQ(pictureFile("a.b/frame.png", "depth", 1), "a.b/frame.png");
+  EXPECT_EQ(pictureFile("a.b/frame.png", "depth", 2), "a.b/frame.depth.png");
+}
+
+TEST(OutputFiles, StandardOutputTakesOnePicture) {
+  const auto written = writePictures({{"color", {1}}, {"depth", {2}}}, "-");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.problems().front().actual, "2");
+}
+
+TEST(SummaryText, IsATree) {
+  SceneSummary summary;
+  summary.bytes = 2'621'440;
+  summary.memoryBytes = 3072;
+  summary.memory.vertices = 2048;
+  summary.memory.images = 1024;
+  summary.boundsMin = {-1, 0, 2};
+  summary.boundsMax = {1, 0.5, 5};
+  summary.scenes = 1;
+  summary.triangles = 1'234'567;
+  summary.vertices = 1;
+  summary.nodes = 2;
+  summary.meshes = 1;
+  summary.instances = 3;
+  summary.materials = 1;
+  summary.skins = 1;
+  summary.joints = 19;
+  summary.cameras = {{4, "Main \x1b[1m", "perspective"}};
+  summary.extensionsUsed = {"KHR_a", "KHR_b"};
+  summary.extensionsIgnored = {"KHR_b"};
+  summary.warnings = {"points are not drawn"};
+  EXPECT_EQ(summaryText("box.glb", summary),
+            "box.glb\n"
+            "├─ file  2.5 MiB\n"
+            "├─ memory  3.0 KiB\n"
+            "│  ├─ vertices  2.0 KiB\n"
+            "│  └─ images  1.0 KiB\n"
+            "├─ bounds  2 x 0.5 x 3 m\n"
+            "│  ├─ from -1, 0, 2\n"
+            "│  └─ to   1, 0.5, 5\n"
+            "├─ geometry  1 234 567 triangles\n"
+            "│  ├─ 2 nodes\n"
+            "│  ├─ 1 mesh, placed as 3 instances of primitives\n"
+            "│  └─ 1 vertex\n"
+            "├─ appearance  1 material\n"
+            "│  └─ 0 textures of 0 images\n"
+            "├─ motion\n"
+            "│  └─ 1 skin of 19 joints\n"
+            "├─ cameras  1\n"
+            "│  └─ node 4 \"Main ?[1m\", perspective\n"
+            "├─ extensions  2\n"
+            "│  ├─ KHR_a\n"
+            "│  └─ KHR_b  (ignored)\n"
+            "└─ drawn differently  1\n"
+            "   └─ points are not drawn\n");
+}
+
+TEST(SummaryText, TellsWhichOfSeveralScenesItIsAbout) {
+  SceneSummary summary;
+  summary.scenes = 3;
+  summary.defaultScene = 1;
+  EXPECT_NE(summaryText("box.glb", summary).find("├─ scenes  3, told of the default: scene 1\n"), std::string::npos);
+}
+
+} // namespace
+} // namespace gnomon::cli

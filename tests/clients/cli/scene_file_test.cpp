@@ -1,0 +1,150 @@
+#include "clients/cli/files/scene_file.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include "clients/cli/files/file_io.h"
+#include "clients/cli/files/gltf_uris.h"
+
+namespace gnomon::cli {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+/// A folder with model/ in it and secret.bin beside that, gone with the test.
+class SceneFile : public testing::Test {
+ protected:
+  SceneFile() {
+    std::string pattern = (fs::temp_directory_path() / "gnomon-scene-file-XXXXXX").string();
+    root_ = ::mkdtemp(pattern.data());
+    fs::create_directories(root_ / "model" / "textures");
+    write("secret.bin", "secret");
+  }
+  ~SceneFile() override { fs::remove_all(root_); }
+
+  void write(const fs::path& name, const std::string& text) { std::ofstream(root_ / name, std::ios::binary) << text; }
+
+  Result<SceneBundle> readWithUri(const std::string& uri) {
+    write("model/a.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"uri": ")" + uri + R"("}]})");
+    return readSceneFile(root_ / "model" / "a.gltf");
+  }
+
+  fs::path root_;
+};
+
+Bytes bytesOf(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+TEST_F(SceneFile, ReadsTheFilesThatTheModelNames) {
+  write("model/a b.bin", "buffer");
+  write("model/textures/c.png", "image");
+  write("model/other.bin", "not named");
+  write("model/a.gltf", R"({"buffers": [{"uri": "a%20b.bin"}, {"uri": "data:,x"}], "images": [{"uri": "textures/c.png"},
+                            {"uri": "textures/c.png"}], "extras": {"uri": "other.bin"}})");
+  const auto bundle = readSceneFile(root_ / "model" / "a.gltf");
+  ASSERT_TRUE(bundle);
+  EXPECT_EQ(bundle->files,
+            (std::map<std::string, Bytes>{{"a b.bin", bytesOf("buffer")}, {"textures/c.png", bytesOf("image")}}));
+}
+
+TEST_F(SceneFile, RefusesNamesThatLeadOutOfTheFolder) {
+  for (const std::string uri :
+       {"../secret.bin", "textures/../../secret.bin", "%2e%2e/secret.bin", "..%2fsecret.bin", "/etc/passwd",
+        "file:///etc/passwd", "http://127.0.0.1/x", "..\\\\secret.bin", "", "a%zz", "a%00b"}) {
+    const auto bundle = readWithUri(uri);
+    ASSERT_FALSE(bundle) << uri;
+    EXPECT_EQ(bundle.problems().front().code, ProblemCode::invalidScene) << uri;
+  }
+}
+
+TEST_F(SceneFile, RefusesLinksThatLeadOutOfTheFolder) {
+  fs::create_symlink(root_ / "secret.bin", root_ / "model" / "link.bin");
+  fs::create_directory_symlink(root_, root_ / "model" / "up");
+  EXPECT_FALSE(readWithUri("link.bin"));
+  EXPECT_FALSE(readWithUri("up/secret.bin"));
+  write("model/inside.bin", "inside");
+  fs::create_symlink("inside.bin", root_ / "model" / "to_inside.bin");
+  EXPECT_TRUE(readWithUri("to_inside.bin"));
+}
+
+TEST_F(SceneFile, NamesTheFileThatIsMissing) {
+  const auto bundle = readWithUri("gone.bin");
+  ASSERT_FALSE(bundle);
+  EXPECT_EQ(bundle.problems().front().code, ProblemCode::notFound);
+  EXPECT_TRUE(bundle.problems().front().pointer.ends_with("model/gone.bin"));
+}
+
+TEST_F(SceneFile, HoldsEveryFileAgainstTheLimitTogether) {
+  write("model/a.bin", std::string(60, 'a'));
+  write("model/b.bin", std::string(60, 'b'));
+  const std::string text = R"({"buffers": [{"uri": "a.bin"}, {"uri": "b.bin"}]})";
+  write("model/a.gltf", text);
+  Limits limits;
+  limits.maxSceneBytes = text.size() + 120;
+  EXPECT_TRUE(readSceneFile(root_ / "model" / "a.gltf", limits));
+  limits.maxSceneBytes -= 1;
+  const auto bundle = readSceneFile(root_ / "model" / "a.gltf", limits);
+  ASSERT_FALSE(bundle);
+  EXPECT_EQ(bundle.problems().front().code, ProblemCode::tooLarge);
+  limits = Limits{};
+  limits.maxBundleFiles = 1;
+  EXPECT_FALSE(readSceneFile(root_ / "model" / "a.gltf", limits));
+}
+
+TEST_F(SceneFile, AModelWithoutFilesIsItsBytes) {
+  write("model/a.glb", "glTF and whatever comes");
+  const auto bundle = readSceneFile(root_ / "model" / "a.glb");
+  ASSERT_TRUE(bundle);
+  EXPECT_EQ(bundle->model, bytesOf("glTF and whatever comes"));
+  EXPECT_THAT(bundle->files, IsEmpty());
+}
+
+TEST_F(SceneFile, WritesInOneStepAndLeavesNothingBehind) {
+  const fs::path target = root_ / "frame.png";
+  ASSERT_TRUE(writeFile(target.string(), bytesOf("first")));
+  ASSERT_TRUE(writeFile(target.string(), bytesOf("second")));
+  EXPECT_EQ(*readFile(target, 100), bytesOf("second"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_), {}), 3); // model, secret.bin, frame.png
+  EXPECT_FALSE(writeFile((root_ / "missing" / "frame.png").string(), bytesOf("x")));
+  EXPECT_FALSE(writeFile((root_ / "model").string(), bytesOf("x")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_), {}), 3);
+}
+
+std::vector<std::string> urisOf(const std::string& model) {
+  return externalUris(bytesOf(model));
+}
+
+std::string glb(const std::string& json, std::uint32_t claimedLength) {
+  std::string bytes = "glTF";
+  const auto add = [&](std::uint32_t number) {
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(number >> 8 * i & 0xff);
+  };
+  add(2);
+  add(static_cast<std::uint32_t>(20 + json.size()));
+  add(claimedLength);
+  return bytes + "JSON" + json;
+}
+
+TEST(ExternalUris, AreThoseOfBuffersAndImagesOnly) {
+  const std::string json = R"({"images": [{"name": "x", "extras": {"uri": "no"}, "uri": "i.png"}, {"uri": 3}],
+      "uri": "no", "nodes": [{"uri": "no"}], "buffers": [{"byteLength": 1, "uri": "b.bin"}, {"uri": "data:,"}]})";
+  EXPECT_THAT(urisOf(json), ElementsAre("i.png", "b.bin"));
+  EXPECT_THAT(urisOf(glb(json, static_cast<std::uint32_t>(json.size()))), ElementsAre("i.png", "b.bin"));
+}
+
+TEST(ExternalUris, AreNoneOfWhatCantBeRead) {
+  const std::string json = R"({"buffers": [{"uri": "b.bin"}]})";
+  EXPECT_THAT(urisOf(""), IsEmpty());
+  EXPECT_THAT(urisOf("glT"), IsEmpty());
+  EXPECT_THAT(urisOf("glTF"), IsEmpty());
+  EXPECT_THAT(urisOf(glb(json, 0xffffffff)), IsEmpty());
+  EXPECT_THAT(urisOf(json.substr(0, json.size() - 1)), IsEmpty());
+  EXPECT_THAT(urisOf(std::string(20'000, '[')), IsEmpty());
+  EXPECT_THAT(urisOf(R"({"a": )" + std::string(20'000, '[')), IsEmpty());
+}
+
+} // namespace
+} // namespace gnomon::cli

@@ -1,0 +1,175 @@
+#include "clients/cli/spec/spec_arguments.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck.h>
+
+#include "protocol/json/json_codec.h"
+
+namespace gnomon::cli {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+FrameSpec resolved(const std::string& spec, const SpecArguments& arguments) {
+  auto result = resolveSpec(spec, arguments).spec;
+  if (!result) {
+    ADD_FAILURE() << problemLine(result.problems().front());
+    return {};
+  }
+  return *result;
+}
+
+Problems refused(const std::string& spec, const SpecArguments& arguments) {
+  auto result = resolveSpec(spec, arguments).spec;
+  return result ? Problems() : result.problems();
+}
+
+TEST(SpecArguments, NoFlagsAreTheDefaults) {
+  EXPECT_EQ(toJson(resolved("{}", {})), toJson(FrameSpec{}));
+}
+
+TEST(SpecArguments, FlagsGoOverTheSpec) {
+  SpecArguments flags;
+  flags.width = 320;
+  flags.views = {"depth", "normal"};
+  flags.format = "exr";
+  const FrameSpec spec = resolved(R"({"width": 64, "height": 48, "views": ["shadow"]})", flags);
+  EXPECT_EQ(spec.width, 320);
+  EXPECT_EQ(spec.height, 48);
+  EXPECT_THAT(spec.views, ElementsAre(View::depth, View::normal));
+  EXPECT_EQ(spec.output.format, ImageFormat::exr);
+}
+
+TEST(SpecArguments, SunWithoutLightsIsTheOnlyLight) {
+  SpecArguments flags;
+  flags.sun = {135, 40};
+  const FrameSpec spec = resolved("{}", flags);
+  EXPECT_EQ(toJson(spec), toJson(*decodeFrameQuery({{"sun", "135,40"}})));
+}
+
+TEST(SpecArguments, SunTurnsTheFirstDirectionalLightAndKeepsTheRest) {
+  SpecArguments flags;
+  flags.sun = {90, 10};
+  const FrameSpec spec = resolved(
+      R"({"lights": [{"type": "point", "position": [0, 1, 0]},
+                     {"type": "directional", "direction": [0, -1, 0], "intensity": 7}]})",
+      flags);
+  ASSERT_TRUE(spec.lights);
+  ASSERT_EQ(spec.lights->size(), 2u);
+  const Light& sun = spec.lights->at(1);
+  EXPECT_FALSE(sun.direction);
+  ASSERT_TRUE(sun.sun);
+  EXPECT_EQ(sun.sun->azimuthDegrees, 90);
+  EXPECT_EQ(sun.intensity, 7);
+}
+
+TEST(SpecArguments, SunIsAddedWhereNoLightIsDirectional) {
+  SpecArguments flags;
+  flags.sun = {90, 10};
+  const FrameSpec spec = resolved(R"({"lights": [{"type": "point", "position": [0, 1, 0]}]})", flags);
+  ASSERT_EQ(spec.lights->size(), 2u);
+  EXPECT_EQ(spec.lights->at(1).type, LightType::directional);
+}
+
+TEST(SpecArguments, CameraIsAnIndexWhenItIsANumber) {
+  SpecArguments flags;
+  flags.camera = "12";
+  EXPECT_EQ(std::get<int>(*resolved("{}", flags).camera.node), 12);
+  flags.camera = "Gallery 2";
+  EXPECT_EQ(std::get<std::string>(*resolved("{}", flags).camera.node), "Gallery 2");
+}
+
+TEST(SpecArguments, OrbitReplacesThePlacementAndKeepsTheLens) {
+  SpecArguments flags;
+  flags.orbit = {30, 20, 5};
+  const FrameSpec spec =
+      resolved(R"({"camera": {"eye": [0, 0, 9], "target": [0, 0, 0], "perspective": {"fovYDegrees": 30}}})", flags);
+  EXPECT_FALSE(spec.camera.lookAt);
+  ASSERT_TRUE(spec.camera.orbit);
+  EXPECT_EQ(spec.camera.orbit->distance, 5);
+  ASSERT_TRUE(spec.camera.perspective);
+  EXPECT_EQ(spec.camera.perspective->fovYDegrees, 30);
+}
+
+TEST(SpecArguments, OrbitKeepsTheTargetOfAnOrbit) {
+  SpecArguments flags;
+  flags.orbit = {30, 20};
+  const FrameSpec spec = resolved(R"({"camera": {"orbit": {"target": [1, 2, 3], "distance": 4}}})", flags);
+  EXPECT_EQ(spec.camera.orbit->target, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(spec.camera.orbit->distance);
+}
+
+TEST(SpecArguments, SetTakesDottedPathsJsonAndBareWords) {
+  SpecArguments flags;
+  flags.sets = {{"shadow.filter.size", "7"},      {"shadow.size", "XLarge"},  {"camera.eye", "[1,2,3]"},
+                {"camera.target", "[0,0,0]"},     {"lights.0.type", "point"}, {"lights.0.position", "[0,5,0]"},
+                {"shadow.blendCascades", "false"}};
+  const FrameSpec spec = resolved("{}", flags);
+  EXPECT_EQ(spec.shadow.filter.size, 7);
+  EXPECT_EQ(spec.shadow.size, ShadowSize::XLarge);
+  EXPECT_EQ(spec.camera.lookAt->eye, (Vec3{1, 2, 3}));
+  EXPECT_EQ(spec.lights->at(0).type, LightType::point);
+  EXPECT_FALSE(spec.shadow.blendCascades);
+}
+
+TEST(SpecArguments, SetRefusesWhatIsNoPlaceOrNoJson) {
+  const auto pointerOfRefusal = [](const std::string& path, const std::string& value) {
+    SpecArguments flags;
+    flags.sets = {{path, value}};
+    const auto problems = refused(R"({"width": 64, "lights": [{"sun": {}}]})", flags);
+    return problems.empty() ? "taken" : problems.front().pointer;
+  };
+  EXPECT_EQ(pointerOfRefusal("width.deep", "1"), "/width/deep");
+  EXPECT_EQ(pointerOfRefusal("lights.7.intensity", "1"), "/lights/7");
+  EXPECT_EQ(pointerOfRefusal("shadows.enabled", "true"), "/shadows");
+  EXPECT_EQ(pointerOfRefusal("height", "[1"), "/height/1");
+  EXPECT_EQ(pointerOfRefusal("height", "tall"), "/height");
+  EXPECT_THAT(pointerOfRefusal("camera", std::string(20'000, '[')), StartsWith("/camera/0"));
+}
+
+TEST(SpecArguments, AnEmptySpecIsTheDefaults) {
+  EXPECT_EQ(toJson(resolved("", {})), toJson(FrameSpec{}));
+}
+
+TEST(SpecArguments, ASpecThatIsWrongByItselfIsRefused) {
+  EXPECT_FALSE(refused(R"({"width": 64, "width": 65})", {}).empty());
+  EXPECT_FALSE(refused("{", {}).empty());
+}
+
+TEST(SpecArguments, AProblemNamesTheFlag) {
+  SpecArguments flags;
+  flags.sun = {10, 100};
+  const auto [spec, origins, json] = resolveSpec("{}", flags);
+  ASSERT_FALSE(spec);
+  EXPECT_THAT(problemLine(spec.problems().front(), origins), HasSubstr("--sun (/lights/0/sun/elevationDegrees): "));
+}
+
+TEST(ParseNumbers, TakesExactlyAsManyFiniteNumbersAsAsked) {
+  EXPECT_THAT(*parseNumbers("135,-4.5e1", 2, 2), ElementsAre(135, -45));
+  EXPECT_THAT(*parseNumbers("1,2,3", 2, 3), ElementsAre(1, 2, 3));
+  for (const char* text : {"", "1", "1,", ",1", "1,2,3", "1,2 ", "1,nan", "1,inf", "1;2", "0x1,2", "1,1e999"}) {
+    EXPECT_FALSE(parseNumbers(text, 2, 2)) << text;
+  }
+}
+
+TEST(ParseNumbers, GivesBackWhatWasWritten) {
+  EXPECT_TRUE(rc::check([](double a, double b) {
+    RC_PRE(std::isfinite(a) && std::isfinite(b));
+    const auto text = nlohmann::json(a).dump() + "," + nlohmann::json(b).dump();
+    RC_ASSERT(parseNumbers(text, 2, 2) == std::optional(std::vector{a, b}));
+  }));
+}
+
+TEST(ParseSize, TakesTwoWholeNumbers) {
+  EXPECT_EQ(parseSize("1280x720"), (std::array<int, 2>{1280, 720}));
+  for (const char* text : {"", "1280", "x", "1280x", "12.5x3", "1280 x 720", "1280X720", "99999999999x1", "1x2x3"}) {
+    EXPECT_FALSE(parseSize(text)) << text;
+  }
+}
+
+} // namespace
+} // namespace gnomon::cli

@@ -1,0 +1,53 @@
+#include "clients/cli/remote/upload_body.h"
+
+#include <gtest/gtest.h>
+#include <string_view>
+
+#include "clients/cli/remote/base64.h"
+
+namespace gnomon::cli {
+namespace {
+
+Bytes bytesOf(std::string_view text) {
+  return {text.begin(), text.end()};
+}
+
+TEST(Base64, KnownVectors) { // RFC 4648, section 10
+  EXPECT_EQ(base64Decoded(""), bytesOf(""));
+  EXPECT_EQ(base64Decoded("Zg=="), bytesOf("f"));
+  EXPECT_EQ(base64Decoded("Zm8="), bytesOf("fo"));
+  EXPECT_EQ(base64Decoded("Zm9vYmFy"), bytesOf("foobar"));
+  EXPECT_EQ(base64Decoded("//79"), (Bytes{0xff, 0xfe, 0xfd}));
+}
+
+TEST(Base64, RefusesWhatIsNot) {
+  for (const char* text : {"Z", "Zg", "Zg=", "Z===", "Zg==Zg==", "Zm9v\n", "Zm9*", "Z=9v", "===="}) {
+    EXPECT_FALSE(base64Decoded(text)) << text;
+  }
+}
+
+TEST(UploadBody, AModelAloneIsItsBytesAndItsIdIsTheirHash) {
+  const SceneBundle bundle{bytesOf("glTF..."), {}};
+  EXPECT_EQ(uploadBody(bundle).contentType, "model/gltf-binary");
+  EXPECT_EQ(uploadBody(bundle).bytes, "glTF...");
+  EXPECT_EQ(uploadBody({bytesOf("{}"), {}}).contentType, "model/gltf+json");
+  EXPECT_EQ(modelId(bytesOf("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"); // FIPS 180-2
+}
+
+TEST(UploadBody, FilesAreNamedParts) {
+  const UploadBody upload = uploadBody({bytesOf("{}"), {{"textures/a \"b\".png", bytesOf("image")}}});
+  EXPECT_EQ(upload.contentType, "multipart/form-data; boundary=gnomon-part-boundary");
+  EXPECT_EQ(upload.bytes,
+            "--gnomon-part-boundary\r\nContent-Disposition: form-data; name=\"scene\"; filename=\"scene\"\r\n\r\n{}\r\n"
+            "--gnomon-part-boundary\r\nContent-Disposition: form-data; name=\"file\"; "
+            "filename=\"textures/a %22b%22.png\"\r\n\r\nimage\r\n--gnomon-part-boundary--\r\n");
+}
+
+TEST(UploadBody, TheBoundaryOccursInNoPart) {
+  const UploadBody upload =
+      uploadBody({bytesOf("gnomon-part-boundary"), {{"a", bytesOf("x gnomon-part-boundary-0 y")}}});
+  EXPECT_EQ(upload.contentType, "multipart/form-data; boundary=gnomon-part-boundary-1");
+}
+
+} // namespace
+} // namespace gnomon::cli

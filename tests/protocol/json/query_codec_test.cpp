@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/text.h"
+#include "protocol/json/json_codec.h"
+#include "tests/protocol/found_problems.h"
+#include "tests/protocol/spec_generator.h"
+
+namespace gnomon {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(DecodeFrameQuery, NothingIsEveryDefault) {
+  ASSERT_TRUE(decodeFrameQuery({}));
+  EXPECT_EQ(*decodeFrameQuery({}), FrameSpec{});
+}
+
+TEST(DecodeFrameQuery, KeysAreDottedPaths) {
+  const Result<FrameSpec> spec = decodeFrameQuery({{"camera.orbit.azimuthDegrees", "40"},
+                                                   {"camera.orbit.target", "[1,2,3]"},
+                                                   {"width", "320"},
+                                                   {"shadow.filter", R"({"type":"hard"})"},
+                                                   {"shadow.blendCascades", "false"}});
+  ASSERT_TRUE(spec);
+  EXPECT_EQ(spec->width, 320);
+  EXPECT_EQ(spec->camera.orbit->azimuthDegrees, 40);
+  EXPECT_EQ(spec->camera.orbit->target, (Vec3{1, 2, 3}));
+  EXPECT_EQ(spec->shadow.filter.type, FilterType::hard);
+  EXPECT_FALSE(spec->shadow.blendCascades);
+}
+
+TEST(DecodeFrameQuery, HasShortForms) {
+  const Result<FrameSpec> spec = decodeFrameQuery({{"sun", "135,40.5"}, {"view", "depth"}, {"format", "exr"}});
+  ASSERT_TRUE(spec);
+  ASSERT_EQ(spec->lights->size(), 1u);
+  EXPECT_EQ(spec->lights->at(0).type, LightType::directional);
+  EXPECT_EQ(spec->lights->at(0).sun, (Sun{135, 40.5}));
+  EXPECT_EQ(spec->views, std::vector{View::depth});
+  EXPECT_EQ(spec->output.format, ImageFormat::exr);
+}
+
+TEST(DecodeFrameQuery, ABareWordIsAString) {
+  EXPECT_EQ(decodeFrameQuery({{"camera.node", "Camera 1"}})->camera.node, (std::variant<int, std::string>("Camera 1")));
+  EXPECT_EQ(decodeFrameQuery({{"camera.node", "7"}})->camera.node, (std::variant<int, std::string>(7)));
+  EXPECT_EQ(decodeFrameQuery({{"camera.node", "\"7\""}})->camera.node, (std::variant<int, std::string>("7")));
+  EXPECT_EQ(decodeFrameQuery({{"toneMapping", "none"}})->toneMapping, ToneMapping::none);
+}
+
+TEST(DecodeFrameQuery, ProblemsNameTheKeyThatWasWritten) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"width", "x", "width"},
+      {"width", "", "width"},
+      {"width", "null", "width"},
+      {"width", "1e999", "width"},
+      {"width", "-1", "width"},
+      {"width", "3.7", "width"},
+      {"width", "18446744073709551616", "width"},
+      {"width", "[[[", "width"},
+      {"width", "12abc", "width"},
+      {"exposure", "NaN", "exposure"},
+      {"exposure", "Infinity", "exposure"},
+      {"camera.perspective.near", "0", "camera.perspective.near"},
+      {"camera.orbit", R"({"distance":-1})", "camera.orbit"},
+      {"camera.orbit.distnce", "3", "camera.orbit.distnce"},
+      {"sun", "135", "sun"},
+      {"sun", "135,40,3", "sun"},
+      {"sun", "135,91", "sun"},
+      {"sun", "135,", "sun"},
+      {"sun", "a,3", "sun"},
+      {"view", "dpth", "view"},
+      {"format", "gif", "format"},
+      {"format", "\xFF", "format"},
+      {"", "1", ""},
+      {"shadow.depthRange", R"({"mode":"manual","min":3,"max":2})", "shadow.depthRange"},
+      {"width", std::string(20'000, '['), "width"},
+  };
+  for (const auto& [key, value, pointer] : cases) {
+    const std::vector<std::string> found = pointersOf(decodeFrameQuery({{key, value}}));
+    ASSERT_EQ(found.size(), 1u) << key << "=" << value;
+    EXPECT_EQ(found[0], pointer) << key << "=" << value;
+  }
+}
+
+TEST(DecodeFrameQuery, AnUnknownPathNamesItsKey) {
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"a..b", "1"}})), ElementsAre("a..b"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"lights.0.type", "spot"}})), ElementsAre("lights.0.type"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"camera.eye.x", "1"}})), ElementsAre("camera.eye.x"));
+}
+
+TEST(DecodeFrameQuery, WhatIsAbsentIsNamedByItsPath) {
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"shadow.depthRange.mode", "manual"}})),
+              ElementsAre("shadow.depthRange.min", "shadow.depthRange.max"));
+}
+
+TEST(DecodeFrameQuery, AFieldCanBeGivenOnlyOnce) {
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"width", "3"}, {"width", "3"}})), ElementsAre("width"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"format", "png"}, {"output.format", "png"}})),
+              ElementsAre("output.format"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"view", "color"}, {"views", "[\"depth\"]"}})), ElementsAre("views"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"sun", "1,2"}, {"lights", "[]"}})), ElementsAre("lights"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"camera", "{}"}, {"camera.fit", "true"}})), testing::IsEmpty());
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"camera.fit", "true"}, {"camera", "{}"}})), ElementsAre("camera"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"width", "3"}, {"width.x", "3"}})), ElementsAre("width.x"));
+}
+
+TEST(DecodeFrameQuery, IsBounded) {
+  std::string path = "a";
+  for (int i = 0; i < 1000; ++i) path += ".a";
+  EXPECT_EQ(pointersOf(decodeFrameQuery({{path, "1"}})).size(), 1u);
+  const std::vector<std::pair<std::string, std::string>> many(1000, {"width", "1"});
+  ASSERT_FALSE(decodeFrameQuery(many));
+  EXPECT_EQ(decodeFrameQuery(many).problems()[0].code, ProblemCode::tooLarge);
+}
+
+TEST(DecodeFrameQuery, ASpecsMembersAsKeysGiveTheSpec) {
+  EXPECT_TRUE(rc::check([] {
+    const FrameSpec spec = *anySpec();
+    const Json json = toJson(spec);
+    std::vector<std::pair<std::string, std::string>> query;
+    for (const auto& [key, value] : json.items()) {
+      const bool takeApart = value.is_object() && *rc::gen::arbitrary<bool>();
+      if (!takeApart) {
+        query.emplace_back(key, value.dump());
+      } else {
+        for (const auto& [inner, member] : value.items()) query.emplace_back(key + "." + inner, member.dump());
+      }
+    }
+    const Result<FrameSpec> back = decodeFrameQuery(query);
+    RC_ASSERT(bool(back));
+    RC_ASSERT(*back == spec);
+  }));
+}
+
+TEST(DecodeFrameQuery, AnyTextIsTakenOrRefused) {
+  EXPECT_TRUE(rc::check([](const std::vector<std::pair<std::string, std::string>>& query) {
+    const Result<FrameSpec> spec = decodeFrameQuery(query);
+    if (spec) return;
+    for (const Problem& problem : spec.problems()) RC_ASSERT(isUtf8(problem.pointer) && isUtf8(problem.actual));
+  }));
+}
+
+} // namespace
+} // namespace gnomon

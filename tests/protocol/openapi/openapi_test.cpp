@@ -1,0 +1,124 @@
+#include "protocol/openapi/openapi.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "protocol/json/json_codec.h"
+
+namespace gnomon {
+namespace {
+
+void forEachValue(const Json& value, const std::function<void(const std::string& key, const Json&)>& visit) {
+  for (const auto& [key, inner] : value.items()) {
+    visit(key, inner);
+    if (inner.is_structured()) forEachValue(inner, visit);
+  }
+}
+
+void forEachOperation(
+    const Json& document,
+    const std::function<void(const std::string& path, const std::string& method, const Json&)>& visit) {
+  for (const auto& [path, item] : document["paths"].items()) {
+    for (const auto& [method, operation] : item.items()) visit(path, method, operation);
+  }
+}
+
+TEST(OpenApi, EveryReferenceLeadsSomewhereAndEveryComponentIsUsed) {
+  const Json document = openApi();
+  std::set<std::string> targets;
+  forEachValue(document, [&](const std::string& key, const Json& value) {
+    if (key != "$ref") return;
+    const std::string target = value;
+    ASSERT_EQ(target[0], '#');
+    EXPECT_TRUE(document.contains(Json::json_pointer(target.substr(1)))) << target;
+    targets.insert(target);
+  });
+  for (const auto& [kind, components] : document["components"].items()) {
+    for (const auto& [name, component] : components.items()) {
+      EXPECT_TRUE(targets.contains("#/components/" + kind + "/" + name)) << kind << " " << name;
+    }
+  }
+}
+
+TEST(OpenApi, HasEveryRoute) {
+  std::set<std::string> operations;
+  forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json&) {
+    operations.insert(method + " " + path);
+  });
+  EXPECT_EQ(operations,
+            (std::set<std::string>{"post /v1/scenes", "get /v1/scenes", "put /v1/scenes/{id}", "get /v1/scenes/{id}",
+                                   "head /v1/scenes/{id}", "delete /v1/scenes/{id}", "post /v1/scenes/{id}/frames",
+                                   "get /v1/scenes/{id}/frame", "post /v1/scenes/{id}/plan",
+                                   "post /v1/scenes/{id}/evaluations", "post /v1/render", "get /v1/capabilities",
+                                   "get /openapi.json", "get /livez", "get /readyz", "get /"}));
+}
+
+TEST(OpenApi, EveryOperationHasItsOwnIdASummaryAndAGoodReply) {
+  std::set<std::string> ids;
+  forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json& operation) {
+    EXPECT_TRUE(ids.insert(operation.at("operationId")).second) << method << " " << path;
+    EXPECT_FALSE(operation.at("summary").get<std::string>().empty());
+    EXPECT_TRUE(operation["responses"].contains("200") || operation["responses"].contains("204")) << path;
+  });
+}
+
+TEST(OpenApi, EveryPathParameterIsDeclared) {
+  const Json document = openApi();
+  forEachOperation(document, [&](const std::string& path, const std::string& method, const Json& operation) {
+    bool declared = false;
+    for (const Json& parameter : operation.value("parameters", Json::array())) {
+      declared |= parameter.value("$ref", "") == "#/components/parameters/sceneId";
+    }
+    EXPECT_EQ(declared, path.find("{id}") != std::string::npos) << method << " " << path;
+  });
+}
+
+TEST(OpenApi, AFrameIsGivenInFourForms) {
+  const Json document = openApi();
+  for (const char* route : {"/v1/scenes/{id}/frames", "/v1/render"}) {
+    std::set<std::string> forms;
+    for (const auto& [form, schema] : document["paths"][route]["post"]["responses"]["200"]["content"].items()) {
+      forms.insert(form);
+    }
+    EXPECT_EQ(forms, (std::set<std::string>{"image/png", "image/x-exr", "multipart/mixed", "application/json"}));
+  }
+}
+
+TEST(OpenApi, QueryParametersAreOnesThatTheDecoderKnows) {
+  const Json document = openApi();
+  const Json& parameters = document["paths"]["/v1/scenes/{id}/frame"]["get"]["parameters"];
+  std::set<std::string> names;
+  for (const Json& parameter : parameters) {
+    if (parameter.value("in", "") != "query") continue;
+    const std::string name = parameter["name"];
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_FALSE(parameter["description"].get<std::string>().empty()) << name;
+    // A value of a type that no field takes: the decoder complains about the value, not about the key.
+    const Result<FrameSpec> spec = decodeFrameQuery({{name, "{\"?\":0}"}});
+    ASSERT_FALSE(spec) << name;
+    for (const Problem& problem : spec.problems()) {
+      EXPECT_EQ(problem.pointer, name);
+      EXPECT_NE(problem.detail, "There is no field of this name.") << name;
+    }
+  }
+  for (const char* name : {"sun", "view", "format", "width", "camera.orbit.azimuthDegrees", "shadow.filter.size"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+}
+
+TEST(OpenApi, RefusalsAreProblems) {
+  const Json document = openApi();
+  for (const auto& [status, response] : document["components"]["responses"].items()) {
+    if (status == "304") continue;
+    EXPECT_EQ(response["content"]["application/problem+json"]["schema"]["$ref"], "#/components/schemas/Problem");
+  }
+}
+
+TEST(OpenApi, IsTheSameEachTime) {
+  EXPECT_EQ(openApi().dump(), openApi().dump());
+}
+
+} // namespace
+} // namespace gnomon

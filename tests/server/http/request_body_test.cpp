@@ -1,0 +1,143 @@
+#include "server/http/request_body.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <sys/socket.h>
+#include <thread>
+
+namespace gnomon {
+namespace {
+
+using Framing = BodyRule::Framing;
+using Outcome = std::variant<Bytes, BodyRefusal>;
+
+struct SocketPair {
+  SocketPair() {
+    int fds[2];
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
+    client = FileDescriptor(fds[0]);
+    server = FileDescriptor(fds[1]);
+  }
+  FileDescriptor client, server;
+};
+
+/// What the server makes of `sent`; the client hangs up after it unless `staying`.
+Outcome received(const std::string& sent, RequestHead head, BodyRule rule, bool staying = false, Pace pace = {}) {
+  SocketPair pair;
+  std::thread client([&] {
+    sendAll(pair.client.get(), sent, Clock::now() + std::chrono::seconds(10));
+    if (!staying) {
+      ::shutdown(pair.client.get(), SHUT_WR);
+    }
+  });
+  SocketReader reader(pair.server.get(), -1);
+  ByteBudget budget(1 << 20);
+  ByteLease lease(budget);
+  Outcome outcome = readBody(reader, head, rule, pace, lease);
+  pair.server.reset();
+  client.join();
+  return outcome;
+}
+
+RequestHead chunkedHead() {
+  RequestHead head;
+  head.chunked = true;
+  return head;
+}
+
+RequestHead lengthHead(std::uint64_t length) {
+  RequestHead head;
+  head.contentLength = length;
+  return head;
+}
+
+int statusOf(const Outcome& outcome) {
+  const auto* refusal = std::get_if<BodyRefusal>(&outcome);
+  return refusal ? refusal->status : 200;
+}
+
+std::string bodyOf(const Outcome& outcome) {
+  const auto* bytes = std::get_if<Bytes>(&outcome);
+  return bytes ? std::string(bytes->begin(), bytes->end()) : "refused";
+}
+
+TEST(RequestBody, ReadsALength) {
+  EXPECT_EQ(bodyOf(received("hello, and the next request", lengthHead(5), {Framing::any, 10})), "hello");
+}
+
+TEST(RequestBody, ReadsChunks) {
+  const std::string sent = "5\r\nhello\r\n1;ext=1\r\n,\r\nA\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n";
+  EXPECT_EQ(bodyOf(received(sent, chunkedHead(), {Framing::any, 16})), "hello,0123456789");
+}
+
+TEST(RequestBody, CountsChunks) {
+  const std::string sent = "5\r\nhello\r\nA\r\n0123456789\r\n0\r\n\r\n";
+  EXPECT_EQ(statusOf(received(sent, chunkedHead(), {Framing::any, 14})), 413);
+  EXPECT_EQ(statusOf(received("ffffffffffffffff\r\n", chunkedHead(), {Framing::any, 14})), 413);
+  EXPECT_EQ(statusOf(received("fffffffffffffffff\r\n", chunkedHead(), {Framing::any, 14})), 400);
+}
+
+TEST(RequestBody, RefusesBrokenChunks) {
+  for (const char* sent : {"x\r\n", "\r\n", "-5\r\nhello\r\n0\r\n\r\n", "0x5\r\nhello\r\n", "5\r\nhelloo\r\n0\r\n\r\n",
+                           "5\r\nhel", "5\r\nhello\r\n"}) {
+    EXPECT_EQ(statusOf(received(sent, chunkedHead(), {Framing::any, 100})), 400) << sent;
+  }
+  EXPECT_EQ(statusOf(received(std::string(3000, '1'), chunkedHead(), {Framing::any, 100})), 400);
+}
+
+TEST(RequestBody, RefusesALengthThatLied) {
+  EXPECT_EQ(statusOf(received("short", lengthHead(10), {Framing::any, 100})), 400);
+}
+
+TEST(RequestBody, RefusesTheSlow) {
+  Pace pace;
+  pace.stall = std::chrono::milliseconds(20);
+  EXPECT_EQ(statusOf(received("slow", lengthHead(10), {Framing::any, 100}, true, pace)), 408);
+}
+
+TEST(RequestBody, RefusesByTheHeadAlone) {
+  const auto status = [](const RequestHead& head, BodyRule rule) {
+    const auto refusal = refuseBody(head, rule);
+    return refusal ? refusal->status : 200;
+  };
+  EXPECT_EQ(status(lengthHead(11), {Framing::any, 10}), 413);
+  EXPECT_EQ(status(lengthHead(10), {Framing::any, 10}), 200);
+  EXPECT_EQ(status(RequestHead{}, {Framing::any, 10}), 411);
+  EXPECT_EQ(status(RequestHead{}, {Framing::length, 10}), 200);
+  EXPECT_EQ(status(chunkedHead(), {Framing::length, 10}), 411);
+  EXPECT_EQ(status(chunkedHead(), {Framing::any, 10}), 200);
+  EXPECT_EQ(status(chunkedHead(), {Framing::none, 0}), 413);
+  EXPECT_EQ(status(lengthHead(1), {Framing::none, 0}), 413);
+  EXPECT_EQ(status(lengthHead(0), {Framing::none, 0}), 200);
+}
+
+TEST(RequestBody, SharesABudgetAndGivesItBack) {
+  ByteBudget budget(10);
+  {
+    SocketPair pair;
+    ASSERT_TRUE(sendAll(pair.client.get(), "0123456789ab", Clock::now() + std::chrono::seconds(1)));
+    SocketReader reader(pair.server.get(), -1);
+    ByteLease lease(budget);
+    EXPECT_EQ(statusOf(readBody(reader, lengthHead(12), {Framing::any, 100}, {}, lease)), 429);
+  }
+  EXPECT_TRUE(budget.take(10));
+}
+
+TEST(RequestBody, AnyChunkingGivesTheSameBody) {
+  EXPECT_TRUE(rc::check([](const std::vector<std::string>& chunks) {
+    std::string sent, whole;
+    for (const std::string& chunk : chunks) {
+      if (!chunk.empty()) {
+        char size[20];
+        std::snprintf(size, sizeof size, "%zx\r\n", chunk.size());
+        sent += size + chunk + "\r\n";
+        whole += chunk;
+      }
+    }
+    const Outcome outcome = received(sent + "0\r\n\r\n", chunkedHead(), {Framing::any, whole.size()});
+    RC_ASSERT(bodyOf(outcome) == whole);
+  }));
+}
+
+} // namespace
+} // namespace gnomon

@@ -1,0 +1,1 @@
+// Compiled to get the precompiled header that the test programs share; it defines nothing.
