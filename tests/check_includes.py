@@ -74,7 +74,7 @@ KEPT_IN = {
     "GL/": ["renderer/gl"],
     "EGL/": ["renderer/gl"],
     "embree3/": ["renderer/reference"],
-    "tbb/": ["renderer/reference", "renderer/passes/tiles/outlines.cpp"],
+    "tbb/": ["renderer/core/parallel.cpp"],
 }
 
 

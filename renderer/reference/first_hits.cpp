@@ -1,7 +1,7 @@
+#include "renderer/core/parallel.h"
 #include "renderer/reference/alpha.h"
 #include "renderer/reference/camera_rays.h"
 #include "renderer/reference/frame_nodes.h"
-#include "renderer/reference/parallel.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/surface_point.h"
 #include "renderer/reference/trace.h"

@@ -1,5 +1,5 @@
+#include "renderer/core/parallel.h"
 #include "renderer/reference/camera_rays.h"
-#include "renderer/reference/parallel.h"
 #include "renderer/reference/surface_point.h"
 #include "renderer/reference/tree.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "renderer/reference/parallel.h"
+#include "renderer/core/parallel.h"
 #include "renderer/reference/tree.h"
 
 namespace gnomon {

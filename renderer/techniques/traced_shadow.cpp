@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "renderer/reference/parallel.h"
+#include "renderer/core/parallel.h"
 #include "renderer/techniques/neighbours.h"
 
 namespace gnomon {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 #include "renderer/core/light_direction.h"
+#include "renderer/core/parallel.h"
 #include "renderer/core/vec3.h"
 #include "renderer/passes/tiles/outline_stamps.h"
 #include "renderer/shaders/shared/frame_types.h"
@@ -118,13 +118,13 @@ bool isDrawn(const OutlineInput& input, std::size_t instance, const OutlinedTile
 std::vector<TileOutlines> outlinesOf(const OutlineInput& input, const std::vector<OutlinedTile>& tiles) {
   const std::size_t count = input.view.instances.size();
   std::vector<std::vector<std::uint32_t>> edges(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  forEach(count, [&](std::size_t i) {
     const bool drawn =
         std::any_of(tiles.begin(), tiles.end(), [&](const OutlinedTile& tile) { return isDrawn(input, i, tile); });
     if (drawn) edges[i] = outlineEdges(input, input.view.instances[i]);
   });
   std::vector<TileOutlines> outlines(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+  forEach(tiles.size(), [&](std::size_t t) {
     Stamps stamps(tiles[t].tile.rect.width, tiles[t].tile.rect.height);
     for (std::size_t i = 0; i < count; ++i) {
       if (isDrawn(input, i, tiles[t])) stampInstance(input, i, edges[i], tiles[t], stamps);

@@ -1,4 +1,4 @@
-#include "renderer/reference/parallel.h"
+#include "renderer/core/parallel.h"
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
@@ -24,6 +24,10 @@ void forEachPiece(std::size_t count, std::size_t size, const std::function<void(
     tbb::parallel_for(std::size_t{0}, pieces,
                       [&](std::size_t piece) { each(piece * size, std::min(count, (piece + 1) * size)); });
   });
+}
+
+void forEach(std::size_t count, const std::function<void(std::size_t)>& each) {
+  forEachPiece(count, 1, [&](std::size_t i, std::size_t) { each(i); });
 }
 
 } // namespace gnomon
