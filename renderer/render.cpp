@@ -14,7 +14,7 @@
 #include "renderer/frame/traced_scene_cache.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/stage_clock.h"
+#include "renderer/gl/timer.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
@@ -150,13 +150,13 @@ Result<Frame> Renderer::render(const ScenePtr& loaded, const FrameSpec& spec, Ti
   TileCache noTiles(0);
   const auto atlas = castShadows(inputs, plan, effective, tileUse == TileUse::kept ? impl_->tiles : noTiles);
   if (!atlas) return atlas.problems();
-  clock.finish("shadow");
+  clock.finishDrawing("shadow");
 
   const ExactInputs exact{layered, [&] { return impl_->traced.get(scene, resolved->scene); }};
   const ViewInputs shading{*survey, *atlas, lights, tiles, lists, effective, subject->light};
   const auto drawn = drawViews(inputs, shading, exact, plan, subject->planned);
   if (!drawn) return drawn.problems();
-  clock.finish("shade");
+  clock.finishDrawing("shade");
 
   const auto displacement = predictDisplacement(inputs, shading, plan, *drawn);
   if (!displacement) return displacement.problems();

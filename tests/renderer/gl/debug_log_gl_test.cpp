@@ -1,7 +1,6 @@
 #include "gl_fixture.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/gl/gl.h"
-#include "renderer/gl/stage_clock.h"
 
 namespace gnomon::gl {
 namespace {
@@ -47,21 +46,6 @@ TEST_F(DebugLog, startsEmptyWithEachContext) {
   context_.reset();
   SetUp();
   EXPECT_THAT(takeDebugErrors(), IsEmpty());
-}
-
-class StageClocks : public GlTest {};
-
-TEST_F(StageClocks, bookEachStageOnceInOrder) {
-  StageClock clock;
-  clock.finish("shadow");
-  clock.finish("shade");
-  clock.finish("shadow");
-  const std::vector<StageTime> stages = clock.take();
-  ASSERT_THAT(stages, SizeIs(2));
-  EXPECT_EQ(stages[0].stage, "shadow");
-  EXPECT_EQ(stages[1].stage, "shade");
-  EXPECT_GE(stages[0].milliseconds, 0);
-  EXPECT_THAT(clock.take(), IsEmpty());
 }
 
 } // namespace

@@ -1,6 +1,14 @@
+#include <chrono>
+#include <thread>
+
 #include "gl_fixture.h"
+#include "renderer/gl/draw.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
+#include "renderer/gl/vertex_array.h"
 
 namespace gnomon::gl {
 namespace {
@@ -34,6 +42,78 @@ TEST_F(Timers, MoveAndMeasureNothingByDefault) {
   nothing = std::move(timer);
   EXPECT_TRUE(nothing.stopped());
   EXPECT_EQ(*nothing.gpuMilliseconds(), before);
+}
+
+class StageClocks : public GlTest {};
+
+TEST_F(StageClocks, bookEachStageOnceInOrder) {
+  StageClock clock;
+  clock.finish("shadow");
+  clock.finish("shade");
+  clock.finish("shadow");
+  const std::vector<StageTime> stages = clock.take();
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_EQ(stages[0].stage, "shadow");
+  EXPECT_EQ(stages[1].stage, "shade");
+  EXPECT_GE(stages[0].milliseconds, 0);
+  EXPECT_THAT(clock.take(), testing::IsEmpty());
+}
+
+double elapsed(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST_F(StageClocks, addUpToTheTimeThatPassed) {
+  const auto begin = std::chrono::steady_clock::now();
+  StageClock clock;
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  clock.finish("first");
+  std::this_thread::sleep_for(std::chrono::milliseconds(15));
+  clock.finish("second");
+  const std::vector<StageTime> stages = clock.take();
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_GE(stages[0].milliseconds, 5);
+  EXPECT_GE(stages[1].milliseconds, 15);
+  EXPECT_LE(stages[0].milliseconds + stages[1].milliseconds, elapsed(begin));
+}
+
+/// Some hundred milliseconds of work for a software driver, or a few for a GPU.
+void drawSlowly(const Framebuffer& target, const Program& slow, const VertexArray& nothing) {
+  PipelineState state;
+  state.framebuffer = target.id();
+  state.viewport = {0, 0, 256, 256};
+  apply(state);
+  drawFullscreen(slow, nothing);
+}
+
+TEST_F(StageClocks, bookDeviceTimeForTheStageThatAskedForIt) {
+  ProgramText text;
+  text.vertex = "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }";
+  text.fragment = R"(
+layout(location = 0) out vec4 color;
+void main() {
+  color = gl_FragCoord / 256.0;
+  for (int i = 0; i < 500; ++i) color = sin(color.yzwx * 3.0);
+})";
+  const Program slow = *Program::create(text, "slow");
+  const Texture texture({.width = 256, .height = 256}, "slow");
+  const Framebuffer target = *Framebuffer::create({{{.texture = &texture}}, {}}, "slow");
+  const VertexArray nothing({}, {}, nullptr, "nothing");
+  drawSlowly(target, slow, nothing); // what the driver does once is no part of it
+  glFinish();
+
+  StageClock clock;
+  const auto begin = std::chrono::steady_clock::now();
+  drawSlowly(target, slow, nothing);
+  clock.finishDrawing("draw");
+  const double waited = elapsed(begin);
+  std::vector<std::byte> texels(256 * 256 * 4);
+  target.readColor(0, {0, 0, 256, 256}, {GL_RGBA, GL_UNSIGNED_BYTE}, texels);
+  clock.finish("read");
+  const std::vector<StageTime> stages = clock.take();
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_GT(stages[0].milliseconds, 2 * stages[1].milliseconds) << "the device draws while the processor reads";
+  EXPECT_LT(waited, stages[0].milliseconds / 2) << "and nothing waits for it to end the stage";
 }
 
 } // namespace
