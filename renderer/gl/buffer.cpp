@@ -56,11 +56,6 @@ void Buffer::bindUniform(GLuint slot) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, slot, id());
 }
 
-void Buffer::bindUniform(GLuint slot, std::size_t offset, std::size_t bytes) const {
-  assert(offset <= bytes_ && bytes <= bytes_ - offset);
-  glBindBufferRange(GL_UNIFORM_BUFFER, slot, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
-}
-
 void Buffer::bindStorage(GLuint slot) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, slot, id());
 }

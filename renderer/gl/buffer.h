@@ -42,8 +42,6 @@ class Buffer {
   void read(std::size_t offset, std::span<std::byte> contents) const;
 
   void bindUniform(GLuint slot) const;
-  /// `offset` is a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT (at most 256).
-  void bindUniform(GLuint slot, std::size_t offset, std::size_t bytes) const;
   void bindStorage(GLuint slot) const;
 
  private:

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "renderer/core/cpu_quota.h"
-#include "renderer/gl/backend_problem.h"
-#include "renderer/gl/context_attempt.h"
+#include "renderer/gl/context_setup.h"
+#include "renderer/gl/debug_log.h"
 
 namespace gnomon::gl {
 namespace {

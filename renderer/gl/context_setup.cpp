@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/gl/build_identity.h"
-#include "renderer/gl/debug_messages.h"
+#include "renderer/gl/debug_log.h"
+#include "renderer/gl/fingerprint.h"
 #include "renderer/gl/gl.h"
 
 namespace gnomon::gl {
@@ -52,16 +52,6 @@ bool isSoftwareRenderer(const std::string& renderer) {
       "llvmpipe", "softpipe", "swrast", "lavapipe", "Software Rasterizer", "SwiftShader"};
   return std::ranges::any_of(kSoftware,
                              [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
-}
-
-std::string fingerprintOf(const RendererInfo& info) {
-  std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a, 64 bits
-  for (const std::string& part : {info.renderer, info.version, cpuMake(), std::string(GNOMON_VERSION), buildId()}) {
-    for (const char c : part + '\n') hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  std::string hex;
-  for (int shift = 60; shift >= 0; shift -= 4) hex += "0123456789abcdef"[hash >> shift & 15u];
-  return hex;
 }
 
 } // namespace gnomon::gl

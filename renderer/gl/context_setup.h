@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "protocol/report/capabilities.h"
+#include "renderer/gl/context.h"
 
 namespace gnomon::gl {
 
@@ -16,7 +18,13 @@ RendererInfo describeContext(std::string backend, std::string platform);
 /// Whether GL_RENDERER names one of the renderers that run on the CPU.
 bool isSoftwareRenderer(const std::string& renderer);
 
-/// A short hash of the driver, the CPU's make and this very program: frames from equal fingerprints are equal.
-std::string fingerprintOf(const RendererInfo& info);
+/// What trying one back end gave: a context, or why each way to one failed.
+struct Attempt {
+  std::unique_ptr<Context> context;
+  std::vector<std::string> failures; ///< "EGL device 0: ..." in the order tried
+};
+
+Attempt tryEgl(bool requireGpu);
+Attempt tryOsmesa(bool requireGpu);
 
 } // namespace gnomon::gl

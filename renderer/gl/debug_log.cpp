@@ -2,8 +2,6 @@
 
 #include <exception>
 
-#include "renderer/gl/backend_problem.h"
-#include "renderer/gl/debug_messages.h"
 #include "renderer/gl/gl.h"
 
 namespace gnomon::gl {
@@ -60,6 +58,13 @@ void GLAPIENTRY record(GLenum source, GLenum type, GLuint, GLenum severity, GLsi
 }
 
 } // namespace
+
+Problem backendProblem(std::string detail) {
+  Problem problem;
+  problem.code = ProblemCode::backend;
+  problem.detail = std::move(detail);
+  return problem;
+}
 
 void recordDebugMessages() {
   threadLog = {};

@@ -1,11 +1,63 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
 
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/object.h"
 #include "renderer/gl/program.h"
-#include "renderer/gl/vertex_array.h"
 
 namespace gnomon::gl {
+
+/// A buffer that vertices (or instances) are read from.
+struct VertexStream {
+  const Buffer* buffer = nullptr;
+  std::size_t stride = 0;  ///< bytes from one vertex to the next
+  std::size_t offset = 0;  ///< bytes before the first
+  GLuint instanceStep = 0; ///< 0 = one a vertex, n = one every n instances
+};
+
+/// One shader input.
+struct VertexAttribute {
+  GLuint location = 0;
+  GLuint stream = 0; ///< index into the streams
+  int components = 4;
+  GLenum type = GL_FLOAT;
+  bool normalized = false; ///< integers become 0..1 or -1..1
+  bool integer = false;    ///< integers stay integers (uint/int inputs)
+  GLuint offset = 0;       ///< bytes from the start of the vertex
+};
+
+/// Where a draw reads its vertices and its 32-bit indices. The buffers outlive it.
+class VertexArray {
+ public:
+  VertexArray() = default;
+  VertexArray(std::span<const VertexStream> streams, std::span<const VertexAttribute> attributes, const Buffer* indices,
+              std::string_view label);
+
+  GLuint id() const { return object_.get(); }
+
+ private:
+  struct Delete {
+    void operator()(GLuint id) const { glDeleteVertexArrays(1, &id); }
+  };
+  Object<Delete{}> object_;
+};
+
+/// One draw of an indexed triangle list, as glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+  std::uint32_t indexCount = 0;
+  std::uint32_t instanceCount = 1;
+  std::uint32_t firstIndex = 0;
+  std::int32_t baseVertex = 0;
+  std::uint32_t baseInstance = 0; ///< where streams with an instance step begin
+};
+
+/// Draws `count` of the commands in `commands` from number `first` on, with one call. Nothing when count is 0.
+void drawIndirect(const Program& program, const VertexArray& vertices, const Buffer& commands, std::size_t first,
+                  std::size_t count);
 
 /// One triangle over the whole viewport, without vertices: the shader makes clip positions from gl_VertexID 0, 1, 2.
 /// `nothing` is a vertex array without streams.
@@ -13,8 +65,5 @@ void drawFullscreen(const Program& program, const VertexArray& nothing);
 
 /// Hands what was drawn so far to the device, without waiting for it.
 void submit();
-
-/// Runs a compute program and makes its writes visible to everything after it.
-void dispatch(const Program& program, std::uint32_t groupsX, std::uint32_t groupsY = 1, std::uint32_t groupsZ = 1);
 
 } // namespace gnomon::gl

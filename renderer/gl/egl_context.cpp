@@ -4,11 +4,9 @@
 #include <thread>
 #include <utility>
 
-#include "renderer/gl/backend_problem.h"
-#include "renderer/gl/context_attempt.h"
 #include "renderer/gl/context_setup.h"
+#include "renderer/gl/debug_log.h"
 #include "renderer/gl/egl_api.h"
-#include "renderer/gl/egl_display.h"
 #include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {

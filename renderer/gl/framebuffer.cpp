@@ -4,7 +4,7 @@
 #include <cassert>
 #include <string>
 
-#include "renderer/gl/backend_problem.h"
+#include "renderer/gl/debug_log.h"
 
 namespace gnomon::gl {
 namespace {
@@ -90,13 +90,6 @@ void Framebuffer::readColor(int attachment, const Rect& rect, TexelLayout layout
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
   glReadnPixels(rect.x, rect.y, rect.width, rect.height, layout.format, layout.type,
                 static_cast<GLsizei>(texels.size()), texels.data());
-}
-
-void Framebuffer::readDepth(const Rect& rect, std::span<float> depths) const {
-  assert(depths.size_bytes() >= bytesOf(rect, {GL_DEPTH_COMPONENT, GL_FLOAT}));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
-  glReadnPixels(rect.x, rect.y, rect.width, rect.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                static_cast<GLsizei>(depths.size_bytes()), depths.data());
 }
 
 glm::vec2 Framebuffer::samplePosition(int sample) const {

@@ -43,7 +43,6 @@ class Framebuffer {
 
   /// The texels of a rectangle, lowest row first. Waits for the GPU. REQUIRES: texels has room for them.
   void readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const;
-  void readDepth(const Rect& rect, std::span<float> depths) const;
 
   /// Where a sample lies in its pixel, 0..1 from the lower left corner. REQUIRES: multisampled attachments.
   glm::vec2 samplePosition(int sample) const;

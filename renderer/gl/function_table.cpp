@@ -1,10 +1,11 @@
 #include "renderer/gl/function_table.h"
 
+#include <dlfcn.h>
 #include <mutex>
 #include <string>
 #include <utility>
 
-#include "renderer/gl/backend_problem.h"
+#include "renderer/gl/debug_log.h"
 
 namespace gnomon::gl {
 namespace {
@@ -15,6 +16,16 @@ int tableUsers = 0;
 thread_local bool threadHasContext = false;
 
 } // namespace
+
+SharedLibrary::SharedLibrary(const char* name) : handle_(dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
+  if (handle_) return;
+  const char* error = dlerror();
+  failure_ = error ? error : name;
+}
+
+void* SharedLibrary::symbol(const char* name) const {
+  return handle_ ? dlsym(handle_, name) : nullptr;
+}
 
 std::string_view tableConflict(std::string_view backend) {
   if (threadHasContext) return "this thread already has a graphics context";

@@ -1,11 +1,35 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "protocol/base/result.h"
 #include "renderer/gl/gl.h"
 
 namespace gnomon::gl {
+
+/// A library opened at run time. It is never closed: drivers leave threads and thread-local destructors behind, and the
+/// function table points into it.
+class SharedLibrary {
+ public:
+  /// Opens it with its symbols kept out of the global scope, since libOSMesa exports its own gl* symbols.
+  explicit SharedLibrary(const char* name);
+
+  bool isOpen() const { return handle_ != nullptr; }
+  const std::string& failure() const { return failure_; }
+
+  /// Null when it has no such function.
+  template <class Function>
+  void load(Function& function, const char* name) const {
+    function = reinterpret_cast<Function>(symbol(name));
+  }
+
+ private:
+  void* symbol(const char* name) const;
+
+  void* handle_ = nullptr;
+  std::string failure_;
+};
 
 /// One user of the process-wide function table. While there is one, every other must come from the same back end,
 /// whose functions are then the same for every thread.

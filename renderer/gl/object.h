@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -33,6 +34,9 @@ class Object {
 };
 
 /// Names an object for debuggers and debug messages. `kind`: GL_BUFFER, GL_TEXTURE, ...
-void setLabel(GLenum kind, GLuint id, std::string_view label);
+inline void setLabel(GLenum kind, GLuint id, std::string_view label) {
+  constexpr std::size_t kLongest = 255; // GL_MAX_LABEL_LENGTH is at least 256, its final 0 included
+  glObjectLabel(kind, id, static_cast<GLsizei>(std::min(label.size(), kLongest)), label.data());
+}
 
 } // namespace gnomon::gl

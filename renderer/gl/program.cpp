@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "renderer/gl/backend_problem.h"
+#include "renderer/gl/debug_log.h"
 #include "renderer/shaders/shader_sources.h"
 
 namespace gnomon::gl {
@@ -64,7 +64,7 @@ Result<Shader> compile(GLenum stage, const std::string& prologue, std::string_vi
 } // namespace
 
 Result<Program> Program::create(const ProgramSource& source, std::string_view label) {
-  ProgramText text{.vertex = {}, .fragment = {}, .compute = {}, .defines = source.defines};
+  ProgramText text{.vertex = {}, .fragment = {}, .defines = source.defines};
   Problems missing;
   const auto find = [&](const std::string& name) {
     const std::string_view found = shaderSource(name);
@@ -73,7 +73,6 @@ Result<Program> Program::create(const ProgramSource& source, std::string_view la
   };
   text.vertex = find(source.vertex);
   text.fragment = find(source.fragment);
-  text.compute = find(source.compute);
   if (!missing.empty()) return missing;
   return create(text, label);
 }
@@ -85,8 +84,7 @@ Result<Program> Program::create(const ProgramText& text, std::string_view label)
   setLabel(GL_PROGRAM, program.id(), label);
   std::vector<Shader> shaders;
   for (const auto& [stage, stageText] : {std::pair<GLenum, const std::string&>(GL_VERTEX_SHADER, text.vertex),
-                                         std::pair<GLenum, const std::string&>(GL_FRAGMENT_SHADER, text.fragment),
-                                         std::pair<GLenum, const std::string&>(GL_COMPUTE_SHADER, text.compute)}) {
+                                         std::pair<GLenum, const std::string&>(GL_FRAGMENT_SHADER, text.fragment)}) {
     if (stageText.empty()) continue;
     Result<Shader> shader = compile(stage, head, stageText, label);
     if (!shader) return std::move(shader).problems();
@@ -112,35 +110,17 @@ void Program::use() const {
 void Program::set(GLint location, int value) const {
   glProgramUniform1i(id(), location, value);
 }
-void Program::set(GLint location, unsigned value) const {
-  glProgramUniform1ui(id(), location, value);
-}
-void Program::set(GLint location, float value) const {
-  glProgramUniform1f(id(), location, value);
-}
 void Program::set(GLint location, const glm::ivec2& value) const {
   glProgramUniform2iv(id(), location, 1, glm::value_ptr(value));
 }
 void Program::set(GLint location, const glm::ivec4& value) const {
   glProgramUniform4iv(id(), location, 1, glm::value_ptr(value));
 }
-void Program::set(GLint location, const glm::uvec2& value) const {
-  glProgramUniform2uiv(id(), location, 1, glm::value_ptr(value));
-}
-void Program::set(GLint location, const glm::uvec4& value) const {
-  glProgramUniform4uiv(id(), location, 1, glm::value_ptr(value));
-}
 void Program::set(GLint location, const glm::vec2& value) const {
   glProgramUniform2fv(id(), location, 1, glm::value_ptr(value));
 }
-void Program::set(GLint location, const glm::vec3& value) const {
-  glProgramUniform3fv(id(), location, 1, glm::value_ptr(value));
-}
 void Program::set(GLint location, const glm::vec4& value) const {
   glProgramUniform4fv(id(), location, 1, glm::value_ptr(value));
-}
-void Program::set(GLint location, const glm::mat3& value) const {
-  glProgramUniformMatrix3fv(id(), location, 1, GL_FALSE, glm::value_ptr(value));
 }
 void Program::set(GLint location, const glm::mat4& value) const {
   glProgramUniformMatrix4fv(id(), location, 1, GL_FALSE, glm::value_ptr(value));

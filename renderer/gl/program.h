@@ -10,11 +10,10 @@
 
 namespace gnomon::gl {
 
-/// Which embedded shaders make a program, by file name ("shade.frag"): vertex with or without fragment, or compute.
+/// Which embedded shaders make a program, by file name ("view.frag").
 struct ProgramSource {
   std::string vertex;
-  std::string fragment; ///< empty = depth only
-  std::string compute;
+  std::string fragment;             ///< empty = depth only
   std::vector<std::string> defines; ///< "NAME" or "NAME value"
 };
 
@@ -22,7 +21,6 @@ struct ProgramSource {
 struct ProgramText {
   std::string vertex;
   std::string fragment;
-  std::string compute;
   std::vector<std::string> defines;
 };
 
@@ -38,16 +36,10 @@ class Program {
 
   /// Uniforms by explicit location (`layout(location = n) uniform`).
   void set(GLint location, int value) const;
-  void set(GLint location, unsigned value) const;
-  void set(GLint location, float value) const;
   void set(GLint location, const glm::ivec2& value) const;
   void set(GLint location, const glm::ivec4& value) const;
-  void set(GLint location, const glm::uvec2& value) const;
-  void set(GLint location, const glm::uvec4& value) const;
   void set(GLint location, const glm::vec2& value) const;
-  void set(GLint location, const glm::vec3& value) const;
   void set(GLint location, const glm::vec4& value) const;
-  void set(GLint location, const glm::mat3& value) const;
   void set(GLint location, const glm::mat4& value) const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/gl/buffer.h"
-#include "renderer/gl/vertex_array.h"
+#include "renderer/gl/draw.h"
 #include "renderer/passes/draw_list.h"
 #include "renderer/passes/gpu_scene.h"
 

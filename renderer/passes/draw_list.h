@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/gl/indirect_draw.h"
+#include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/frame_geometry.h"
 

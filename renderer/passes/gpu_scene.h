@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "renderer/gl/buffer.h"
-#include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/scene/scene.h"
 

@@ -83,7 +83,7 @@ std::vector<std::string> maskDefines(const Material* material) {
 }
 
 gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked) {
-  return {std::move(vertexShader), masked != nullptr ? "masked_depth.frag" : "", "", maskDefines(masked)};
+  return {std::move(vertexShader), masked != nullptr ? "masked_depth.frag" : "", maskDefines(masked)};
 }
 
 gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended) {
@@ -134,7 +134,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (variant.numbered) defines.emplace_back(variant.emission ? "TRIANGLE_NUMBERS 2" : "TRIANGLE_NUMBERS 1");
-  return {"surface.vert", "surface.frag", "", std::move(defines)};
+  return {"surface.vert", "surface.frag", std::move(defines)};
 }
 
 bool showsOneLight(View view) {
@@ -177,7 +177,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");
   }
-  return {"fullscreen.vert", "view.frag", "", std::move(defines)};
+  return {"fullscreen.vert", "view.frag", std::move(defines)};
 }
 
 gl::ProgramSource probeProgram(const ViewVariant& variant) {
@@ -186,7 +186,7 @@ gl::ProgramSource probeProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
-  return {"fullscreen.vert", "probe.frag", "", std::move(defines)};
+  return {"fullscreen.vert", "probe.frag", std::move(defines)};
 }
 
 gl::ProgramSource displacementProgram(const ViewVariant& variant) {

@@ -58,7 +58,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   p.state.depth = {true, true, GL_GREATER};
   p.state.multisample = samples > 1;
   // The shadow caster's vertex shader is the barest there is: one matrix, no output but the position.
-  p.program = valueOf(p.programs.get({"shadow_cast.vert", "", "", {}}));
+  p.program = valueOf(p.programs.get({"shadow_cast.vert", "", {}}));
   p.program->set(GNOMON_LIGHT_CLIP, clipFromRelative);
 }
 

@@ -5,7 +5,7 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/survey/box_depths.h"
 
 namespace gnomon {
@@ -16,7 +16,7 @@ namespace {
 Result<std::vector<glm::vec4>> reduceBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples,
                                             const ReceiverDepths& grid) {
   const auto program =
-      inputs.programs.get({"fullscreen.vert", "survey_reduce.frag", "", {"SAMPLES " + std::to_string(samples)}});
+      inputs.programs.get({"fullscreen.vert", "survey_reduce.frag", {"SAMPLES " + std::to_string(samples)}});
   if (!program) return program.problems();
   const gl::Texture blocks({GL_RGBA32F, grid.columns, grid.rows}, "survey blocks");
   auto target = gl::Framebuffer::create({{{&blocks}}, {}}, "survey blocks");

@@ -3,7 +3,7 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 
 namespace gnomon {
 
@@ -11,7 +11,7 @@ Result<gl::Texture> flattenAtlas(const PassInputs& inputs, const gl::Texture& de
   const gl::TextureShape& shape = depth.shape();
   if (shape.samples == 0) return gl::Texture();
   const auto program =
-      inputs.programs.get({"fullscreen.vert", "atlas_depth.frag", "", {"SAMPLES " + std::to_string(shape.samples)}});
+      inputs.programs.get({"fullscreen.vert", "atlas_depth.frag", {"SAMPLES " + std::to_string(shape.samples)}});
   if (!program) return program.problems();
   gl::Texture flat({GL_R32F, shape.width, shape.height}, "flat atlas");
   auto target = gl::Framebuffer::create({{{&flat}}, {}}, "flat atlas");

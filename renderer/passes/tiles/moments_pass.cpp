@@ -6,7 +6,7 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/views/light_data.h"
 
 namespace gnomon {
@@ -30,7 +30,7 @@ Status blur(const PassInputs& inputs, const ShadowTile& tile, int samples, const
   std::vector<std::string> defines{"FILTER_KIND " + std::to_string(filterKind(tile.filter))};
   if (step.alongX) defines.emplace_back("ALONG_X");
   if (step.alongX && samples > 1) defines.push_back("ATLAS_SAMPLES " + std::to_string(samples));
-  const auto program = inputs.programs.get({"fullscreen.vert", "moments.frag", "", std::move(defines)});
+  const auto program = inputs.programs.get({"fullscreen.vert", "moments.frag", std::move(defines)});
   if (!program) return program.problems();
   gl::PipelineState state;
   state.framebuffer = step.to.id();

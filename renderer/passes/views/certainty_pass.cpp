@@ -2,7 +2,7 @@
 
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/views/shadow_bindings.h"
 
 namespace gnomon {
@@ -17,7 +17,7 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInp
     defines.emplace_back("PUNCTUAL");
   }
   if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
-  const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", "", std::move(defines)});
+  const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", std::move(defines)});
   if (!program) return program.problems();
 
   const gl::Texture color({GL_R8, inputs.width, inputs.height}, "certainty");

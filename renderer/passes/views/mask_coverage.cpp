@@ -25,7 +25,7 @@ Result<std::vector<std::uint8_t>> maskCoverage(const PassInputs& inputs, const S
       buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, maskedSlots(inputs, survey));
   if (list.commands.empty()) return std::vector<std::uint8_t>{};
   for (DrawGroup& group : list.groups) group.material = -1; // nothing but positions matters
-  const auto program = inputs.programs.get({"survey.vert", "covered.frag", "", {}});
+  const auto program = inputs.programs.get({"survey.vert", "covered.frag", {}});
   if (!program) return program.problems();
 
   const gl::Texture covered({GL_R8, inputs.width, inputs.height}, "masks");

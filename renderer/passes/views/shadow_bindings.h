@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/gl/buffer.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/views/view_pass.h"
 
 namespace gnomon {

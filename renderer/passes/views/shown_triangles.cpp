@@ -3,14 +3,14 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 
 namespace gnomon {
 namespace {
 
 /// A pixel's samples as the channels of one texel.
 Result<gl::Texture> sideBySide(const PassInputs& inputs, const Surfaces& surfaces) {
-  const auto program = inputs.programs.get({"fullscreen.vert", "triangle_samples.frag", "", {"SAMPLES 4"}});
+  const auto program = inputs.programs.get({"fullscreen.vert", "triangle_samples.frag", {"SAMPLES 4"}});
   if (!program) return program.problems();
   gl::Texture numbers({GL_RGBA32UI, inputs.width, inputs.height}, "triangle numbers, side by side");
   const auto target = gl::Framebuffer::create({{{&numbers}}, {}}, "triangle numbers, side by side");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/gl/indirect_draw.h"
+#include "renderer/gl/draw.h"
 #include "renderer/passes/views/volume_casters.h"
 #include "renderer/scene/edge_mesh.h"
 

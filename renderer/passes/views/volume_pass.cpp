@@ -5,7 +5,7 @@
 
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/views/volume_mesh.h"
 #include "renderer/scene/silhouette.h"
@@ -71,8 +71,7 @@ class VolumeDraws {
     const gl::Buffer places(gl::bytesOf(mesh.places), "shadow volume places");
     gl::PipelineState state = state_;
     state.depthClamp = true;
-    return draw(mesh.walls, {{{&places, sizeof(glm::vec4), 0, 0}, instances()}}, true, {"volume.vert", "", "", {}},
-                state);
+    return draw(mesh.walls, {{{&places, sizeof(glm::vec4), 0, 0}, instances()}}, true, {"volume.vert", "", {}}, state);
   }
 
   /// The near ends are drawn as the survey drew them, bit by bit: what it clipped is clipped. Before the near plane,
@@ -129,7 +128,7 @@ Status countVolumes(const PassInputs& inputs, const VolumeCounts& counts, const 
 
 Status writeVisibility(const PassInputs& inputs, const VolumeCounts& counts, const gl::Texture& visibility, int layer) {
   const auto program =
-      inputs.programs.get({"fullscreen.vert", "volume_visibility.frag", "", samplesDefine(samplesOf(counts))});
+      inputs.programs.get({"fullscreen.vert", "volume_visibility.frag", samplesDefine(samplesOf(counts))});
   if (!program) return program.problems();
   const auto target = gl::Framebuffer::create({{{&visibility, 0, layer}}, {}}, "visibility");
   if (!target) return target.problems();
@@ -156,8 +155,7 @@ Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& d
   auto target = gl::Framebuffer::create({{}, {&counts.depthStencil}}, "shadow volume counts");
   if (!target) return target.problems();
   counts.framebuffer = std::move(*target);
-  const auto program =
-      inputs.programs.get({"fullscreen.vert", "volume_depth.frag", "", samplesDefine(samplesOf(counts))});
+  const auto program = inputs.programs.get({"fullscreen.vert", "volume_depth.frag", samplesDefine(samplesOf(counts))});
   if (!program) return program.problems();
 
   gl::PipelineState state;

@@ -8,7 +8,7 @@
 
 #include "renderer/gl/context.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/shared_library.h"
+#include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {
 

@@ -4,11 +4,10 @@
 
 #include "gl_fixture.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
-#include "renderer/gl/vertex_array.h"
 
 namespace gnomon::gl {
 namespace {
@@ -144,7 +143,7 @@ TEST_F(Owners, depthIsClearedAndRead) {
   apply(state);
   framebuffer.clearDepth(0.25f);
   std::array<float, 2> depths{};
-  framebuffer.readDepth(kAll, depths);
+  depth.read(0, kAll, {GL_DEPTH_COMPONENT, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
   EXPECT_THAT(depths, ElementsAre(0.25f, 0.25f));
 }
 

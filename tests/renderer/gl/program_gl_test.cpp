@@ -1,7 +1,10 @@
 #include "gl_fixture.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/draw.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
 
 namespace gnomon::gl {
 namespace {
@@ -49,24 +52,33 @@ TEST_F(Programs, needAShader) {
 
 TEST_F(Programs, runWithDefinesUniformsAndStorage) {
   ProgramText text;
-  text.compute = R"(
-layout(local_size_x = 1) in;
-layout(location = 3) uniform float scale;
-layout(location = 4) uniform mat3 matrix;
-layout(std430, binding = 2) buffer Out { float values[]; };
-void main() { values[gl_WorkGroupID.x] = scale * OFFSET + float(gl_WorkGroupID.x) + matrix[1][2]; })";
+  text.vertex = "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }";
+  text.fragment = R"(
+layout(location = 3) uniform int scale;
+layout(location = 4) uniform mat4 matrix;
+layout(std430, binding = 2) readonly buffer In { float values[]; };
+layout(location = 0) out float result;
+void main() { result = float(scale) * OFFSET + values[int(gl_FragCoord.x)] + matrix[1][2]; })";
   text.defines = {"OFFSET 10.0"};
-  const auto program = Program::create(text, "compute");
+  const auto program = Program::create(text, "sum");
   ASSERT_TRUE(program) << detailsOf(program.problems());
-  program->set(3, 2.0f);
-  glm::mat3 matrix(0);
+  program->set(3, 2);
+  glm::mat4 matrix(0);
   matrix[1][2] = 100;
   program->set(4, matrix);
-  const Buffer out(3 * sizeof(float), "out");
-  out.bindStorage(2);
-  dispatch(*program, 3);
+  const Buffer in(bytesOf(std::vector<float>{0, 1, 2}), "in");
+  in.bindStorage(2);
+
+  const Rect all{0, 0, 3, 1};
+  const Texture sums({.format = GL_R32F, .width = all.width, .height = all.height}, "sums");
+  const Framebuffer target = *Framebuffer::create({{{.texture = &sums}}, {}}, "sums");
+  PipelineState state;
+  state.framebuffer = target.id();
+  state.viewport = all;
+  apply(state);
+  drawFullscreen(*program, VertexArray({}, {}, nullptr, "nothing"));
   std::array<float, 3> values{};
-  out.read(0, std::as_writable_bytes(std::span(values)));
+  sums.read(0, all, {GL_RED, GL_FLOAT}, std::as_writable_bytes(std::span(values)));
   EXPECT_THAT(values, testing::ElementsAre(120, 121, 122));
 }
 

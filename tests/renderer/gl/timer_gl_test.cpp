@@ -8,7 +8,6 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
-#include "renderer/gl/vertex_array.h"
 
 namespace gnomon::gl {
 namespace {

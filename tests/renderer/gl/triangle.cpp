@@ -3,12 +3,11 @@
 #include <array>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
-#include "renderer/gl/indirect_draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
-#include "renderer/gl/vertex_array.h"
 
 namespace gnomon::gl {
 namespace {

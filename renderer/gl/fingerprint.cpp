@@ -1,4 +1,4 @@
-#include "renderer/gl/build_identity.h"
+#include "renderer/gl/fingerprint.h"
 
 #include <cstring>
 #include <elf.h>
@@ -88,6 +88,16 @@ std::string cpuMake() {
   uname(&name);
   return name.machine;
 #endif
+}
+
+std::string fingerprintOf(const RendererInfo& info) {
+  std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a, 64 bits
+  for (const std::string& part : {info.renderer, info.version, cpuMake(), std::string(GNOMON_VERSION), buildId()}) {
+    for (const char c : part + '\n') hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  std::string hex;
+  for (int shift = 60; shift >= 0; shift -= 4) hex += "0123456789abcdef"[hash >> shift & 15u];
+  return hex;
 }
 
 } // namespace gnomon::gl

@@ -1,4 +1,4 @@
-#include "renderer/gl/build_identity.h"
+#include "renderer/gl/fingerprint.h"
 
 #include <gmock/gmock.h>
 
