@@ -36,4 +36,36 @@ glm::dmat4 clipFromView(const CameraView& view) {
   return matrix;
 }
 
+Frustum frustumOf(const CameraView& view) {
+  // A side plane of a perspective view holds the eye: right . p + halfSize.x * depth(p) >= 0. An orthographic one does
+  // not: right . p + halfSize.x >= 0.
+  const glm::dvec3 widen = view.perspective ? view.forward : glm::dvec3(0.0);
+  const double offset = view.perspective ? 0.0 : 1.0;
+  const auto side = [&](const glm::dvec3& axis, double half) { return glm::dvec4(axis + widen * half, offset * half); };
+
+  Frustum frustum;
+  frustum.planes[0] = side(view.right, view.halfSize.x);
+  frustum.planes[1] = side(-view.right, view.halfSize.x);
+  frustum.planes[2] = side(view.up, view.halfSize.y);
+  frustum.planes[3] = side(-view.up, view.halfSize.y);
+  frustum.planes[4] = glm::dvec4(view.forward, -view.near);
+  frustum.planes[5] = std::isinf(view.far) ? glm::dvec4(0, 0, 0, 1) : glm::dvec4(-view.forward, view.far);
+  return frustum;
+}
+
+bool mayIntersect(const Frustum& frustum, const Aabb& box) {
+  if (box.empty()) return false;
+  // Rounding must never reject a box that touches a plane: four products and sums lose at most a few 2^-53 of the sum
+  // of magnitudes.
+  constexpr double kRounding = 1e-14;
+  for (const glm::dvec4& plane : frustum.planes) {
+    const glm::dvec3 normal(plane);
+    const glm::dvec3 innermost = glm::mix(box.min, box.max, glm::greaterThanEqual(normal, glm::dvec3(0.0)));
+    const glm::dvec3 products = normal * innermost;
+    const double magnitude = std::abs(products.x) + std::abs(products.y) + std::abs(products.z) + std::abs(plane.w);
+    if (products.x + products.y + products.z + plane.w < -kRounding * magnitude) return false;
+  }
+  return true;
+}
+
 } // namespace gnomon

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <limits>
+
+#include "renderer/core/aabb.h"
 
 namespace gnomon {
 
@@ -32,5 +35,16 @@ glm::dmat4 viewFromRelative(const CameraView& view);
 /// Clip space from view space, depth reversed: 1 at near, 0 at far or at infinity.
 /// (Reversed depth: Reed, "Depth Precision Visualized", 2015.)
 glm::dmat4 clipFromView(const CameraView& view);
+
+/// The planes of a view, eye-relative; a point p is inside where dot(plane.xyz, p) + plane.w >= 0.
+/// An infinite far plane is (0,0,0,1).
+struct Frustum {
+  std::array<glm::dvec4, 6> planes{};
+};
+
+Frustum frustumOf(const CameraView& view);
+
+/// False only where the box is surely outside: a box across a corner may be kept.
+bool mayIntersect(const Frustum& frustum, const Aabb& box);
 
 } // namespace gnomon

@@ -1,12 +1,70 @@
 #include "renderer/core/parallel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include "renderer/core/cpu_quota.h"
+#include <thread>
 
 namespace gnomon {
+namespace {
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::optional<double> limitOf(const std::filesystem::path& group) {
+  if (const auto cores = coresOfCpuMax(textOf(group / "cpu.max"))) return cores;
+  return coresOfCpuMax(textOf(group / "cpu.cfs_quota_us") + " " + textOf(group / "cpu.cfs_period_us"));
+}
+
+/// The tightest limit from `group` up to `top`.
+std::optional<double> tightest(const std::filesystem::path& top, std::filesystem::path group) {
+  std::optional<double> least = limitOf(top);
+  while (group != top && group.has_relative_path() && group != group.parent_path()) {
+    if (const auto cores = limitOf(group); cores && (!least || *cores < *least)) least = cores;
+    group = group.parent_path();
+  }
+  return least;
+}
+
+} // namespace
+
+std::optional<double> coresOfCpuMax(std::string_view cpuMax) {
+  std::istringstream in{std::string(cpuMax)};
+  double quota = 0;
+  double period = 0;
+  if (!(in >> quota >> period) || quota <= 0 || period <= 0) return std::nullopt; // "max", or -1 in version 1
+  return quota / period;
+}
+
+std::optional<double> coresGranted(const std::filesystem::path& root, std::string_view membership) {
+  std::optional<double> least;
+  std::istringstream lines{std::string(membership)};
+  for (std::string line; std::getline(lines, line);) { // "0::/group" in version 2, "4:cpu,cpuacct:/group" in version 1
+    const std::size_t controllers = line.find(':');
+    const std::size_t path = line.find(':', controllers + 1);
+    if (controllers == std::string::npos || path == std::string::npos) continue;
+    const std::string names = "," + line.substr(controllers + 1, path - controllers - 1) + ",";
+    const bool unified = names == ",,";
+    if (!unified && names.find(",cpu,") == std::string::npos) continue;
+    const std::filesystem::path top = unified ? root : root / "cpu";
+    const std::string group = line.substr(path + 1);
+    const auto cores = tightest(top, group == "/" ? top : top / std::filesystem::path(group).relative_path());
+    if (cores && (!least || *cores < *least)) least = cores;
+  }
+  return least;
+}
+
+int coresToUse() {
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto granted = coresGranted("/sys/fs/cgroup", textOf("/proc/self/cgroup"));
+  return granted && *granted < machine ? std::max(1, static_cast<int>(std::ceil(*granted))) : machine;
+}
 
 void onAllCores(const std::function<void()>& task) {
   static tbb::task_arena arena(coresToUse());

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "renderer/core/cpu_quota.h"
+#include "renderer/core/parallel.h"
 #include "renderer/gl/context_setup.h"
 #include "renderer/gl/debug_log.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/core/light_direction.h"
+#include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 
 namespace gnomon {

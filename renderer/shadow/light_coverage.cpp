@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "renderer/core/frustum.h"
+#include "renderer/core/camera_view.h"
 
 namespace gnomon {
 namespace {

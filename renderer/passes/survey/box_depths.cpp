@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "renderer/core/block_strips.h"
-#include "renderer/core/frustum.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/passes/survey/footprint.h"
 #include "renderer/shaders/shared/frame_types.h"
 #include "renderer/shadow/depth_range.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <tuple>
 
-#include "renderer/core/frustum.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/light_direction.h"
+#include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/vec3.h"
 #include "renderer/passes/tiles/outline_stamps.h"

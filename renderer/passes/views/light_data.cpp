@@ -6,8 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/spec/limits.h"
-#include "renderer/core/black_body.h"
-#include "renderer/core/light_direction.h"
+#include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 #include "renderer/shadow/bias.h"
 

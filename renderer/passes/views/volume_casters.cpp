@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/core/frustum.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/scene/silhouette.h"
 
 namespace gnomon {

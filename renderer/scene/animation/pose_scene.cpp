@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/animation/moved_properties.h"
 #include "renderer/scene/animation/sampling.h"
 #include "renderer/scene/graph/cameras.h"

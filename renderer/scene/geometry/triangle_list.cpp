@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 
 namespace gnomon {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/geometry/triangle_list.h"
 
 namespace gnomon {

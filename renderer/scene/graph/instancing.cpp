@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/gltf_json.h"
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/gltf_json.h"
 #include "renderer/scene/graph/node_transform.h"
 

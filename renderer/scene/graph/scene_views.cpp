@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/instancing.h"
 #include "renderer/scene/graph/lights.h"

@@ -4,7 +4,7 @@
 #include <set>
 #include <tuple>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/animation/animation_targets.h"
 #include "renderer/scene/graph/placing.h"
 #include "renderer/scene/posing/apply_pose.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/core/finite.h"
+#include "renderer/core/aabb.h"
 
 namespace gnomon {
 

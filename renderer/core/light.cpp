@@ -1,4 +1,9 @@
-#include "renderer/core/black_body.h"
+#include "renderer/core/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/vec3.h"
 
 namespace gnomon {
 namespace {
@@ -29,6 +34,21 @@ glm::dvec3 linearSrgbOf(const glm::dvec3& xyz) {
 }
 
 } // namespace
+
+glm::dvec3 directionOf(const Light& light) {
+  if (light.sun) {
+    const double azimuth = glm::radians(light.sun->azimuthDegrees);
+    const double elevation = glm::radians(light.sun->elevationDegrees);
+    return -glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                       -std::cos(azimuth) * std::cos(elevation));
+  }
+  if (light.direction) {
+    const glm::dvec3 direction = toVector(*light.direction);
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    return glm::normalize(direction / largest);
+  }
+  return {0, -1, 0};
+}
 
 double luminanceOf(const glm::dvec3& color) {
   return glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), color);
