@@ -5,8 +5,8 @@
 
 #include "protocol/spec/shadow_options.h"
 #include "renderer/core/camera_view.h"
-#include "renderer/shadow/depth_interval.h"
 #include "renderer/shadow/shadow_plan.h"
+#include "renderer/shadow/splits.h"
 
 namespace gnomon {
 

@@ -5,11 +5,24 @@
 #include <vector>
 
 #include "renderer/core/aabb.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/shadow/bias.h"
 #include "renderer/shadow/light_basis.h"
-#include "renderer/shadow/slice.h"
+#include "renderer/shadow/splits.h"
 
 namespace gnomon {
+
+/// Metres from the eye to the farthest point of a slice: what a view sees between two depths.
+double sliceReach(const CameraView& view, const DepthInterval& depths);
+
+struct Sphere {
+  glm::dvec3 center{0}; ///< relative to the eye
+  double radius = 0;
+};
+
+/// The smallest sphere around a slice. Its radius depends on the lens and the depths, not on where the camera stands or
+/// looks.
+Sphere sliceSphere(const CameraView& view, const DepthInterval& depths);
 
 /// Where a tile's square of texels lies in light space. Parallel light: lengths across are metres. Light from a point:
 /// they are metres for each metre of distance from the light along the tile's direction (tangents).

@@ -7,6 +7,8 @@
 
 namespace gnomon {
 
+struct ShadowTile;
+
 /// Where in a tile receivers look, and how far from the light they are: a square grid of cells over the whole tile.
 struct ReceiverMask {
   static constexpr int kSide = 64;
@@ -19,5 +21,9 @@ struct ReceiverMask {
 /// The mask for receivers inside `piecesClip` (the tile's clip space) whose lookups reach `margin` (x, y of clip space)
 /// around them.
 ReceiverMask receiverMask(const std::vector<Aabb>& piecesClip, const glm::dvec2& margin);
+
+/// True where something inside `casterBounds` (eye-relative) can throw a shadow onto what `tile` serves:
+/// seen along the light it overlaps a part of the tile where receivers look, and does not lie behind all of them there.
+bool mayCastInto(const ShadowTile& tile, const Aabb& casterBounds);
 
 } // namespace gnomon

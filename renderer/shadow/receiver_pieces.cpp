@@ -1,8 +1,12 @@
 #include "renderer/shadow/receiver_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <vector>
 
 #include "renderer/core/block_strips.h"
 #include "renderer/shadow/depth_range.h"
@@ -16,6 +20,72 @@ int stepsBetween(const CameraView& view, double near, double far) {
   constexpr int kMostSteps = 16;
   if (!view.perspective || !(near > 0)) return 1;
   return std::clamp(static_cast<int>(std::ceil(std::log(far / near) / std::log(kSpread))), 1, kMostSteps);
+}
+
+constexpr int kDirections = 32; ///< over half a turn; each has two extreme points
+constexpr int kSampledBlocks = 4096;
+
+/// Corners of the points' hull, in order round it.
+std::vector<glm::dvec2> hullCorners(std::span<const glm::dvec2> points) {
+  std::array<glm::dvec2, kDirections> lowest{};
+  std::array<glm::dvec2, kDirections> highest{};
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = glm::pi<double>() * k / kDirections;
+    const glm::dvec2 direction(std::cos(angle), std::sin(angle));
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const glm::dvec2& point : points) {
+      const double along = glm::dot(direction, point);
+      if (along < low) {
+        low = along;
+        lowest[k] = point;
+      }
+      if (along > high) {
+        high = along;
+        highest[k] = point;
+      }
+    }
+  }
+  std::vector<glm::dvec2> corners(highest.begin(), highest.end());
+  corners.insert(corners.end(), lowest.begin(), lowest.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+double areaAt(double angle, const std::vector<glm::dvec2>& points) {
+  const glm::dvec2 right(std::cos(angle), std::sin(angle));
+  const glm::dvec2 up(-right.y, right.x);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  for (const glm::dvec2& point : points) {
+    const glm::dvec2 at(glm::dot(right, point), glm::dot(up, point));
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  return (high.x - low.x) * (high.y - low.y);
+}
+
+/// The nearest and the farthest point of every few blocks' middle within the cascade, in light space.
+std::vector<glm::dvec2> sampledReceivers(const CameraView& view, const ReceiverDepths& receivers,
+                                         const LightBasis& basis, const CascadeInterval& cascade) {
+  std::vector<glm::dvec2> points;
+  const int stride =
+      static_cast<int>(std::ceil(std::sqrt(static_cast<double>(receivers.columns) * receivers.rows / kSampledBlocks)));
+  for (int row = 0; row < receivers.rows; row += stride) {
+    for (int column = 0; column < receivers.columns; column += stride) {
+      const DepthSpan& span = receivers.blocks[static_cast<std::size_t>(row * receivers.columns + column)];
+      if (span.empty()) continue;
+      const double near = std::max<double>(span.nearest, cascade.near);
+      const double far = std::min<double>(span.farthest, cascade.far);
+      if (!(near <= far)) continue;
+      const glm::dvec2 ndc((2.0 * column + 1.0) / receivers.columns - 1.0, 1.0 - (2.0 * row + 1.0) / receivers.rows);
+      for (const double depth : {near, far}) {
+        const glm::dvec3 point = pointAt(view, ndc, depth);
+        points.emplace_back(glm::dot(basis.right, point), glm::dot(basis.up, point));
+      }
+    }
+  }
+  return points;
 }
 
 } // namespace
@@ -55,6 +125,35 @@ Aabb boxAround(const std::vector<Aabb>& boxes) {
   Aabb box;
   for (const Aabb& each : boxes) box.add(each);
   return box;
+}
+
+LightBasis rolled(const LightBasis& basis, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {basis.right * c + basis.up * s, basis.up * c - basis.right * s, basis.direction};
+}
+
+double rollOfLeastArea(std::span<const glm::dvec2> points) {
+  if (points.empty()) return 0.0;
+  const std::vector<glm::dvec2> corners = hullCorners(points);
+  double best = 0.0;
+  double least = areaAt(best, corners);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
+    if (side == glm::dvec2(0.0)) continue;
+    const double angle = std::atan2(side.y, side.x);
+    const double area = areaAt(angle, corners);
+    if (area < least) {
+      least = area;
+      best = angle;
+    }
+  }
+  return best;
+}
+
+LightBasis tightBasis(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
+                      const CascadeInterval& cascade) {
+  return rolled(basis, rollOfLeastArea(sampledReceivers(view, receivers, basis, cascade)));
 }
 
 } // namespace gnomon

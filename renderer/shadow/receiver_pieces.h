@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "renderer/core/aabb.h"
@@ -19,5 +21,19 @@ std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& r
 
 /// The box around boxes.
 Aabb boxAround(const std::vector<Aabb>& boxes);
+
+/// The basis turned about the light's direction, radians, from right towards up.
+LightBasis rolled(const LightBasis& basis, double angle);
+
+/// The turn, radians, of a rectangle of nearly the least area around points: a side of the least one lies along a side
+/// of their hull (Freeman and Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve",
+/// 1975); the hull is taken at the points that are extreme in 64 directions. 0 without points.
+double rollOfLeastArea(std::span<const glm::dvec2> points);
+
+/// For a tight fit: the basis turned so that a box around the receivers in a cascade spends few texels on what is not
+/// seen. Views of a ground need a fraction of the area that an arbitrary roll takes, so the same tile is that much
+/// sharper. It follows a sample of the survey, hence every move of the camera: nothing for a stable fit.
+LightBasis tightBasis(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
+                      const CascadeInterval& cascade);
 
 } // namespace gnomon

@@ -9,23 +9,11 @@
 #include "renderer/shadow/bias.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/fit.h"
-#include "renderer/shadow/light_coverage.h"
 #include "renderer/shadow/light_draft.h"
 #include "renderer/shadow/receiver_pieces.h"
-#include "renderer/shadow/slice.h"
 #include "renderer/shadow/tile_size.h"
 
 namespace gnomon {
-
-glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile) {
-  constexpr double kStep = 0x1p-32; // metres: far above the rounding of differences, far below anything seen
-  return glm::round((tile.origin + (input.view.eye - input.anchor)) / kStep) * kStep;
-}
-
-void addNote(PlannedLight& light, const std::string& note) {
-  if (!light.note.empty()) light.note += "; ";
-  light.note += note;
-}
 
 namespace {
 

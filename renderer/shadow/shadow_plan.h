@@ -9,8 +9,8 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
-#include "renderer/shadow/depth_interval.h"
 #include "renderer/shadow/receiver_mask.h"
+#include "renderer/shadow/splits.h"
 #include "renderer/shadow/tile_space.h"
 
 namespace gnomon {
@@ -101,9 +101,5 @@ struct ShadowPlan {
 
 /// Decides everything about a frame's shadows before any is drawn. Pure. The input has been validated.
 ShadowPlan planShadows(const PlanInput& input);
-
-/// True where something inside `casterBounds` (eye-relative) can throw a shadow onto what `tile` serves:
-/// seen along the light it overlaps a part of the tile where receivers look, and does not lie behind all of them there.
-bool mayCastInto(const ShadowTile& tile, const Aabb& casterBounds);
 
 } // namespace gnomon

@@ -3,9 +3,14 @@
 #include <vector>
 
 #include "protocol/spec/shadow_options.h"
-#include "renderer/shadow/depth_interval.h"
 
 namespace gnomon {
+
+/// From one view depth to another, metres.
+struct DepthInterval {
+  double near = 0;
+  double far = 0;
+};
 
 /// The distances between cascades: n cascades, n + 1 view depths, strictly increasing. The first is range.near; the
 /// last is range.far, except in mode manual where the last fraction is less than 1: the rest is uncovered by choice.

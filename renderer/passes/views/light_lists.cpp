@@ -6,7 +6,7 @@
 
 #include "renderer/core/block_strips.h"
 #include "renderer/shadow/depth_range.h"
-#include "renderer/shadow/light_coverage.h"
+#include "renderer/shadow/tile_size.h"
 
 namespace gnomon {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/light_faces.h"
+#include "renderer/shadow/light_draft.h"
 
 namespace gnomon {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/shadow/bias.h"
-#include "renderer/shadow/light_faces.h"
+#include "renderer/shadow/light_draft.h"
 #include "tests/renderer/shadow/plan_lookup.h"
 
 namespace gnomon {

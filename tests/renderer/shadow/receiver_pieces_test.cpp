@@ -1,5 +1,8 @@
 #include "renderer/shadow/receiver_pieces.h"
 
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/renderer/shadow/plan_lookup.h"
@@ -55,6 +58,89 @@ TEST(ReceiverPieces, X18_ACascadeWithoutSurfacesIsEmpty) {
   EXPECT_NEAR(middle.min.z, 10, 1e-3);
   EXPECT_NEAR(middle.max.z, 15, 1e-3);
   EXPECT_NEAR(middle.max.x, 15, 0.05);
+}
+
+double areaAround(const std::vector<glm::dvec2>& points, double angle) {
+  const glm::dvec2 right(std::cos(angle), std::sin(angle));
+  Aabb box;
+  for (const glm::dvec2& p : points) {
+    box.add(glm::dvec3(glm::dot(right, p), right.x * p.y - right.y * p.x, 0));
+  }
+  return (box.max.x - box.min.x) * (box.max.y - box.min.y);
+}
+
+TEST(TightRoll, M16_FindsTheTurnOfARectangleThatWasTurned) {
+  for (double angle = -3; angle < 3; angle += 0.1) {
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i <= 40; ++i) {
+      for (int j = 0; j <= 4; ++j) {
+        points.emplace_back(i * std::cos(angle) - j * std::sin(angle) + 100,
+                            i * std::sin(angle) + j * std::cos(angle) - 7);
+      }
+    }
+    EXPECT_NEAR(areaAround(points, rollOfLeastArea(points)), 160, 1e-9);
+  }
+}
+
+TEST(TightRoll, M16_NoTurnIsMuchBetter) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    Dice dice(seed);
+    std::vector<glm::dvec2> points;
+    const double stretch = dice.between(0.2, 1);
+    for (int i = 0; i < 200; ++i) points.emplace_back(dice.between(-1, 1), stretch * dice.between(-1, 1));
+    const double found = areaAround(points, rollOfLeastArea(points));
+    for (double angle = 0; angle < glm::half_pi<double>(); angle += 0.01) {
+      RC_ASSERT(areaAround(points, angle) > 0.9 * found);
+    }
+  }));
+}
+
+TEST(TightRoll, PointsWithoutAnAreaGiveAFiniteTurn) {
+  EXPECT_EQ(rollOfLeastArea({}), 0.0);
+  const std::vector<glm::dvec2> same(5, glm::dvec2(3, 4));
+  EXPECT_TRUE(std::isfinite(rollOfLeastArea(same)));
+  const std::vector<glm::dvec2> line{{0, 0}, {1, 1}, {2, 2}};
+  EXPECT_NEAR(areaAround(line, rollOfLeastArea(line)), 0, 1e-12);
+}
+
+TEST(TightRoll, M3_TurnsTheBasisAboutTheLightOnly) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    Dice dice(seed);
+    const LightBasis basis = lightBasis(dice.direction());
+    const LightBasis turned = rolled(basis, dice.between(-4, 4));
+    RC_ASSERT(turned.direction == basis.direction);
+    RC_ASSERT(glm::length(glm::cross(turned.right, turned.up) + turned.direction) < 1e-14);
+    RC_ASSERT(std::abs(glm::dot(turned.right, turned.up)) < 1e-14);
+  }));
+}
+
+TEST(TightRoll, M16_AGroundTakesMuchLessAreaThanWithAnArbitraryRoll) {
+  PlanInput input = simplePlan(1, 1); // looks along -Z over a ground 2 m below the eye, out to 60 m
+  ReceiverDepths& receivers = input.receivers;
+  for (int row = 0; row < 80; ++row) {
+    for (int column = 0; column < 80; ++column) {
+      const auto depthAt = [](double pixel) { return 2.0 / (2.0 * pixel / 640 - 1.0); };
+      DepthSpan& span = receivers.blocks[static_cast<std::size_t>(row * 80 + column)];
+      span = row < 42 ? DepthSpan{}
+                      : DepthSpan{static_cast<float>(depthAt(row * 8 + 8)), static_cast<float>(depthAt(row * 8))};
+    }
+  }
+  receivers.range = {2.0f, 40.0f};
+  const CascadeInterval far{15, 40, 40};
+  double product = 1;
+  const int suns = 24;
+  for (int i = 0; i < suns; ++i) {
+    const double azimuth = i * 2 * glm::pi<double>() / suns;
+    const LightBasis basis = lightBasis(glm::normalize(glm::dvec3(std::sin(azimuth), -0.6, std::cos(azimuth))));
+    const auto area = [&](const LightBasis& b) {
+      const Aabb box = boxAround(receiverPieces(input.view, receivers, b, far));
+      return (box.max.x - box.min.x) * (box.max.y - box.min.y);
+    };
+    product *= area(basis) / area(tightBasis(input.view, receivers, basis, far));
+  }
+  const double mean = std::pow(product, 1.0 / suns);
+  std::printf("ground at 15..40 m: area of an arbitrary roll %.2f times the tight one's\n", mean);
+  EXPECT_GT(mean, 1.3);
 }
 
 } // namespace

@@ -1,0 +1,148 @@
+#include "renderer/shadow/light_draft.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "renderer/shadow/depth_range.h"
+#include "renderer/shadow/receiver_pieces.h"
+
+namespace gnomon {
+namespace {
+
+/// The six faces of a cube whose first one looks along `front.direction`.
+std::array<LightBasis, 6> cubeFaces(const LightBasis& front) {
+  const glm::dvec3 a = front.direction;
+  const glm::dvec3 b = front.up;
+  const glm::dvec3 c = front.right; // b x c = a
+  return {{{c, b, a}, {a, c, b}, {b, a, c}, {c, a, -b}, {a, b, -c}, {b, c, -a}}};
+}
+
+/// The angle from a cube's first axis at which its side faces begin.
+constexpr double kSidesBegin = glm::pi<double>() / 4;
+
+void noteEmptyCascades(LightDraft& draft) {
+  std::string indices;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < draft.tiles.size(); ++i) {
+    if (!draft.tiles[i].receivers.empty()) {
+      ++drawn;
+      continue;
+    }
+    indices += (indices.empty() ? "" : ", ") + std::to_string(i);
+  }
+  if (drawn == 0) {
+    draft.tiles.clear();
+    addNote(draft.planned, "nothing in view within the depth range");
+  } else if (!indices.empty()) {
+    addNote(draft.planned, "not drawn, for nothing in view lies in them: cascades " + indices);
+  }
+}
+
+/// True where a part of the box (light space) lies in the face's pyramid.
+bool mayLieIn(const Aabb& box, double tanHalf) {
+  const double reach = tanHalf * box.max.z;
+  return box.max.z > 0 && box.min.x <= reach && box.max.x >= -reach && box.min.y <= reach && box.max.y >= -reach;
+}
+
+/// All that a face can serve: its pyramid as far as the light or the scene reaches, whatever the camera sees of it.
+Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDraft& tile) {
+  constexpr double kRoom = 2; // surfaces are seen as boxes, which reach beyond the scene
+  const Aabb scene{input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
+  double far = kRoom * transformed(lightFromRelative(tile.basis, anchoredOrigin(input, tile)), scene).max.z;
+  for (const Aabb& piece : tile.receivers) far = std::max(far, piece.max.z);
+  if (caster.range > 0) far = std::min(caster.range, far);
+  const double side = tile.tanHalf * far;
+  return {glm::dvec3(-side, -side, 0), glm::dvec3(side, side, far)};
+}
+
+} // namespace
+
+glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile) {
+  constexpr double kStep = 0x1p-32; // metres: far above the rounding of differences, far below anything seen
+  return glm::round((tile.origin + (input.view.eye - input.anchor)) / kStep) * kStep;
+}
+
+void addNote(PlannedLight& light, const std::string& note) {
+  if (!light.note.empty()) light.note += "; ";
+  light.note += note;
+}
+
+double widestSingleTile() {
+  return glm::radians(60.0);
+}
+
+std::vector<LightFace> facesOf(const ShadowCaster& light) {
+  if (light.type == LightType::spot && light.outerCone <= widestSingleTile()) {
+    return {{lightBasis(light.direction), std::tan(light.outerCone)}};
+  }
+  const bool spot = light.type == LightType::spot;
+  const LightBasis front = spot ? lightBasis(light.direction) : LightBasis{};
+  const std::array<LightBasis, 6> cube = cubeFaces(front);
+  static_assert(kSidesBegin < glm::pi<double>() / 3); // every spot that comes here is wider
+  const std::size_t count = spot ? 5 : 6;             // no cone narrower than a half space reaches the back
+  std::vector<LightFace> faces;
+  for (std::size_t i = 0; i < count; ++i) faces.push_back({cube[i], 1.0});
+  return faces;
+}
+
+void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraft& draft) {
+  const Shadow& shadow = caster.shadow;
+  const bool manual = shadow.depthRange.mode == DepthRangeMode::manual;
+  const PlannedRange planned = *depthRangeOf(input.view, input.receivers, shadow.depthRange);
+  const DepthInterval& range = planned.covered;
+  draft.planned.depthRange = planned.base;
+  const std::vector<double> splits = splitDistances(shadow.partition, shadow.cascadeCount, range);
+  draft.planned.fadeOut = manual || splits.back() < range.far;
+  const bool held = manual || shadow.depthRange.previous.has_value(); // not this frame's alone
+  draft.stable = held && shadow.stabilization != Stabilization::none;
+  const LightBasis basis = lightBasis(caster.direction);
+  for (const CascadeInterval& cascade : cascadeIntervals(splits, shadow.blendCascades, draft.planned.fadeOut)) {
+    TileDraft tile;
+    tile.cascade = cascade;
+    tile.basis = draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascade);
+    tile.origin = input.anchor - input.view.eye;
+    tile.receivers = receiverPieces(input.view, input.receivers, tile.basis, cascade);
+    const glm::dvec3 fromOrigin = tile.basis.lightFromWorld() * -tile.origin;
+    for (Aabb& piece : tile.receivers) piece = {piece.min + fromOrigin, piece.max + fromOrigin};
+    draft.tiles.push_back(std::move(tile));
+  }
+  if (shadow.stabilization != Stabilization::none && !draft.stable) {
+    addNote(draft.planned, "stabilization is ignored: the depth range is automatic");
+  }
+  if (!planned.note.empty()) addNote(draft.planned, planned.note);
+  noteEmptyCascades(draft);
+}
+
+void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces,
+                LightDraft& draft) {
+  draft.stable = caster.shadow.stabilization != Stabilization::none;
+  std::vector<Aabb> reached;
+  const double range = caster.range > 0 ? caster.range : HUGE_VAL;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
+               [&](const Aabb& piece) { return squaredDistance(piece, caster.position) <= range * range; });
+  for (const LightFace& face : facesOf(caster)) {
+    TileDraft tile;
+    tile.basis = face.basis;
+    tile.origin = caster.position;
+    tile.tanHalf = face.tanHalf;
+    const glm::dmat4 toLightSpace = lightFromRelative(face.basis, caster.position);
+    for (const Aabb& piece : reached) {
+      Aabb box = transformed(toLightSpace, piece);
+      if (!mayLieIn(box, face.tanHalf)) continue;
+      box.max.z = std::min(box.max.z, range);
+      box.min.z = std::min(box.min.z, box.max.z);
+      tile.receivers.push_back(box);
+    }
+    if (draft.stable && !tile.receivers.empty()) tile.receivers = {wholeFace(caster, input, tile)};
+    draft.tiles.push_back(std::move(tile));
+  }
+  const bool any = std::any_of(draft.tiles.begin(), draft.tiles.end(),
+                               [](const TileDraft& tile) { return !tile.receivers.empty(); });
+  if (any) return;
+  draft.tiles.clear();
+  addNote(draft.planned, "it reaches nothing in view");
+}
+
+} // namespace gnomon
