@@ -4,7 +4,7 @@
 
 #include "renderer/frame/read_views.h"
 #include "renderer/passes/views/read_back.h"
-#include "renderer/reference/pixel_pairs.h"
+#include "renderer/reference/shadow_edges.h"
 #include "renderer/shadow/edge_displacement.h"
 
 namespace gnomon {

@@ -1,14 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/aabb.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/core/parallel.h"
 #include "renderer/reference/alpha.h"
-#include "renderer/reference/camera_rays.h"
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/ray_packet.h"
-#include "renderer/reference/surface_point.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"
+#include "renderer/reference/triangle.h"
 
 namespace gnomon {
 namespace {
+
+/// The line through a place of the picture; metres, relative to the scene's anchor.
+struct SightLine {
+  glm::dvec3 origin{0};    ///< at the eye; orthographic: beside it
+  glm::dvec3 direction{0}; ///< a step of one metre of view depth
+};
+
+/// A stretch of the line through a place of the picture; metres, relative to the scene's anchor.
+struct CameraRay {
+  glm::dvec3 origin{0};    ///< where it begins
+  glm::dvec3 direction{0}; ///< a step of one metre of view depth
+  double length = 0;       ///< view depth from there to the far end; infinite where nothing ends it
+  bool meets = false;      ///< false: it passes the scene by
+};
+
+struct Stretch {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
+
+/// What lies in the box of a line (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986).
+Stretch stretchIn(const Aabb& box, const glm::dvec3& origin, const glm::dvec3& direction) {
+  Stretch inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = (box.min[axis] - origin[axis]) / direction[axis];
+    const double high = (box.max[axis] - origin[axis]) / direction[axis];
+    // fmin and fmax pass over what is not a number: an origin in the very side that the line runs along.
+    inside.from = std::fmax(inside.from, std::fmin(low, high));
+    inside.to = std::fmin(inside.to, std::fmax(low, high));
+  }
+  return inside;
+}
+
+Aabb grown(const Aabb& box) {
+  const glm::dvec3 half = box.halfExtent();
+  const double margin = std::max({half.x, half.y, half.z}) / 64;
+  return {box.min - margin, box.max + margin};
+}
+
+/// `place`: pixels from the upper left corner.
+SightLine sightLine(const CameraView& view, const glm::dvec3& anchor, glm::dvec2 size, glm::dvec2 place) {
+  const glm::dvec2 ndc(2 * place.x / size.x - 1, 1 - 2 * place.y / size.y);
+  return {view.eye - anchor + pointAt(view, ndc, 0), view.perspective ? pointAt(view, ndc, 1) : view.forward};
+}
+
+/// The ray through `place` (pixels from the upper left corner) between the near and the far plane, as pointAt places
+/// it. Where it starts far from `bounds`, around which it looks for something, it begins close to them instead: so the
+/// distance of the eye takes nothing from its precision.
+CameraRay cameraRay(const CameraView& view, const glm::dvec3& anchor, const Aabb& bounds, glm::dvec2 size,
+                    glm::dvec2 place) {
+  CameraRay ray;
+  if (bounds.empty()) return ray;
+  const SightLine line = sightLine(view, anchor, size, place);
+  ray.direction = line.direction;
+  const Stretch inside = stretchIn(grown(bounds), line.origin, line.direction);
+  const double from = std::max(view.near, inside.from);
+  ray.meets = from <= std::min(view.far, inside.to);
+  if (!ray.meets) return ray;
+  ray.origin = line.origin + line.direction * from;
+  ray.length = view.far - from;
+  return ray;
+}
+
+constexpr std::size_t kPointsAtOnce = 4096; ///< found by one core at a time
+
+/// Where a camera ray of this direction crosses a triangle. `at`: as crossing() gives it.
+SurfacePoint surfacePoint(const glm::dvec3& direction, const PlacedTriangle& on, const Triangle& triangle,
+                          const Barycentric& at) {
+  const glm::dvec3 area = triangle.area();
+  const bool away = glm::dot(area, direction) > 0;
+  return {at.mix(triangle.a, triangle.b, triangle.c), glm::vec3(unitAlong(away ? -area : area)), on.instance,
+          on.triangle};
+}
 
 constexpr std::size_t kRaysAtOnce = 512; ///< traced by one core at a time
 
@@ -102,6 +179,23 @@ std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm
     for (; first < last; first += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, last - first);
       trace(eye, places.subspan(first, count), std::span(points).subspan(first, count));
+    }
+  });
+  return points;
+}
+
+std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm::vec2> places,
+                                   std::span<const PlacedTriangle> triangles) {
+  const TracedScene::Tree& tree = input.traced.tree();
+  const glm::dvec2 size(input.width, input.height);
+  std::vector<SurfacePoint> points(places.size());
+  forEachPiece(places.size(), kPointsAtOnce, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (triangles[i].instance == kNoSurface) continue;
+      const SightLine line = sightLine(input.camera, tree.anchor, size, glm::dvec2(places[i]));
+      const Triangle triangle = tree.triangle(triangles[i].instance, triangles[i].triangle);
+      const Barycentric at = crossing(triangle, line.origin, line.direction, {1.0 / 3.0, 1.0 / 3.0});
+      points[i] = surfacePoint(line.direction, triangles[i], triangle, at);
     }
   });
   return points;

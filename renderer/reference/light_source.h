@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
+
 #include "protocol/spec/light.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/reference/trace.h"
 
 namespace gnomon {
 
@@ -45,5 +49,11 @@ bool reaches(const LightSource& light, const WayToLight& way);
 /// Whether a surface of this normal (unit length, on the eye's side) takes light from there. A face along the light to
 /// within the renderer's stored normals is turned away, as it is when frames are shaded.
 bool faces(const glm::vec3& normal, const WayToLight& way);
+
+/// Number `index` of `count` places in the unit disc, spread evenly over its area for any count. `seed` shifts them.
+glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed);
+
+/// From what the point is, and not from where it stands in a list: it gets the same samples every time.
+std::uint64_t seedOf(const SurfacePoint& point);
 
 } // namespace gnomon

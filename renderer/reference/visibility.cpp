@@ -3,7 +3,6 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/reference/frame_nodes.h"
-#include "renderer/reference/light_samples.h"
 #include "renderer/reference/light_source.h"
 #include "renderer/reference/shadow_rays.h"
 #include "renderer/reference/trace.h"

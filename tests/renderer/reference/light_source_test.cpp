@@ -1,4 +1,4 @@
-#include "renderer/reference/light_samples.h"
+#include "renderer/reference/light_source.h"
 
 #include <array>
 #include <gtest/gtest.h>

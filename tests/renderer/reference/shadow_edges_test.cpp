@@ -1,7 +1,8 @@
+#include "renderer/reference/shadow_edges.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "renderer/reference/shadow_edges.h"
 #include "tests/renderer/reference/made_reference.h"
 
 namespace gnomon {
