@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string_view>
 
 namespace gnomon {
 namespace {
@@ -13,6 +15,23 @@ constexpr std::array<std::uint8_t, 4> kWebpForm{'W', 'E', 'B', 'P'};
 
 bool startsWith(EncodedBytes bytes, EncodedBytes prefix) {
   return bytes.size() >= prefix.size() && std::equal(prefix.begin(), prefix.end(), bytes.begin());
+}
+
+// PNG's chunks: "Portable Network Graphics (PNG) Specification", W3C, sections 5 and 11.
+constexpr std::size_t kSignatureSize = kPngSignature.size();
+constexpr std::size_t kChunkFrame = 12; ///< length, type and checksum
+constexpr std::size_t kHeaderLength = 13;
+constexpr std::size_t kHeaderEnd = kSignatureSize + kChunkFrame + kHeaderLength;
+constexpr std::uint32_t kMaxNumber = 0x7fffffff; ///< of a PNG four-byte integer
+
+constexpr std::array<std::string_view, 5> kEssentialChunks{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
+
+std::string_view typeAt(EncodedBytes bytes, std::size_t chunk) {
+  return {reinterpret_cast<const char*>(bytes.data()) + chunk + 4, 4};
+}
+
+bool isCritical(std::string_view type) {
+  return (type[0] & 0x20) == 0;
 }
 
 } // namespace
@@ -44,6 +63,37 @@ Problem malformedImage(const std::string& detail) {
 
 Problem unsupportedImage(const std::string& detail) {
   return {ProblemCode::unsupportedFeature, "", detail, "", ""};
+}
+
+Result<ImageSize> pngSize(EncodedBytes encoded) {
+  if (encoded.size() < kHeaderEnd) return malformedImage("the PNG ends within its header");
+  if (typeAt(encoded, kSignatureSize) != "IHDR" || bigEndian(encoded, kSignatureSize, 4) != kHeaderLength) {
+    return malformedImage("the PNG does not begin with its header");
+  }
+  const std::uint32_t width = bigEndian(encoded, kSignatureSize + 8, 4);
+  const std::uint32_t height = bigEndian(encoded, kSignatureSize + 12, 4);
+  if (width == 0 || height == 0 || width > kMaxNumber || height > kMaxNumber) {
+    return malformedImage("the PNG has no valid width and height");
+  }
+  return ImageSize{static_cast<int>(width), static_cast<int>(height)};
+}
+
+Result<Bytes> essentialPng(EncodedBytes encoded) {
+  Bytes essential(encoded.begin(), encoded.begin() + kSignatureSize);
+  std::size_t chunk = kSignatureSize;
+  while (encoded.size() - chunk >= kChunkFrame) {
+    const std::uint32_t length = bigEndian(encoded, chunk, 4);
+    if (length > kMaxNumber || length > encoded.size() - chunk - kChunkFrame) break;
+    const std::string_view type = typeAt(encoded, chunk);
+    const std::size_t next = chunk + kChunkFrame + length;
+    bool wanted = false;
+    for (const std::string_view name : kEssentialChunks) wanted = wanted || name == type;
+    if (!wanted && isCritical(type)) return unsupportedImage("the PNG has a critical chunk of an unknown type");
+    if (wanted) essential.insert(essential.end(), encoded.begin() + chunk, encoded.begin() + next);
+    if (type == "IEND") return essential;
+    chunk = next;
+  }
+  return malformedImage("the PNG is cut short");
 }
 
 } // namespace gnomon

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/oiio/memory_file.h"
 #include "renderer/image/oiio/module.h"
 
 namespace gnomon::codec {
