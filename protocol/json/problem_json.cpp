@@ -8,25 +8,26 @@
 
 namespace gnomon {
 
-/// `says` is the title.
+/// `says` is the title: the reason phrase of its HTTP status where the code has one to itself, else a name in that
+/// form.
 template <>
 inline constexpr std::array kSpellings<ProblemCode>{
-    spelling(ProblemCode::malformed, "malformed", "The request is not what it claims to be"),
-    spelling(ProblemCode::invalidValue, "invalidValue", "A value cannot be taken"),
-    spelling(ProblemCode::notFound, "notFound", "There is no such thing"),
-    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "This route has no such method"),
-    spelling(ProblemCode::notAcceptable, "notAcceptable", "None of the accepted forms can be given"),
-    spelling(ProblemCode::lengthRequired, "lengthRequired", "The length of the body is needed"),
-    spelling(ProblemCode::tooLarge, "tooLarge", "A limit was passed"),
-    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "This route takes no body of that type"),
-    spelling(ProblemCode::invalidScene, "invalidScene", "The glTF breaks the rules of glTF"),
-    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "This needs a feature that Gnomon does not have"),
-    spelling(ProblemCode::hashMismatch, "hashMismatch", "The bytes are not the ones that were named"),
-    spelling(ProblemCode::busy, "busy", "The server has enough to do"),
-    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "There was not enough time"),
-    spelling(ProblemCode::unavailable, "unavailable", "The server is not ready"),
-    spelling(ProblemCode::backend, "backend", "The graphics context failed"),
-    spelling(ProblemCode::internal, "internal", "The server made a mistake"),
+    spelling(ProblemCode::malformed, "malformed", "Malformed Request"),
+    spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
+    spelling(ProblemCode::notFound, "notFound", "Not Found"),
+    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
+    spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),
+    spelling(ProblemCode::lengthRequired, "lengthRequired", "Length Required"),
+    spelling(ProblemCode::tooLarge, "tooLarge", "Content Too Large"),
+    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "Unsupported Media Type"),
+    spelling(ProblemCode::invalidScene, "invalidScene", "Invalid Scene"),
+    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "Unsupported Feature"),
+    spelling(ProblemCode::hashMismatch, "hashMismatch", "Hash Mismatch"),
+    spelling(ProblemCode::busy, "busy", "Too Many Requests"),
+    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "Deadline Exceeded"),
+    spelling(ProblemCode::unavailable, "unavailable", "Service Unavailable"),
+    spelling(ProblemCode::backend, "backend", "Graphics Backend Failure"),
+    spelling(ProblemCode::internal, "internal", "Internal Server Error"),
 };
 static_assert(spellsAll<ProblemCode>());
 
@@ -93,7 +94,7 @@ Json problemSchema() {
           {"required", {"type", "title", "status", "detail", "problems"}},
           {"properties",
            {{"type", textSchema("/problems/ and the first problem's code.")},
-            {"title", textSchema("The kind of the first problem, for people.")},
+            {"title", textSchema("The first problem's code in words, such as Too Many Requests.")},
             {"status", {{"type", "integer"}, {"description", "The HTTP status."}}},
             {"detail", textSchema("The first problem, for people, and how many there are.")},
             {"instance", textSchema("The request's id.")},

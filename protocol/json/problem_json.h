@@ -13,7 +13,7 @@ namespace gnomon {
 Json problemJson(const Problems& problems, int status, std::string_view instance);
 
 std::string_view problemName(ProblemCode code);  ///< "invalidValue"
-std::string_view problemTitle(ProblemCode code); ///< "A value cannot be taken"
+std::string_view problemTitle(ProblemCode code); ///< "Invalid Value"
 
 /// The schema of that body.
 Json problemSchema();

@@ -13,18 +13,18 @@ struct Refusal {
 
 /// What a status means wherever it is given.
 constexpr std::array kRefusals{
-    Refusal{"400", "The request is malformed, or a value in it cannot be taken."},
-    Refusal{"404", "There is no such scene or route."},
-    Refusal{"406", "None of the accepted forms can be given."},
-    Refusal{"408", "The request came too slowly."},
-    Refusal{"411", "The body needs a Content-Length."},
-    Refusal{"413", "A limit on bytes, pixels, triangles or nodes was passed."},
-    Refusal{"415", "The route takes no body of that type."},
-    Refusal{"422", "The scene breaks the rules of glTF, needs what Gnomon does not have, or is not the one named."},
-    Refusal{"429", "The server has enough to do; Retry-After says when to come again."},
-    Refusal{"500", "The server made a mistake, or its graphics context failed."},
+    Refusal{"400", "The request is malformed, or one of its values is invalid."},
+    Refusal{"404", "No such scene or route exists."},
+    Refusal{"406", "The resource has none of the media types that Accept lists."},
+    Refusal{"408", "The request arrived too slowly."},
+    Refusal{"411", "The request needs a body with a Content-Length."},
+    Refusal{"413", "A limit on bytes, pixels, triangles or nodes is exceeded."},
+    Refusal{"415", "The route does not accept this Content-Type."},
+    Refusal{"422", "The scene is not valid glTF, needs a feature that Gnomon does not have, or does not match the id."},
+    Refusal{"429", "The server is busy; Retry-After says when to try again."},
+    Refusal{"500", "An internal error, or a failure of the graphics context."},
     Refusal{"503", "The server is starting or shutting down."},
-    Refusal{"504", "The work was not finished in its time."},
+    Refusal{"504", "The request's deadline passed before its work was done."},
 };
 
 Json header(const char* description) {

@@ -17,7 +17,7 @@ TEST(ProblemJson, TellsOneProblem) {
                                   .actual = "0"}},
                                 400, "request-1");
   EXPECT_EQ(json.dump(),
-            R"({"type":"/problems/invalidValue","title":"A value cannot be taken","status":400,)"
+            R"({"type":"/problems/invalidValue","title":"Invalid Value","status":400,)"
             R"("detail":"This is out of range.","instance":"request-1","problems":[{"code":"invalidValue",)"
             R"("pointer":"/width","detail":"This is out of range.","limit":"1..8192","actual":"0"}]})");
 }
