@@ -1,3 +1,4 @@
+#include "protocol/spec/enum_rows.h"
 #include "protocol/spec/output_options.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/render.h"
@@ -7,41 +8,7 @@ namespace {
 
 /// The layer's name in an EXR; the color view has the plain channels R G B (A).
 std::string layerName(View view) {
-  switch (view) {
-    case View::color:
-      return "";
-    case View::depth:
-      return "depth";
-    case View::normal:
-      return "normal";
-    case View::cascades:
-      return "cascades";
-    case View::shadow:
-      return "shadow";
-    case View::atlas:
-      return "atlas";
-    case View::tile:
-      return "tile";
-    case View::texelGrid:
-      return "texelGrid";
-    case View::texelDensity:
-      return "texelDensity";
-    case View::blendWeight:
-      return "blendWeight";
-    case View::bias:
-      return "bias";
-    case View::casterIds:
-      return "casterIds";
-    case View::lightContribution:
-      return "lightContribution";
-    case View::reference:
-      return "reference";
-    case View::error:
-      return "error";
-    case View::edgeDistance:
-      return "edgeDistance";
-  }
-  return "";
+  return view == View::color ? "" : std::string(spell(view));
 }
 
 } // namespace
@@ -55,6 +22,18 @@ Result<Bytes> encodeExr(const Frame& frame) {
   for (const ViewImage& view : frame.images) layers.push_back({layerName(view.view), &view.image});
   const Output& output = frame.report.spec.output;
   return encodeExr(layers, output.exrCompression, output.exrPixelType);
+}
+
+Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most) {
+  const bool layered = frame.report.spec.output.format == ImageFormat::exr;
+  const std::size_t count = std::min(frame.images.size(), layered ? std::size_t{1} : most);
+  std::vector<EncodedPicture> pictures;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto file = layered ? encodeExr(frame) : encodePng(frame, i);
+    if (!file) return std::move(file).problems();
+    pictures.push_back({std::string(spell(frame.images[i].view)), *std::move(file)});
+  }
+  return pictures;
 }
 
 void warmEncoders() {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -74,6 +75,15 @@ class Renderer {
 /// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread.
 Result<Bytes> encodePng(const Frame& frame, std::size_t index);
 Result<Bytes> encodeExr(const Frame& frame);
+
+/// A file of a frame's pictures.
+struct EncodedPicture {
+  std::string view; ///< its name; of an EXR, which holds every view, the first one's
+  Bytes file;       ///< PNG or EXR
+};
+
+/// The frame's files in the format of its spec: a PNG of each of the first `most` views, or one EXR of all. Any thread.
+Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most);
 
 /// Loads what encoding needs ahead of the first picture. Any thread.
 void warmEncoders();

@@ -50,6 +50,15 @@ QualityTrial trialOf(const FrameSpec& spec, ShadowTechnique technique, MapSettin
   return trial;
 }
 
+/// The same problems with places in the spec instead of the evaluation, where they are under /spec.
+Problems placedInSpec(Problems problems) {
+  constexpr std::string_view kSpec = "/spec";
+  for (Problem& problem : problems) {
+    if (problem.pointer.starts_with(kSpec)) problem.pointer.erase(0, kSpec.size());
+  }
+  return problems;
+}
+
 bool betterBy(double a, double b, double nextA, double nextB) {
   return a != b ? a < b : nextA < nextB;
 }
@@ -100,9 +109,9 @@ Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTria
   }
   if (report.tried.empty()) {
     const auto& problems = measured.rows.front().problems;
-    const std::string why = problems && !problems->empty() ? ": " + problems->front().detail : "";
-    return Problem{ProblemCode::invalidValue, "/quality", "none of the settings that are tried can be drawn" + why, "",
-                   ""};
+    const std::string why = problems && !problems->empty() ? " The first problem: " + problems->front().detail : "";
+    return Problem{ProblemCode::invalidValue, "/quality", "None of the settings that were tried can be drawn." + why,
+                   "", ""};
   }
   const auto meets = [&](const QualityTrial& trial) {
     return target.maxError ? trial.error <= *target.maxError : trial.milliseconds <= *target.maxMilliseconds;
@@ -118,6 +127,18 @@ Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTria
   report.chosen = static_cast<std::size_t>(best - report.tried.begin());
   report.met = meets(*best);
   return report;
+}
+
+Result<QualityReport> chooseQuality(const FrameSpec& spec,
+                                    const std::function<Result<EvaluationReport>(const Evaluation&)>& measure) {
+  auto trials = qualityTrials(spec);
+  const auto measured = measure(qualityEvaluation(spec, trials));
+  if (!measured) return placedInSpec(measured.problems());
+  return chooseTrial(*spec.quality, std::move(trials), *measured);
+}
+
+FrameSpec withChoice(const FrameSpec& spec, const QualityReport& report) {
+  return withTrial(spec, report.tried[report.chosen]);
 }
 
 Result<std::string> viewClass(const Scene& loaded, const FrameSpec& spec) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ Evaluation qualityEvaluation(const FrameSpec& spec, const std::vector<QualityTri
 /// fastest. Trials that can't be drawn are left out; if none can, the first one's problem.
 Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTrial> trials,
                                   const EvaluationReport& measured);
+
+/// The settings that meet the target of `spec`, chosen after `measure` has evaluated every trial. Problems as `measure`
+/// gives, with places in `spec`, and as chooseTrial gives.
+Result<QualityReport> chooseQuality(const FrameSpec& spec,
+                                    const std::function<Result<EvaluationReport>(const Evaluation&)>& measure);
+
+/// `spec` with the settings that the report chose, and without a target.
+FrameSpec withChoice(const FrameSpec& spec, const QualityReport& report);
 
 /// Views of one scene for which one choice serves: their eyes lie in one cell of a grid, a sixteenth of the scene wide,
 /// they look the same way to about 20 degrees, and their lenses differ by less than a factor of two. The camera in

@@ -20,27 +20,6 @@ class StopWatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::vector<std::string> viewNames(const FrameSpec& spec) {
-  return toJson(spec).at("views");
-}
-
-Result<std::vector<Picture>> encode(const Frame& frame, const FrameSpec& spec) {
-  const auto names = viewNames(spec);
-  std::vector<Picture> pictures;
-  if (spec.output.format == ImageFormat::exr) {
-    auto file = encodeExr(frame);
-    if (!file) return file.problems();
-    pictures.push_back({names.front(), std::move(*file)});
-    return pictures;
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto file = encodePng(frame, i);
-    if (!file) return file.problems();
-    pictures.push_back({names[i], std::move(*file)});
-  }
-  return pictures;
-}
-
 /// A spec without a target, and how its target was met.
 struct Settled {
   FrameSpec spec;
@@ -50,13 +29,12 @@ struct Settled {
 Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Renderer& renderer, Progress& progress) {
   if (!spec.quality) return Settled{spec, std::nullopt};
   progress.stage("finding settings");
-  auto trials = qualityTrials(spec);
   const auto draw = [&](const FrameSpec& variant) { return renderer.render(scene, variant, TileUse::drawnAnew); };
-  const auto measured = evaluate(scene, qualityEvaluation(spec, trials), renderer.info(), {draw, {}});
-  if (!measured) return measured.problems();
-  auto report = chooseTrial(*spec.quality, std::move(trials), *measured);
+  auto report = chooseQuality(spec, [&](const Evaluation& evaluation) {
+    return evaluate(scene, evaluation, renderer.info(), {draw, {}});
+  });
   if (!report) return report.problems();
-  FrameSpec chosen = withTrial(spec, report->tried[report->chosen]);
+  FrameSpec chosen = withChoice(spec, *report);
   return Settled{std::move(chosen), std::move(*report)};
 }
 
@@ -88,12 +66,14 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
 
   progress.stage("encoding");
   const StopWatch encoding;
-  auto pictures = encode(*frame, spec);
+  auto pictures = encodePictures(*frame, frame->images.size());
   if (!pictures) return pictures.problems();
   auto& stages = frame->report.stages;
   stages.insert(stages.begin(), {"load", loadMs});
   stages.push_back({"encode", encoding.milliseconds()});
-  return Rendered{std::move(*pictures), toJson(frame->report).dump(2) + "\n"};
+  std::vector<Picture> files;
+  for (EncodedPicture& picture : *pictures) files.push_back({std::move(picture.view), std::move(picture.file)});
+  return Rendered{std::move(files), toJson(frame->report).dump(2) + "\n"};
 }
 
 } // namespace gnomon::cli
