@@ -1,43 +1,62 @@
 #include "server/evaluations/evaluation_run.h"
 
+#include <algorithm>
 #include <thread>
 
-#include "server/frames/frame_cost.h"
+#include "protocol/spec/limits.h"
+#include "server/frames/frame_reply.h"
 
 namespace gnomon {
 namespace {
 
-Problem busyProblem(const char* detail, std::string limit) {
-  return {ProblemCode::busy, "", detail, std::move(limit), ""};
+Problem busyProblem(const char* detail) {
+  return {ProblemCode::busy, "", detail, "", ""};
 }
 
 } // namespace
 
-EvaluationRun::EvaluationRun(Services& services, LoadedScene scene, Evaluation evaluation, Clock::time_point deadline)
-    : services_(services),
+std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights) {
+  constexpr std::size_t kLight = 13;            ///< what arrives at a pixel and what is shown there
+  constexpr std::size_t kShadowPicture = 4 * 4; ///< read back as four floats
+  std::size_t most = 0;
+  for (const Variant& variant : evaluation.variants) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(variant.spec.width) * static_cast<std::size_t>(variant.spec.height);
+    const std::size_t lights =
+        std::max<std::size_t>(variant.spec.lights ? variant.spec.lights->size() : sceneLights, 1);
+    const auto visibility = std::min(pixels * lights * kLight, static_cast<std::size_t>(kLimits.maxVisibilityBytes));
+    most = std::max(
+        most, std::max(frameBytes(variant.spec), pixels * kShadowPicture) + pixels * kReferenceBytes + visibility);
+  }
+  return most;
+}
+
+EvaluationRun::EvaluationRun(EvaluationContext& context, LoadedScene scene, Evaluation evaluation,
+                             Clock::time_point deadline)
+    : context_(context),
       scene_(std::move(scene)),
       evaluation_(std::move(evaluation)),
       deadline_(deadline),
-      memory_(services.frameBytes) {}
+      memory_(context.frameMemory) {}
 
 EvaluationRun::~EvaluationRun() {
-  services_.evaluations.release();
+  context_.running.release();
 }
 
-Result<std::shared_ptr<EvaluationRun>> EvaluationRun::start(Services& services, LoadedScene scene,
+Result<std::shared_ptr<EvaluationRun>> EvaluationRun::start(EvaluationContext& context, LoadedScene scene,
                                                             Evaluation evaluation, Clock::time_point deadline) {
   const std::size_t bytes = evaluationBytes(evaluation, scene.summary.lights.size());
-  if (bytes > services.frameMemoryBytes) {
+  if (bytes > context.frameMemory.total()) {
     return Problem{ProblemCode::tooLarge, "/spec/width", "The pictures of this evaluation are too large.",
-                   std::to_string(services.frameMemoryBytes) + " bytes", std::to_string(bytes) + " bytes"};
+                   std::to_string(context.frameMemory.total()) + " bytes", std::to_string(bytes) + " bytes"};
   }
-  if (!services.evaluations.try_acquire()) {
-    return busyProblem("As many evaluations run as may run at once.", "");
+  if (!context.running.try_acquire()) {
+    return busyProblem("The most evaluations that may run at once are running.");
   }
   std::shared_ptr<EvaluationRun> run(
-      new EvaluationRun(services, std::move(scene), std::move(evaluation), deadline)); // gives the place back
+      new EvaluationRun(context, std::move(scene), std::move(evaluation), deadline)); // releases `running` at its end
   if (!run->memory_.grow(bytes)) {
-    return busyProblem("Frames that are under way fill the memory set aside for them.", "");
+    return busyProblem("Other frames in progress use all the memory for frames.");
   }
   return run;
 }
@@ -50,10 +69,10 @@ Result<EvaluationReport> EvaluationRun::report(const std::function<bool()>& gone
   const EvaluationTools tools{
       [&](const FrameSpec& spec) { return draw(spec, gone); },
       [&](const FrameSpec& spec, std::span<const Camera> path, const Progress&) { return shimmer(spec, path, gone); }};
-  auto report = evaluate(scene_.scene, evaluation_, services_.queue.info(), tools, watched);
+  auto report = evaluate(scene_.scene, evaluation_, context_.queue.info(), tools, watched);
   if (!report && Clock::now() >= deadline_) {
-    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(services_.evaluationTimeout).count();
-    return Problem{ProblemCode::deadlineExceeded, "", "The evaluation took longer than it may.",
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(context_.timeout).count();
+    return Problem{ProblemCode::deadlineExceeded, "", "The evaluation was not finished before its deadline.",
                    std::to_string(seconds) + " seconds", ""};
   }
   return report;
@@ -71,16 +90,16 @@ Result<T> EvaluationRun::askPatiently(const Ask& ask, const std::function<bool()
       return std::move(*problems);
     }
     if (gone() || Clock::now() >= deadline_) {
-      return busyProblem("The render queue is full.", std::to_string(std::get<QueueFull>(answer).limit) + " frames");
+      return std::get<QueueFull>(answer).problem();
     }
-    std::this_thread::sleep_for(kNextTry); // others fill the queue for the moment
+    std::this_thread::sleep_for(kNextTry); // other clients fill the queue for the moment
   }
 }
 
 Result<Frame> EvaluationRun::draw(const FrameSpec& spec, const std::function<bool()>& gone) {
   auto drawn = askPatiently<QueuedFrame>(
       [&] {
-        return services_.queue.render({scene_.scene, spec, deadline_, gone, TileUse::drawnAnew});
+        return context_.queue.render({scene_.scene, spec, deadline_, gone, TileUse::drawnAnew});
       },
       gone);
   if (!drawn) {
@@ -94,7 +113,7 @@ Result<double> EvaluationRun::shimmer(const FrameSpec& spec, std::span<const Cam
   const std::vector<Camera> cameras(path.begin(), path.end());
   return askPatiently<double>(
       [&] {
-        return services_.queue.shimmer({scene_.scene, spec, cameras, deadline_, gone});
+        return context_.queue.shimmer({scene_.scene, spec, cameras, deadline_, gone});
       },
       gone);
 }

@@ -1,36 +1,53 @@
 #pragma once
 
+#include <semaphore>
 #include <span>
 
 #include "protocol/evaluation/evaluation.h"
-#include "server/frames/services.h"
+#include "server/frames/render_queue.h"
+#include "server/http/request_body.h"
+#include "server/scenes/scene_cache.h"
 
 namespace gnomon {
 
-/// One evaluation on its way. Whoever holds it holds its place among those that run at once, and its memory.
+/// What all evaluations share. Outlives them.
+struct EvaluationContext {
+  RenderQueue& queue;
+  ByteBudget& frameMemory;
+  std::chrono::milliseconds timeout{600'000}; ///< from the handler's start to the report
+  std::counting_semaphore<> running{1};       ///< how many more may run at once
+};
+
+inline constexpr int kEvaluationRetrySeconds = 10; ///< Retry-After where the server is busy with evaluations
+
+/// What an evaluation takes in memory: the largest frame of its variants, one reference, and the visibility of every
+/// light. `sceneLights`: how many lights the scene has, for a spec without its own.
+std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights);
+
+/// One evaluation in progress. It counts as running, and keeps its memory, as long as it exists.
 class EvaluationRun {
  public:
-  /// A problem of code busy where enough run already or pictures fill their memory.
-  static Result<std::shared_ptr<EvaluationRun>> start(Services& services, LoadedScene scene, Evaluation evaluation,
-                                                      Clock::time_point deadline);
+  /// A problem of code busy where enough evaluations run already, or other frames use the memory.
+  static Result<std::shared_ptr<EvaluationRun>> start(EvaluationContext& context, LoadedScene scene,
+                                                      Evaluation evaluation, Clock::time_point deadline);
   ~EvaluationRun();
   EvaluationRun(const EvaluationRun&) = delete;
   EvaluationRun& operator=(const EvaluationRun&) = delete;
 
-  /// Measures; every frame is a job of its own in the render queue, so that those of others go between. `gone` is asked
-  /// often, by any thread.
+  /// Measures. Every frame is a job of its own in the render queue, so that other clients' frames are drawn in between.
+  /// `gone` is called often, by any thread; true ends the run.
   Result<EvaluationReport> report(const std::function<bool()>& gone, const EvaluationListener& listener = {});
 
  private:
-  EvaluationRun(Services& services, LoadedScene scene, Evaluation evaluation, Clock::time_point deadline);
+  EvaluationRun(EvaluationContext& context, LoadedScene scene, Evaluation evaluation, Clock::time_point deadline);
   Result<Frame> draw(const FrameSpec& spec, const std::function<bool()>& gone);
   Result<double> shimmer(const FrameSpec& spec, std::span<const Camera> path, const std::function<bool()>& gone);
 
-  /// Asks the queue until it has room, or there is no use in it.
+  /// Asks the queue until it has room, the deadline has passed or the client is gone.
   template <class T, class Ask>
   Result<T> askPatiently(const Ask& ask, const std::function<bool()>& gone);
 
-  Services& services_;
+  EvaluationContext& context_;
   LoadedScene scene_;
   Evaluation evaluation_;
   Clock::time_point deadline_;

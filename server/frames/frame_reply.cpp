@@ -1,46 +1,26 @@
 #include "server/frames/frame_reply.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
 #include "server/http/ascii.h"
-#include "server/http/http_request.h"
-#include "server/http/json_reply.h"
+#include "server/http/request.h"
 #include "server/http/socket_io.h"
+#include "server/scenes/sha256.h"
 
 namespace gnomon {
 namespace {
 
-struct Picture {
-  std::string view; ///< of an EXR, which holds every view, the first
-  Bytes bytes;
-};
-
-/// A PNG for each of the first `count` views, or one EXR of them all.
-Result<std::vector<Picture>> encode(const Frame& frame, ImageFormat format, std::size_t count) {
-  const Json names = toJson(frame.report.spec)["views"];
-  const auto nameOf = [&](std::size_t index) { return index < names.size() ? names[index].get<std::string>() : ""; };
-  std::vector<Picture> pictures;
-  if (format == ImageFormat::exr) {
-    auto bytes = encodeExr(frame);
-    if (!bytes) {
-      return std::move(bytes).problems();
-    }
-    pictures.push_back({nameOf(0), *std::move(bytes)});
-    return pictures;
-  }
-  for (std::size_t i = 0; i < std::min(count, frame.images.size()); ++i) {
-    auto bytes = encodePng(frame, i);
-    if (!bytes) {
-      return std::move(bytes).problems();
-    }
-    pictures.push_back({nameOf(i), *std::move(bytes)});
-  }
-  return pictures;
+bool needsReference(View view) {
+  return view == View::reference || view == View::error || view == View::edgeDistance;
 }
 
-std::string mixed(const Frame& frame, const std::vector<Picture>& pictures, ImageFormat format,
-                  std::string_view boundary) {
+std::string multipartBody(const Frame& frame, const std::vector<EncodedPicture>& pictures, ImageFormat format,
+                          std::string_view boundary) {
   std::string body;
   const auto part = [&](std::string_view type, const std::string& name, std::string_view content) {
     body.append("--").append(boundary).append("\r\nContent-Type: ").append(type);
@@ -50,22 +30,46 @@ std::string mixed(const Frame& frame, const std::vector<Picture>& pictures, Imag
   };
   part("application/json", "report.json", jsonText(toJson(frame.report)));
   const std::string ending = format == ImageFormat::png ? ".png" : ".exr";
-  for (const Picture& picture : pictures) {
-    part(mediaTypeOf(format), (format == ImageFormat::png ? picture.view : "frame") + ending, textOf(picture.bytes));
+  for (const EncodedPicture& picture : pictures) {
+    part(mediaTypeOf(format), (format == ImageFormat::png ? picture.view : "frame") + ending, textOf(picture.file));
   }
   return body.append("--").append(boundary).append("--\r\n");
 }
 
-std::string json(Frame frame, const std::vector<Picture>& pictures, ImageFormat format) {
+std::string jsonBody(Frame frame, const std::vector<EncodedPicture>& pictures, ImageFormat format) {
   FrameReply reply;
   reply.report = std::move(frame.report);
-  for (const Picture& picture : pictures) {
-    reply.images.push_back({picture.view, std::string(mediaTypeOf(format)), base64Text(textOf(picture.bytes))});
+  for (const EncodedPicture& picture : pictures) {
+    reply.images.push_back({picture.view, std::string(mediaTypeOf(format)), base64Text(textOf(picture.file))});
   }
   return jsonText(toJson(reply));
 }
 
 } // namespace
+
+std::size_t frameBytes(const FrameSpec& spec) {
+  const std::size_t bytesPerPixel = spec.output.format == ImageFormat::exr ? 16 : 4;
+  const auto ofFrame = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  std::size_t pixels = 0;
+  for (const View view : spec.views) {
+    const auto side = static_cast<std::size_t>(spec.atlas.size);
+    pixels += view == View::atlas || view == View::tile ? side * side : ofFrame;
+  }
+  const bool traced = std::any_of(spec.views.begin(), spec.views.end(), needsReference);
+  return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0);
+}
+
+std::string frameEtag(std::string_view sceneId, const FrameSpec& spec, std::string_view fingerprint, FrameForm form) {
+  Sha256 hash;
+  for (const std::string_view part : {sceneId, std::string_view("\n"), fingerprint, std::string_view("\n"),
+                                      mediaTypeOf(form), std::string_view("\n"), mediaTypeOf(form.format)}) {
+    hash.add(part);
+  }
+  hash.add("\n");
+  hash.add(jsonText(toJson(spec)));
+  const std::string tag = '"' + hash.hex() + '"';
+  return form.form == ReplyForm::image ? tag : "W/" + tag;
+}
 
 std::string serverTiming(const std::vector<StageTime>& stages) {
   std::string text;
@@ -80,15 +84,14 @@ std::string serverTiming(const std::vector<StageTime>& stages) {
 
 Result<HttpReply> frameReply(Frame frame, FrameForm form, std::string_view boundary) {
   const auto start = Clock::now();
-  const auto pictures = encode(frame, form.format, form.form == ReplyForm::image ? 1 : frame.images.size());
+  const auto pictures = encodePictures(frame, form.form == ReplyForm::image ? 1 : frame.images.size());
   if (!pictures) {
     return pictures.problems();
   }
   if (pictures->empty()) {
     return Problem{ProblemCode::internal, "", "The frame holds no picture.", "", ""};
   }
-  const std::chrono::duration<double, std::milli> took = Clock::now() - start;
-  frame.report.stages.push_back({"encode", took.count()});
+  frame.report.stages.push_back({"encode", millisecondsSince(start)});
 
   HttpReply reply;
   reply.stages = frame.report.stages;
@@ -97,14 +100,14 @@ Result<HttpReply> frameReply(Frame frame, FrameForm form, std::string_view bound
   reply.contentType = mediaTypeOf(form);
   switch (form.form) {
     case ReplyForm::image:
-      reply.body = textOf(pictures->front().bytes);
+      reply.body = textOf(pictures->front().file);
       break;
     case ReplyForm::multipart:
       reply.contentType += "; boundary=" + std::string(boundary);
-      reply.body = mixed(frame, *pictures, form.format, boundary);
+      reply.body = multipartBody(frame, *pictures, form.format, boundary);
       break;
     case ReplyForm::json:
-      reply.body = json(std::move(frame), *pictures, form.format);
+      reply.body = jsonBody(std::move(frame), *pictures, form.format);
       break;
   }
   return reply;

@@ -6,7 +6,17 @@
 #include "protocol/base/elapsed.h"
 
 namespace gnomon {
-namespace {} // namespace
+namespace {
+
+Problem shuttingDown() {
+  return {ProblemCode::unavailable, "", "The server is shutting down.", "", ""};
+}
+
+} // namespace
+
+Problem QueueFull::problem() const {
+  return {ProblemCode::busy, "", "The render queue is full.", std::to_string(limit) + " frames", ""};
+}
 
 int retryAfterSeconds(double jobMilliseconds, std::size_t waiting) {
   const double seconds = std::ceil(jobMilliseconds * static_cast<double>(waiting) / 1000);
@@ -33,7 +43,7 @@ std::optional<QueueFull> JobQueue::submit(Job job) {
       return std::nullopt;
     }
   }
-  job.drop({ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
+  job.drop(shuttingDown());
   return std::nullopt;
 }
 
@@ -77,11 +87,12 @@ void JobQueue::finish(Entry entry) {
     late = closing_ && now >= *closing_;
   }
   if (late) {
-    entry.job.drop({ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
+    entry.job.drop(shuttingDown());
     return;
   }
   if (now >= entry.job.deadline || (entry.job.wanted && !entry.job.wanted())) {
-    entry.job.drop({ProblemCode::deadlineExceeded, "", "The request's time was over before its turn came.", "", ""});
+    entry.job.drop(
+        {ProblemCode::deadlineExceeded, "", "The request waited in the render queue until its deadline.", "", ""});
     return;
   }
   entry.job.run(millisecondsSince(entry.since));

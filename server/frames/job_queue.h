@@ -12,19 +12,21 @@
 
 namespace gnomon {
 
-/// Work for the queue's thread. Exactly one of `run` and `drop` is called, on that thread (or, at the end, on the one
-/// that ends the queue). Neither throws.
+/// Work for the queue's thread. Of an accepted job exactly one of `run` and `drop` is called, once, on the queue's
+/// thread; only where the queue is closed already, submit() calls `drop` itself, on the caller's. Neither throws.
 struct Job {
   Clock::time_point deadline;
-  std::function<bool()> wanted;             ///< false = nobody waits for it any more; asked just before it would run
-  std::function<void(double waitedMs)> run; ///< told how long it stood in the queue
-  std::function<void(const Problem&)> drop; ///< it will never run: deadlineExceeded or unavailable
+  std::function<bool()> wanted;             ///< false = its caller has left; called just before the job would run
+  std::function<void(double waitedMs)> run; ///< given the time that the job waited in the queue
+  std::function<void(const Problem&)> drop; ///< the job will never run: deadlineExceeded or unavailable
 };
 
-/// A full queue: come again later.
+/// Why a job was not accepted; neither `run` nor `drop` is called.
 struct QueueFull {
-  std::size_t limit = 0;
-  int retryAfterSeconds = 1;
+  std::size_t limit = 0;     ///< jobs that may wait
+  int retryAfterSeconds = 1; ///< when there may be room again
+
+  Problem problem() const;
 };
 
 /// Seconds until a queue of this length has a place, from what jobs took lately: 1..60.
@@ -33,15 +35,16 @@ int retryAfterSeconds(double jobMilliseconds, std::size_t waiting);
 /// A bounded queue in front of one thread, first in first out.
 class JobQueue {
  public:
-  /// `limit` jobs may wait; the one that runs is not counted. `atEnd` is the last that the thread does.
+  /// `limit` jobs may wait; the running one is not counted. `atEnd` is the last call on the queue's thread.
   explicit JobQueue(std::size_t limit, std::function<void()> atEnd = {});
   ~JobQueue() { close(Clock::now()); }
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
 
-  std::optional<QueueFull> submit(Job job); ///< nothing = accepted
+  /// Nothing where the job was accepted, or dropped because the queue is closed.
+  std::optional<QueueFull> submit(Job job);
 
-  /// Takes no more jobs, runs those that wait until `deadline`, drops the rest, and ends the thread.
+  /// Accepts no more jobs, runs the waiting ones until `deadline`, drops the rest, and ends the thread.
   void close(Clock::time_point deadline);
 
   std::size_t waiting() const;

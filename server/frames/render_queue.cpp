@@ -1,15 +1,90 @@
 #include "server/frames/render_queue.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <exception>
 
-#include "server/frames/first_frame.h"
 #include "server/http/request_log.h"
 
 namespace gnomon {
 namespace {
 
-Problem ownMistake() {
-  return {ProblemCode::internal, "", "The server made a mistake while it rendered.", "", ""};
+Problem renderFailure() {
+  return {ProblemCode::internal, "", "An internal error occurred while rendering.", "", ""};
+}
+
+/// A square of ground and, a metre above it, a smaller square; one index list serves both.
+constexpr std::string_view kModel = R"({
+  "asset": {"version": "2.0"},
+  "scene": 0,
+  "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [0, 1, 0], "scale": [0.1, 1, 0.1]}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+  "buffers": [{"byteLength": 60, "uri": "squares.bin"}],
+  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-5, 0, -5], "max": [5, 0, 5]},
+    {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]
+})";
+constexpr std::array<float, 12> kCorners{-5, 0, -5, -5, 0, 5, 5, 0, 5, 5, 0, -5}; ///< metres
+constexpr std::array<std::uint16_t, 6> kIndices{0, 1, 2, 0, 2, 3};                ///< counter-clockwise from above
+
+SceneBundle firstBundle() {
+  SceneBundle made;
+  made.model.assign(kModel.begin(), kModel.end());
+  Bytes buffer(sizeof kCorners + sizeof kIndices);
+  std::memcpy(buffer.data(), kCorners.data(), sizeof kCorners);
+  std::memcpy(buffer.data() + sizeof kCorners, kIndices.data(), sizeof kIndices);
+  made.files.emplace("squares.bin", std::move(buffer));
+  return made;
+}
+
+FrameSpec firstSpec() {
+  FrameSpec made;
+  made.width = 16;
+  made.height = 16;
+  made.camera.lookAt = EyeTarget{{0, 5, 0}, {0, 0, 0}, {0, 0, -1}};
+  made.camera.perspective = Perspective{};
+  Light sun;
+  sun.sun = Sun{90, 45};
+  made.lights = std::vector<Light>{sun};
+  made.views = {View::shadow};
+  return made;
+}
+
+/// True where some pixels are lit and some are not.
+bool showsShadow(const Image& image) {
+  return std::visit(
+      [&](const auto& pixels) {
+        if (pixels.empty() || image.channels.empty()) {
+          return false;
+        }
+        auto darkest = pixels.front();
+        auto brightest = pixels.front();
+        for (std::size_t i = 0; i < pixels.size(); i += image.channels.size()) {
+          darkest = std::min(darkest, pixels[i]);
+          brightest = std::max(brightest, pixels[i]);
+        }
+        return darkest < brightest;
+      },
+      image.pixels);
+}
+
+/// Draws a small frame and looks for the shadow in it: the proof that this renderer works.
+Status drawFirstFrame(Renderer& renderer) {
+  auto scene = loadScene(firstBundle());
+  if (!scene) {
+    return std::move(scene).problems();
+  }
+  auto frame = renderer.render(*scene, firstSpec());
+  if (!frame) {
+    return std::move(frame).problems();
+  }
+  if (frame->images.size() != 1 || !showsShadow(frame->images.front().image)) {
+    return Problem{ProblemCode::backend, "", "The test frame that the renderer drew has no shadow in it.", "", ""};
+  }
+  return Done{};
 }
 
 } // namespace
@@ -34,7 +109,7 @@ Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& o
       started.set_value(drawFirstFrame(*queue->renderer_));
     } catch (const std::exception& error) {
       logEvent("renderer", error.what());
-      started.set_value(ownMistake());
+      started.set_value(renderFailure());
     }
   };
   job.drop = [&](const Problem& problem) { started.set_value(problem); };
@@ -49,36 +124,37 @@ Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& o
 template <class T>
 std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline, std::function<bool()> clientGone,
                                                       std::function<Result<T>(Renderer&, double)> work) {
-  // Shared with the queue's thread: the caller may have left when the job's turn comes.
-  struct Slip {
+  // Shared with the queue's thread, since the caller may have left before the job runs.
+  struct PendingAnswer {
     std::mutex mutex;
     bool abandoned = false;
     std::promise<Result<T>> answer;
   };
-  const auto slip = std::make_shared<Slip>();
-  auto answer = slip->answer.get_future();
+  const auto pending = std::make_shared<PendingAnswer>();
+  auto answer = pending->answer.get_future();
   Job queued;
   queued.deadline = deadline;
-  queued.wanted = [slip, gone = std::move(clientGone)] {
-    const std::lock_guard lock(slip->mutex);
-    return !slip->abandoned && !(gone && gone());
+  queued.wanted = [pending, gone = std::move(clientGone)] {
+    const std::lock_guard lock(pending->mutex);
+    return !pending->abandoned && !(gone && gone());
   };
-  queued.run = [this, slip, work = std::move(work)](double waitedMs) {
+  queued.run = [this, pending, work = std::move(work)](double waitedMs) {
     try {
-      slip->answer.set_value(work(*renderer_, waitedMs));
+      pending->answer.set_value(work(*renderer_, waitedMs));
     } catch (const std::exception& error) {
       logEvent("renderer", error.what());
-      slip->answer.set_value(ownMistake());
+      pending->answer.set_value(renderFailure());
     }
   };
-  queued.drop = [slip](const Problem& problem) { slip->answer.set_value(problem); };
+  queued.drop = [pending](const Problem& problem) { pending->answer.set_value(problem); };
   if (auto full = jobs_.submit(std::move(queued))) {
     return *full;
   }
   if (answer.wait_until(deadline) != std::future_status::ready) {
-    const std::lock_guard lock(slip->mutex);
-    slip->abandoned = true;
-    return Problems{{ProblemCode::deadlineExceeded, "", "The frame took longer than a request may.", "", ""}};
+    const std::lock_guard lock(pending->mutex);
+    pending->abandoned = true;
+    return Problems{
+        {ProblemCode::deadlineExceeded, "", "The frame was not drawn before the request's deadline.", "", ""}};
   }
   auto answered = answer.get();
   if (!answered) {

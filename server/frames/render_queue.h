@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// One frame that is wanted.
+/// A request for one frame.
 struct FrameJob {
   ScenePtr scene;
   FrameSpec spec;
@@ -17,7 +17,7 @@ struct FrameJob {
   TileUse tiles = TileUse::kept;
 };
 
-/// Shimmer that is wanted along a path of cameras. One job, whatever its length.
+/// A request for the shimmer along a path of cameras. One job, whatever its length.
 struct ShimmerJob {
   ScenePtr scene;
   FrameSpec spec;
@@ -26,7 +26,7 @@ struct ShimmerJob {
   std::function<bool()> clientGone;
 };
 
-/// A frame and how long its job waited for its turn.
+/// A frame, and how long its job waited in the queue.
 struct QueuedFrame {
   Frame frame;
   double queueMs = 0;
@@ -35,15 +35,15 @@ struct QueuedFrame {
 /// A bounded queue in front of the thread that makes, owns and uses the renderer.
 class RenderQueue {
  public:
-  /// Returns once the renderer has drawn a first small shadowed frame, or with why it could not.
+  /// Returns once the renderer has drawn a small test frame with a shadow in it, or why it could not.
   static Result<std::unique_ptr<RenderQueue>> start(const RendererOptions& options, std::size_t limit);
 
   const RendererInfo& info() const { return info_; }
 
-  /// The frame, once it is drawn or its deadline has passed.
+  /// Returns when the frame is drawn or its deadline has passed.
   std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
 
-  /// Flips in 1,000 points and a frame; the path is left early when the deadline has passed or the client is gone.
+  /// Flips in 1,000 points and a frame; stops early where the deadline has passed or the client is gone.
   std::variant<double, Problems, QueueFull> shimmer(ShimmerJob job);
 
   /// True while a new job would not wait long: the queue is less than three quarters full.
@@ -51,13 +51,13 @@ class RenderQueue {
   std::size_t waiting() const { return jobs_.waiting(); }
   std::size_t limit() const { return jobs_.limit(); }
 
-  /// Runs what waits until `deadline`, drops the rest and ends the renderer's thread.
+  /// Runs the waiting jobs until `deadline`, drops the rest and ends the renderer's thread.
   void close(Clock::time_point deadline);
 
  private:
   explicit RenderQueue(std::size_t limit);
 
-  /// What `work` gives on the queue's thread, told how long it waited.
+  /// The result of `work`, which runs on the queue's thread and is given how long it waited.
   template <class T>
   std::variant<T, Problems, QueueFull> ask(Clock::time_point deadline, std::function<bool()> clientGone,
                                            std::function<Result<T>(Renderer&, double waitedMs)> work);

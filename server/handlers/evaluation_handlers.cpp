@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "protocol/evaluation/evaluation_json.h"
@@ -12,16 +13,14 @@
 #include "server/evaluations/evaluation_run.h"
 #include "server/http/ascii.h"
 #include "server/http/event_stream.h"
-#include "server/http/json_reply.h"
 #include "server/http/negotiation.h"
-#include "server/http/problem_reply.h"
+#include "server/http/reply.h"
 
 namespace gnomon {
 namespace {
 
 constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv", "image/svg+xml", "text/event-stream"};
 constexpr std::size_t kCsv = 1, kChart = 2, kEvents = 3;
-constexpr int kRetryAfterSeconds = 10; ///< an evaluation takes a while
 
 HttpReply textReply(std::string_view contentType, std::string body) {
   HttpReply reply;
@@ -36,7 +35,7 @@ HttpReply reportReply(const EvaluationReport& report, std::size_t form) {
   }
   if (form == kChart) {
     HttpReply reply = textReply(kForms[form], evaluationChart(report));
-    // A chart opened by itself has its style inside, and nothing else.
+    // A chart opened by itself needs its own style and nothing else.
     reply.headers.emplace_back("Content-Security-Policy", "default-src 'none'; style-src 'unsafe-inline'");
     return reply;
   }
@@ -47,16 +46,16 @@ std::string problemText(const Problems& problems, const std::string& requestId) 
   return jsonText(problemJson(problems, statusOf(problems.front().code), requestId));
 }
 
-/// Measures, and tells everything as events.
+/// Measures, and puts progress, rows and the result as events.
 void putEvents(EvaluationRun& run, const std::function<bool()>& gone, const std::string& requestId,
                EventStream& events) {
-  int told = -1;
+  int reported = -1;
   EvaluationListener listener;
   listener.step = [&](const EvaluationStep& step) {
-    if (step.done != told) {
+    if (step.done != reported) {
       events.put("progress", jsonText(toJson(step)));
     }
-    told = step.done;
+    reported = step.done;
     return true;
   };
   listener.row = [&](std::size_t, const EvaluationRow& row) { events.put("row", jsonText(toJson(row))); };
@@ -65,44 +64,38 @@ void putEvents(EvaluationRun& run, const std::function<bool()>& gone, const std:
     events.put(report ? "result" : "problem",
                report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
   } catch (const std::exception&) {
-    events.put("problem", problemText({{ProblemCode::internal, "", "The server made a mistake.", "", ""}}, requestId));
+    events.put("problem", problemText({{ProblemCode::internal, "", "An internal error occurred.", "", ""}}, requestId));
   }
 }
 
 HttpReply eventReply(std::shared_ptr<EvaluationRun> run, const RouteCall& call) {
   HttpReply reply;
   reply.contentType = kForms[kEvents];
-  reply.headers.emplace_back("X-Accel-Buffering", "no"); // proxies that know it pass events on at once
+  reply.headers.emplace_back("X-Accel-Buffering", "no"); // asks proxies to pass events on at once
   reply.stream = [run = std::move(run), requestId = call.request.id,
                   clientGone = call.clientGone](const BodySink& sink) {
     constexpr std::chrono::milliseconds kHeartbeat{5'000};
     EventStream events;
-    std::atomic<bool> unheard = false;
+    std::atomic<bool> clientLeft = false;
     std::thread measuring([&] {
       putEvents(
-          *run, [&] { return unheard || clientGone(); }, requestId, events);
+          *run, [&] { return clientLeft || clientGone(); }, requestId, events);
       events.end();
     });
-    unheard = !events.sendTo(sink, kHeartbeat);
+    clientLeft = !events.sendTo(sink, kHeartbeat);
     measuring.join();
   };
   return reply;
 }
 
-HttpReply refusal(const Problems& problems, const std::string& requestId) {
-  return problems.front().code == ProblemCode::busy ? busyReply(problems, requestId, kRetryAfterSeconds)
-                                                    : problemReply(problems, requestId);
-}
-
 } // namespace
 
 HttpReply postEvaluation(Services& services, RouteCall call) {
-  const auto deadline = Clock::now() + services.evaluationTimeout;
+  const auto deadline = Clock::now() + services.evaluations.timeout;
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
   if (!services.store.contains(id)) {
-    return problemReply({{ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)}},
-                        requestId);
+    return problemReply({unknownScene(id)}, requestId);
   }
   auto evaluation = decodeEvaluation(textOf(call.request.body));
   if (!evaluation) {
@@ -112,7 +105,7 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   const auto form = preferred(accept, kForms);
   if (!form) {
     return problemReply(
-        {{ProblemCode::notAcceptable, "", "An evaluation can't be sent in any form that Accept names.",
+        {{ProblemCode::notAcceptable, "", "An evaluation can't be sent as any media type that Accept lists.",
           "application/json, text/csv, image/svg+xml, text/event-stream", asciiExcerpt(accept.value_or(""))}},
         requestId);
   }
@@ -121,9 +114,9 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
     return problemReply(scene.problems(), requestId);
   }
   call.request.body = Bytes();
-  auto run = EvaluationRun::start(services, *std::move(scene), *std::move(evaluation), deadline);
+  auto run = EvaluationRun::start(services.evaluations, *std::move(scene), *std::move(evaluation), deadline);
   if (!run) {
-    return refusal(run.problems(), requestId);
+    return problemReply(run.problems(), requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
   }
   HttpReply reply;
   if (*form == kEvents) {
@@ -131,11 +124,11 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   } else {
     const auto report = (*run)->report(call.clientGone);
     if (!report) {
-      return refusal(report.problems(), requestId);
+      return problemReply(report.problems(), requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
     }
     reply = reportReply(*report, *form);
   }
-  reply.headers.emplace_back("Cache-Control", "no-store"); // times are never the same twice
+  reply.headers.emplace_back("Cache-Control", "no-store"); // measured times differ from run to run
   reply.headers.emplace_back("Vary", "Accept");
   return reply;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/frames/services.h"
+#include "server/handlers/services.h"
 #include "server/http/router.h"
 
 namespace gnomon {

@@ -1,19 +1,19 @@
 #include "server/handlers/frame_handlers.h"
 
+#include <nlohmann/json.hpp>
+
 #include "protocol/base/elapsed.h"
-#include "server/frames/etag.h"
-#include "server/frames/frame_cost.h"
+#include "protocol/json/json_codec.h"
 #include "server/frames/frame_reply.h"
-#include "server/handlers/settle_quality.h"
 #include "server/http/ascii.h"
-#include "server/http/problem_reply.h"
-#include "server/scenes/bundle_format.h"
-#include "server/scenes/upload.h"
+#include "server/http/negotiation.h"
+#include "server/http/reply.h"
+#include "server/scenes/bundle.h"
 
 namespace gnomon {
 namespace {
 
-/// A frame that is asked for, whichever way it came.
+/// A request for a frame, of whichever route.
 struct FrameCall {
   std::string sceneId;
   FrameSpec spec;
@@ -26,20 +26,34 @@ void addStages(FrameReport& report, double queueMs, double loadMs) {
   report.stages.insert(report.stages.begin(), {StageTime{"queue", queueMs}, StageTime{"load", loadMs}});
 }
 
+/// The report on the settings that meet the spec's target, which the spec then has; nothing where it has no target.
+Result<std::optional<QualityReport>> meetTarget(Services& services, const RouteCall& call, const LoadedScene& scene,
+                                                FrameSpec& spec) {
+  if (!spec.quality) {
+    return std::optional<QualityReport>();
+  }
+  auto report = settleQuality(services.evaluations, services.choices, scene, spec, call.clientGone);
+  if (!report) {
+    return std::move(report).problems();
+  }
+  spec = withChoice(spec, *report);
+  return std::optional(*std::move(report));
+}
+
 HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
                const std::string& etag) {
   const std::string& requestId = call.request.id;
   const auto start = Clock::now();
   const std::size_t bytes = frameBytes(frame.spec);
-  if (bytes > services.frameMemoryBytes) {
-    return problemReply({{ProblemCode::tooLarge, "/views", "The views of this frame are too large together.",
-                          std::to_string(services.frameMemoryBytes) + " bytes", std::to_string(bytes) + " bytes"}},
+  if (bytes > services.frameMemory.total()) {
+    return problemReply({{ProblemCode::tooLarge, "/views", "The views of this frame together are too large.",
+                          std::to_string(services.frameMemory.total()) + " bytes", std::to_string(bytes) + " bytes"}},
                         requestId);
   }
-  ByteLease lease(services.frameBytes);
+  ByteLease lease(services.frameMemory);
   if (!lease.grow(bytes)) {
-    return busyReply({{ProblemCode::busy, "", "Frames that are under way fill the memory set aside for them.", "", ""}},
-                     requestId, 1);
+    return problemReply({{ProblemCode::busy, "", "Other frames in progress use all the memory for frames.", "", ""}},
+                        requestId);
   }
   auto loaded = frame.load();
   if (!loaded) {
@@ -47,28 +61,20 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   }
   const double loadMs = millisecondsSince(start);
   FrameSpec spec = frame.spec;
-  std::optional<QualityReport> quality;
-  if (spec.quality) {
-    auto settled = settleQuality(services, call, frame.sceneId, *loaded, spec);
-    if (!settled) {
-      return settled.problems().front().code == ProblemCode::busy ? busyReply(settled.problems(), requestId, 10)
-                                                                  : problemReply(settled.problems(), requestId);
-    }
-    quality = *std::move(settled);
-    spec = withTrial(spec, quality->tried[quality->chosen]);
+  auto quality = meetTarget(services, call, *loaded, spec);
+  if (!quality) {
+    return problemReply(quality.problems(), requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
   }
   auto drawn = services.queue.render({loaded->scene, spec, Clock::now() + services.requestTimeout, call.clientGone});
   if (const auto* full = std::get_if<QueueFull>(&drawn)) {
-    return busyReply(
-        {{ProblemCode::busy, "", "The render queue is full.", std::to_string(full->limit) + " frames", ""}}, requestId,
-        full->retryAfterSeconds);
+    return problemReply({full->problem()}, requestId, {.retryAfterSeconds = full->retryAfterSeconds});
   }
   if (const auto* problems = std::get_if<Problems>(&drawn)) {
     return problemReply(*problems, requestId);
   }
   auto& queued = std::get<QueuedFrame>(drawn);
   addStages(queued.frame.report, queued.queueMs, loadMs);
-  queued.frame.report.quality = std::move(quality);
+  queued.frame.report.quality = *std::move(quality);
   const std::string boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   auto reply = frameReply(std::move(queued.frame), form, boundary);
   return reply ? *std::move(reply) : problemReply(reply.problems(), requestId);
@@ -80,7 +86,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const auto form = negotiate(accept, frame.spec.output.format);
   if (!form) {
     return problemReply(
-        {{ProblemCode::notAcceptable, "", "A frame can't be sent in any form that Accept names.",
+        {{ProblemCode::notAcceptable, "", "A frame can't be sent as any media type that Accept lists.",
           "image/png, image/x-exr, multipart/mixed, application/json", asciiExcerpt(accept.value_or(""))}},
         request.id);
   }
@@ -93,14 +99,14 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
     reply.status = 304;
   } else if (request.method == "HEAD") {
     reply.contentType = mediaTypeOf(*form);
-    reply.bodyOmitted = true; // not drawn for nobody to see
+    reply.bodyOmitted = true; // nobody would see the picture
   } else {
     reply = draw(services, call, frame, *form, etag);
     if (reply.status != 200) {
       return reply;
     }
   }
-  // What meets a target depends on how fast the machine was.
+  // Which settings meet a target depends on how fast the machine was.
   if (frame.spec.quality) {
     reply.headers.emplace_back("Cache-Control", "no-store");
   } else {
@@ -115,8 +121,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
 HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSpec> spec, std::string cacheControl) {
   const std::string& id = call.values.at("id");
   if (!services.store.contains(id)) {
-    return problemReply({{ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)}},
-                        call.request.id);
+    return problemReply({unknownScene(id)}, call.request.id);
   }
   if (!spec) {
     return problemReply(spec.problems(), call.request.id);
@@ -125,8 +130,29 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
                 {id, *std::move(spec), [&services, id] { return services.store.get(id); }, std::move(cacheControl)});
 }
 
-constexpr const char* kShared = "public, max-age=86400"; ///< the address tells everything; the tag tells upgrades
+constexpr const char* kShared =
+    "public, max-age=86400"; ///< the URL says everything but the renderer, which the tag names
 constexpr const char* kPrivate = "private, no-cache";
+
+/// A permit to make a plan, of which there are only a few at a time; returned at its end.
+class PlanPermit {
+ public:
+  PlanPermit(Services& services, Clock::time_point deadline)
+      : services_(services), held_(services.plans.try_acquire_until(deadline)) {}
+  PlanPermit(const PlanPermit&) = delete;
+  PlanPermit& operator=(const PlanPermit&) = delete;
+  ~PlanPermit() {
+    if (held_) {
+      services_.plans.release();
+    }
+  }
+
+  bool held() const { return held_; }
+
+ private:
+  Services& services_;
+  bool held_;
+};
 
 } // namespace
 
@@ -139,6 +165,32 @@ HttpReply postFrame(Services& services, RouteCall call) {
 HttpReply getFrame(Services& services, RouteCall call) {
   auto spec = decodeFrameQuery(call.request.query);
   return answerStored(services, call, std::move(spec), kShared);
+}
+
+HttpReply postPlan(Services& services, RouteCall call) {
+  const auto deadline = Clock::now() + services.requestTimeout;
+  const std::string& id = call.values.at("id");
+  const std::string& requestId = call.request.id;
+  if (!services.store.contains(id)) {
+    return problemReply({unknownScene(id)}, requestId);
+  }
+  const std::string_view body = textOf(call.request.body);
+  const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
+  if (!spec) {
+    return problemReply(spec.problems(), requestId);
+  }
+  const auto loaded = services.store.get(id);
+  if (!loaded) {
+    return problemReply(loaded.problems(), requestId);
+  }
+  const PlanPermit permit(services, deadline);
+  if (!permit.held()) {
+    return problemReply(
+        {{ProblemCode::deadlineExceeded, "", "Other plans took the time until the request's deadline.", "", ""}},
+        requestId);
+  }
+  const auto plan = planFrame(*loaded->scene, *spec, services.queue.info());
+  return plan ? jsonReply(toJson(*plan)) : problemReply(plan.problems(), requestId);
 }
 
 HttpReply renderOnce(Services& services, RouteCall call) {
@@ -158,7 +210,7 @@ HttpReply renderOnce(Services& services, RouteCall call) {
     }
     if (part.content.size() > services.limits.maxSpecBytes) {
       return problemReply(
-          {{ProblemCode::tooLarge, "spec", "The part is larger than a specification may be.",
+          {{ProblemCode::tooLarge, "spec", "The part is larger than a frame specification may be.",
             std::to_string(services.limits.maxSpecBytes) + " bytes", std::to_string(part.content.size()) + " bytes"}},
           id);
     }

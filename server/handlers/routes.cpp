@@ -2,17 +2,78 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "protocol/json/json_codec.h"
+#include "protocol/openapi/openapi.h"
 #include "server/handlers/evaluation_handlers.h"
 #include "server/handlers/frame_handlers.h"
-#include "server/handlers/info_handlers.h"
-#include "server/handlers/plan_handlers.h"
-#include "server/handlers/scenes_handlers.h"
+#include "server/handlers/scene_handlers.h"
 #include "server/http/ascii.h"
-#include "server/http/problem_reply.h"
+#include "server/http/negotiation.h"
+#include "server/http/reply.h"
+#include "server/scenes/sha256.h"
 
 namespace gnomon {
 namespace {
+
+/// The page may only run its own scripts and styles, talk to this server and show its pictures.
+constexpr std::string_view kPagePolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+
+HttpReply probeReply(std::string text) {
+  HttpReply reply;
+  reply.contentType = "text/plain; charset=utf-8";
+  reply.body = std::move(text);
+  reply.headers.emplace_back("Cache-Control", "no-store");
+  return reply;
+}
+
+HttpReply getCapabilities(Services& services, RouteCall) {
+  return jsonReply(toJson(Capabilities{GNOMON_VERSION, services.queue.info(), services.limits}));
+}
+
+HttpReply getOpenApi(Services&, RouteCall) {
+  return jsonReply(openApi());
+}
+
+/// 200 while the process answers at all.
+HttpReply getLivez(Services&, RouteCall) {
+  return probeReply("alive\n");
+}
+
+/// 503 while the server drains, or while its queue is nearly full.
+HttpReply getReadyz(Services& services, RouteCall call) {
+  const char* reason = services.draining           ? "The server is shutting down."
+                       : !services.queue.hasRoom() ? "The render queue is nearly full."
+                                                   : nullptr;
+  if (reason != nullptr) {
+    return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
+  }
+  return probeReply("ready\n");
+}
+
+/// A handler for one file of the web page.
+std::function<HttpReply(RouteCall)> pageHandler(const StaticFile& file) {
+  Sha256 hash;
+  hash.add(file.bytes);
+  return [file, etag = '"' + hash.hex() + '"'](const RouteCall& call) {
+    HttpReply reply;
+    reply.headers = {{"ETag", etag},
+                     {"Cache-Control", "no-cache"},
+                     {"Content-Security-Policy", std::string(kPagePolicy)},
+                     {"Referrer-Policy", "no-referrer"}};
+    const auto known = headerValue(call.request.headers, "if-none-match");
+    if (known && etagMatches(*known, etag)) {
+      reply.status = 304;
+      return reply;
+    }
+    reply.contentType = file.contentType;
+    reply.body = file.bytes;
+    return reply;
+  };
+}
 
 std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRequest& request) {
   auto found = router.find(request.method, request.path);
@@ -20,46 +81,34 @@ std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRe
     return std::move(*match);
   }
   if (const auto* refused = std::get_if<MethodRefused>(&found)) {
-    HttpReply reply = problemReply({{ProblemCode::methodNotAllowed, "", "This address does not take this method.",
+    HttpReply reply = problemReply({{ProblemCode::methodNotAllowed, "", "This path does not support this method.",
                                      refused->allow, asciiExcerpt(request.method)}},
                                    request.id);
     reply.headers.emplace_back("Allow", refused->allow);
     return reply;
   }
-  return problemReply(
-      {{ProblemCode::notFound, "", "Nothing has this address; /openapi.json lists what there is.", "", ""}},
-      request.id);
+  return problemReply({{ProblemCode::notFound, "", "No route has this path; /openapi.json lists all of them.", "", ""}},
+                      request.id);
 }
 
-/// Told by the head alone: a body follows.
-bool bringsBody(const HttpRequest& request) {
-  return headerValue(request.headers, "transfer-encoding") ||
-         headerValue(request.headers, "content-length").value_or("0") != "0";
-}
-
-std::variant<BodyRule, HttpReply> admit(const Router& router, const HttpRequest& request) {
-  auto found = findRoute(router, request);
-  if (auto* refused = std::get_if<HttpReply>(&found)) {
-    return std::move(*refused);
+/// Why this route does not accept the body that the request's head announces.
+std::optional<Problem> refuseContent(const Route& route, const HttpRequest& request) {
+  if (route.contentTypes.empty() || !request.hasBody) {
+    return std::nullopt;
   }
-  const Route& route = *std::get<RouteMatch>(found).route;
-  if (!route.contentTypes.empty() && bringsBody(request)) {
-    const std::string type = mediaType(headerValue(request.headers, "content-type").value_or(""));
-    if (std::find(route.contentTypes.begin(), route.contentTypes.end(), type) == route.contentTypes.end()) {
-      std::string taken;
-      for (const std::string& each : route.contentTypes) {
-        taken += taken.empty() ? each : ", " + each;
-      }
-      return problemReply({{ProblemCode::unsupportedMediaType, "", "This route does not take this Content-Type.", taken,
-                            asciiExcerpt(type)}},
-                          request.id);
+  const std::string type = mediaType(headerValue(request.headers, "content-type").value_or(""));
+  if (std::find(route.contentTypes.begin(), route.contentTypes.end(), type) == route.contentTypes.end()) {
+    std::string accepted;
+    for (const std::string& each : route.contentTypes) {
+      accepted += accepted.empty() ? each : ", " + each;
     }
-    if (headerValue(request.headers, "content-encoding").value_or("identity") != "identity") {
-      return problemReply({{ProblemCode::unsupportedMediaType, "", "Compressed bodies are not taken.", "identity", ""}},
-                          request.id);
-    }
+    return Problem{ProblemCode::unsupportedMediaType, "", "This route does not accept this Content-Type.", accepted,
+                   asciiExcerpt(type)};
   }
-  return route.body;
+  if (headerValue(request.headers, "content-encoding").value_or("identity") != "identity") {
+    return Problem{ProblemCode::unsupportedMediaType, "", "Compressed bodies are not accepted.", "identity", ""};
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -99,22 +148,23 @@ std::vector<Route> makeRoutes(Services& services) {
 
 HttpService makeService(Services& services) {
   const auto router = std::make_shared<const Router>(makeRoutes(services));
-  HttpService service;
-  service.admit = [router](const HttpRequest& request) { return admit(*router, request); };
-  service.handle = [router](HttpRequest request, const std::function<bool()>& clientGone) {
-    auto found = findRoute(*router, request);
+  return [router](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
+    auto found = findRoute(*router, head);
     if (auto* refused = std::get_if<HttpReply>(&found)) {
       return std::move(*refused);
     }
     auto& match = std::get<RouteMatch>(found);
-    return match.route->handler({std::move(request), std::move(match.values), clientGone});
+    const Route& route = *match.route;
+    if (auto problem = refuseContent(route, head)) {
+      return problemReply({*std::move(problem)}, head.id);
+    }
+    // The handler keeps the router, whose route it calls.
+    return RequestHandler{route.body, route.probe,
+                          [router, &route, values = std::move(match.values)](HttpRequest request,
+                                                                             const std::function<bool()>& clientGone) {
+                            return route.handler({std::move(request), values, clientGone});
+                          }};
   };
-  service.isProbe = [router](const HttpRequest& request) {
-    const auto found = router->find(request.method, request.path);
-    const auto* match = std::get_if<RouteMatch>(&found);
-    return match != nullptr && match->route->probe;
-  };
-  return service;
 }
 
 } // namespace gnomon

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <string_view>
-
-#include "server/frames/services.h"
-#include "server/http/http_service.h"
+#include "server/handlers/services.h"
+#include "server/http/connection.h"
 #include "server/http/router.h"
 
 namespace gnomon {
@@ -11,7 +9,7 @@ namespace gnomon {
 /// Every route that the server has. `services` outlives them.
 std::vector<Route> makeRoutes(Services& services);
 
-/// What the sockets' side calls: finds the route, checks what the head tells, and answers problems for the rest.
+/// What connections call: finds the route, checks the type of the body, and refuses other requests.
 HttpService makeService(Services& services);
 
 } // namespace gnomon

@@ -2,23 +2,13 @@
 
 #include <exception>
 
-#include "server/http/problem_reply.h"
-#include "server/http/reply_text.h"
-#include "server/http/request_id.h"
 #include "server/http/request_log.h"
-#include "server/http/url.h"
 
 namespace gnomon {
 namespace {
 
-/// The end of a connection after a request that was refused before its body was read.
+/// How a connection goes on after a reply; it lingers where the client may still be sending a body that nobody reads.
 enum class After { keep, close, linger };
-
-HttpReply wireReply(int status, Problem problem, const std::string& id) {
-  constexpr int kRetryAfterSeconds = 1;
-  return status == 429 ? busyReply({std::move(problem)}, id, kRetryAfterSeconds)
-                       : problemReply({std::move(problem)}, id, status);
-}
 
 class Connection {
  public:
@@ -60,86 +50,87 @@ class Connection {
     record.target = head->target;
     const bool bodyless = request->method == "HEAD";
 
-    auto rule = context_.service.admit(*request);
-    if (auto* refused = std::get_if<HttpReply>(&rule)) {
-      const bool noBody = !head->chunked && head->contentLength.value_or(0) == 0;
-      const bool keep = mayKeep && noBody && head->keepAlive && !context_.stop.raised();
+    auto found = context_.service(*request);
+    if (auto* refused = std::get_if<HttpReply>(&found)) {
+      const bool keep = mayKeep && !head->hasBody() && head->keepAlive && !context_.stop.raised();
       return send(std::move(*refused), record, keep, bodyless) && keep ? After::keep : After::linger;
     }
-    if (auto refused = refuseBody(*head, std::get<BodyRule>(rule))) {
-      send(wireReply(refused->status, refused->problem, record.id), record, false, bodyless);
+    const auto& handler = std::get<RequestHandler>(found);
+    if (auto refused = refuseBody(*head, handler.body)) {
+      send(problemReply({*std::move(refused)}, record.id, {.read = RequestPart::body}), record, false, bodyless);
       return After::linger;
     }
     ByteLease lease(context_.bodyBytes);
-    if (head->chunked || head->contentLength.value_or(0) > 0) {
+    if (head->hasBody()) {
       if (head->expectsContinue &&
           !sendAll(socket_.get(), "HTTP/1.1 100 Continue\r\n\r\n", Clock::now() + context_.limits.pace.stall)) {
         return After::close;
       }
-      auto body = readBody(reader_, *head, std::get<BodyRule>(rule), context_.limits.pace, lease);
-      if (const auto* refused = std::get_if<BodyRefusal>(&body)) {
-        send(wireReply(refused->status, refused->problem, record.id), record, false, bodyless);
+      auto body = readBody(reader_, *head, handler.body, context_.limits.pace, lease);
+      if (!body) {
+        send(problemReply(body.problems(), record.id, {.read = RequestPart::body}), record, false, bodyless);
         return After::linger;
       }
-      request->body = std::get<Bytes>(std::move(body));
+      request->body = *std::move(body);
       record.requestBytes = request->body.size();
     }
-    HttpReply reply = handle(*std::move(request));
+    HttpReply reply = answer(handler, *std::move(request));
     const bool keep = mayKeep && head->keepAlive && !context_.stop.raised();
     return send(std::move(reply), record, keep, bodyless) && keep ? After::keep : After::close;
   }
 
+  /// The next request's head; nothing where it was refused, and the client knows.
   std::optional<RequestHead> readHead(RequestRecord& record) {
+    auto head = receiveHead();
+    if (!head) {
+      record.id = requestId(std::nullopt);
+      send(problemReply(head.problems(), record.id, {.read = RequestPart::head}), record, false, false);
+      return std::nullopt;
+    }
+    return *std::move(head);
+  }
+
+  Result<RequestHead> receiveHead() {
     const auto deadline = Clock::now() + context_.limits.head;
     while (true) {
       const auto length = headLength(reader_.buffered());
       if (length && *length <= kMaxHeadBytes) {
         auto head = parseRequestHead(reader_.buffered().substr(0, *length));
         reader_.consume(*length);
-        if (!head) {
-          record.id = requestId(std::nullopt);
-          const bool tooLarge = head.problems().front().code == ProblemCode::tooLarge;
-          send(problemReply(head.problems(), record.id, tooLarge ? 431 : 400), record, false, false);
-          return std::nullopt;
-        }
-        return *std::move(head);
+        return head;
       }
-      Problem problem{ProblemCode::tooLarge, "", "The request line and headers are too long.",
-                      std::to_string(kMaxHeadBytes) + " bytes", ""};
-      int status = 431;
-      if (reader_.buffered().size() < kMaxHeadBytes) {
-        const SocketWait waited = reader_.receive(4 * 1024, deadline);
-        if (waited == SocketWait::ready) {
-          continue;
-        }
-        status = waited == SocketWait::timedOut ? 408 : 400;
-        problem = {waited == SocketWait::timedOut ? ProblemCode::deadlineExceeded : ProblemCode::malformed, "",
-                   "The request's head did not arrive.", "", ""};
+      if (reader_.buffered().size() >= kMaxHeadBytes) {
+        return Problem{ProblemCode::tooLarge, "", "The request line and headers are too long.",
+                       std::to_string(kMaxHeadBytes) + " bytes", ""};
       }
-      record.id = requestId(std::nullopt);
-      send(wireReply(status, std::move(problem), record.id), record, false, false);
-      return std::nullopt;
+      const SocketWait waited = reader_.receive(4 * 1024, deadline);
+      if (waited == SocketWait::timedOut) {
+        return Problem{ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""};
+      }
+      if (waited != SocketWait::ready) {
+        return Problem{ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""};
+      }
     }
   }
 
   /// Nothing that a handler throws leaves it.
-  HttpReply handle(HttpRequest request) {
+  HttpReply answer(const RequestHandler& handler, HttpRequest request) {
     const std::string id = request.id;
     const int fd = socket_.get();
     std::string note;
     try {
-      return context_.service.handle(std::move(request), [fd] { return peerGone(fd); });
+      return handler.answer(std::move(request), [fd] { return peerGone(fd); });
     } catch (const std::exception& error) {
       note = error.what();
     } catch (...) {
-      note = "an exception of no known type";
+      note = "An exception of unknown type.";
     }
-    HttpReply reply = problemReply({{ProblemCode::internal, "", "The server made a mistake.", "", ""}}, id);
+    HttpReply reply = problemReply({{ProblemCode::internal, "", "An internal error occurred.", "", ""}}, id);
     reply.note = note;
     return reply;
   }
 
-  /// True where the client has it all and may ask again.
+  /// True where the whole reply was sent and the connection can serve another request.
   bool send(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
     if (reply.stream) {
       sendStream(reply, record);
@@ -171,7 +162,7 @@ class Connection {
       try {
         reply.stream(sink);
       } catch (const std::exception& error) {
-        reply.note = error.what(); // its status is sent already: the body just ends
+        reply.note = error.what(); // its status is sent already: the body ends early
       }
     }
     logRequest(record, reply);
@@ -183,20 +174,6 @@ class Connection {
 };
 
 } // namespace
-
-Result<HttpRequest> requestFromHead(const RequestHead& head) {
-  auto url = parseTarget(head.target);
-  if (!url) {
-    return std::move(url).problems();
-  }
-  HttpRequest request;
-  request.id = requestId(headerValue(head.headers, "x-request-id"));
-  request.method = head.method;
-  request.path = std::move(url->path);
-  request.query = std::move(url->query);
-  request.headers = head.headers;
-  return request;
-}
 
 void serveConnection(FileDescriptor socket, ConnectionContext& context) noexcept {
   try {

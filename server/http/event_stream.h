@@ -6,21 +6,21 @@
 #include <string>
 #include <string_view>
 
-#include "server/http/http_reply.h"
+#include "server/http/reply.h"
 
 namespace gnomon {
 
 /// One server-sent event (WHATWG HTML, "Server-sent events"). `data`: one line.
 std::string eventText(std::string_view name, std::string_view data);
 
-/// Events on their way from the threads that make them to the one that sends them.
+/// Events between the threads that make them and the one that sends them.
 class EventStream {
  public:
   void put(std::string_view name, std::string_view data); ///< any thread
   void end();                                             ///< any thread; nothing is put after it
 
-  /// Sends what is put until the end, and a comment after every `pause` without anything else, so that proxies keep the
-  /// connection and a vanished client is noticed. False: the client is gone.
+  /// Sends what is put until the end, and a comment after every `pause` without an event, so that proxies keep the
+  /// connection open and a lost client is noticed. False: the client is gone.
   bool sendTo(const BodySink& sink, std::chrono::milliseconds pause);
 
  private:

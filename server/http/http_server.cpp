@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "server/http/overflow_lane.h"
-#include "server/http/worker_pool.h"
 
 namespace gnomon {
 namespace {
@@ -34,9 +33,11 @@ class ConnectionQueue : public httplib::TaskQueue {
   WorkerPool& pool_;
 };
 
-/// The library binds, accepts and dispatches. What it would do with a connection is replaced whole: its parser buffers
-/// header lines and chunked bodies without a bound, matches routes and ranges with recursive regular expressions and
-/// waits for slow clients for ever.
+/// All that the server uses of cpp-httplib 0.11, which no other file of it includes: bind_to_port, bind_to_any_port,
+/// set_socket_options, listen_after_bind (the loop of accept calls) and TaskQueue, which takes each connection; of the
+/// class's inside the listening socket svr_sock_, and process_and_close_socket, which is replaced whole. The library's
+/// own parser buffers header lines and chunked bodies without a bound, matches routes and ranges with recursive regular
+/// expressions, and waits for slow clients for ever.
 class Listener : public httplib::Server {
  public:
   Listener(ConnectionContext& context, std::size_t threads) : context_(context), overflow_(context), pool_(threads) {
@@ -100,13 +101,14 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& 
   try {
     impl = std::make_unique<Impl>(context, options.threads);
   } catch (const std::system_error&) {
-    return Problem{ProblemCode::unavailable, "", "The system does not let this process have so many threads.", "",
+    return Problem{ProblemCode::unavailable, "", "The system does not allow this process so many threads.", "",
                    std::to_string(options.threads)};
   }
   const bool bound = options.port == 0 ? impl->listener.bind_to_any_port(options.bind) > 0
                                        : impl->listener.bind_to_port(options.bind, options.port);
   if (!bound || !impl->listener.deepenBacklog()) {
-    return Problem{ProblemCode::unavailable, "", "The address can't be listened on: it is taken or not ours.", "",
+    return Problem{ProblemCode::unavailable, "",
+                   "The server can't listen on this address: it is in use, or not of this machine.", "",
                    options.bind + ":" + std::to_string(options.port)};
   }
   impl->port = impl->listener.boundPort();
@@ -126,6 +128,56 @@ void HttpServer::stop() {
   if (!impl_->stopped.exchange(true)) {
     impl_->context.stop.raise();
     impl_->listener.shut();
+  }
+}
+
+WorkerPool::WorkerPool(std::size_t threads) : idle_(threads) {
+  threads_.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i) {
+    threads_.emplace_back([this] { work(); });
+  }
+}
+
+bool WorkerPool::tryRun(const std::function<void()>& task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || idle_ == 0) {
+      return false;
+    }
+    tasks_.push_back(task);
+    --idle_;
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void WorkerPool::shutdown() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) {
+    thread.join();
+  }
+  threads_.clear();
+}
+
+void WorkerPool::work() {
+  while (true) {
+    std::function<void()> task;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
+      if (tasks_.empty()) {
+        return;
+      }
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task();
+    const std::lock_guard lock(mutex_);
+    ++idle_;
   }
 }
 

@@ -44,7 +44,7 @@ std::vector<MediaRange> rangesOf(std::string_view accept) {
 }
 
 /// 3 = the type itself, 2 = "image/*", 1 = "*/*", 0 = not covered.
-int specificity(std::string_view range, std::string_view type) {
+int specificityOf(std::string_view range, std::string_view type) {
   if (range == type) {
     return 3;
   }
@@ -55,20 +55,25 @@ int specificity(std::string_view range, std::string_view type) {
   return group ? 2 : 0;
 }
 
-struct Liking {
-  int quality = 0;
-  int how = 0; ///< specificity of the range that said so
+/// How an Accept header rates a media type: by its most specific range that covers the type.
+struct Rating {
+  int quality = 0;     ///< thousandths; 0 = not acceptable
+  int specificity = 0; ///< of that range
 };
 
-Liking likingOf(const std::vector<MediaRange>& ranges, std::string_view type) {
-  Liking liking;
+Rating ratingOf(const std::vector<MediaRange>& ranges, std::string_view type) {
+  Rating rating;
   for (const MediaRange& range : ranges) {
-    const int how = specificity(range.type, type);
-    if (how > liking.how) {
-      liking = {range.quality, how};
+    const int specific = specificityOf(range.type, type);
+    if (specific > rating.specificity) {
+      rating = {range.quality, specific};
     }
   }
-  return liking;
+  return rating;
+}
+
+std::string_view withoutWeakness(std::string_view tag) {
+  return tag.starts_with("W/") ? tag.substr(2) : tag;
 }
 
 } // namespace
@@ -95,13 +100,13 @@ std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std
   }
   const std::vector<MediaRange> ranges = rangesOf(*accept);
   std::optional<std::size_t> best;
-  Liking most;
+  Rating highest;
   for (std::size_t i = 0; i < offers.size(); ++i) {
-    const Liking liking = likingOf(ranges, offers[i]);
-    if (liking.quality > most.quality ||
-        (liking.quality == most.quality && liking.quality > 0 && liking.how > most.how)) {
+    const Rating rating = ratingOf(ranges, offers[i]);
+    if (rating.quality > highest.quality ||
+        (rating.quality == highest.quality && rating.quality > 0 && rating.specificity > highest.specificity)) {
       best = i;
-      most = liking;
+      highest = rating;
     }
   }
   return best;
@@ -117,6 +122,18 @@ std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, Image
   std::transform(forms.begin(), forms.end(), offers.begin(), [](FrameForm form) { return mediaTypeOf(form); });
   const auto best = preferred(accept, offers);
   return best ? std::optional(forms[*best]) : std::nullopt;
+}
+
+bool etagMatches(std::string_view ifNoneMatch, std::string_view etag) {
+  if (trimmed(ifNoneMatch) == "*") {
+    return true;
+  }
+  for (const std::string& listed : split(ifNoneMatch, ',')) { // our tags hold no comma
+    if (withoutWeakness(listed) == withoutWeakness(etag)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace gnomon

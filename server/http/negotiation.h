@@ -23,13 +23,16 @@ struct FrameForm {
 std::string_view mediaTypeOf(ImageFormat format);
 std::string_view mediaTypeOf(FrameForm form); ///< without the boundary
 
-/// Which of the media types offered an Accept header likes best; of equals the first, which is also the choice where
-/// there is no such header. Nothing: none can be given.
+/// The index of the media type that an Accept header prefers among `offers`: of equals the first, which is also the
+/// choice without such a header. Nothing: it accepts none of them.
 std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers);
 
-/// The form that Accept (RFC 9110, q-values included) likes best. An image type in Accept decides the format, also
-/// against the spec's; where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format stands.
-/// Nothing: there is no acceptable form.
+/// The form that Accept (RFC 9110, q-values included) prefers. An image type in Accept overrides the spec's format;
+/// where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format is used. Nothing: no form is
+/// acceptable.
 std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat);
+
+/// Whether an If-None-Match names this tag (RFC 9110 section 13.1.2: lists, "*", weak comparison).
+bool etagMatches(std::string_view ifNoneMatch, std::string_view etag);
 
 } // namespace gnomon

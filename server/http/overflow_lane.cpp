@@ -8,15 +8,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "server/http/problem_reply.h"
-#include "server/http/reply_text.h"
+#include "server/http/reply.h"
 #include "server/http/request_log.h"
 
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMaxGuests = 512;
-constexpr std::chrono::milliseconds kPatience{1'000}; ///< for a head, and again for the client to leave
+constexpr std::size_t kMaxClients = 512;
+constexpr std::chrono::milliseconds kPatience{1'000}; ///< for a head, and again for the client to close
 constexpr int kRetryAfterSeconds = 1;
 
 void drain(int eventFd) {
@@ -37,8 +36,8 @@ OverflowLane::~OverflowLane() {
 void OverflowLane::adopt(FileDescriptor socket) noexcept {
   try {
     const std::lock_guard lock(mutex_);
-    if (count_ < kMaxGuests) {
-      newcomers_.push_back(std::move(socket));
+    if (count_ < kMaxClients) {
+      adopted_.push_back(std::move(socket));
       ++count_;
     }
   } catch (const std::exception& error) {
@@ -47,98 +46,101 @@ void OverflowLane::adopt(FileDescriptor socket) noexcept {
   wake_.raise();
 }
 
-void OverflowLane::takeNewcomers(std::vector<Guest>& guests) {
+void OverflowLane::takeAdopted(std::vector<Client>& clients) {
   const std::lock_guard lock(mutex_);
-  for (FileDescriptor& socket : newcomers_) {
-    guests.push_back({std::move(socket), "", Clock::now() + kPatience});
+  for (FileDescriptor& socket : adopted_) {
+    clients.push_back({std::move(socket), "", Clock::now() + kPatience});
   }
-  newcomers_.clear();
-  count_ = guests.size();
+  adopted_.clear();
+  count_ = clients.size();
 }
 
 void OverflowLane::watch() {
-  std::vector<Guest> guests;
+  std::vector<Client> clients;
   std::vector<pollfd> waiting;
   while (!stopping_) {
-    takeNewcomers(guests);
+    takeAdopted(clients);
     waiting.assign(1, {wake_.fd(), POLLIN, 0});
     auto next = Clock::now() + std::chrono::hours(1);
-    for (const Guest& guest : guests) {
-      waiting.push_back({guest.socket.get(), POLLIN, 0});
-      next = std::min(next, guest.deadline);
+    for (const Client& client : clients) {
+      waiting.push_back({client.socket.get(), POLLIN, 0});
+      next = std::min(next, client.deadline);
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now()).count();
     ::poll(waiting.data(), waiting.size(), static_cast<int>(std::max<std::int64_t>(left, 0)));
     if (waiting[0].revents != 0) {
       drain(wake_.fd());
     }
-    std::vector<Guest> staying;
-    for (std::size_t i = 0; i < guests.size(); ++i) {
-      if (stays(guests[i], waiting[i + 1].revents)) {
-        staying.push_back(std::move(guests[i]));
+    std::vector<Client> staying;
+    for (std::size_t i = 0; i < clients.size(); ++i) {
+      if (stays(clients[i], waiting[i + 1].revents)) {
+        staying.push_back(std::move(clients[i]));
       }
     }
-    guests = std::move(staying);
+    clients = std::move(staying);
   }
 }
 
-bool OverflowLane::stays(Guest& guest, short events) {
-  if (Clock::now() >= guest.deadline) {
+bool OverflowLane::stays(Client& client, short events) {
+  if (Clock::now() >= client.deadline) {
     return false;
   }
   if (events == 0) {
     return true;
   }
   std::array<char, 4096> bytes;
-  const ssize_t count = ::recv(guest.socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+  const ssize_t count = ::recv(client.socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count <= 0) {
     return count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
   }
-  if (guest.answered) {
+  if (client.answered) {
     return true;
   }
-  guest.received.append(bytes.data(), static_cast<std::size_t>(count));
-  if (const auto length = headLength(guest.received)) {
-    answer(guest, *length);
+  client.received.append(bytes.data(), static_cast<std::size_t>(count));
+  if (const auto length = headLength(client.received)) {
+    answer(client, *length);
     return true;
   }
-  return guest.received.size() < kMaxHeadBytes;
+  return client.received.size() < kMaxHeadBytes;
 }
 
-void OverflowLane::answer(Guest& guest, std::size_t headBytes) {
+void OverflowLane::answer(Client& client, std::size_t headBytes) {
   RequestRecord record;
   HttpReply reply;
   bool bodyless = false;
   try {
-    const auto head = parseRequestHead(std::string_view(guest.received).substr(0, headBytes));
+    const auto head = parseRequestHead(std::string_view(client.received).substr(0, headBytes));
     auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
     if (!request) {
-      reply = problemReply(request.problems(), record.id, 400);
+      reply = problemReply(request.problems(), record.id, {.read = RequestPart::head});
     } else {
       record.id = request->id;
       record.method = request->method;
       record.target = head->target;
       bodyless = request->method == "HEAD";
-      if (context_.service.isProbe(*request)) {
-        reply = context_.service.handle(*std::move(request), [] { return false; });
+      auto found = context_.service(*request);
+      const auto* handler = std::get_if<RequestHandler>(&found);
+      if (handler != nullptr && handler->isProbe) {
+        reply = handler->answer(*std::move(request), [] { return false; });
       } else {
-        const Problem taken{ProblemCode::unavailable, "", "Every connection that this server can serve is taken.", "",
-                            ""};
-        reply = busyReply({taken}, record.id, kRetryAfterSeconds);
+        reply = problemReply(
+            {{ProblemCode::unavailable, "", "The server already serves as many connections as it can.", "", ""}},
+            record.id);
+        reply.headers.emplace_back("Retry-After", std::to_string(kRetryAfterSeconds));
       }
     }
     std::string text = replyHead(reply, record.id, false);
     if (!bodyless) {
       text += reply.body;
     }
-    record.delivered = sendAll(guest.socket.get(), text, Clock::now()); // it fits the socket's buffer, or is dropped
-    ::shutdown(guest.socket.get(), SHUT_WR);
+    record.delivered = sendAll(client.socket.get(), text, Clock::now()); // it fits the socket's buffer, or is dropped
+    ::shutdown(client.socket.get(), SHUT_WR);
     logRequest(record, reply);
   } catch (const std::exception& error) {
     logEvent("overflow", error.what());
   }
-  guest.answered = true;
-  guest.deadline = Clock::now() + kPatience;
+  client.answered = true;
+  client.deadline = Clock::now() + kPatience;
 }
 
 } // namespace gnomon

@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// Where connections go when every worker is taken. One thread watches them all, so that silent ones hold up nobody:
-/// probes are answered, everything else is told to come again, and each connection ends after one reply.
+/// Where connections go when every worker is taken. One thread watches them all, so that a silent client delays nobody:
+/// probes are answered, every other request gets 503 with Retry-After, and each connection ends after one reply.
 class OverflowLane {
  public:
   explicit OverflowLane(ConnectionContext& context);
@@ -18,28 +18,28 @@ class OverflowLane {
   OverflowLane(const OverflowLane&) = delete;
   OverflowLane& operator=(const OverflowLane&) = delete;
 
-  /// Takes the connection over; closes it at once when too many wait already.
+  /// Takes the connection over; closes it at once where too many wait already.
   void adopt(FileDescriptor socket) noexcept;
 
  private:
-  struct Guest {
+  struct Client {
     FileDescriptor socket;
     std::string received;
     Clock::time_point deadline;
-    bool answered = false; ///< only waits for the client to leave
+    bool answered = false; ///< only waits for the client to close
   };
 
   void watch();
-  void takeNewcomers(std::vector<Guest>& guests);
-  bool stays(Guest& guest, short events);
-  void answer(Guest& guest, std::size_t headBytes);
+  void takeAdopted(std::vector<Client>& clients);
+  bool stays(Client& client, short events);
+  void answer(Client& client, std::size_t headBytes);
 
   ConnectionContext& context_;
   StopSignal wake_;
   std::atomic<bool> stopping_ = false;
   std::mutex mutex_;
-  std::vector<FileDescriptor> newcomers_;
-  std::size_t count_ = 0; ///< newcomers and guests
+  std::vector<FileDescriptor> adopted_;
+  std::size_t count_ = 0; ///< adopted and watched connections
   std::thread thread_;
 };
 

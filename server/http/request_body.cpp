@@ -6,20 +6,16 @@
 namespace gnomon {
 namespace {
 
-BodyRefusal refusal(int status, ProblemCode code, std::string detail, std::string limit = "", std::string actual = "") {
-  return {status, {code, "", std::move(detail), std::move(limit), std::move(actual)}};
+Problem bodyTooLarge(std::size_t limit, std::string actual) {
+  return {ProblemCode::tooLarge, "", "The body is larger than this route accepts.", std::to_string(limit) + " bytes",
+          std::move(actual)};
 }
 
-BodyRefusal tooLarge(std::size_t limit, const std::string& actual) {
-  return refusal(413, ProblemCode::tooLarge, "The body is larger than this route takes.",
-                 std::to_string(limit) + " bytes", actual);
+Problem brokenChunks(std::string detail) {
+  return {ProblemCode::malformed, "", std::move(detail), "", ""};
 }
 
-BodyRefusal brokenChunks(std::string detail) {
-  return refusal(400, ProblemCode::malformed, std::move(detail));
-}
-
-/// Takes bytes off the socket in the order that the body's framing needs them.
+/// Takes bytes off the socket as the framing of the body needs them.
 class BodyReader {
  public:
   BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease)
@@ -33,7 +29,7 @@ class BodyReader {
       }
       const std::string_view bytes = reader_.buffered().substr(0, count);
       if (!lease_.grow(bytes.size())) {
-        refused = refusal(429, ProblemCode::busy, "Uploads that are under way fill the memory set aside for them.");
+        refused = {ProblemCode::busy, "", "Other uploads in progress use all the memory for uploads.", "", ""};
         return false;
       }
       body.insert(body.end(), bytes.begin(), bytes.end());
@@ -80,7 +76,7 @@ class BodyReader {
         return trailers();
       }
       if (size > rule_.maxBytes - body.size()) {
-        refused = tooLarge(rule_.maxBytes, "");
+        refused = bodyTooLarge(rule_.maxBytes, "");
         return false;
       }
       if (!append(size) || !line(text)) {
@@ -94,7 +90,7 @@ class BodyReader {
   }
 
   Bytes body;
-  BodyRefusal refused;
+  Problem refused;
 
  private:
   bool trailers() {
@@ -115,9 +111,9 @@ class BodyReader {
     const auto deadline = std::min(pace_.deadline(start_, body.size()), Clock::now() + pace_.stall);
     const SocketWait waited = reader_.receive(most, deadline);
     if (waited == SocketWait::timedOut) {
-      refused = refusal(408, ProblemCode::deadlineExceeded, "The body arrived too slowly.");
+      refused = {ProblemCode::deadlineExceeded, "", "The body arrived too slowly.", "", ""};
     } else if (waited == SocketWait::closed) {
-      refused = refusal(400, ProblemCode::malformed, "The connection ended before the body did.");
+      refused = {ProblemCode::malformed, "", "The connection ended before the body did.", "", ""};
     }
     return waited == SocketWait::ready;
   }
@@ -131,25 +127,25 @@ class BodyReader {
 
 } // namespace
 
-std::optional<BodyRefusal> refuseBody(const RequestHead& head, const BodyRule& rule) {
+std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule) {
   if (rule.framing == BodyRule::Framing::none) {
-    if (head.chunked || head.contentLength.value_or(0) > 0) {
-      return refusal(413, ProblemCode::tooLarge, "This route takes no body.", "0 bytes");
+    if (head.hasBody()) {
+      return Problem{ProblemCode::tooLarge, "", "This route accepts no body.", "0 bytes", ""};
     }
     return std::nullopt;
   }
   const bool isOptional = rule.framing == BodyRule::Framing::length;
   if (isOptional ? head.chunked : !head.chunked && !head.contentLength) {
-    return refusal(411, ProblemCode::lengthRequired, "This route needs a body with a Content-Length.");
+    return Problem{ProblemCode::lengthRequired, "", "This route needs a body with a Content-Length.", "", ""};
   }
   if (head.contentLength.value_or(0) > rule.maxBytes) {
-    return tooLarge(rule.maxBytes, std::to_string(*head.contentLength) + " bytes");
+    return bodyTooLarge(rule.maxBytes, std::to_string(*head.contentLength) + " bytes");
   }
   return std::nullopt;
 }
 
-std::variant<Bytes, BodyRefusal> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule,
-                                          const Pace& pace, ByteLease& lease) {
+Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule, const Pace& pace,
+                       ByteLease& lease) {
   BodyReader body(reader, rule, pace, lease);
   const bool whole =
       head.chunked ? body.chunks() : body.append(static_cast<std::size_t>(head.contentLength.value_or(0)));

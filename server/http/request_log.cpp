@@ -54,6 +54,9 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
   if (!record.delivered) {
     line["clientGone"] = true;
   }
+  if (!reply.problem.empty()) {
+    line["problem"] = reply.problem;
+  }
   if (!reply.note.empty()) {
     line["note"] = reply.note;
   }
@@ -67,7 +70,7 @@ void logRequest(const RequestRecord& record, const HttpReply& reply) noexcept {
     line.insert(1, "\"time\":\"" + timeText() + "\",");
     logger().info("{}", line);
   } catch (...) {
-    // A line that can't be written must not take the reply with it.
+    // A line that can't be written must not cost the reply.
   }
 }
 

@@ -3,12 +3,12 @@
 #include <string>
 #include <string_view>
 
-#include "server/http/http_reply.h"
+#include "server/http/reply.h"
 #include "server/http/socket_io.h"
 
 namespace gnomon {
 
-/// What the log tells of a request besides its reply.
+/// What the log says of a request, apart from its reply.
 struct RequestRecord {
   std::string id;
   std::string method;

@@ -74,8 +74,4 @@ std::variant<RouteMatch, MethodRefused, NoSuchPath> Router::find(std::string_vie
   return MethodRefused{allow};
 }
 
-std::string mediaType(std::string_view contentType) {
-  return lowerCase(trimmed(contentType.substr(0, contentType.find(';'))));
-}
-
 } // namespace gnomon

@@ -7,16 +7,16 @@
 #include <variant>
 #include <vector>
 
-#include "server/http/http_reply.h"
-#include "server/http/http_request.h"
+#include "server/http/reply.h"
+#include "server/http/request.h"
 #include "server/http/request_body.h"
 
 namespace gnomon {
 
-/// What the braces in a route's pattern stood for, by name.
+/// The segments of the path that a pattern names in braces.
 using PathValues = std::map<std::string, std::string, std::less<>>;
 
-/// What a handler is given besides the request.
+/// A request, with what the router and the connection add to it.
 struct RouteCall {
   HttpRequest request;
   PathValues values;
@@ -27,18 +27,18 @@ struct Route {
   std::string method;  ///< GET answers HEAD too, unless a route of its own does
   std::string pattern; ///< "/v1/scenes/{id}/frames"
   BodyRule body;
-  std::vector<std::string> contentTypes; ///< media types taken; empty = any, or no body
+  std::vector<std::string> contentTypes; ///< media types accepted; empty = any, or no body
   std::function<HttpReply(RouteCall)> handler;
   bool probe = false; ///< answered however busy everything else is
 };
 
-/// Where a request goes.
+/// The route of a request.
 struct RouteMatch {
   const Route* route = nullptr;
   PathValues values;
 };
 
-/// The reply's Allow header, when the path exists and the method does not.
+/// The path exists, but not with this method; `allow` is the reply's Allow header.
 struct MethodRefused {
   std::string allow;
 };
@@ -57,8 +57,5 @@ class Router {
   std::vector<Route> routes_;
   std::vector<std::vector<std::string>> patterns_; ///< segments, parallel to routes_
 };
-
-/// The media type of a Content-Type, lower case, without its parameters.
-std::string mediaType(std::string_view contentType);
 
 } // namespace gnomon

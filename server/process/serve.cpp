@@ -1,19 +1,66 @@
 #include "server/process/serve.h"
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <malloc.h>
+#include <poll.h>
 #include <sys/resource.h>
+#include <sys/signalfd.h>
 #include <thread>
 #include <unistd.h>
 
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/request_log.h"
-#include "server/process/shutdown_signals.h"
+#include "server/http/socket_io.h"
 
 namespace gnomon {
 namespace {
+
+/// SIGTERM and SIGINT, received by waiting. Blocks both for the calling thread and those that it starts later.
+class ShutdownSignals {
+ public:
+  ShutdownSignals();
+
+  enum class Event { signal, done, timeout };
+
+  /// Waits for the next signal, for `done`, or for the deadline.
+  Event wait(const StopSignal& done, Clock::time_point deadline);
+
+ private:
+  FileDescriptor signals_;
+};
+
+ShutdownSignals::ShutdownSignals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  signals_ = FileDescriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+ShutdownSignals::Event ShutdownSignals::wait(const StopSignal& done, Clock::time_point deadline) {
+  while (true) {
+    std::array<pollfd, 2> waiting{{{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
+    if (waiting[1].revents != 0) {
+      return Event::done;
+    }
+    signalfd_siginfo info{};
+    if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {
+      return Event::signal;
+    }
+    if (Clock::now() >= deadline) {
+      return Event::timeout;
+    }
+  }
+}
 
 /// One sentence a problem, for the person at the terminal.
 int failed(const Problems& problems) {
@@ -61,11 +108,11 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   });
   signals.wait(listenerEnded, Clock::time_point::max());
   services.draining = true;
-  logEvent("draining", "no new work is taken");
+  logEvent("draining", "The server is shutting down.");
   if (!listenerEnded.raised() && options.drainSeconds > 0 &&
       signals.wait(listenerEnded, Clock::now() + std::chrono::seconds(options.drainSeconds)) ==
           ShutdownSignals::Event::signal) {
-    endNow("a second signal came");
+    endNow("A second signal arrived.");
   }
   StopSignal done;
   const auto grace = Clock::now() + std::chrono::seconds(options.graceSeconds);
@@ -78,14 +125,14 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   constexpr std::chrono::seconds kSlack{5}; // for a frame that began just before the grace ended
   switch (signals.wait(done, grace + kSlack)) {
     case ShutdownSignals::Event::signal:
-      endNow("a second signal came");
+      endNow("A second signal arrived.");
     case ShutdownSignals::Event::timeout:
-      endNow("the grace is over and work is still running");
+      endNow("The grace period is over and work is still running.");
     case ShutdownSignals::Event::done:
       break;
   }
   finishing.join();
-  logEvent("ended", inOrder ? "all work was finished" : "connections could not be accepted any more");
+  logEvent("ended", inOrder ? "All work was finished." : "Connections could no longer be accepted.");
   return inOrder ? 0 : 1;
 }
 
@@ -119,16 +166,18 @@ int serve(const ServeOptions& options) {
   const RendererInfo& info = (*queue)->info();
   logEvent("renderer", info.backend + " " + info.platform + ": " + info.renderer + ", " + info.version);
 
-  Services services{**store,
-                    **queue,
-                    limits,
-                    std::chrono::seconds(options.requestTimeoutSeconds),
-                    options.frameMemoryBytes,
-                    ByteBudget(options.frameMemoryBytes),
-                    options.page,
-                    std::chrono::seconds(options.evaluationTimeoutSeconds),
-                    std::counting_semaphore<>(options.maxEvaluations),
-                    {}};
+  ByteBudget frameMemory(options.frameMemoryBytes);
+  Services services{.store = **store,
+                    .queue = **queue,
+                    .frameMemory = frameMemory,
+                    .limits = limits,
+                    .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
+                    .page = options.page,
+                    .evaluations = {.queue = **queue,
+                                    .frameMemory = frameMemory,
+                                    .timeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
+                                    .running = std::counting_semaphore<>(options.maxEvaluations)},
+                    .choices = {}};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

@@ -6,7 +6,7 @@
 
 #include "protocol/report/capabilities.h"
 #include "protocol/spec/limits.h"
-#include "server/http/static_file.h"
+#include "server/http/reply.h"
 
 namespace gnomon {
 

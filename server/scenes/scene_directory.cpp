@@ -13,7 +13,7 @@
 
 #include "server/http/request_log.h"
 #include "server/http/socket_io.h"
-#include "server/scenes/bundle_format.h"
+#include "server/scenes/bundle.h"
 
 namespace gnomon {
 namespace {
@@ -27,8 +27,8 @@ constexpr std::string_view kTemporary = ".writing-";
 constexpr std::size_t kMaxSummaryBytes = 16 << 20;
 
 Problem diskProblem(const char* what) {
-  logEvent("store", std::string(what) + ": " + std::error_code(errno, std::generic_category()).message());
-  return {ProblemCode::unavailable, "", "The scene store's disk refused.", "", ""};
+  logEvent("store", std::string(what) + " " + std::error_code(errno, std::generic_category()).message() + ".");
+  return {ProblemCode::unavailable, "", "The scene store can't read or write its disk.", "", ""};
 }
 
 /// Calls `produce` with a function that appends to the file; false when the disk refuses.
@@ -90,8 +90,7 @@ Result<SceneDirectory> SceneDirectory::open(const std::string& path, std::size_t
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error) || ::access(path.c_str(), R_OK | W_OK | X_OK) != 0) {
-    return Problem{ProblemCode::unavailable, "/store", "The scene store is not a directory that can be written.", "",
-                   path};
+    return Problem{ProblemCode::unavailable, "/store", "The scene store is not a writable directory.", "", path};
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
     if (entry.path().filename().string().starts_with(kTemporary)) {
@@ -137,7 +136,7 @@ Status SceneDirectory::write(const std::string& id, const SceneBundle& bundle, c
                              }) &&
                        place(kBundle, [&](const Sink& sink) { writeBundle(bundle, sink); }) && syncDirectory(path_);
   if (!written) {
-    return diskProblem("a scene could not be written");
+    return diskProblem("A scene could not be written.");
   }
   return Done{};
 }
@@ -147,15 +146,16 @@ Result<SceneBundle> SceneDirectory::read(const std::string& id) const {
   auto bytes = readWhole(pathOf(id, kBundle), maxSceneBytes_ + kFraming);
   if (!bytes) {
     if (!contains(id)) {
-      return Problem{ProblemCode::notFound, "", "No scene with this id is stored.", "", id};
+      return Problem{ProblemCode::notFound, "id", "No scene with this id is stored.", "", id};
     }
-    return diskProblem("a scene could not be read");
+    return diskProblem("A scene could not be read.");
   }
   auto bundle = readBundle(*std::move(bytes));
   if (!bundle || bundleId(*bundle) != id) {
-    logEvent("store", "set aside, its bytes do not match its id: " + id);
+    logEvent("store", "The stored bytes of scene " + id + " do not match its id. They are set aside.");
     ::rename(pathOf(id, kBundle).c_str(), pathOf(id, kDamaged).c_str());
-    return Problem{ProblemCode::notFound, "", "The stored bytes of this scene were damaged; upload it again.", "", id};
+    return Problem{ProblemCode::notFound, "id", "The stored bytes of this scene were damaged. Upload it again.", "",
+                   id};
   }
   return bundle;
 }

@@ -23,8 +23,8 @@ class SceneDirectory {
   /// Writes the bundle and its summary through to the disk.
   Status write(const std::string& id, const SceneBundle& bundle, const std::string& summary) const;
 
-  /// The bundle, after its hash was held against its id. One that doesn't match is set aside as "<id>.damaged" and
-  /// reported as notFound: uploading the scene again mends it.
+  /// The bundle, once its hash is found equal to its id. One that differs is renamed to "<id>.damaged" and reported as
+  /// notFound; uploading the scene again repairs it.
   Result<SceneBundle> read(const std::string& id) const;
 
   /// The summary's text as it was written; nothing when it is missing.

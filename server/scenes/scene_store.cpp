@@ -1,40 +1,42 @@
 #include "server/scenes/scene_store.h"
 
 #include <malloc.h>
+#include <nlohmann/json.hpp>
 
+#include "server/http/ascii.h"
 #include "server/http/request_log.h"
-#include "server/scenes/bundle_format.h"
+#include "server/scenes/bundle.h"
 
 namespace gnomon {
 namespace {
 
 constexpr int kLoadsAtOnce = 2; ///< a load may need many times the memory of its file
 
-Problem unknownScene(const std::string& id) {
-  return {ProblemCode::notFound, "", "No scene with this id is stored.", "", id};
-}
-
 std::string summaryText(const SceneSummary& summary) {
   return toJson(summary).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Gives the place back when the load is over, however it ends, and to the system what the load took: the allocator
-/// keeps a heap for each thread, and what many loads leave free in all of them adds up.
-class LoadPlace {
+/// A permit to load, released however the load ends. Free memory then goes back to the system: the allocator keeps a
+/// heap for each thread, and what many loads leave free in all of them adds up.
+class LoadPermit {
  public:
-  explicit LoadPlace(std::counting_semaphore<>& places) : places_(places) { places_.acquire(); }
-  ~LoadPlace() {
+  explicit LoadPermit(std::counting_semaphore<>& permits) : permits_(permits) { permits_.acquire(); }
+  ~LoadPermit() {
     malloc_trim(0);
-    places_.release();
+    permits_.release();
   }
-  LoadPlace(const LoadPlace&) = delete;
-  LoadPlace& operator=(const LoadPlace&) = delete;
+  LoadPermit(const LoadPermit&) = delete;
+  LoadPermit& operator=(const LoadPermit&) = delete;
 
  private:
-  std::counting_semaphore<>& places_;
+  std::counting_semaphore<>& permits_;
 };
 
 } // namespace
+
+Problem unknownScene(std::string_view id) {
+  return {ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)};
+}
 
 SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory)
     : limits_(options.limits),
@@ -56,7 +58,7 @@ Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& op
 }
 
 Result<LoadedScene> SceneStore::load(const std::string& id, const SceneBundle& bundle) {
-  const LoadPlace place(loads_);
+  const LoadPermit permit(loads_);
   auto scene = loadScene(bundle, limits_);
   if (!scene) {
     return std::move(scene).problems();
@@ -65,7 +67,7 @@ Result<LoadedScene> SceneStore::load(const std::string& id, const SceneBundle& b
   loaded.summary.id = id;
   loaded.summary.bytes = bundleBytes(bundle);
   if (loaded.summary.memoryBytes > memoryBytes_) {
-    return Problem{ProblemCode::tooLarge, "", "The loaded scene would not fit the memory set aside for scenes.",
+    return Problem{ProblemCode::tooLarge, "", "The loaded scene is larger than the memory for scenes.",
                    std::to_string(memoryBytes_) + " bytes", std::to_string(loaded.summary.memoryBytes) + " bytes"};
   }
   return loaded;
@@ -74,7 +76,7 @@ Result<LoadedScene> SceneStore::load(const std::string& id, const SceneBundle& b
 Result<StoredScene> SceneStore::put(const SceneBundle& bundle, const std::optional<std::string>& expectedId) {
   const std::string id = bundleId(bundle);
   if (expectedId && *expectedId != id) {
-    return Problem{ProblemCode::hashMismatch, "", "The uploaded bytes have another SHA-256 than the address names.",
+    return Problem{ProblemCode::hashMismatch, "", "The SHA-256 of the uploaded bytes is not the one in the path.",
                    *expectedId, id};
   }
   bool isNew = false;
@@ -124,7 +126,7 @@ Result<LoadedScene> SceneStore::get(const std::string& id) {
     return unknownScene(id);
   }
   return loading_.run("get " + id, [&]() -> Result<LoadedScene> {
-    if (auto known = cache_.get(id)) { // another flight landed meanwhile
+    if (auto known = cache_.get(id)) { // loaded by another call meanwhile
       return *std::move(known);
     }
     auto bundle = directory_->read(id);
@@ -150,7 +152,7 @@ std::optional<Json> SceneStore::storedSummary(const std::string& id) const {
   }
   Json summary = Json::parse(*text, nullptr, false);
   if (!summary.is_object() || summary.value("id", Json()) != id) {
-    logEvent("store", "the summary beside this scene is damaged; the scene is loaded instead: " + id);
+    logEvent("store", "The stored summary of a scene is damaged, so the scene is loaded instead: " + id);
     return std::nullopt;
   }
   return summary;

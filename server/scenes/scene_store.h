@@ -10,15 +10,17 @@
 #include "protocol/json/json_codec.h"
 #include "server/scenes/scene_cache.h"
 #include "server/scenes/scene_directory.h"
-#include "server/scenes/single_flight.h"
 
 namespace gnomon {
 
 struct SceneStoreOptions {
-  std::string directory;                ///< empty = scenes live in memory only, and the least used are forgotten
+  std::string directory;                ///< empty = scenes are in memory only, and the least recently used are dropped
   std::size_t memoryBytes = 2ull << 30; ///< loaded scenes that are kept
   Limits limits;                        ///< what a scene may be
 };
+
+/// The notFound problem of a route that names a scene.
+Problem unknownScene(std::string_view id);
 
 /// A scene that was put into the store.
 struct StoredScene {
@@ -26,7 +28,7 @@ struct StoredScene {
   bool isNew = true;
 };
 
-/// Scenes by id. Loading happens on the calling thread, once however many ask, and only a few at a time. Any thread.
+/// Scenes by id. A scene is loaded on the calling thread, once for all callers, and only a few at a time. Any thread.
 class SceneStore {
  public:
   static Result<std::unique_ptr<SceneStore>> open(const SceneStoreOptions& options);
@@ -34,8 +36,7 @@ class SceneStore {
   /// Loads the bundle, and keeps it if it can be loaded. With `expectedId`, hashMismatch when its id is another.
   Result<StoredScene> put(const SceneBundle& bundle, const std::optional<std::string>& expectedId = std::nullopt);
 
-  /// The loaded bundle, kept in memory as long as the budget lets it, and never written to the directory. `id` is its
-  /// bundleId.
+  /// The loaded bundle, kept in memory as the budget allows, and never written to the directory. `id` is its bundleId.
   Result<LoadedScene> use(const std::string& id, const SceneBundle& bundle);
 
   /// The scene, loaded from the directory where it is not in memory.

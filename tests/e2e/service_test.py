@@ -54,9 +54,10 @@ class Service(ServerTest):
         scene = self.server.upload("box_on_plane")
         self.server.frame(scene, SMALL, X_Request_ID="the-frame")
         self.server.get('/a"b%0A?x=%22', X_Request_ID="the-odd-one")
-        lines = {line["id"]: line for line in self.server.log_lines() if line["event"] == "request"}
-        self.assertEqual(lines["the-frame"]["status"], 200)
-        self.assertIn("shade", lines["the-frame"]["stages"])
+        self.assertEqual(self.server.request_line("the-odd-one")["problem"][-1], ".")
+        line = self.server.request_line("the-frame")
+        self.assertEqual((line["event"], line["status"]), ("request", 200))
+        self.assertIn("shade", line["stages"])
 
     def test_the_page_and_everything_that_it_names(self):
         page = self.server.get("/")
@@ -97,7 +98,7 @@ class End(unittest.TestCase):
                 idle = server.connect()
                 self.assertEqual(server.ask("GET", "/livez", connection=idle).status, 200)
                 self.assertEqual(server.end(number), 0)
-                self.assertIn("all work was finished", server.log_text())
+                self.assertIn("All work was finished.", server.log_text())
                 idle.close()
 
     def test_what_runs_is_finished(self):
@@ -135,7 +136,7 @@ class End(unittest.TestCase):
 
     def test_a_taken_port_is_told(self):
         with Server() as server:
-            with self.assertRaisesRegex(AssertionError, "can't be listened on"):
+            with self.assertRaisesRegex(AssertionError, "can't listen on this address"):
                 Server(port=server.address[1])
 
 

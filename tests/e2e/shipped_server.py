@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -67,6 +68,16 @@ class Server:
 
     def log_lines(self):
         return [json.loads(line) for line in self.log_text().splitlines() if line.startswith("{")]
+
+    def request_line(self, request_id):
+        """The log's line of a request, which is written after its reply is sent."""
+        end = time.monotonic() + TIMEOUT
+        while time.monotonic() < end:
+            for line in self.log_lines():
+                if line.get("id") == request_id:
+                    return line
+            time.sleep(0.01)
+        raise AssertionError("the log has no line of this request:\n" + self.log_text())
 
     def resident_bytes(self):
         for line in Path(f"/proc/{self.process.pid}/status").read_text().splitlines():

@@ -2,8 +2,8 @@
 // back.
 #include <algorithm>
 
-#include "server/scenes/bundle_format.h"
-#include "server/scenes/multipart.h"
+#include "server/http/multipart.h"
+#include "server/scenes/bundle.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "server/http/overflow_lane.h"
-#include "server/http/problem_reply.h"
+#include "server/http/reply.h"
 
 namespace gnomon {
 namespace {
@@ -16,33 +16,35 @@ using namespace std::chrono_literals;
 
 /// Echoes method, path and body; "/throw" throws, "/stream" streams and then throws, "/none" takes no body, "/probe" is
 /// a probe.
-HttpService echoService() {
-  HttpService service;
-  service.admit = [](const HttpRequest& request) -> std::variant<BodyRule, HttpReply> {
-    if (request.path == std::vector<std::string>{"refused"}) {
-      return problemReply({{ProblemCode::notFound, "", "No.", "", ""}}, request.id);
-    }
-    return request.method == "POST" ? BodyRule{BodyRule::Framing::any, 100} : BodyRule{};
-  };
-  service.handle = [](HttpRequest request, const std::function<bool()>&) {
-    if (request.path == std::vector<std::string>{"throw"}) {
+HttpReply echo(const HttpRequest& request) {
+  if (request.path == std::vector<std::string>{"throw"}) {
+    throw std::runtime_error("secret");
+  }
+  HttpReply reply;
+  reply.contentType = "text/plain";
+  if (request.path == std::vector<std::string>{"stream"}) {
+    reply.stream = [](const BodySink& sink) {
+      for (int i = 0; i < 3 && sink("piece "); ++i) {
+      }
       throw std::runtime_error("secret");
-    }
-    HttpReply reply;
-    reply.contentType = "text/plain";
-    if (request.path == std::vector<std::string>{"stream"}) {
-      reply.stream = [](const BodySink& sink) {
-        for (int i = 0; i < 3 && sink("piece "); ++i) {
-        }
-        throw std::runtime_error("secret");
-      };
-      return reply;
-    }
-    reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(textOf(request.body));
+    };
     return reply;
+  }
+  reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(textOf(request.body));
+  return reply;
+}
+
+HttpService echoService() {
+  return [](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
+    if (head.path == std::vector<std::string>{"refused"}) {
+      return problemReply({{ProblemCode::notFound, "", "No.", "", ""}}, head.id);
+    }
+    RequestHandler handler;
+    handler.body = head.method == "POST" ? BodyRule{BodyRule::Framing::any, 100} : BodyRule{};
+    handler.isProbe = head.path == std::vector<std::string>{"probe"};
+    handler.answer = [](const HttpRequest& request, const std::function<bool()>&) { return echo(request); };
+    return handler;
   };
-  service.isProbe = [](const HttpRequest& request) { return request.path == std::vector<std::string>{"probe"}; };
-  return service;
 }
 
 class ConnectionTest : public ::testing::Test {
@@ -131,14 +133,18 @@ TEST_F(ConnectionTest, SendsAStreamPieceByPieceAndEndsWithIt) {
 
 TEST_F(ConnectionTest, AStreamLearnsThatItsClientIsGone) {
   std::atomic<bool> told = false;
-  context_.service.handle = [&](HttpRequest, const std::function<bool()>&) {
-    HttpReply reply;
-    reply.stream = [&](const BodySink& sink) {
-      while (sink(std::string(4096, 'x'))) {
-      }
-      told = !sink("more");
+  context_.service = [&](const HttpRequest&) {
+    RequestHandler handler;
+    handler.answer = [&](const HttpRequest&, const std::function<bool()>&) {
+      HttpReply reply;
+      reply.stream = [&](const BodySink& sink) {
+        while (sink(std::string(4096, 'x'))) {
+        }
+        told = !sink("more");
+      };
+      return reply;
     };
-    return reply;
+    return handler;
   };
   std::thread serving([this] { serveConnection(std::move(server_), context_); });
   EXPECT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Clock::now() + 5s));

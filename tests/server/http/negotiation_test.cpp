@@ -57,5 +57,15 @@ TEST(Negotiation, GivesUpWhereNothingFits) {
   }
 }
 
+TEST(Etag, MatchesListsWeaklyAndStars) {
+  EXPECT_TRUE(etagMatches("\"a\"", "\"a\""));
+  EXPECT_TRUE(etagMatches("\"x\", W/\"a\" ,\"y\"", "\"a\""));
+  EXPECT_TRUE(etagMatches("\"a\"", "W/\"a\""));
+  EXPECT_TRUE(etagMatches(" * ", "\"a\""));
+  EXPECT_FALSE(etagMatches("", "\"a\""));
+  EXPECT_FALSE(etagMatches("a", "\"a\""));
+  EXPECT_FALSE(etagMatches("\"b\", \"c\"", "\"a\""));
+}
+
 } // namespace
 } // namespace gnomon

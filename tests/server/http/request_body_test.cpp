@@ -5,11 +5,13 @@
 #include <sys/socket.h>
 #include <thread>
 
+#include "server/http/reply.h"
+
 namespace gnomon {
 namespace {
 
 using Framing = BodyRule::Framing;
-using Outcome = std::variant<Bytes, BodyRefusal>;
+using Outcome = Result<Bytes>;
 
 struct SocketPair {
   SocketPair() {
@@ -52,13 +54,11 @@ RequestHead lengthHead(std::uint64_t length) {
 }
 
 int statusOf(const Outcome& outcome) {
-  const auto* refusal = std::get_if<BodyRefusal>(&outcome);
-  return refusal ? refusal->status : 200;
+  return outcome ? 200 : statusOf(outcome.problems().front().code, RequestPart::body);
 }
 
 std::string bodyOf(const Outcome& outcome) {
-  const auto* bytes = std::get_if<Bytes>(&outcome);
-  return bytes ? std::string(bytes->begin(), bytes->end()) : "refused";
+  return outcome ? std::string(outcome->begin(), outcome->end()) : "refused";
 }
 
 TEST(RequestBody, ReadsALength) {
@@ -98,7 +98,7 @@ TEST(RequestBody, RefusesTheSlow) {
 TEST(RequestBody, RefusesByTheHeadAlone) {
   const auto status = [](const RequestHead& head, BodyRule rule) {
     const auto refusal = refuseBody(head, rule);
-    return refusal ? refusal->status : 200;
+    return refusal ? statusOf(refusal->code, RequestPart::body) : 200;
   };
   EXPECT_EQ(status(lengthHead(11), {Framing::any, 10}), 413);
   EXPECT_EQ(status(lengthHead(10), {Framing::any, 10}), 200);

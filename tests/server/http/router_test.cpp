@@ -60,10 +60,5 @@ TEST(Router, KnowsNothingElse) {
   EXPECT_EQ(patternOf("GET", {"v1", "scenes", "a", "b"}), "none");
 }
 
-TEST(Router, ReadsMediaTypes) {
-  EXPECT_EQ(mediaType("Model/GLTF+json ; charset=utf-8"), "model/gltf+json");
-  EXPECT_EQ(mediaType(""), "");
-}
-
 } // namespace
 } // namespace gnomon

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "server/scenes/bundle_format.h"
+#include "server/scenes/bundle.h"
 #include "tests/support/files.h"
 #include "tests/support/glb_builder.h"
 

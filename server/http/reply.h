@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/report/frame_report.h"
+
+namespace gnomon {
+
+/// Sends a piece of a body at once; false = the client is gone, and nothing more need be made.
+using BodySink = std::function<bool(std::string_view)>;
+
+/// One reply. Content-Length, Connection, X-Request-ID, Date and the safety headers are added when it is sent.
+struct HttpReply {
+  int status = 200;
+  std::string contentType; ///< empty = no body
+  std::string body;
+  /// Instead of `body`: makes it while it is sent, on the connection's thread. The end of the connection marks its end.
+  std::function<void(const BodySink&)> stream;
+  std::vector<std::pair<std::string, std::string>> headers;
+  bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent
+  std::vector<StageTime> stages; ///< for the log
+  std::string problem;           ///< for the log: the first problem's detail, as the client reads it
+  std::string note;              ///< for the log alone: an internal cause, which no client may read
+};
+
+/// Status line and headers, with the closing empty line. Safety headers are added unless the reply has its own:
+/// Content-Security-Policy default-src 'none' and X-Content-Type-Options nosniff.
+std::string replyHead(const HttpReply& reply, std::string_view requestId, bool keepAlive);
+
+/// One line of JSON. Names in a scene need not be UTF-8: bytes that are not are replaced.
+std::string jsonText(const Json& json);
+
+HttpReply jsonReply(const Json& json, int status = 200);
+
+/// The part of a request that was read when a problem was found. Two kinds of problem have another status before the
+/// request is complete.
+enum class RequestPart {
+  head, ///< tooLarge is 431, deadlineExceeded is 408
+  body, ///< deadlineExceeded is 408
+  whole ///< tooLarge is 413, deadlineExceeded is 504
+};
+
+/// The HTTP status of a kind of problem. No other place decides one.
+int statusOf(ProblemCode code, RequestPart read = RequestPart::whole);
+
+struct ProblemReplyOptions {
+  RequestPart read = RequestPart::whole;
+  int retryAfterSeconds = 1; ///< sent with status 429 only
+};
+
+/// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.
+HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options = {});
+
+/// One file of the web page.
+struct StaticFile {
+  std::string_view path;        ///< of the URL, beginning with '/'
+  std::string_view contentType; ///< the whole header value
+  std::string_view bytes;       ///< outlives the server
+};
+
+} // namespace gnomon

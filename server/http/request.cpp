@@ -1,0 +1,205 @@
+#include "server/http/request.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <random>
+
+#include "server/http/ascii.h"
+#include "server/http/url.h"
+
+namespace gnomon {
+namespace {
+
+Problem malformedHead(std::string detail) {
+  return {ProblemCode::malformed, "", std::move(detail), "", ""};
+}
+
+bool isToken(std::string_view text) {
+  constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
+  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           kMarks.find(c) != std::string_view::npos;
+  });
+}
+
+bool isFieldValue(std::string_view text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; });
+}
+
+Status readRequestLine(std::string_view line, RequestHead& head) {
+  const std::size_t first = line.find(' ');
+  const std::size_t last = line.rfind(' ');
+  if (first == std::string_view::npos || first == last) {
+    return malformedHead("The request line is not METHOD, target and version.");
+  }
+  const std::string_view method = line.substr(0, first);
+  std::string_view target = line.substr(first + 1, last - first - 1);
+  const std::string_view version = line.substr(last + 1);
+  if (!isToken(method) || method.size() > 16) {
+    return malformedHead("The method is not a token of at most 16 characters.");
+  }
+  if (version != "HTTP/1.1" && version != "HTTP/1.0") {
+    return malformedHead("Only HTTP/1.1 and HTTP/1.0 are spoken here.");
+  }
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (target.starts_with(scheme)) {
+      const std::size_t slash = target.find('/', scheme.size());
+      target = slash == std::string_view::npos ? "/" : target.substr(slash);
+      break;
+    }
+  }
+  if (target.empty() || target.front() != '/' ||
+      std::any_of(target.begin(), target.end(), [](char c) { return c <= 0x20 || c == 0x7f; })) {
+    return malformedHead("The request target must begin with '/' and hold visible ASCII only.");
+  }
+  head.method = method;
+  head.target = target;
+  head.keepAlive = version == "HTTP/1.1";
+  return Done{};
+}
+
+Status readHeader(std::string_view line, RequestHead& head) {
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos || !isToken(line.substr(0, colon))) {
+    return malformedHead("A header line is not a name, a colon and a value.");
+  }
+  const std::string_view value = trimmed(line.substr(colon + 1));
+  if (!isFieldValue(value)) {
+    return malformedHead("A header's value holds a control character.");
+  }
+  head.headers.emplace_back(lowerCase(line.substr(0, colon)), std::string(value));
+  return Done{};
+}
+
+std::size_t countOf(const Headers& headers, std::string_view name) {
+  return static_cast<std::size_t>(
+      std::count_if(headers.begin(), headers.end(), [&](const auto& header) { return header.first == name; }));
+}
+
+/// Where the body ends, by the two headers that may say so (RFC 9112 section 6).
+Status readFraming(RequestHead& head, bool http11) {
+  const auto encoding = headerValue(head.headers, "transfer-encoding");
+  const auto length = headerValue(head.headers, "content-length");
+  if (encoding && length) {
+    return malformedHead("A request must not have both Content-Length and Transfer-Encoding.");
+  }
+  if (encoding) {
+    if (!http11 || lowerCase(*encoding) != "chunked") {
+      return malformedHead("The only Transfer-Encoding taken is 'chunked', in HTTP/1.1.");
+    }
+    head.chunked = true;
+  }
+  if (length) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(length->data(), length->data() + length->size(), value);
+    if (countOf(head.headers, "content-length") != 1 || error != std::errc() ||
+        end != length->data() + length->size()) {
+      return malformedHead("Content-Length is not one decimal number.");
+    }
+    head.contentLength = value;
+  }
+  return Done{};
+}
+
+bool isWellFormedId(std::string_view id) {
+  constexpr std::string_view kMarks = "-._:";
+  return !id.empty() && id.size() <= 128 && std::all_of(id.begin(), id.end(), [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           kMarks.find(c) != std::string_view::npos;
+  });
+}
+
+/// Unique in this process and, by its random start, very likely between processes.
+std::string newRequestId() {
+  static const std::uint64_t start = (std::uint64_t{std::random_device{}()} << 32) | std::random_device{}();
+  static std::atomic<std::uint64_t> count{0};
+  const std::uint64_t value = start + ++count;
+  std::array<char, 8> bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<char>(value >> (56 - 8 * i));
+  }
+  return hexText({bytes.data(), bytes.size()});
+}
+
+} // namespace
+
+std::optional<std::string> headerValue(const Headers& headers, std::string_view name) {
+  std::optional<std::string> value;
+  for (const auto& [key, text] : headers) {
+    if (key == name) {
+      value = value ? *value + ", " + text : text;
+    }
+  }
+  return value;
+}
+
+std::string mediaType(std::string_view contentType) {
+  return lowerCase(trimmed(contentType.substr(0, contentType.find(';'))));
+}
+
+std::optional<std::size_t> headLength(std::string_view bytes) {
+  const std::size_t end = bytes.find("\r\n\r\n");
+  if (end == std::string_view::npos) {
+    return std::nullopt;
+  }
+  return end + 4;
+}
+
+Result<RequestHead> parseRequestHead(std::string_view bytes) {
+  RequestHead head;
+  bool first = true;
+  while (true) {
+    const std::size_t end = bytes.find("\r\n");
+    if (end == std::string_view::npos) {
+      return malformedHead("The head does not end with an empty line.");
+    }
+    const std::string_view line = bytes.substr(0, end);
+    bytes.remove_prefix(end + 2);
+    if (line.empty() && !first) {
+      break;
+    }
+    if (!first && head.headers.size() == kMaxHeaders) {
+      return Problem{ProblemCode::tooLarge, "", "The request has too many headers.", std::to_string(kMaxHeaders), ""};
+    }
+    if (auto read = first ? readRequestLine(line, head) : readHeader(line, head); !read) {
+      return std::move(read).problems();
+    }
+    first = false;
+  }
+  const bool http11 = head.keepAlive;
+  if (auto framing = readFraming(head, http11); !framing) {
+    return std::move(framing).problems();
+  }
+  if (countOf(head.headers, "host") != 1 && (http11 || countOf(head.headers, "host") > 1)) {
+    return malformedHead("The request needs exactly one Host header.");
+  }
+  for (const std::string& option : split(lowerCase(headerValue(head.headers, "connection").value_or("")), ',')) {
+    head.keepAlive = option == "close" ? false : option == "keep-alive" ? true : head.keepAlive;
+  }
+  head.expectsContinue = lowerCase(headerValue(head.headers, "expect").value_or("")) == "100-continue";
+  return head;
+}
+
+Result<HttpRequest> requestFromHead(const RequestHead& head) {
+  auto url = parseTarget(head.target);
+  if (!url) {
+    return std::move(url).problems();
+  }
+  HttpRequest request;
+  request.id = requestId(headerValue(head.headers, "x-request-id"));
+  request.method = head.method;
+  request.path = std::move(url->path);
+  request.query = std::move(url->query);
+  request.headers = head.headers;
+  request.hasBody = head.hasBody();
+  return request;
+}
+
+std::string requestId(const std::optional<std::string>& offered) {
+  return offered && isWellFormedId(*offered) ? *offered : newRequestId();
+}
+
+} // namespace gnomon

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "renderer/image/image.h"
+
+namespace gnomon {
+
+inline constexpr std::size_t kMaxHeadBytes = 32 * 1024; ///< request line and headers, with the closing empty line
+inline constexpr std::size_t kMaxHeaders = 100;
+
+/// Headers in the order of the request; names are lower case.
+using Headers = std::vector<std::pair<std::string, std::string>>;
+
+/// The values of header `name` (lower case), joined by ", " where it is repeated.
+std::optional<std::string> headerValue(const Headers& headers, std::string_view name);
+
+/// The media type of a Content-Type, lower case, without its parameters.
+std::string mediaType(std::string_view contentType);
+
+/// The part of a request before its body (RFC 9112).
+struct RequestHead {
+  std::string method;
+  std::string target; ///< origin form; an absolute form is cut to it
+  Headers headers;
+  std::optional<std::uint64_t> contentLength; ///< absent = no body, or a chunked one
+  bool chunked = false;
+  bool keepAlive = true;
+  bool expectsContinue = false;
+
+  bool hasBody() const { return chunked || contentLength.value_or(0) > 0; }
+};
+
+/// The length of the head at the front of `bytes`, its empty line included; nothing while it is incomplete.
+std::optional<std::size_t> headLength(std::string_view bytes);
+
+/// Parses a head that ends with its empty line. Strict where servers in a chain could disagree about the end of a body:
+/// line ends are CR LF; folded lines, repeated lengths, and a length together with chunks are malformed.
+Result<RequestHead> parseRequestHead(std::string_view bytes);
+
+/// One request, every byte of it bounded and its syntax checked.
+struct HttpRequest {
+  std::string id;                ///< X-Request-ID: the client's where it is well formed, else a new one
+  std::string method;            ///< upper case
+  std::vector<std::string> path; ///< percent-decoded segments; "/" has none
+  std::vector<std::pair<std::string, std::string>> query; ///< percent-decoded, in order
+  Headers headers;
+  bool hasBody = false; ///< the head announces a body
+  Bytes body;
+};
+
+/// The request that a head describes, without its body.
+Result<HttpRequest> requestFromHead(const RequestHead& head);
+
+/// The client's id where it is 1..128 letters, digits or -._: (nothing that could forge a log line); else a new one.
+std::string requestId(const std::optional<std::string>& offered);
+
+inline std::string_view textOf(const Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+} // namespace gnomon

@@ -1,0 +1,212 @@
+#include "server/scenes/bundle.h"
+
+#include <algorithm>
+#include <array>
+
+#include "server/http/ascii.h"
+#include "server/scenes/sha256.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::string_view kMagic = "gnomon bundle 1\n";
+constexpr std::size_t kNameLength = 4;
+constexpr std::size_t kContentLength = 8;
+
+std::span<const std::uint8_t> bytesOf(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+template <std::size_t N>
+std::array<std::uint8_t, N> littleEndian(std::uint64_t value) {
+  std::array<std::uint8_t, N> bytes;
+  for (std::size_t i = 0; i < N; ++i) {
+    bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
+  }
+  return bytes;
+}
+
+std::uint64_t numberOf(std::span<const std::uint8_t> littleEndianBytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = littleEndianBytes.size(); i-- > 0;) {
+    value = value << 8 | littleEndianBytes[i];
+  }
+  return value;
+}
+
+Problem brokenBundle() {
+  return {ProblemCode::malformed, "", "The stored bundle is damaged.", "", ""};
+}
+
+} // namespace
+
+void writeBundle(const SceneBundle& bundle, const std::function<void(std::span<const std::uint8_t>)>& sink) {
+  if (bundle.files.empty()) {
+    sink(bundle.model);
+    return;
+  }
+  const auto entry = [&](std::string_view name, const Bytes& content) {
+    sink(littleEndian<kNameLength>(name.size()));
+    sink(littleEndian<kContentLength>(content.size()));
+    sink(bytesOf(name));
+    sink(content);
+  };
+  sink(bytesOf(kMagic));
+  entry("", bundle.model);
+  for (const auto& [name, content] : bundle.files) {
+    entry(name, content);
+  }
+}
+
+Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits) {
+  SceneBundle bundle;
+  std::span<const std::uint8_t> rest(bytes);
+  if (rest.size() < kMagic.size() || !std::equal(kMagic.begin(), kMagic.end(), rest.begin())) {
+    bundle.model = std::move(bytes);
+    return bundle;
+  }
+  rest = rest.subspan(kMagic.size());
+  for (std::size_t entries = 0; !rest.empty(); ++entries) {
+    if (rest.size() < kNameLength + kContentLength || entries > limits.maxBundleFiles) {
+      return brokenBundle();
+    }
+    const std::uint64_t nameLength = numberOf(rest.first(kNameLength));
+    const std::uint64_t contentLength = numberOf(rest.subspan(kNameLength, kContentLength));
+    rest = rest.subspan(kNameLength + kContentLength);
+    if (nameLength > rest.size() || contentLength > rest.size() - nameLength) {
+      return brokenBundle();
+    }
+    const std::string name(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(nameLength));
+    const auto content = rest.subspan(nameLength, contentLength);
+    rest = rest.subspan(nameLength + contentLength);
+    if (entries == 0) {
+      if (!name.empty()) {
+        return brokenBundle();
+      }
+      bundle.model.assign(content.begin(), content.end());
+      continue;
+    }
+    const bool ascends = bundle.files.empty() || bundle.files.rbegin()->first < name;
+    if (!ascends || !isBundleFileName(name)) {
+      return brokenBundle();
+    }
+    bundle.files.emplace(name, Bytes(content.begin(), content.end()));
+  }
+  if (bundle.files.empty()) { // a model alone is its own bytes
+    return brokenBundle();
+  }
+  return bundle;
+}
+
+std::string bundleId(const SceneBundle& bundle) {
+  Sha256 hash;
+  writeBundle(bundle, [&](std::span<const std::uint8_t> piece) { hash.add(piece); });
+  return hash.hex();
+}
+
+std::uint64_t bundleBytes(const SceneBundle& bundle) {
+  std::uint64_t count = 0;
+  writeBundle(bundle, [&](std::span<const std::uint8_t> piece) { count += piece.size(); });
+  return count;
+}
+
+bool isSceneId(std::string_view text) {
+  return text.size() == 64 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+bool isBundleFileName(std::string_view name) {
+  if (name.empty() || name.size() > 255 || name.find_first_of("\\:") != std::string_view::npos ||
+      std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) {
+    return false;
+  }
+  const std::vector<std::string> segments = split(name, '/');
+  return std::none_of(segments.begin(), segments.end(),
+                      [](const std::string& segment) { return segment.empty() || segment == "." || segment == ".."; });
+}
+
+Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& limits) {
+  const auto boundary = boundaryOf(headerValue(request.headers, "content-type").value_or(""));
+  if (!boundary) {
+    return Problem{ProblemCode::malformed, "", "The Content-Type of the form names no boundary.", "", ""};
+  }
+  constexpr std::size_t kModelAndSpec = 2;
+  return parseMultipart(textOf(request.body), *boundary, limits.maxBundleFiles + kModelAndSpec);
+}
+
+Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others) {
+  SceneBundle bundle;
+  Problems problems;
+  bool hasModel = false;
+  for (const FormPart& part : parts) {
+    if (std::find(others.begin(), others.end(), part.name) != others.end()) {
+      continue;
+    }
+    const auto content = [&] { return Bytes(part.content.begin(), part.content.end()); };
+    if (part.name == "scene") {
+      if (hasModel) {
+        problems.push_back({ProblemCode::invalidValue, "scene", "The form has two parts of this name.", "", ""});
+      }
+      bundle.model = content();
+      hasModel = true;
+      continue;
+    }
+    const bool byFileName = part.name == "file" || part.name == "files";
+    const std::string name = byFileName ? part.fileName.value_or("") : part.name;
+    if (!isBundleFileName(name)) {
+      problems.push_back(
+          {ProblemCode::invalidValue, asciiExcerpt(part.name),
+           "A file's name must be a relative path of at most 255 bytes, without '.', '..', ':' and '\\'.", "",
+           asciiExcerpt(name)});
+    } else if (!bundle.files.emplace(name, content()).second) {
+      problems.push_back(
+          {ProblemCode::invalidValue, asciiExcerpt(part.name), "Two files have this name.", "", asciiExcerpt(name)});
+    }
+  }
+  if (!hasModel) {
+    problems.push_back(
+        {ProblemCode::invalidValue, "scene", "The form has no part of this name; it holds the model.", "", ""});
+  }
+  if (!problems.empty()) {
+    return problems;
+  }
+  return bundle;
+}
+
+Status checkBundleSize(const SceneBundle& bundle, const Limits& limits) {
+  std::size_t bytes = bundle.model.size();
+  for (const auto& [name, content] : bundle.files) {
+    bytes += content.size();
+  }
+  if (bytes > limits.maxSceneBytes) {
+    return Problem{ProblemCode::tooLarge, "", "The model and its files together are too large.",
+                   std::to_string(limits.maxSceneBytes) + " bytes", std::to_string(bytes) + " bytes"};
+  }
+  return Done{};
+}
+
+Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits) {
+  SceneBundle bundle;
+  if (mediaType(headerValue(request.headers, "content-type").value_or("")) == "multipart/form-data") {
+    const auto parts = partsOf(request, limits);
+    if (!parts) {
+      return parts.problems();
+    }
+    auto made = bundleFromParts(*parts, {});
+    if (!made) {
+      return made;
+    }
+    bundle = *std::move(made);
+    request.body = Bytes();
+  } else {
+    bundle.model = std::move(request.body);
+  }
+  if (bundle.model.empty()) {
+    return Problem{ProblemCode::malformed, "", "The model is empty.", "", ""};
+  }
+  if (auto fits = checkBundleSize(bundle, limits); !fits) {
+    return std::move(fits).problems();
+  }
+  return bundle;
+}
+} // namespace gnomon

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
+#include "renderer/scene/scene_bundle.h"
+#include "server/http/multipart.h"
+#include "server/http/request.h"
+
+namespace gnomon {
+
+/// A bundle as one run of bytes, the same for equal bundles: the store keeps these bytes, and the id is their hash.
+///
+/// A model alone is its own bytes. A model with files is
+///   "gnomon bundle 1\n"
+///   per entry, the model first under an empty name, then the files in ascending order of their names' bytes:
+///     name length (4 bytes) · content length (8 bytes) · name · content
+/// with lengths little-endian. No glTF or GLB begins with that first line, so the two forms can't be confused.
+void writeBundle(const SceneBundle& bundle, const std::function<void(std::span<const std::uint8_t>)>& sink);
+
+/// The bundle that writeBundle wrote.
+Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits = kLimits);
+
+/// SHA-256 of those bytes: 64 lower-case hexadecimal digits.
+std::string bundleId(const SceneBundle& bundle);
+
+/// The number of those bytes.
+std::uint64_t bundleBytes(const SceneBundle& bundle);
+
+/// True for 64 lower-case hexadecimal digits.
+bool isSceneId(std::string_view text);
+
+/// Whether a file of a bundle may have this name: relative, no empty, "." or ".." segment, no backslash, no scheme, no
+/// control characters, 1..255 bytes. No part of it ever reaches the file system; other names are refused as misleading.
+bool isBundleFileName(std::string_view name);
+
+/// The parts of a form with a model and at most one other part that is no file. They look into the request's body.
+Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& limits);
+
+/// The bundle in a form: the part `scene` is the model; a part `file` (or `files`) is a file under its file name, any
+/// other part a file under its own name. Parts named in `others` are left to the caller.
+Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others);
+
+/// The bundle in an upload's body: a model by itself, or a form. Takes the body.
+Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits);
+
+/// tooLarge where the model and its files together exceed limits.maxSceneBytes.
+Status checkBundleSize(const SceneBundle& bundle, const Limits& limits);
+
+} // namespace gnomon
