@@ -100,5 +100,36 @@ TEST(Quality, TrialsChangeTheirOwnSettingsAlone) {
   EXPECT_FALSE(evaluation.spec.quality);
 }
 
+TEST(Quality, ProblemsOfTheMeasurementPointIntoTheSpec) {
+  FrameSpec spec;
+  spec.quality = Quality{.maxError = 0.01};
+  const auto refused = chooseQuality(spec, [](const Evaluation&) -> Result<EvaluationReport> {
+    return Problems{{ProblemCode::tooLarge, "/spec/width", "", "", ""}, {ProblemCode::busy, "", "", "", ""}};
+  });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].pointer, "/width");
+  EXPECT_EQ(refused.problems()[1].pointer, "");
+}
+
+TEST(Quality, TheChosenTrialIsTheFrames) {
+  FrameSpec spec;
+  spec.quality = Quality{.maxError = 0.01};
+  const auto report = chooseQuality(spec, [](const Evaluation& evaluation) -> Result<EvaluationReport> {
+    EvaluationReport measured;
+    for (std::size_t i = 0; i < evaluation.variants.size(); ++i) {
+      EvaluationRow row;
+      row.milliseconds = 10;
+      row.metrics = ErrorMetrics{};
+      row.metrics->misclassified = i == 2 ? 0.0 : 0.5;
+      measured.rows.push_back(row);
+    }
+    return measured;
+  });
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->chosen, 2u);
+  EXPECT_TRUE(report->met);
+  EXPECT_EQ(withChoice(spec, *report), withTrial(spec, report->tried[2]));
+}
+
 } // namespace
 } // namespace gnomon
