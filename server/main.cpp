@@ -23,8 +23,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a problem (told on standard error), 2 the command line is wrong.\n"
-      "gnomon COMMAND --help says what a command takes.");
+      "Exit codes: 0 success, 1 a problem (described on standard error), 2 a wrong command line.\n"
+      "gnomon COMMAND --help lists the options of a command.");
   const std::array commands{addServeCommand(app),         cli::addRenderCommand(app),  cli::addPlanCommand(app),
                             cli::addEvaluateCommand(app), cli::addInspectCommand(app), cli::addHealthCommand(app)};
   try {

@@ -89,7 +89,7 @@ Result<HttpReply> frameReply(Frame frame, FrameForm form, std::string_view bound
     return pictures.problems();
   }
   if (pictures->empty()) {
-    return Problem{ProblemCode::internal, "", "The frame holds no picture.", "", ""};
+    return Problem{ProblemCode::internal, "", "The frame has no picture.", "", ""};
   }
   frame.report.stages.push_back({"encode", millisecondsSince(start)});
 

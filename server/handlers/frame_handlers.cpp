@@ -21,12 +21,12 @@ struct FrameCall {
   std::string cacheControl;
 };
 
-/// Stages in the order of a request, the renderer's own between ours.
+/// Puts the server's stages before the renderer's.
 void addStages(FrameReport& report, double queueMs, double loadMs) {
   report.stages.insert(report.stages.begin(), {StageTime{"queue", queueMs}, StageTime{"load", loadMs}});
 }
 
-/// The report on the settings that meet the spec's target, which the spec then has; nothing where it has no target.
+/// Gives `spec` the settings that meet its target, and returns how they were chosen; nothing where it has no target.
 Result<std::optional<QualityReport>> meetTarget(Services& services, const RouteCall& call, const LoadedScene& scene,
                                                 FrameSpec& spec) {
   if (!spec.quality) {
@@ -130,8 +130,8 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
                 {id, *std::move(spec), [&services, id] { return services.store.get(id); }, std::move(cacheControl)});
 }
 
-constexpr const char* kShared =
-    "public, max-age=86400"; ///< the URL says everything but the renderer, which the tag names
+/// Everything that the picture depends on is in the URL, but the renderer, and that is in the entity tag.
+constexpr const char* kShared = "public, max-age=86400";
 constexpr const char* kPrivate = "private, no-cache";
 
 /// A permit to make a plan, of which there are only a few at a time; returned at its end.

@@ -33,11 +33,12 @@ class ConnectionQueue : public httplib::TaskQueue {
   WorkerPool& pool_;
 };
 
-/// All that the server uses of cpp-httplib 0.11, which no other file of it includes: bind_to_port, bind_to_any_port,
-/// set_socket_options, listen_after_bind (the loop of accept calls) and TaskQueue, which takes each connection; of the
-/// class's inside the listening socket svr_sock_, and process_and_close_socket, which is replaced whole. The library's
-/// own parser buffers header lines and chunked bodies without a bound, matches routes and ranges with recursive regular
-/// expressions, and waits for slow clients for ever.
+/// Everything that the server uses of cpp-httplib 0.11:
+/// - bind_to_port, bind_to_any_port, set_socket_options, and the listening socket svr_sock_;
+/// - listen_after_bind, the loop that accepts connections, and TaskQueue, which receives each of them;
+/// - process_and_close_socket, overridden, so that connection.h serves it instead of the library's parser. That one
+///   buffers header lines and chunked bodies without a bound, matches routes and ranges with recursive regular
+///   expressions, and waits for slow clients for ever.
 class Listener : public httplib::Server {
  public:
   Listener(ConnectionContext& context, std::size_t threads) : context_(context), overflow_(context), pool_(threads) {
@@ -108,7 +109,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& 
                                        : impl->listener.bind_to_port(options.bind, options.port);
   if (!bound || !impl->listener.deepenBacklog()) {
     return Problem{ProblemCode::unavailable, "",
-                   "The server can't listen on this address: it is in use, or not of this machine.", "",
+                   "The server can't listen on this address. It is in use, or does not belong to this machine.", "",
                    options.bind + ":" + std::to_string(options.port)};
   }
   impl->port = impl->listener.boundPort();

@@ -48,7 +48,7 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// False, and the task is left alone, when every thread is taken. Tasks must not throw.
+  /// False, and the task does not run, where every thread is busy. Tasks must not throw.
   bool tryRun(const std::function<void()>& task);
 
   /// Runs what was accepted and joins the threads. Once.

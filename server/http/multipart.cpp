@@ -92,7 +92,7 @@ Status readDisposition(std::string_view value, FormPart& part) {
     }
   }
   if (!trimmed(rest).empty() || !named || part.name.empty()) {
-    return malformedForm("A part's Content-Disposition has no name or is broken.");
+    return malformedForm("A part's Content-Disposition has no name or is malformed.");
   }
   return Done{};
 }
@@ -163,7 +163,7 @@ Result<std::vector<FormPart>> parseMultipart(std::string_view body, std::string_
   std::vector<FormPart> parts;
   while (!rest.starts_with("--")) {
     if (!rest.starts_with("\r\n")) {
-      return malformedForm("A boundary line holds more than the boundary.");
+      return malformedForm("A boundary line contains more than the boundary.");
     }
     rest.remove_prefix(2);
     if (parts.size() == maxParts) {

@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// One part of a multipart/form-data body. `content` looks into the body.
+/// One part of a multipart/form-data body. `content` is a view of the body.
 struct FormPart {
   std::string name;
   std::optional<std::string> fileName;

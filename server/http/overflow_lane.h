@@ -9,8 +9,9 @@
 
 namespace gnomon {
 
-/// Where connections go when every worker is taken. One thread watches them all, so that a silent client delays nobody:
-/// probes are answered, every other request gets 503 with Retry-After, and each connection ends after one reply.
+/// Serves the connections for which no worker thread is free. One thread watches them all, so that a silent client
+/// delays nobody: probes are answered, every other request gets 503 with Retry-After, and each connection ends after
+/// one reply.
 class OverflowLane {
  public:
   explicit OverflowLane(ConnectionContext& context);

@@ -33,7 +33,7 @@ Status readRequestLine(std::string_view line, RequestHead& head) {
   const std::size_t first = line.find(' ');
   const std::size_t last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) {
-    return malformedHead("The request line is not METHOD, target and version.");
+    return malformedHead("The request line is not a method, a target and a version.");
   }
   const std::string_view method = line.substr(0, first);
   std::string_view target = line.substr(first + 1, last - first - 1);
@@ -42,7 +42,7 @@ Status readRequestLine(std::string_view line, RequestHead& head) {
     return malformedHead("The method is not a token of at most 16 characters.");
   }
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
-    return malformedHead("Only HTTP/1.1 and HTTP/1.0 are spoken here.");
+    return malformedHead("The version is neither HTTP/1.1 nor HTTP/1.0.");
   }
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (target.starts_with(scheme)) {
@@ -53,7 +53,7 @@ Status readRequestLine(std::string_view line, RequestHead& head) {
   }
   if (target.empty() || target.front() != '/' ||
       std::any_of(target.begin(), target.end(), [](char c) { return c <= 0x20 || c == 0x7f; })) {
-    return malformedHead("The request target must begin with '/' and hold visible ASCII only.");
+    return malformedHead("The request target must begin with '/' and contain only visible ASCII characters.");
   }
   head.method = method;
   head.target = target;
@@ -68,7 +68,7 @@ Status readHeader(std::string_view line, RequestHead& head) {
   }
   const std::string_view value = trimmed(line.substr(colon + 1));
   if (!isFieldValue(value)) {
-    return malformedHead("A header's value holds a control character.");
+    return malformedHead("A header's value contains a control character.");
   }
   head.headers.emplace_back(lowerCase(line.substr(0, colon)), std::string(value));
   return Done{};
@@ -88,7 +88,7 @@ Status readFraming(RequestHead& head, bool http11) {
   }
   if (encoding) {
     if (!http11 || lowerCase(*encoding) != "chunked") {
-      return malformedHead("The only Transfer-Encoding taken is 'chunked', in HTTP/1.1.");
+      return malformedHead("The only Transfer-Encoding accepted is 'chunked', with HTTP/1.1.");
     }
     head.chunked = true;
   }
@@ -154,7 +154,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
   while (true) {
     const std::size_t end = bytes.find("\r\n");
     if (end == std::string_view::npos) {
-      return malformedHead("The head does not end with an empty line.");
+      return malformedHead("The headers do not end with an empty line.");
     }
     const std::string_view line = bytes.substr(0, end);
     bytes.remove_prefix(end + 2);
@@ -174,7 +174,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
     return std::move(framing).problems();
   }
   if (countOf(head.headers, "host") != 1 && (http11 || countOf(head.headers, "host") > 1)) {
-    return malformedHead("The request needs exactly one Host header.");
+    return malformedHead("The request must have exactly one Host header.");
   }
   for (const std::string& option : split(lowerCase(headerValue(head.headers, "connection").value_or("")), ',')) {
     head.keepAlive = option == "close" ? false : option == "keep-alive" ? true : head.keepAlive;

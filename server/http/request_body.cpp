@@ -83,7 +83,7 @@ class BodyReader {
         return false;
       }
       if (!text.empty()) {
-        refused = brokenChunks("A chunk is longer than its size says.");
+        refused = brokenChunks("A chunk is longer than its size.");
         return false;
       }
     }

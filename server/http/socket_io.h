@@ -26,7 +26,7 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-/// A switch that many threads can wait on beside their sockets: its descriptor is readable once it is thrown.
+/// A signal that many threads can wait for together with their sockets: its descriptor is readable once it is raised.
 class StopSignal {
  public:
   StopSignal();
@@ -40,10 +40,10 @@ class StopSignal {
 
 enum class SocketWait { ready, closed, timedOut, stopped };
 
-/// One client's bytes as they arrive. Never waits longer than it is told, and never holds more than it is asked for.
+/// One client's bytes as they arrive. Waits no longer than a deadline, and buffers no more than it is asked for.
 class SocketReader {
  public:
-  /// `fd` stays the caller's; `stopFd` (or -1) ends waits that ask for it.
+  /// `fd` still belongs to the caller; `stopFd` (or -1) ends waits with `endOnStop`.
   SocketReader(int fd, int stopFd) : fd_(fd), stopFd_(stopFd) {}
 
   /// Waits until something is buffered.
@@ -62,10 +62,10 @@ class SocketReader {
   std::size_t begin_ = 0; ///< bytes before it are consumed
 };
 
-/// Sends everything, or says that the client was gone or too slow.
+/// Sends everything. False: the client was gone or too slow.
 bool sendAll(int fd, std::string_view bytes, Clock::time_point deadline);
 
-/// Ends our side and reads what the client still sends, so that the last reply is not lost to a reset.
+/// Closes the sending side and reads what the client still sends, so that a reset does not destroy the last reply.
 void lingerAndClose(FileDescriptor socket, Clock::time_point deadline);
 
 /// True when the peer has closed or reset the connection.

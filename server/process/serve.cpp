@@ -62,7 +62,7 @@ ShutdownSignals::Event ShutdownSignals::wait(const StopSignal& done, Clock::time
   }
 }
 
-/// One sentence a problem, for the person at the terminal.
+/// Prints one line for each problem.
 int failed(const Problems& problems) {
   for (const Problem& problem : problems) {
     const std::string actual = problem.actual.empty() ? "" : " (" + problem.actual + ")";
@@ -71,7 +71,7 @@ int failed(const Problems& problems) {
   return 1;
 }
 
-/// Every connection is a descriptor: as many as the system lets us have.
+/// Every connection needs a descriptor: asks for as many as the system allows.
 void raiseDescriptorLimit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) == 0) {
@@ -80,9 +80,9 @@ void raiseDescriptorLimit() {
   }
 }
 
-/// Large blocks come from the system and go back to it at once, and no thread's heap keeps much free at its end. Left
-/// to itself the allocator raises both bounds with what it meets (mallopt(3)), and a server never gives back what it
-/// took.
+/// Large blocks come from the system and go back to it at once, and no thread's heap keeps much free memory at its end.
+/// By default the allocator raises both bounds as it sees larger blocks (mallopt(3)), and a server never returns
+/// memory.
 void boundHeaps() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20); // bytes
   mallopt(M_TRIM_THRESHOLD, 1 << 20);
@@ -98,7 +98,7 @@ std::string addressOf(const std::string& bind, int port) {
   ::_exit(1); // no destructors: threads may be stuck, and nothing on disk is half-written
 }
 
-/// Runs the listener until a signal comes, then lets what is under way finish. 0, or 1 when accepting failed.
+/// Runs the listener until a signal arrives, then finishes the requests in progress. 0, or 1 where accepting failed.
 int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, HttpServer& server, Services& services) {
   StopSignal listenerEnded;
   bool inOrder = false;

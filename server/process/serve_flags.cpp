@@ -9,23 +9,25 @@ namespace {
 
 constexpr int kDay = 86'400; // seconds
 
-// A choice more needs a flag more, below. The page is no choice; `backend` has two flags.
+// Every option but `page` needs a flag below; `backend` has two.
 static_assert(memberCount<ServeOptions>() == 19);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
-  serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 is every IPv4 address, :: is every address")
+  serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
       ->envname("GNOMON_BIND")
       ->type_name("ADDRESS")
-      ->group("Where");
+      ->group("Address and storage");
   // Not GNOMON_PORT: Kubernetes sets that one to an address when a service is called gnomon.
-  serve.add_option("--port", options.port, "Port to listen on; 0 is any free one, which is printed")
+  serve.add_option("--port", options.port, "Port to listen on; 0 = any free one, which is printed")
       ->envname("GNOMON_LISTEN_PORT")
       ->check(CLI::Range(0, 65535))
-      ->group("Where");
-  serve.add_option("--store", options.storeDirectory, "Directory that keeps scenes over a restart; without it, memory")
+      ->group("Address and storage");
+  serve
+      .add_option("--store", options.storeDirectory,
+                  "Directory that keeps scenes over a restart; without it they are kept in memory")
       ->envname("GNOMON_STORE")
       ->type_name("DIR")
-      ->group("Where");
+      ->group("Address and storage");
 }
 
 void addWhatDraws(CLI::App& serve, ServeOptions& options) {
@@ -37,15 +39,15 @@ void addWhatDraws(CLI::App& serve, ServeOptions& options) {
                                       : name == "osmesa" ? Backend::osmesa
                                                          : Backend::automatic;
           },
-          "Graphics context; auto is EGL, then OSMesa")
+          "Graphics context; auto = EGL, or else OSMesa")
       ->envname("GNOMON_BACKEND")
       ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
       ->type_name("")
       ->default_str("auto")
-      ->group("What draws");
-  serve.add_flag("--require-gpu", options.backend.requireGpu, "Refuse to start where only software could draw")
+      ->group("Renderer");
+  serve.add_flag("--require-gpu", options.backend.requireGpu, "Refuse to start without a GPU")
       ->envname("GNOMON_REQUIRE_GPU")
-      ->group("What draws");
+      ->group("Renderer");
 }
 
 /// Bytes, with a unit if that is handier: 512MB, 2GB (powers of 1024).
@@ -54,38 +56,39 @@ void addBytes(CLI::App& serve, const char* flag, const char* variable, std::size
       ->envname(variable)
       ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("BYTES")
-      ->group("How much");
+      ->group("Limits");
 }
 
 void addHowMuch(CLI::App& serve, ServeOptions& options) {
   addBytes(serve, "--gpu-scene-bytes", "GNOMON_GPU_SCENE_BYTES", options.gpuSceneBytes,
-           "Uploaded scenes that the renderer keeps; units are taken: 512MB, 2GB");
+           "Scenes kept on the graphics device; with a unit if wanted, as 512MB or 2GB");
   addBytes(serve, "--tile-cache-bytes", "GNOMON_TILE_CACHE_BYTES", options.tileCacheBytes,
-           "Shadow atlases kept for later frames; 0 = every tile is drawn anew");
+           "Shadow atlases kept for later frames; 0 = every tile is drawn for each frame");
   addBytes(serve, "--traced-scene-bytes", "GNOMON_TRACED_SCENE_BYTES", options.tracedSceneBytes,
-           "Scenes kept sorted for rays, the least used dropped first");
+           "Ray-tracing structures of scenes, the least recently used dropped first");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
-           "Loaded scenes kept in memory, the least used dropped first");
-  addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes, "The largest upload");
+           "Loaded scenes kept in memory, the least recently used dropped first");
+  addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes,
+           "The largest scene that may be uploaded");
   addBytes(serve, "--upload-memory-bytes", "GNOMON_UPLOAD_MEMORY_BYTES", options.uploadMemoryBytes,
-           "Bodies of all requests that are under way together");
+           "Bodies of all requests in progress together; 429 beyond it");
   addBytes(serve, "--frame-memory-bytes", "GNOMON_FRAME_MEMORY_BYTES", options.frameMemoryBytes,
-           "Pictures that are drawn or encoded at once (429), or in one frame (413)");
-  serve.add_option("--queue-limit", options.queueLimit, "Frames that may wait; one more is told to come again (429)")
+           "Pictures of all frames in progress together (429 beyond it), and of one frame (413)");
+  serve.add_option("--queue-limit", options.queueLimit, "Frames that may wait; 429 beyond it")
       ->envname("GNOMON_QUEUE_LIMIT")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
-      ->group("How much");
+      ->group("Limits");
   serve
-      .add_option("--http-threads", options.httpThreads, "Connections served at once; probes have a lane of their own")
+      .add_option("--http-threads", options.httpThreads, "Connections served at once; beyond it 503, except for probes")
       ->envname("GNOMON_HTTP_THREADS")
       ->check(CLI::Range(std::size_t{1}, std::size_t{4'096}))
-      ->group("How much");
+      ->group("Limits");
   serve
       .add_option("--max-evaluations", options.maxEvaluations,
-                  "Evaluations at once, one more is told to come again (429); times are fairest when there is one")
+                  "Evaluations that may run at once, 429 beyond it; measured times are most accurate with 1")
       ->envname("GNOMON_MAX_EVALUATIONS")
       ->check(CLI::Range(1, 64))
-      ->group("How much");
+      ->group("Limits");
 }
 
 void addHowLong(CLI::App& serve, ServeOptions& options) {
@@ -94,15 +97,16 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
         ->envname(variable)
         ->check(CLI::Range(least, kDay))
         ->type_name("SECONDS")
-        ->group("How long");
+        ->group("Timeouts");
   };
   add("--request-timeout", "GNOMON_REQUEST_TIMEOUT", options.requestTimeoutSeconds, 1,
-      "From a request's arrival to its frame, else 504");
+      "Time for a frame from the arrival of its request; 504 beyond it");
   add("--evaluation-timeout", "GNOMON_EVALUATION_TIMEOUT", options.evaluationTimeoutSeconds, 1,
-      "From an evaluation's arrival to its report, else 504");
+      "Time for an evaluation from the arrival of its request; 504 beyond it");
   add("--drain", "GNOMON_DRAIN", options.drainSeconds, 0,
-      "After SIGTERM, answer on with a failing /readyz, so that balancers turn away first");
-  add("--grace", "GNOMON_GRACE", options.graceSeconds, 0, "Then, for what runs and waits; what is left gets a 503");
+      "Time after SIGTERM in which requests are served while /readyz fails, so that load balancers notice");
+  add("--grace", "GNOMON_GRACE", options.graceSeconds, 0,
+      "Time after that for the requests in progress; the rest get 503");
 }
 
 } // namespace

@@ -38,7 +38,7 @@ bool isSceneId(std::string_view text);
 /// control characters, 1..255 bytes. No part of it ever reaches the file system; other names are refused as misleading.
 bool isBundleFileName(std::string_view name);
 
-/// The parts of a form with a model and at most one other part that is no file. They look into the request's body.
+/// The parts of a form: at most the files of a bundle, its model and a spec. Views of the request's body.
 Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& limits);
 
 /// The bundle in a form: the part `scene` is the model; a part `file` (or `files`) is a file under its file name, any

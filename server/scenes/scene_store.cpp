@@ -152,7 +152,7 @@ std::optional<Json> SceneStore::storedSummary(const std::string& id) const {
   }
   Json summary = Json::parse(*text, nullptr, false);
   if (!summary.is_object() || summary.value("id", Json()) != id) {
-    logEvent("store", "The stored summary of a scene is damaged, so the scene is loaded instead: " + id);
+    logEvent("store", "The stored summary of scene " + id + " is damaged. The scene is loaded instead.");
     return std::nullopt;
   }
   return summary;
