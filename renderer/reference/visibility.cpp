@@ -13,14 +13,15 @@ namespace {
 constexpr std::size_t kPoints = 512; ///< that one core has in hand at a time, at most
 constexpr std::size_t kRays = 8192;  ///< that it traces for them, about
 
-struct Lamp {
+/// A light as rays need it.
+struct TracedLight {
   LightSource source;
   glm::dvec3 eye{0};                  ///< relative to the anchor
   std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
 };
 
-Lamp lampOf(const TraceInput& input, int index) {
+TracedLight tracedLight(const TraceInput& input, int index) {
   const Light& light = input.lights[static_cast<std::size_t>(index)];
   const TracedScene::Tree& tree = input.traced.tree();
   const Shadow shadow = light.shadow.value_or(Shadow{});
@@ -35,10 +36,10 @@ Lamp lampOf(const TraceInput& input, int index) {
 }
 
 /// What a point sees of the light where that takes no rays.
-std::optional<float> withoutRays(const Lamp& lamp, const SurfacePoint& point, const WayToLight& way) {
-  if (point.instance == kNoSurface || lamp.shadowed[point.instance] == 0) return 1.0f;
+std::optional<float> withoutRays(const TracedLight& light, const SurfacePoint& point, const WayToLight& way) {
+  if (point.instance == kNoSurface || light.shadowed[point.instance] == 0) return 1.0f;
   if (!faces(point.normal, way)) return 0.0f;
-  if (!reaches(lamp.source, way)) return 1.0f;
+  if (!reaches(light.source, way)) return 1.0f;
   return std::nullopt;
 }
 
@@ -96,22 +97,22 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
 
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples) {
-  const Lamp lamp = lampOf(input, light);
-  const bool sized = lamp.source.radius > 0;
+  const TracedLight traced = tracedLight(input, light);
+  const bool sized = traced.source.radius > 0;
   const auto rays = sized ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
   std::vector<float> visibility(points.size(), 0.0f);
   const auto trace = [&](std::size_t first, std::size_t last) {
-    RayQueue queue(lamp.casters, visibility);
+    RayQueue queue(traced.casters, visibility);
     for (std::size_t i = first; i < last; ++i) {
       const SurfacePoint& point = points[i];
-      const WayToLight way = wayTo(lamp.source, point.position);
-      if (const auto plain = withoutRays(lamp, point, way)) {
+      const WayToLight way = wayTo(traced.source, point.position);
+      if (const auto plain = withoutRays(traced, point, way)) {
         visibility[i] = *plain * static_cast<float>(rays);
         continue;
       }
-      const Receiver receiver = receiverAt(lamp.casters.tree, lamp.eye, point);
+      const Receiver receiver = receiverAt(traced.casters.tree, traced.eye, point);
       if (sized) {
-        addSamples(lamp.source, point, receiver, rays, i, queue);
+        addSamples(traced.source, point, receiver, rays, i, queue);
       } else {
         queue.add({receiver, way.direction, way.length}, i);
       }
@@ -124,24 +125,24 @@ std::vector<float> lightVisibility(const TraceInput& input, int light, std::span
 }
 
 std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
-  const Lamp lamp = lampOf(input, light);
+  const TracedLight traced = tracedLight(input, light);
   std::vector<float> distances(points.size(), std::numeric_limits<float>::infinity());
   forEachPiece(points.size(), kPoints, [&](std::size_t first, std::size_t last) {
     std::array<ShadowRay, kLanes> rays;
     std::array<std::size_t, kLanes> of{};
     std::size_t count = 0;
     const auto trace = [&] {
-      const std::array<float, kLanes> found = blockersOf(lamp.casters, std::span(rays).first(count));
+      const std::array<float, kLanes> found = blockersOf(traced.casters, std::span(rays).first(count));
       for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
       count = 0;
     };
     for (std::size_t i = first; i < last; ++i) {
-      const WayToLight way = wayTo(lamp.source, points[i].position);
-      if (const auto plain = withoutRays(lamp, points[i], way)) {
+      const WayToLight way = wayTo(traced.source, points[i].position);
+      if (const auto plain = withoutRays(traced, points[i], way)) {
         if (*plain == 0) distances[i] = 0;
         continue;
       }
-      rays[count] = {receiverAt(lamp.casters.tree, lamp.eye, points[i]), way.direction, way.length};
+      rays[count] = {receiverAt(traced.casters.tree, traced.eye, points[i]), way.direction, way.length};
       of[count] = i;
       if (++count == kLanes) trace();
     }

@@ -28,10 +28,10 @@ Pixels eachOnce(Pixels pixels) {
   return pixels;
 }
 
-/// A shadow while it is found.
-class Finding {
+/// One light's shadow over the picture while rays complete it.
+class ShadowTracing {
  public:
-  Finding(const PicturePoints& points, const TraceInput& rays, int light, int samples)
+  ShadowTracing(const PicturePoints& points, const TraceInput& rays, int light, int samples)
       : points_(points),
         rays_(rays),
         light_(light),
@@ -162,27 +162,27 @@ Pixels unsureAmong(std::span<const Verdict> verdicts, std::size_t pixels) {
 
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
                           std::span<const Verdict> verdicts) {
-  Finding finding(points, rays, light, samples);
+  ShadowTracing shadow(points, rays, light, samples);
   for (std::uint32_t pixel = 0; pixel < verdicts.size(); ++pixel) {
-    if (verdicts[pixel] == Verdict::lit) finding.setLit(pixel);
-    if (verdicts[pixel] == Verdict::turnedAway) finding.setTurnedAway(pixel);
+    if (verdicts[pixel] == Verdict::lit) shadow.setLit(pixel);
+    if (verdicts[pixel] == Verdict::turnedAway) shadow.setTurnedAway(pixel);
   }
   const Pixels unsure = unsureAmong(verdicts, points.grid().pixels());
-  finding.traceDrawn(unsure);
+  shadow.traceDrawn(unsure);
 
   std::uint64_t traced = unsure.size();
   const auto traceExactly = [&](const Pixels& pixels) {
     traced += static_cast<std::uint64_t>(std::count_if(pixels.begin(), pixels.end(), [&](std::uint32_t pixel) {
       return !verdicts.empty() && verdicts[pixel] != Verdict::unsure;
     }));
-    return finding.traceExactly(pixels);
+    return shadow.traceExactly(pixels);
   };
-  Pixels doubtful = finding.whereTurnedAwayEnds();
+  Pixels doubtful = shadow.whereTurnedAwayEnds();
   const Pixels masked = points.besideMasks();
   doubtful.insert(doubtful.end(), masked.begin(), masked.end());
   traceExactly(eachOnce(std::move(doubtful)));
-  for (Pixels next = finding.atEdges(); !next.empty();) next = finding.atEdgesBeside(traceExactly(next));
-  return {finding.takeValues(), traced};
+  for (Pixels next = shadow.atEdges(); !next.empty();) next = shadow.atEdgesBeside(traceExactly(next));
+  return {shadow.takeValues(), traced};
 }
 
 } // namespace gnomon
