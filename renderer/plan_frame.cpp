@@ -17,15 +17,15 @@ void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene&
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
   for (const PlannedLight& planned : plan.lights) {
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
-    for (std::size_t i = 0; i < light.cascades.size(); ++i) {
+    for (std::size_t i = 0; i < light.tiles.size(); ++i) {
       const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(planned.firstTile) + i];
       if (tile.rect.width == 0) continue;
       const Light& caster = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
       const TileCasters casters = castersInto(tile, caster, view, geometry, frame.nodes);
       const DrawList draws = buildDrawList(scene, view, geometry, casters.use, casters.slots);
-      light.cascades[i].casterTriangles = draws.triangles;
-      light.cascades[i].culledTriangles = view.triangles - draws.triangles;
-      light.cascades[i].drawCalls = draws.commands.size();
+      light.tiles[i].casterTriangles = draws.triangles;
+      light.tiles[i].culledTriangles = view.triangles - draws.triangles;
+      light.tiles[i].drawCalls = draws.commands.size();
     }
     addSums(light);
   }

@@ -9,17 +9,17 @@ export function showReport(node, report) {
 }
 
 function lightOf(light) {
-  const rows = light.cascades.map((cascade, i) => {
+  const rows = light.tiles.map((tile, i) => {
     const dot = element('i', { 'aria-hidden': 'true' });
     dot.style.background = kTints[i % kTints.length];
     return element(
       'tr',
       {},
       element('th', { scope: 'row' }, dot, String(i)),
-      element('td', {}, `${short(cascade.near)} – ${short(cascade.far)}`),
-      element('td', {}, cascade.tile[2] ? `${cascade.tile[2]}²` : '–'),
-      element('td', {}, cascade.tile[2] ? short(Math.max(...cascade.texelSize) * 1000) : '–'),
-      element('td', { title: `${count(cascade.culledTriangles)} culled` }, count(cascade.casterTriangles)),
+      element('td', {}, `${short(tile.near)} – ${short(tile.far)}`),
+      element('td', {}, tile.tile[2] ? `${tile.tile[2]}²` : '–'),
+      element('td', {}, tile.tile[2] ? short(Math.max(...tile.texelSize) * 1000) : '–'),
+      element('td', { title: `${count(tile.culledTriangles)} culled` }, count(tile.casterTriangles)),
     );
   });
   const head = [['', ''], ['metres', 'View depth; of a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];

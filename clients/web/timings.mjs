@@ -35,7 +35,7 @@ function entry({ stage, milliseconds }) {
 }
 
 function factsOf({ counts, atlasSize, depthRange, lights, spec }, roundTripMs) {
-  const tiles = lights.reduce((sum, light) => sum + light.cascades.length, 0);
+  const tiles = lights.reduce((sum, light) => sum + light.tiles.length, 0);
   const facts = [
     ['frame', `${spec.width} × ${spec.height}`, 'Pixels of this picture'],
     ['round trip', `${short(roundTripMs)} ms`, 'From the request to the decoded reply, as the browser sees it'],

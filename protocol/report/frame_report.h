@@ -21,7 +21,7 @@ struct StageTime {
 
 /// One tile: a cascade, or a face of a spot or point light. What has no meaning for a tile without a surface in it,
 /// which is not drawn, is 0 or absent.
-struct CascadeReport {
+struct TileReport {
   double near = 0;                   ///< metres: view depth where it begins; face: distance along its direction
   double far = 0;                    ///< metres: where it ends
   std::array<int, 4> tile{};         ///< x y width height in the atlas, texels, border included
@@ -53,7 +53,7 @@ struct LightReport {
   std::string note{};      ///< why no shadow was drawn, or what was decided differently; empty = as asked
   /// Directional: the view depths of its cascades without a guard, for the next frame's depthRange.previous.
   std::optional<PreviousRange> depthRange{};
-  std::vector<CascadeReport> cascades{};
+  std::vector<TileReport> tiles{};
   std::optional<std::uint64_t>
       tracedPixels{}; ///< pixels that rays decided; techniques hybrid and rayTraced, not in a plan
   // Over its tiles:

@@ -9,52 +9,51 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<CascadeReport> = replyRows(
-    "CascadeReport", "One tile: a cascade, or a face of a spot or point light.",
+inline constexpr auto kRows<TileReport> = replyRows(
+    "TileReport", "One tile: a cascade, or a face of a spot or point light.",
     field(
-        "near", &CascadeReport::near,
+        "near", &TileReport::near,
         {.says = "Where it begins: the view depth of a cascade; a face's distance from the light along its direction.",
          .unit = "metres"}),
-    field("far", &CascadeReport::far, {.says = "Where it ends, measured alike.", .unit = "metres"}),
-    field("tile", &CascadeReport::tile,
+    field("far", &TileReport::far, {.says = "Where it ends, measured alike.", .unit = "metres"}),
+    field("tile", &TileReport::tile,
           {.says = "x, y, width and height in the atlas, from its lower left corner, border included; width 0 = no "
                    "surface in view lies in it, so "
                    "that it is not drawn.",
            .unit = "texels"}),
-    field("border", &CascadeReport::border,
-          {.says = "Of the tile on each side: only filters read it.", .unit = "texels"}),
-    field("texelSize", &CascadeReport::texelSize,
+    field("border", &TileReport::border, {.says = "Of the tile on each side: only filters read it.", .unit = "texels"}),
+    field("texelSize", &TileReport::texelSize,
           {.says = "Size of a texel across and along; of a face, at its far end.", .unit = "metres"}),
-    field("matrix", &CascadeReport::matrix,
+    field("matrix", &TileReport::matrix,
           {.says = "The tile's clip space from world space, column by column: x and y -1..1 over the whole tile, z 0 "
                    "near the light and 1 far from it, after the division by w; absent where it is not drawn."}),
     field(
-        "normalOffset", &CascadeReport::normalOffset,
+        "normalOffset", &TileReport::normalOffset,
         {.says = "How far a surface is moved along its normal, times the sine of the angle between normal and light; "
                  "of a face, at its far end; of a manual bias, `depth` times `normalOffsetScale`, whatever the angle.",
          .unit = "metres"}),
-    field("depthBias", &CascadeReport::depthBias,
+    field("depthBias", &TileReport::depthBias,
           {.says = "How far a surface is moved towards the light besides, for what rounding loses, as a share of the "
                    "tile's depth; of a face, at its far end. A manual bias's `depth` and `slope` come on top."}),
-    field("depthBiasMetres", &CascadeReport::depthBiasMetres, {.says = "The same along the light.", .unit = "metres"}),
-    field("predictedError", &CascadeReport::predictedError,
+    field("depthBiasMetres", &TileReport::depthBiasMetres, {.says = "The same along the light.", .unit = "metres"}),
+    field("predictedError", &TileReport::predictedError,
           {.says = "How large its texels show; absent where it is not drawn."}),
-    field("casterTriangles", &CascadeReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
-    field("culledTriangles", &CascadeReport::culledTriangles,
+    field("casterTriangles", &TileReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
+    field("culledTriangles", &TileReport::culledTriangles,
           {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}),
-    field("reused", &CascadeReport::reused,
+    field("reused", &TileReport::reused,
           {.says = "True = an earlier frame's tile serves, and nothing was drawn into it for this one."}),
-    field("drawCalls", &CascadeReport::drawCalls, {.says = "Draw calls into this tile."}),
+    field("drawCalls", &TileReport::drawCalls, {.says = "Draw calls into this tile."}),
     field(
-        "cpuMilliseconds", &CascadeReport::cpuMilliseconds,
+        "cpuMilliseconds", &TileReport::cpuMilliseconds,
         {.says =
              "Time to draw its casters, the first tile's to find all casters and clear the atlas, too; absent where it "
              "is not drawn, and in a plan.",
          .unit = "milliseconds"}),
-    field("gpuMilliseconds", &CascadeReport::gpuMilliseconds,
+    field("gpuMilliseconds", &TileReport::gpuMilliseconds,
           {.says = "Time that the driver reports for the device; absent where it has no timer, too.",
            .unit = "milliseconds"}));
-static_assert(kRowsAreComplete<CascadeReport>);
+static_assert(kRowsAreComplete<TileReport>);
 
 template <>
 inline constexpr auto kRows<LightReport> = replyRows(
@@ -70,7 +69,7 @@ inline constexpr auto kRows<LightReport> = replyRows(
     field("depthRange", &LightReport::depthRange,
           {.says = "View depths of a directional light's cascades, without a guard: to be handed in as "
                    "`shadow.depthRange.previous` of the next frame; absent = none was drawn."}),
-    field("cascades", &LightReport::cascades,
+    field("tiles", &LightReport::tiles,
           {.says = "Its cascades, nearest first, or the faces of a spot or point light."}),
     field("predictedError", &LightReport::predictedError,
           {.says = "How large its tiles' texels show; absent = none was drawn."}),

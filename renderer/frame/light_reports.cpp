@@ -15,7 +15,7 @@ std::array<double, 16> clipFromWorld(const ShadowTile& tile, const glm::dvec3& e
 }
 
 /// Offsets at the far end of a face, which is where they are largest along the normal; anywhere in a cascade.
-void addBias(const ShadowTile& tile, const Bias& bias, CascadeReport& report) {
+void addBias(const ShadowTile& tile, const Bias& bias, TileReport& report) {
   const Fit& fit = tile.space.fit;
   report.normalOffset = manualOffset(bias).value_or(fit.normalOffset * (fit.perspective ? tile.far : 1.0));
   if (!fit.perspective) {
@@ -29,9 +29,9 @@ void addBias(const ShadowTile& tile, const Bias& bias, CascadeReport& report) {
   report.depthBiasMetres = report.depthBias / zPerMetre;
 }
 
-CascadeReport tileReport(const ShadowTile& tile, const Bias& bias, const std::optional<PredictedError>& error,
-                         const glm::dvec3& eye) {
-  CascadeReport report;
+TileReport tileReport(const ShadowTile& tile, const Bias& bias, const std::optional<PredictedError>& error,
+                      const glm::dvec3& eye) {
+  TileReport report;
   report.near = tile.near;
   report.far = tile.far;
   if (tile.rect.width == 0) return report;
@@ -94,14 +94,14 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
     for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
       const auto index = static_cast<std::size_t>(tile);
-      report.cascades.push_back(tileReport(plan.tiles[index], shadow->bias, errors.tiles[index], eye));
+      report.tiles.push_back(tileReport(plan.tiles[index], shadow->bias, errors.tiles[index], eye));
     }
   }
   return reports;
 }
 
 void addSums(LightReport& light) {
-  for (const CascadeReport& tile : light.cascades) {
+  for (const TileReport& tile : light.tiles) {
     light.casterTriangles += tile.casterTriangles;
     light.drawCalls += tile.drawCalls;
     addTo(light.cpuMilliseconds, tile.cpuMilliseconds);

@@ -11,9 +11,9 @@ std::vector<LightReport> drawnLights(const FrameStages& stages) {
       lightReports(stages.frame.spec, stages.plan, stages.errors, stages.frame.view.eye, layeredLights(stages.frame));
   for (const PlannedLight& planned : stages.plan.lights) {
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
-    for (std::size_t i = 0; i < light.cascades.size(); ++i) {
+    for (std::size_t i = 0; i < light.tiles.size(); ++i) {
       const TileCounts& counts = stages.atlas.tiles[static_cast<std::size_t>(planned.firstTile) + i];
-      CascadeReport& tile = light.cascades[i];
+      TileReport& tile = light.tiles[i];
       tile.casterTriangles = counts.casterTriangles;
       tile.culledTriangles = counts.culledTriangles;
       tile.drawCalls = counts.drawCalls;

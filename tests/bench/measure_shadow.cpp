@@ -97,7 +97,7 @@ std::uint64_t receiversOf(const Reference& truth) {
 /// Of the tiles that the shadow was drawn into.
 std::int64_t texelsOf(const FrameReport& report) {
   std::int64_t texels = 0;
-  for (const CascadeReport& cascade : report.lights.front().cascades) {
+  for (const TileReport& cascade : report.lights.front().tiles) {
     texels += std::int64_t{cascade.tile[2]} * cascade.tile[3];
   }
   return texels;

@@ -233,7 +233,7 @@ class WithServer(CommandLine):
         for run in (here, there):
             self.assert_ends(run, OK)
         self.assertEqual(json.loads(here.stdout), json.loads(there.stdout))
-        self.assertEqual(len(json.loads(here.stdout)["lights"][0]["cascades"]), 2)
+        self.assertEqual(len(json.loads(here.stdout)["lights"][0]["tiles"]), 2)
         run = gnomon("plan", BOX, "--set", "shadow.cascadeCount=9")
         self.assert_ends(run, PROBLEM, "--set shadow.cascadeCount")
 

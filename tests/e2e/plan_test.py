@@ -40,8 +40,8 @@ class Plans(ServerTest):
             self.assertEqual(planned["askedTileSize"], drawn["askedTileSize"])
             self.assertGreaterEqual(planned["shadowed"], drawn["shadowed"])
             self.assertNotIn("cpuMilliseconds", planned)
-            self.assertEqual(len(planned["cascades"]), len(drawn["cascades"]))
-            for tile in planned["cascades"]:
+            self.assertEqual(len(planned["tiles"]), len(drawn["tiles"]))
+            for tile in planned["tiles"]:
                 if tile["tile"][2] == 0:
                     continue
                 self.assertEqual(len(tile["matrix"]), 16)
@@ -49,7 +49,7 @@ class Plans(ServerTest):
                     self.assertGreater(tile["predictedError"]["max"], 0)
                 self.assertEqual(tile["casterTriangles"] + tile["culledTriangles"], report["counts"]["sceneTriangles"])
         self.assertIn("out of view", plan["lights"][3]["note"])
-        self.assertEqual(plan["lights"][3]["cascades"], [])
+        self.assertEqual(plan["lights"][3]["tiles"], [])
 
     def test_no_body_means_every_default(self):
         self.assertEqual(self.plan(b"")["spec"], self.plan(b"{}")["spec"])

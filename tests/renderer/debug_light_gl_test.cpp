@@ -127,7 +127,7 @@ TEST(DebugLight, M15_ATileIsItsRectangleOfTheAtlas) {
   const Frame frame = renderJson(generatedScene("long_row"), spec.dump());
   const Image& atlas = frame.images[0].image;
   const Image& tile = frame.images[1].image;
-  const auto& [x, y, width, height] = frame.report.lights[0].cascades.at(2).tile;
+  const auto& [x, y, width, height] = frame.report.lights[0].tiles.at(2).tile;
   ASSERT_EQ(tile.width, width);
   ASSERT_EQ(tile.height, height);
   EXPECT_EQ(tile.channels, std::vector<std::string>{"Z"});
@@ -174,7 +174,7 @@ TEST(DebugLight, M15_TheAtlasOutlinesEachTileInItsTint) {
   // 0.3, 0.35, 0.5 and 0.8 in sRGB are 149, 160, 188 and 231.
   const std::array<std::array<int, 3>, 4> tints{{{160, 255, 160}, {160, 188, 255}, {231, 160, 255}, {255, 149, 149}}};
   for (std::size_t i = 0; i < tints.size(); ++i) {
-    const auto& [x, y, width, height] = frame.report.lights[0].cascades.at(i).tile;
+    const auto& [x, y, width, height] = frame.report.lights[0].tiles.at(i).tile;
     EXPECT_EQ(at(x, y), tints[i]) << i;
     EXPECT_EQ(at(x + width - 1, y + height / 2), tints[i]) << i;
     EXPECT_EQ(at(x + width / 2, y + height - 1), tints[i]) << i;

@@ -60,7 +60,7 @@ TEST(DebugViews, H9_ASlantStretchesTexelsByItsCosine) {
   spec["shadow"]["depthRange"] = kStable;
   spec["shadow"]["stabilization"] = "projectionSnapping"; // square texels
   const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
-  const double texel = frame.report.lights[0].cascades.at(0).texelSize[0];
+  const double texel = frame.report.lights[0].tiles.at(0).texelSize[0];
   EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 10 * texel * std::sqrt(2.0), 1e-3 * texel);
 }
 
@@ -70,7 +70,7 @@ TEST(DebugViews, H9_TexelDensityFollowsThePictureSPerspective) {
   spec["shadow"]["depthRange"] = kStable;
   spec["shadow"]["stabilization"] = "projectionSnapping";
   const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
-  const double texel = frame.report.lights[0].cascades.at(0).texelSize[0];
+  const double texel = frame.report.lights[0].tiles.at(0).texelSize[0];
   const double pixels = 100 / (2 * 8 * std::tan(3.14159265358979 / 6)); // a metre of ground
   EXPECT_NEAR(valueAt(frame, 0.5, 0.5), pixels * texel, 1e-3 * pixels * texel);
   EXPECT_NEAR(valueAt(frame, 0.05, 0.95), pixels * texel, 1e-3 * pixels * texel) << "one depth, one scale";
@@ -81,7 +81,7 @@ TEST(DebugViews, H9_TexelsOfASpotGrowWithTheDistanceFromIt) {
   testing::GlbBuilder scene = ground();
   scene.addRoot({{"mesh", 0}, {"translation", {-1.5, 2.5, 0}}}); // 2 m across, halfway up
   const Frame frame = renderJson(testing::sceneOf(scene), fromAbove({"texelDensity"}, spot).dump());
-  const CascadeReport& face = frame.report.lights[0].cascades.at(0);
+  const TileReport& face = frame.report.lights[0].tiles.at(0);
   const double tangent = std::max(face.texelSize[0], face.texelSize[1]) / face.far;
   EXPECT_NEAR(valueAt(frame, 0.6, 0.5), 10 * 5 * tangent, 1e-2 * 50 * tangent) << "on the ground";
   EXPECT_NEAR(valueAt(frame, 0.4, 0.5), 10 * 2.5 * tangent, 1e-2 * 25 * tangent) << "on the plate";
@@ -104,7 +104,7 @@ TEST(DebugViews, H9_TheTexelGridHasASquareForEachTexel) {
   spec["width"] = spec["height"] = 1000;
   spec["shadow"]["size"] = "XSmall";
   const Frame frame = renderJson(testing::sceneOf(ground()), spec.dump());
-  const auto& texel = frame.report.lights[0].cascades.at(0).texelSize; // its axes are the picture's
+  const auto& texel = frame.report.lights[0].tiles.at(0).texelSize; // its axes are the picture's
   const auto row = floatsOf(frame).begin() + 505 * 1000 * 3;
   float darkest = row[1];
   float lightest = row[1];
@@ -154,7 +154,7 @@ TEST(DebugViews, H4_BiasIsTheOffsetThatThePlanAsksFor) {
     Json spec = fromAbove({"bias"}, kSlanted);
     spec["shadow"]["filter"] = Json::parse(text);
     const Frame frame = renderJson(scene, spec.dump());
-    const auto& texel = frame.report.lights[0].cascades.at(0).texelSize;
+    const auto& texel = frame.report.lights[0].tiles.at(0).texelSize;
     // Along the normal, and towards the light the room for a bend by 0.1: tan(45 degrees + 0.1) is about 1.2.
     const double along = kBiasReach * std::hypot(texel[0], texel[1]) * std::sqrt(0.5);
     const auto expected = [&](double size) {
@@ -166,7 +166,7 @@ TEST(DebugViews, H4_BiasIsTheOffsetThatThePlanAsksFor) {
   }
   // Along the normal nothing needs to be moved but for rounding and bends.
   const Frame noon = renderJson(scene, fromAbove({"bias"}, kNoon).dump());
-  EXPECT_LT(valueAt(noon, 0.5, 0.5), 0.11 * noon.report.lights[0].cascades.at(0).texelSize[0] + 1e-3);
+  EXPECT_LT(valueAt(noon, 0.5, 0.5), 0.11 * noon.report.lights[0].tiles.at(0).texelSize[0] + 1e-3);
 }
 
 TEST(DebugViews, AManualBiasIsShownAsItIsAsked) {
@@ -189,7 +189,7 @@ TEST(DebugViews, H4_ASpotMovesAPointByItsDistance) {
   const Json spot = {
       {"type", "spot"}, {"position", {-high, high, 0}}, {"direction", {1, -1, 0}}, {"outerConeDegrees", 30}};
   const Frame frame = renderJson(testing::sceneOf(ground()), fromAbove({"bias"}, spot).dump());
-  const CascadeReport& face = frame.report.lights[0].cascades.at(0);
+  const TileReport& face = frame.report.lights[0].tiles.at(0);
   const glm::dvec2 tangents(face.texelSize[0] / face.far, face.texelSize[1] / face.far);
   const double along = 4 * punctualNormalOffset(kBiasReach, tangents) * std::sqrt(0.5);
   const double room = 4 * 0.2 * tangents.x;

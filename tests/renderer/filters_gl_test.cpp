@@ -55,7 +55,7 @@ TEST(Filters, X28_ARadiusIsTheSameSoftnessInEveryCascade) {
     spec["height"] = 400;
     spec["camera"] = {{"eye", {0, 2, 44}}, {"target", {0, 2, 0}}};
     const Frame soft = renderJson(scene, spec.dump());
-    ASSERT_EQ(soft.report.lights.at(0).cascades.size(), 4u);
+    ASSERT_EQ(soft.report.lights.at(0).tiles.size(), 4u);
     const double near = penumbraAt(soft, 2, 0.85);
     const double far = penumbraAt(soft, 2, 0.14);
     EXPECT_GT(near, 0.8) << type << ": of a kernel 2 m across";
@@ -87,7 +87,7 @@ TEST(Filters, M18_X28_ARadiusIsRoundWhereTexelsAreNot) {
                       {"up", {0, 0, -1}},
                       {"orthographic", {{"height", 8}, {"near", 0}, {"far", 10}}}};
     const Frame frame = renderJson(scene, spec.dump());
-    const auto& texel = frame.report.lights.at(0).cascades.at(0).texelSize;
+    const auto& texel = frame.report.lights.at(0).tiles.at(0).texelSize;
     ASSERT_GT(std::abs(texel[0] - texel[1]), 0.1 * texel[0]) << "the picture is wider than high";
     const auto& visibility = floatsOf(frame);
     int across = 0;
@@ -173,7 +173,7 @@ TEST(Filters, H4_AShadowBeginsAtItsCastersFoot) {
                         {"orthographic", {{"height", 1}, {"near", 0}, {"far", 4}}}};
       const Frame frame = renderJson(scene, spec.dump()); // x from 0.7 to 2.3, 5 mm a pixel
       double texel = 0;
-      for (const CascadeReport& tile : frame.report.lights.at(0).cascades) {
+      for (const TileReport& tile : frame.report.lights.at(0).tiles) {
         if (tile.tile[2] > 0) texel = std::max({texel, tile.texelSize[0], tile.texelSize[1]});
       }
       const auto& visibility = floatsOf(frame);

@@ -34,7 +34,7 @@ void expectSameCost(const FrameReport& with, const FrameReport& without) {
 void expectNothingDone(const LightReport& light, const std::string& why) {
   EXPECT_FALSE(light.shadowed);
   EXPECT_NE(light.note.find(why), std::string::npos) << light.note;
-  EXPECT_TRUE(light.cascades.empty());
+  EXPECT_TRUE(light.tiles.empty());
   EXPECT_EQ(light.drawCalls, 0u);
   EXPECT_EQ(light.casterTriangles, 0u);
   EXPECT_FALSE(light.cpuMilliseconds);
@@ -88,8 +88,8 @@ TEST(FrameCounts, X18_AnEmptyCascadeCostsNothing) {
   spec["shadow"]["partition"]["splits"] = {0.3, 0.5, 1};
   const Frame with = renderJson(scene, spec.dump());
   expectSameCost(with.report, without.report);
-  ASSERT_EQ(with.report.lights[0].cascades.size(), 3u);
-  const CascadeReport& empty = with.report.lights[0].cascades[1];
+  ASSERT_EQ(with.report.lights[0].tiles.size(), 3u);
+  const TileReport& empty = with.report.lights[0].tiles[1];
   EXPECT_EQ(empty.tile, (std::array<int, 4>{}));
   EXPECT_EQ(empty.drawCalls, 0u);
   EXPECT_EQ(empty.casterTriangles, 0u);
@@ -106,10 +106,10 @@ TEST(FrameCounts, M14_X26_ACasterThatShadowsNothingInViewCostsNothing) {
     EXPECT_EQ(with.report.atlasSize, without.report.atlasSize);
     EXPECT_EQ(with.report.counts.sceneTriangles, without.report.counts.sceneTriangles + 2);
     EXPECT_EQ(with.report.counts.casterTriangles, without.report.counts.casterTriangles) << place[2];
-    ASSERT_EQ(with.report.lights[0].cascades.size(), without.report.lights[0].cascades.size());
-    for (std::size_t i = 0; i < with.report.lights[0].cascades.size(); ++i) {
-      const CascadeReport& more = with.report.lights[0].cascades[i];
-      const CascadeReport& less = without.report.lights[0].cascades[i];
+    ASSERT_EQ(with.report.lights[0].tiles.size(), without.report.lights[0].tiles.size());
+    for (std::size_t i = 0; i < with.report.lights[0].tiles.size(); ++i) {
+      const TileReport& more = with.report.lights[0].tiles[i];
+      const TileReport& less = without.report.lights[0].tiles[i];
       EXPECT_EQ(more.drawCalls, less.drawCalls);
       EXPECT_EQ(more.casterTriangles, less.casterTriangles);
       EXPECT_EQ(more.culledTriangles, less.culledTriangles + 2);

@@ -30,10 +30,10 @@ TEST(FramePlans, HoldWhatTheFrameHolds) {
       EXPECT_GE(planned.shadowed, drawn.shadowed);
       EXPECT_FALSE(planned.cpuMilliseconds || planned.gpuMilliseconds);
       if (i == 0 || !drawn.shadowed) continue; // faces, other than cascades, lie where the frame's do
-      ASSERT_EQ(planned.cascades.size(), drawn.cascades.size());
+      ASSERT_EQ(planned.tiles.size(), drawn.tiles.size());
       EXPECT_GE(planned.casterTriangles, drawn.casterTriangles) << name << i;
-      for (std::size_t tile = 0; tile < drawn.cascades.size(); ++tile) {
-        EXPECT_TRUE(planned.cascades[tile].matrix || !drawn.cascades[tile].matrix) << "a superset of the tiles";
+      for (std::size_t tile = 0; tile < drawn.tiles.size(); ++tile) {
+        EXPECT_TRUE(planned.tiles[tile].matrix || !drawn.tiles[tile].matrix) << "a superset of the tiles";
       }
     }
   }

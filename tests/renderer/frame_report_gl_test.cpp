@@ -16,18 +16,18 @@ const char* const kThreeLights = R"({"width":96,"height":64,"views":["color","sh
     {"type":"spot","position":[3,4,2],"direction":[-3,-4,-2],"range":20,"shadow":{"size":"Small"}},
     {"type":"point","position":[-2,3,1],"range":15}]})";
 
-glm::dmat4 matrixOf(const CascadeReport& tile) {
+glm::dmat4 matrixOf(const TileReport& tile) {
   glm::dmat4 matrix(0.0);
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*tile.matrix)[static_cast<std::size_t>(i)];
   return matrix;
 }
 
-glm::dvec3 clipOf(const CascadeReport& tile, const glm::dvec3& world) {
+glm::dvec3 clipOf(const TileReport& tile, const glm::dvec3& world) {
   const glm::dvec4 clip = matrixOf(tile) * glm::dvec4(world, 1.0);
   return glm::dvec3(clip) / clip.w;
 }
 
-bool holds(const CascadeReport& tile, const glm::dvec3& world) {
+bool holds(const TileReport& tile, const glm::dvec3& world) {
   if (!tile.matrix) return false;
   if ((matrixOf(tile) * glm::dvec4(world, 1.0)).w <= 0) return false;
   const glm::dvec3 clip = clipOf(tile, world);
@@ -38,11 +38,11 @@ TEST(FrameReports, H7_TheMatrixLeadsFromTheWorldIntoTheTile) {
   const Frame frame = renderJson(testing::generatedScene("box_on_plane"), kThreeLights);
   const glm::dvec3 onTheGround(1.5, 0, 1.5); // in view, in the reach of every light
   for (const LightReport& light : frame.report.lights) {
-    const auto holding = std::count_if(light.cascades.begin(), light.cascades.end(),
-                                       [&](const CascadeReport& tile) { return holds(tile, onTheGround); });
+    const auto holding = std::count_if(light.tiles.begin(), light.tiles.end(),
+                                       [&](const TileReport& tile) { return holds(tile, onTheGround); });
     EXPECT_GE(holding, 1) << light.light;
   }
-  const CascadeReport& tile = frame.report.lights[0].cascades[0];
+  const TileReport& tile = frame.report.lights[0].tiles[0];
   const double azimuth = glm::radians(120.0);
   const double elevation = glm::radians(35.0);
   const glm::dvec3 travels(-std::sin(azimuth) * std::cos(elevation), -std::sin(elevation),
@@ -60,7 +60,7 @@ TEST(FrameReports, H7_TheMatrixLeadsFromTheWorldIntoTheTile) {
 TEST(FrameReports, H4_H7_BiasAndBorderAreToldInMetresAndTexels) {
   const Frame frame = renderJson(testing::generatedScene("box_on_plane"), kThreeLights);
   for (const LightReport& light : frame.report.lights) {
-    for (const CascadeReport& tile : light.cascades) {
+    for (const TileReport& tile : light.tiles) {
       if (!tile.matrix) continue;
       const double texel = std::hypot(tile.texelSize[0], tile.texelSize[1]);
       EXPECT_GT(tile.border, 0);
@@ -99,7 +99,7 @@ TEST(FrameReports, PassesTilesAndLightsAddUp) {
     LightReport sums;
     double cpu = 0;
     double gpu = 0;
-    for (const CascadeReport& tile : light.cascades) {
+    for (const TileReport& tile : light.tiles) {
       sums.casterTriangles += tile.casterTriangles;
       sums.drawCalls += tile.drawCalls;
       cpu += tile.cpuMilliseconds.value_or(0);
@@ -159,9 +159,9 @@ TEST(FrameReports, X20_X24_ASequenceKeepsItsRangeAndItsTexels) {
     later.push_back(renderJson(scene, spec.dump()).report.lights[0]);
     EXPECT_EQ(later.back().depthRange, first.depthRange) << step;
     EXPECT_EQ(later.back().note.find("anew"), std::string::npos) << later.back().note;
-    for (std::size_t i = 0; i < later.back().cascades.size(); ++i) {
-      if (later.back().cascades[i].tile[2] == 0 || later.front().cascades[i].tile[2] == 0) continue;
-      EXPECT_EQ(later.back().cascades[i].texelSize, later.front().cascades[i].texelSize) << step << ' ' << i;
+    for (std::size_t i = 0; i < later.back().tiles.size(); ++i) {
+      if (later.back().tiles[i].tile[2] == 0 || later.front().tiles[i].tile[2] == 0) continue;
+      EXPECT_EQ(later.back().tiles[i].texelSize, later.front().tiles[i].texelSize) << step << ' ' << i;
     }
   }
 }

@@ -108,7 +108,7 @@ TEST(MapReading, X28_M8_AFilterIsTheMeanOfItsComparisonsOfSingleTexels) {
         {"views", {"shadow"}},
         {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
     const Frame frame = renderJson(scene, spec.dump());
-    const double texelSize = frame.report.lights.at(0).cascades.at(0).texelSize[0];
+    const double texelSize = frame.report.lights.at(0).tiles.at(0).texelSize[0];
     ASSERT_LT(texelSize, 0.05);
     const auto textureMargin = [&](const glm::dvec2& center) {
       const glm::dvec3 world = basis.right * (center.x * texelSize) + basis.up * (center.y * texelSize);

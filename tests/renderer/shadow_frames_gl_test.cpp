@@ -130,8 +130,8 @@ TEST(ShadowFrames, D1_EveryDirectionalLightCasts) {
                                  R"({"width":64,"height":64,"lights":[{"type":"directional","direction":[1,-1,0]},
       {"type":"directional","direction":[0,-1,1],"shadow":{"cascadeCount":2}}]})");
   ASSERT_EQ(frame.report.lights.size(), 2u);
-  EXPECT_EQ(frame.report.lights[0].cascades.size(), 4u);
-  EXPECT_EQ(frame.report.lights[1].cascades.size(), 2u);
+  EXPECT_EQ(frame.report.lights[0].tiles.size(), 4u);
+  EXPECT_EQ(frame.report.lights[1].tiles.size(), 2u);
 }
 
 TEST(ShadowFrames, D1_OnRequestTheFirstDirectionalLightCastsAlone) {
@@ -150,7 +150,7 @@ TEST(ShadowFrames, X15_EightCascadesEachServeTheirPart) {
   const Frame frame = renderJson(testing::generatedScene("long_row"),
                                  R"({"width":160,"height":90,"camera":{"node":"camera"},
       "lights":[{"type":"directional","direction":[1,-1,0]}],"shadow":{"cascadeCount":8,"size":"Small"}})");
-  const auto& cascades = frame.report.lights[0].cascades;
+  const auto& cascades = frame.report.lights[0].tiles;
   ASSERT_EQ(cascades.size(), 8u);
   for (std::size_t i = 1; i < cascades.size(); ++i) {
     EXPECT_GT(cascades[i].far, cascades[i - 1].far);
@@ -165,7 +165,7 @@ TEST(ShadowFrames, M14_CastersAreCulledPerTileAndHiddenClustersAreNotShaded) {
   const FrameCounts& counts = frame.report.counts;
   EXPECT_LE(counts.shadedTriangles, counts.surveyedTriangles);
   EXPECT_LT(counts.casterTriangles, 4 * counts.sceneTriangles);
-  for (const CascadeReport& cascade : frame.report.lights[0].cascades) {
+  for (const TileReport& cascade : frame.report.lights[0].tiles) {
     EXPECT_EQ(cascade.casterTriangles + cascade.culledTriangles, counts.sceneTriangles);
     EXPECT_GT(cascade.culledTriangles, 0u);
   }

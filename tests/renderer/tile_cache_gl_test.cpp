@@ -49,7 +49,7 @@ void expectEqual(const Frame& a, const Frame& b, const std::string& what) {
 int tilesWhere(const Frame& frame, bool reused) {
   int count = 0;
   for (const LightReport& light : frame.report.lights) {
-    for (const CascadeReport& tile : light.cascades) count += tile.tile[2] > 0 && tile.reused == reused ? 1 : 0;
+    for (const TileReport& tile : light.tiles) count += tile.tile[2] > 0 && tile.reused == reused ? 1 : 0;
   }
   return count;
 }
@@ -98,15 +98,14 @@ TEST(TileCache, H13_X24_AnotherCameraRedrawsOnlyTheTilesWhoseMatrixChanged) {
   EXPECT_GT(tilesWhere(frames[1], true), 2)
       << "the far cascades' texels are larger than the step; the lamps' tiles stand";
   for (const LightReport& light : frames[1].report.lights) {
-    for (const CascadeReport& tile : light.cascades) {
+    for (const TileReport& tile : light.tiles) {
       if (tile.reused) {
         EXPECT_EQ(tile.casterTriangles, 0u);
       }
     }
   }
   for (std::size_t lamp : {1u, 2u}) {
-    for (const CascadeReport& tile : frames[1].report.lights[lamp].cascades)
-      EXPECT_TRUE(tile.reused || tile.tile[2] == 0);
+    for (const TileReport& tile : frames[1].report.lights[lamp].tiles) EXPECT_TRUE(tile.reused || tile.tile[2] == 0);
   }
 }
 

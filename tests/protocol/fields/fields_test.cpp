@@ -97,7 +97,7 @@ TEST(Fields, EveryRowSaysWhatItIsInASentence) {
   forEachRowWithin<SceneList>(check);
   forEachRowWithin<Capabilities>(check);
   for (const char* name : {"FrameSpec.width", "EyeTarget.up", "Sun.elevationDegrees", "Filter.size", "Output.format",
-                           "CascadeReport.tile", "FrameCounts.drawCalls", "CameraSummary.node", "Limits.maxNodes"}) {
+                           "TileReport.tile", "FrameCounts.drawCalls", "CameraSummary.node", "Limits.maxNodes"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }

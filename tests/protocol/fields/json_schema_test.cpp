@@ -151,7 +151,7 @@ TEST(JsonSchema, AgreesWithTheDecoderOnSpoiledSpecs) {
 TEST(JsonSchema, RepliesFitTheirs) {
   FrameReply reply;
   reply.report.stages = {{"queue", 1}, {"shade", 2}};
-  reply.report.lights = {{.note = "x", .cascades = {{}, {}}}};
+  reply.report.lights = {{.note = "x", .tiles = {{}, {}}}};
   reply.images = {{"color", "image/png", "AAAA"}};
   EXPECT_EQ(checkAgainstSchema(toJson(reply), schemaNamed("FrameReply"), document()), "ok");
   const SceneList list{{SceneSummary{.cameras = {{}}, .lights = {{}}, .extensionsUsed = {"KHR_x"}}}};

@@ -235,14 +235,14 @@ TEST(ReportJson, HoldsTheSpecAndTheStagesByName) {
   report.depthRange = {1.5, 20};
   report.atlasSize = {2048, 1024};
   report.lights = {{.light = 1, .shadowed = true, .askedTileSize = 1024, .grantedTileSize = 512, .note = "smaller"}};
-  report.lights[0].cascades = {{.near = 1, .far = 3, .tile = {0, 512, 512, 512}, .texelSize = {0.01, 0.02}}};
+  report.lights[0].tiles = {{.near = 1, .far = 3, .tile = {0, 512, 512, 512}, .texelSize = {0.01, 0.02}}};
   report.counts.sceneTriangles = 12'000'000'000;
   report.stages = {{"queue", 0.25}, {"shade", 12}};
   report.warnings = {"bad bytes: \xFF"};
   const Json json = toJson(report);
   EXPECT_EQ(json["spec"]["width"], 99);
   EXPECT_EQ(json["depthRange"].dump(), "[1.5,20.0]");
-  EXPECT_EQ(json["lights"][0]["cascades"][0]["tile"].dump(), "[0,512,512,512]");
+  EXPECT_EQ(json["lights"][0]["tiles"][0]["tile"].dump(), "[0,512,512,512]");
   EXPECT_EQ(json["counts"]["sceneTriangles"], 12'000'000'000);
   EXPECT_EQ(json["stages"].dump(), R"({"queue":0.25,"shade":12.0})");
   EXPECT_EQ(json["warnings"][0], "bad bytes: ?");
