@@ -67,6 +67,11 @@ void collectOutsideLists(std::set<std::string_view>& names) {
   });
 }
 
+Notes withoutUnit(Notes notes) {
+  notes.unit = {};
+  return notes;
+}
+
 class FieldWalk {
  public:
   FieldWalk() { collectOutsideLists<FrameSpec>(outsideLists_); }
@@ -94,7 +99,7 @@ class FieldWalk {
       if (!preset.empty()) schema["default"] = Json::parse(preset);
       if (!schema.contains("$ref")) schema["description"] = describe(field.notes, spellingsIn<Member>());
       entries_.push_back({path, TypeText<Member>::make(), rangeText(field.notes), std::string(field.notes.unit), preset,
-                          std::string(field.notes.says), std::move(schema)});
+                          describe(withoutUnit(field.notes), spellingsIn<Member>()), std::move(schema)});
     });
   }
 

@@ -16,7 +16,7 @@ struct FieldEntry {
   std::string allowed; ///< "1..8192"; empty = whatever the type allows
   std::string unit;    ///< empty = none
   std::string preset;  ///< the default as JSON; empty = absent
-  std::string says;    ///< one sentence
+  std::string says;    ///< what it does, and what each of its values means
   Json schema;         ///< without references
 };
 
@@ -24,7 +24,7 @@ struct FieldEntry {
 /// and outside of it, too (a light's own shadow), is taken apart only outside.
 std::vector<FieldEntry> frameFields();
 
-/// The table of the README: a Markdown head and one row a field.
+/// The table of FIELDS.md: a Markdown head and one row a field.
 std::string fieldTable();
 
 /// The same as plain text for a terminal, one field a line.

@@ -12,8 +12,9 @@
 
 namespace gnomon {
 
-/// One stage's time. Names and order: queue load upload survey plan shadow shade reference readback encode; reference
-/// is there where a view holds a shadow against rays.
+/// One stage's time. Names and order: queue load upload survey plan shadow shade predict reference readback encode.
+/// `predict` is there with debug.predictEdges, `reference` where a view compares a shadow with rays, `queue` on a
+/// server.
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
@@ -23,7 +24,7 @@ struct StageTime {
 /// which is not drawn, is 0 or absent.
 struct TileReport {
   double near = 0;                   ///< metres: view depth where it begins; face: distance along its direction
-  double far = 0;                    ///< metres: where it ends
+  double far = 0;                    ///< metres: where it ends, along the same axis
   std::array<int, 4> tile{};         ///< x y width height in the atlas, texels, border included
   int border = 0;                    ///< texels on each side of the tile that only filters read
   std::array<double, 2> texelSize{}; ///< metres across and along; of a face: at its far end
@@ -32,13 +33,13 @@ struct TileReport {
   /// Metres that a surface is moved along its normal, times the sine of normal and light; of a face: at its far end. Of
   /// a manual bias: its depth times its normalOffsetScale, whatever the angle and the place.
   double normalOffset = 0;
-  /// What rounding asks for besides, towards the light, of the tile's depth 0..1; of a face: at its far end. A manual
-  /// bias's depth and slope come on top.
+  /// Added for rounding, towards the light, as a fraction of the tile's depth; of a face: at its far end. A manual
+  /// bias's depth and slope are added to it.
   double depthBias = 0;
   double depthBiasMetres = 0; ///< the same in metres
   std::optional<PredictedError> predictedError{};
   std::uint64_t casterTriangles = 0; ///< drawn into this tile
-  std::uint64_t culledTriangles = 0; ///< not drawn: they can't shadow anything that this cascade serves
+  std::uint64_t culledTriangles = 0; ///< not drawn: they can't shadow anything that this tile serves
   bool reused = false;               ///< drawn for an earlier frame; nothing was drawn for this one
   std::uint64_t drawCalls = 0;
   std::optional<double> cpuMilliseconds{}; ///< of drawing it; absent in a plan, and where not drawn
@@ -90,7 +91,7 @@ struct FrameCounts {
   std::uint64_t drawCalls = 0;
 };
 
-/// What a frame's rendering gives besides its pictures.
+/// What a frame's rendering decided and took.
 struct FrameReport {
   FrameSpec spec{};                   ///< effective: every default resolved, so that it can be asked for again
   std::array<double, 2> depthRange{}; ///< nearest and farthest surface in view, metres; 0 0 = nothing in view

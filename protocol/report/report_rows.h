@@ -11,47 +11,49 @@ namespace gnomon {
 template <>
 inline constexpr auto kRows<TileReport> = replyRows(
     "TileReport", "One tile: a cascade, or a face of a spot or point light.",
-    field(
-        "near", &TileReport::near,
-        {.says = "Where it begins: the view depth of a cascade; a face's distance from the light along its direction.",
-         .unit = "metres"}),
-    field("far", &TileReport::far, {.says = "Where it ends, measured alike.", .unit = "metres"}),
+    field("near", &TileReport::near,
+          {.says =
+               "Where it begins: the view depth of a cascade, or a face's distance from the light along its direction.",
+           .unit = "metres"}),
+    field("far", &TileReport::far,
+          {.says = "Where it ends, in the same unit and along the same axis as `near`.", .unit = "metres"}),
     field("tile", &TileReport::tile,
           {.says = "x, y, width and height in the atlas, from its lower left corner, border included; width 0 = no "
-                   "surface in view lies in it, so "
-                   "that it is not drawn.",
+                   "surface in view lies in it, so it is not drawn.",
            .unit = "texels"}),
-    field("border", &TileReport::border, {.says = "Of the tile on each side: only filters read it.", .unit = "texels"}),
+    field("border", &TileReport::border,
+          {.says = "Width of its border, which is there for filters to read.", .unit = "texels"}),
     field("texelSize", &TileReport::texelSize,
-          {.says = "Size of a texel across and along; of a face, at its far end.", .unit = "metres"}),
+          {.says = "Size of a texel across and along; for a face, at its far end.", .unit = "metres"}),
     field("matrix", &TileReport::matrix,
-          {.says = "The tile's clip space from world space, column by column: x and y -1..1 over the whole tile, z 0 "
-                   "near the light and 1 far from it, after the division by w; absent where it is not drawn."}),
-    field(
-        "normalOffset", &TileReport::normalOffset,
-        {.says = "How far a surface is moved along its normal, times the sine of the angle between normal and light; "
-                 "of a face, at its far end; of a manual bias, `depth` times `normalOffsetScale`, whatever the angle.",
-         .unit = "metres"}),
+          {.says =
+               "Matrix from world space to the tile's clip space, column by column: x and y -1..1 over the whole tile, "
+               "z 0 near the light and 1 far from it, after the division by w; absent if the tile is not drawn."}),
+    field("normalOffset", &TileReport::normalOffset,
+          {.says = "Distance that a surface is moved along its normal, multiplied by the sine of the angle between "
+                   "normal and light; for a face, at its far end. With a manual bias: `depth` times "
+                   "`normalOffsetScale`, whatever the angle.",
+           .unit = "metres"}),
     field("depthBias", &TileReport::depthBias,
-          {.says = "How far a surface is moved towards the light besides, for what rounding loses, as a share of the "
-                   "tile's depth; of a face, at its far end. A manual bias's `depth` and `slope` come on top."}),
-    field("depthBiasMetres", &TileReport::depthBiasMetres, {.says = "The same along the light.", .unit = "metres"}),
+          {.says =
+               "Distance that a surface is also moved towards the light, against rounding, as a fraction of the tile's "
+               "depth; for a face, at its far end. The `depth` and `slope` of a manual bias are added to it."}),
+    field("depthBiasMetres", &TileReport::depthBiasMetres,
+          {.says = "`depthBias` as a length along the light.", .unit = "metres"}),
     field("predictedError", &TileReport::predictedError,
-          {.says = "How large its texels show; absent where it is not drawn."}),
+          {.says = "How large its texels appear; absent if it is not drawn."}),
     field("casterTriangles", &TileReport::casterTriangles, {.says = "Triangles drawn into this tile."}),
     field("culledTriangles", &TileReport::culledTriangles,
           {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}),
     field("reused", &TileReport::reused,
-          {.says = "True = an earlier frame's tile serves, and nothing was drawn into it for this one."}),
+          {.says = "True = the tile of an earlier frame is used, and nothing was drawn into it for this one."}),
     field("drawCalls", &TileReport::drawCalls, {.says = "Draw calls into this tile."}),
-    field(
-        "cpuMilliseconds", &TileReport::cpuMilliseconds,
-        {.says =
-             "Time to draw its casters, the first tile's to find all casters and clear the atlas, too; absent where it "
-             "is not drawn, and in a plan.",
-         .unit = "milliseconds"}),
+    field("cpuMilliseconds", &TileReport::cpuMilliseconds,
+          {.says = "CPU time of drawing its casters; for the first tile also of finding all casters and clearing the "
+                   "atlas. Absent in a plan and if it was not drawn.",
+           .unit = "milliseconds"}),
     field("gpuMilliseconds", &TileReport::gpuMilliseconds,
-          {.says = "Time that the driver reports for the device; absent where it has no timer, too.",
+          {.says = "The same on the device, as the driver reports it; also absent if the driver has no timer.",
            .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<TileReport>);
 
@@ -61,26 +63,27 @@ inline constexpr auto kRows<LightReport> = replyRows(
     field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
     field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
     field("askedTileSize", &LightReport::askedTileSize,
-          {.says = "Side of a tile that was asked for; 0 = no shadow was.", .unit = "texels"}),
+          {.says = "Side of a tile that was asked for; 0 = no shadow was asked for.", .unit = "texels"}),
     field("grantedTileSize", &LightReport::grantedTileSize,
-          {.says = "Side of a tile that was given; 0 = none.", .unit = "texels"}),
+          {.says = "Side of a tile that it got; 0 = none.", .unit = "texels"}),
     field("note", &LightReport::note,
           {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
     field("depthRange", &LightReport::depthRange,
-          {.says = "View depths of a directional light's cascades, without a guard: to be handed in as "
-                   "`shadow.depthRange.previous` of the next frame; absent = none was drawn."}),
+          {.says = "View depths that a directional light's cascades cover, without a guard. Pass it as "
+                   "`shadow.depthRange.previous` of the next frame. Absent = none was drawn."}),
     field("tiles", &LightReport::tiles,
-          {.says = "Its cascades, nearest first, or the faces of a spot or point light."}),
+          {.says = "Its tiles: cascades, nearest first, or faces of a spot or point light."}),
     field("predictedError", &LightReport::predictedError,
-          {.says = "How large its tiles' texels show; absent = none was drawn."}),
+          {.says = "How large the texels of its tiles appear; absent if none was drawn."}),
     field("tracedPixels", &LightReport::tracedPixels,
           {.says = "Pixels that rays decided; techniques hybrid and rayTraced; absent in a plan.", .unit = "pixels"}),
     field("casterTriangles", &LightReport::casterTriangles, {.says = "Triangles drawn into its tiles."}),
     field("drawCalls", &LightReport::drawCalls, {.says = "Draw calls into its tiles."}),
     field("cpuMilliseconds", &LightReport::cpuMilliseconds,
-          {.says = "Time of its tiles; absent where none is drawn, and in a plan.", .unit = "milliseconds"}),
+          {.says = "CPU time of its tiles and rays; absent in a plan and if nothing was drawn.",
+           .unit = "milliseconds"}),
     field("gpuMilliseconds", &LightReport::gpuMilliseconds,
-          {.says = "The same as the driver reports it for the device; absent where it has no timer, too.",
+          {.says = "Device time of its tiles, as the driver reports it; also absent if the driver has no timer.",
            .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<LightReport>);
 
@@ -88,14 +91,17 @@ template <>
 inline constexpr auto kRows<PassReport> = replyRows(
     "PassReport", "One pass of a frame.",
     field("pass", &PassReport::pass,
-          {.says = "survey (what the camera sees), shadow (all tiles), surfaces (once for each number of samples a "
-                   "pixel that the views need), visibility (what rays and shadow volumes tell, alike) or view."}),
-    field("view", &PassReport::view, {.says = "Which view; absent for other passes."}),
+          {.says = "survey (what the camera sees), shadow (all tiles), surfaces (what each sample shows; once for each "
+                   "number of samples a pixel that the views need), visibility (what rays and shadow volumes decide, "
+                   "as often as surfaces) or view."}),
+    field("view", &PassReport::view, {.says = "Which view; only for pass view."}),
     field("cpuMilliseconds", &PassReport::cpuMilliseconds,
-          {.says = "From its first call to its last, whether the device is done or not.", .unit = "milliseconds"}),
+          {.says = "CPU time from its first call to its last, whether the device has finished or not.",
+           .unit = "milliseconds"}),
     field("gpuMilliseconds", &PassReport::gpuMilliseconds,
-          {.says = "Between its beginning and end on the device, as the driver reports it (a software driver: by the "
-                   "processor's clock, other passes' leftovers included); absent where it has no timer.",
+          {.says =
+               "Time between its beginning and end on the device, as the driver reports it; a software driver reports "
+               "the CPU's clock, which includes what other passes left to do. Absent if the driver has no timer.",
            .unit = "milliseconds"}),
     field("drawCalls", &PassReport::drawCalls, {.says = "Draw calls."}),
     field("triangles", &PassReport::triangles, {.says = "Triangles drawn."}));
@@ -103,7 +109,7 @@ static_assert(kRowsAreComplete<PassReport>);
 
 template <>
 inline constexpr auto kRows<MemoryReport> =
-    replyRows("MemoryReport", "What a frame takes on the device; a driver's padding is not counted.",
+    replyRows("MemoryReport", "Memory of a frame on the device; padding by the driver is not counted.",
               field("scene", &MemoryReport::scene,
                     {.says = "Geometry, materials and textures, kept between frames.", .unit = "bytes"}),
               field("atlas", &MemoryReport::atlas, {.says = "The shadow atlas.", .unit = "bytes"}),
@@ -118,51 +124,51 @@ inline constexpr auto kRows<FrameCounts> =
               field("surveyedTriangles", &FrameCounts::surveyedTriangles,
                     {.says = "Triangles drawn by the survey: those inside the view."}),
               field("shadedTriangles", &FrameCounts::shadedTriangles,
-                    {.says = "Triangles drawn for the surfaces to light: in clusters that the survey saw."}),
+                    {.says = "Triangles drawn for shading: those of clusters that the survey saw."}),
               field("casterTriangles", &FrameCounts::casterTriangles, {.says = "Triangles drawn into all tiles."}),
               field("drawCalls", &FrameCounts::drawCalls, {.says = "Draw calls of the whole frame."}));
 static_assert(kRowsAreComplete<FrameCounts>);
 
 template <>
 inline constexpr auto kRows<FrameReport> = rows(
-    "FrameReport", "What a frame's rendering gives besides its pictures.",
+    "FrameReport", "What a frame's rendering decided and took.",
     field("spec", &FrameReport::spec,
-          {.says = "The effective specification: every default resolved, so that it can be asked for again."}),
+          {.says = "The effective request: every default filled in. It asks for the same frame again."}),
     field("depthRange", &FrameReport::depthRange,
           {.says = "Nearest and farthest surface in view; 0 0 = nothing in view.", .unit = "metres"}),
     field("atlasSize", &FrameReport::atlasSize,
-          {.says = "Width and height that the atlas really took; 0 0 = no atlas.", .unit = "texels"}),
+          {.says = "Width and height of the atlas; 0 0 = no atlas.", .unit = "texels"}),
     field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
     field("predictedError", &FrameReport::predictedError,
-          {.says = "How large the texels of all tiles show; absent = no tile is drawn."}),
-    field(
-        "error", &FrameReport::error,
-        {.says = "The shadow of `debug.light` held against rays; present where a view shows an error or a reference."}),
-    field("quality", &FrameReport::quality, {.says = "How the target was met; present where the spec names one."}),
+          {.says = "How large the texels of all tiles appear; absent if no tile was drawn."}),
+    field("error", &FrameReport::error,
+          {.says = "The shadow of `debug.light` compared with rays; only with view reference, error or edgeDistance."}),
+    field("quality", &FrameReport::quality, {.says = "How the target was met; only if the request names one."}),
     field("counts", &FrameReport::counts, {.says = "How much was drawn."}),
-    field("memory", &FrameReport::memory, {.says = "What it takes on the device."}),
+    field("memory", &FrameReport::memory, {.says = "Memory on the device."}),
     field("passes", &FrameReport::passes, {.says = "Times and counts of each pass, in the order of drawing."}),
     field("stages", &FrameReport::stages,
-          {.says = "Time that each stage took: queue, load, upload, survey, plan, shadow, shade, readback, encode.",
+          {.says = "Time of each stage: queue, load, upload, survey, plan, shadow, shade, predict (with "
+                   "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
     field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));
 static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
-inline constexpr auto kRows<PlanReport> =
-    rows("PlanReport",
-         "What a frame would do, decided without drawing it: the boxes around what the camera may see stand in for its "
-         "surfaces, so that every tile holds what the frame's would, and perhaps more.",
-         field("spec", &PlanReport::spec,
-               {.says = "The effective specification: every default resolved, so that it can be asked for again."}),
-         field("depthRange", &PlanReport::depthRange,
-               {.says = "Nearest and farthest end of a box in view; 0 0 = nothing in view.", .unit = "metres"}),
-         field("atlasSize", &PlanReport::atlasSize,
-               {.says = "Width and height that the atlas would take; 0 0 = no atlas.", .unit = "texels"}),
-         field("lights", &PlanReport::lights, {.says = "What would be decided for each light, without times."}),
-         field("predictedError", &PlanReport::predictedError,
-               {.says = "How large the texels of all tiles would show at most; absent = no tile would be drawn."}),
-         field("warnings", &PlanReport::warnings, {.says = "What would be drawn differently from what was asked."}));
+inline constexpr auto kRows<PlanReport> = rows(
+    "PlanReport",
+    "What a frame would do, decided without drawing it: boxes around what the camera may see stand in for its "
+    "surfaces, so every tile covers what the frame's would, and perhaps more.",
+    field("spec", &PlanReport::spec,
+          {.says = "The effective request: every default filled in. It asks for the same frame again."}),
+    field("depthRange", &PlanReport::depthRange,
+          {.says = "Nearest and farthest end of a box in view; 0 0 = nothing in view.", .unit = "metres"}),
+    field("atlasSize", &PlanReport::atlasSize,
+          {.says = "Width and height that the atlas would have; 0 0 = no atlas.", .unit = "texels"}),
+    field("lights", &PlanReport::lights, {.says = "What would be decided for each light, without times."}),
+    field("predictedError", &PlanReport::predictedError,
+          {.says = "Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn."}),
+    field("warnings", &PlanReport::warnings, {.says = "What would be drawn differently from what was asked."}));
 static_assert(kRowsAreComplete<PlanReport>);
 
 } // namespace gnomon

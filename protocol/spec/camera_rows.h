@@ -8,38 +8,40 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<EyeTarget> =
-    rows("EyeTarget", "Where the eye stands and what it looks at.",
-         field("eye", &EyeTarget::eye,
-               {.says = "Where the camera stands; 0 0 5 where only target or up is given.",
-                .unit = "metres",
-                .range = kPositionRange}),
-         field("target", &EyeTarget::target,
-               {.says = "What the camera looks at, not the eye itself; 0 0 0 where only eye or up is given.",
-                .unit = "metres",
-                .range = kPositionRange}),
-         field("up", &EyeTarget::up,
-               {.says = "A direction that points upwards in the picture, not parallel to the view; absent = 0 1 0.",
-                .range = kPositionRange}));
+inline constexpr auto kRows<EyeTarget> = rows(
+    "EyeTarget", "Where the eye stands and what it looks at.",
+    field("eye", &EyeTarget::eye,
+          {.says = "Where the camera stands; 0 0 5 if only `target` or `up` is given.",
+           .unit = "metres",
+           .range = kPositionRange}),
+    field("target", &EyeTarget::target,
+          {.says = "The point that the camera looks at, different from `eye`; 0 0 0 if only `eye` or `up` is given.",
+           .unit = "metres",
+           .range = kPositionRange}),
+    field("up", &EyeTarget::up,
+          {.says =
+               "A direction that points upwards in the picture, not parallel to the direction of view; absent = 0 1 0.",
+           .range = kPositionRange}));
 static_assert(kRowsAreComplete<EyeTarget>);
 
 template <>
-inline constexpr auto kRows<Orbit> = rows(
-    "Orbit", "Where the camera stands on a sphere around a target.",
-    field("target", &Orbit::target,
-          {.says = "Centre of the sphere, at which the camera looks; absent = the centre of the scene.",
-           .unit = "metres",
-           .range = kPositionRange}),
-    field("azimuthDegrees", &Orbit::azimuthDegrees,
-          {.says = "Where the eye stands seen from the target, clockwise from north (-Z) seen from above.",
-           .unit = "degrees",
-           .range = kAzimuthRange}),
-    field("elevationDegrees", &Orbit::elevationDegrees,
-          {.says = "How high the eye stands above the target's horizon.", .unit = "degrees", .range = kElevationRange}),
-    field("distance", &Orbit::distance,
-          {.says = "Distance from the eye to the target; absent = far enough to see the whole scene.",
-           .unit = "metres",
-           .range = kLengthRange}));
+inline constexpr auto kRows<Orbit> =
+    rows("Orbit", "Where the camera stands on a sphere around a target.",
+         field("target", &Orbit::target,
+               {.says = "Centre of the sphere, at which the camera looks; absent = the centre of the scene.",
+                .unit = "metres",
+                .range = kPositionRange}),
+         field("azimuthDegrees", &Orbit::azimuthDegrees,
+               {.says = "Direction from the target to the eye, clockwise from north (-Z) as seen from above. The "
+                        "default looks from the south-southwest, so that two sides of a building show.",
+                .unit = "degrees",
+                .range = kAzimuthRange}),
+         field("elevationDegrees", &Orbit::elevationDegrees,
+               {.says = "Height of the eye above the target's horizon.", .unit = "degrees", .range = kElevationRange}),
+         field("distance", &Orbit::distance,
+               {.says = "Distance from the eye to the target; absent = far enough to show the whole scene.",
+                .unit = "metres",
+                .range = kLengthRange}));
 static_assert(kRowsAreComplete<Orbit>);
 
 template <>
@@ -48,11 +50,11 @@ inline constexpr auto kRows<Perspective> =
          field("fovYDegrees", &Perspective::fovYDegrees,
                {.says = "Full vertical angle of view.", .unit = "degrees", .range = {0, 180, true, true}}),
          field("near", &Perspective::near,
-               {.says = "Nearest depth that is drawn; absent = from the scene's bounds.",
+               {.says = "Nearest depth that is drawn; absent = chosen from the scene's bounds.",
                 .unit = "metres",
                 .range = kLengthRange}),
          field("far", &Perspective::far,
-               {.says = "Farthest depth that is drawn, more than near; absent = no end.",
+               {.says = "Farthest depth that is drawn, more than `near`; absent = no limit.",
                 .unit = "metres",
                 .range = kLengthRange}));
 static_assert(kRowsAreComplete<Perspective>);
@@ -69,24 +71,27 @@ inline constexpr auto kRows<Orthographic> =
                 .unit = "metres",
                 .range = kPositionRange}),
          field("far", &Orthographic::far,
-               {.says = "Farthest depth that is drawn, more than near.", .unit = "metres", .range = kPositionRange}));
+               {.says = "Farthest depth that is drawn, more than `near`.", .unit = "metres", .range = kPositionRange}));
 static_assert(kRowsAreComplete<Orthographic>);
 
 template <>
 inline constexpr auto kRows<Camera> =
-    rows("Camera", "At most one placement and at most one lens; with neither, an orbit that shows the whole scene.",
+    rows("Camera",
+         "At most one placement and at most one lens; without a placement, an orbit that shows the whole scene.",
          inlined("lookAt", &Camera::lookAt, {.says = "Placement by `eye`, `target` and `up`."}),
          field("orbit", &Camera::orbit, {.says = "Placement on a sphere around a target."}),
          field("node", &Camera::node,
-               {.says = "Placement and lens of a camera of the scene: its node's index or name.",
+               {.says = "Placement and lens of a camera in the scene, by its node's index or name.",
                 .range = kNodeRange,
                 .minCount = 1,
                 .maxCount = 1024}),
          field("fit", &Camera::fit,
-               {.says = "True = see the whole scene from the default direction; never false.", .onlyTrue = true}),
+               {.says = "True = show the whole scene from the default direction; false is not accepted.",
+                .onlyTrue = true}),
          field("perspective", &Camera::perspective,
-               {.says = "A lens with perspective; absent = the node's lens, or 45 degrees."}),
-         field("orthographic", &Camera::orthographic, {.says = "A lens without perspective, instead of one with."}))
+               {.says = "A lens with perspective; absent = the lens of the camera node, or 45 degrees."}),
+         field("orthographic", &Camera::orthographic,
+               {.says = "A lens without perspective, instead of one with perspective."}))
         .withAlternatives({"lookAt", "orbit", "node", "fit"}, {"perspective", "orthographic"});
 static_assert(kRowsAreComplete<Camera>);
 

@@ -8,18 +8,17 @@ namespace gnomon {
 
 template <>
 inline constexpr std::array kSpellings<LightType>{
-    spelling(LightType::directional, "directional", "from everywhere in one direction, as the sun"),
+    spelling(LightType::directional, "directional", "parallel light from far away, like the sun"),
     spelling(LightType::spot, "spot", "from a point, within a cone"),
-    spelling(LightType::point, "point", "from a point, to all sides"),
+    spelling(LightType::point, "point", "from a point, in all directions"),
 };
 static_assert(spellsAll<LightType>());
 
 template <>
 inline constexpr std::array kSpellings<ShadowTechnique>{
     spelling(ShadowTechnique::shadowMap, "shadowMap",
-             "depths seen from the light, filtered: fast, and as exact as its texels"),
-    spelling(ShadowTechnique::hybrid, "hybrid",
-             "shadow maps where they are sure, rays where they are not: exact and sharp"),
+             "depths seen from the light, filtered: fast, and as exact as its texels are fine"),
+    spelling(ShadowTechnique::hybrid, "hybrid", "shadow maps where they are certain, rays elsewhere: exact and sharp"),
     spelling(ShadowTechnique::shadowVolume, "shadowVolume",
              "stencilled shadow volumes: exact and sharp, drawn by the device"),
     spelling(ShadowTechnique::rayTraced, "rayTraced",
@@ -48,13 +47,13 @@ template <>
 inline constexpr std::array kSpellings<ShadowImportance>{
     spelling(ShadowImportance::low, "low", "a quarter of the tile's side"),
     spelling(ShadowImportance::medium, "medium", "half of the tile's side"),
-    spelling(ShadowImportance::high, "high", "the whole"),
+    spelling(ShadowImportance::high, "high", "the full side"),
 };
 static_assert(spellsAll<ShadowImportance>());
 
 template <>
 inline constexpr std::array kSpellings<PartitionMode>{
-    spelling(PartitionMode::manual, "manual", "at `splits`"),
+    spelling(PartitionMode::manual, "manual", "at the distances of `splits`"),
     spelling(PartitionMode::uniform, "uniform", "into equal lengths"),
     spelling(PartitionMode::logarithmic, "logarithmic", "into equal ratios, mixed with equal lengths by `pssmFactor`"),
 };
@@ -62,16 +61,18 @@ static_assert(spellsAll<PartitionMode>());
 
 template <>
 inline constexpr std::array kSpellings<DepthRangeMode>{
-    spelling(DepthRangeMode::automatic, "automatic", "the nearest and farthest surface in this frame"),
+    spelling(DepthRangeMode::automatic, "automatic", "from the nearest to the farthest surface in this frame"),
     spelling(DepthRangeMode::manual, "manual", "from `min` to `max`"),
 };
 static_assert(spellsAll<DepthRangeMode>());
 
 template <>
 inline constexpr std::array kSpellings<Stabilization>{
-    spelling(Stabilization::none, "none", "the tightest fit; sharpest for stills"),
-    spelling(Stabilization::projectionSnapping, "projectionSnapping", "a sphere's fit moved by whole texels"),
-    spelling(Stabilization::viewSnapping, "viewSnapping", "a sphere's fit whose centre lies on a grid in the world"),
+    spelling(Stabilization::none, "none", "the tightest fit; sharpest for single pictures"),
+    spelling(Stabilization::projectionSnapping, "projectionSnapping",
+             "tiles fitted to a sphere and moved by whole texels"),
+    spelling(Stabilization::viewSnapping, "viewSnapping",
+             "tiles fitted to a sphere whose centre lies on a grid in the world"),
 };
 static_assert(spellsAll<Stabilization>());
 
@@ -94,7 +95,7 @@ static_assert(spellsAll<BiasMode>());
 
 template <>
 inline constexpr std::array kSpellings<BlendedCasters>{
-    spelling(BlendedCasters::dither, "dither", "by a 4x4 pattern that lets as much light through as their alpha"),
+    spelling(BlendedCasters::dither, "dither", "by a 4 x 4 pattern that blocks as much light as their alpha says"),
     spelling(BlendedCasters::threshold, "threshold", "where their alpha is at least a half"),
 };
 static_assert(spellsAll<BlendedCasters>());
@@ -105,7 +106,7 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::depth, "depth", "distance along the view axis: metres in EXR, near-to-far grey in PNG"),
     spelling(View::normal, "normal", "world-space shading normal: -1..1 in EXR, 0..1 in PNG"),
     spelling(View::cascades, "cascades",
-             "the shaded scene tinted by cascade: green, blue, purple, red; grey without tiles"),
+             "the shaded scene tinted by cascade: green, blue, purple, red and on; grey without tiles"),
     spelling(View::shadow, "shadow", "the share of `debug.light` that arrives, 0..1; 1 where it casts no shadow"),
     spelling(View::atlas, "atlas",
              "the shadow atlas at its own size: grey with tiles outlined and named light.tile, or raw depth"),
@@ -113,21 +114,20 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::texelGrid, "texelGrid",
              "the shaded scene with the texels of `debug.light` as a checkerboard; grey without tiles"),
     spelling(View::texelDensity, "texelDensity",
-             "pixels that a texel of `debug.light` spans at most: a heat map (1/16 to 16), or numbers; 0 = no texel"),
-    spelling(View::blendWeight, "blendWeight", "share of the next cascade of `debug.light`, 0..1; 0 = none"),
+             "most pixels that a texel of `debug.light` spans: a heat map (1/16 to 16), or numbers; 0 = no texel"),
+    spelling(View::blendWeight, "blendWeight", "weight of the next cascade of `debug.light`, 0..1; 0 = none"),
     spelling(View::bias, "bias",
-             "metres that a point is moved for `debug.light`: a heat map (0.1 mm to 1 m), or numbers; 0 = no tile"),
+             "metres by which a point is moved for `debug.light`: a heat map (0.1 mm to 1 m), or numbers; 0 = no tile"),
     spelling(View::casterIds, "casterIds",
              "the node that throws the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
     spelling(View::lightContribution, "lightContribution",
-             "the shaded scene in nothing but `debug.light`: no other light, surroundings, glow or background"),
-    spelling(
-        View::reference, "reference",
-        "the share of `debug.light` that each pixel really sees, traced by rays; 1 where nothing receives its shadow"),
+             "the scene lit by `debug.light` alone: no other light, surroundings, emission or background"),
+    spelling(View::reference, "reference",
+             "the share of `debug.light` that rays find at each pixel; 1 where nothing receives its shadow"),
     spelling(View::error, "error",
-             "red where the shadow of `debug.light` is false, blue where its light is; or shadow less reference"),
+             "false shadow of `debug.light` in red, false light in blue; or shadow minus reference"),
     spelling(View::edgeDistance, "edgeDistance",
-             "pixels from each edge of the shadow of `debug.light` to the nearest true one: a heat map (0 to 16), or "
+             "pixels from each edge of the shadow of `debug.light` to the nearest exact one: a heat map (0 to 16), or "
              "numbers; -1 = no edge"),
 };
 static_assert(spellsAll<View>());
@@ -141,10 +141,10 @@ static_assert(spellsAll<ImageFormat>());
 
 template <>
 inline constexpr std::array kSpellings<ExrCompression>{
-    spelling(ExrCompression::none, "none"),
-    spelling(ExrCompression::rle, "rle"),
-    spelling(ExrCompression::zip, "zip"),
-    spelling(ExrCompression::piz, "piz"),
+    spelling(ExrCompression::none, "none", "fastest to write, largest"),
+    spelling(ExrCompression::rle, "rle", "run lengths"),
+    spelling(ExrCompression::zip, "zip", "deflate, 16 rows at a time"),
+    spelling(ExrCompression::piz, "piz", "wavelets, small for noisy pictures"),
 };
 static_assert(spellsAll<ExrCompression>());
 
@@ -158,7 +158,7 @@ static_assert(spellsAll<ExrPixelType>());
 template <>
 inline constexpr std::array kSpellings<ToneMapping>{
     spelling(ToneMapping::aces, "aces", "a film-like curve"),
-    spelling(ToneMapping::none, "none", "light as it is, cut off at 1"),
+    spelling(ToneMapping::none, "none", "unchanged, clipped at 1"),
 };
 static_assert(spellsAll<ToneMapping>());
 

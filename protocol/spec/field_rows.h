@@ -14,107 +14,130 @@
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<Ambient> = rows(
-    "Ambient", "Light of the surroundings: a neutral studio, brighter above than at the sides and below.",
-    field("color", &Ambient::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
-    field("intensity", &Ambient::intensity,
-          {.says = "Mean radiance of the surroundings above, in the unit of the lights.", .range = kIntensityRange}));
+inline constexpr auto kRows<Ambient> =
+    rows("Ambient", "Light of the surroundings: a neutral studio, brighter above than at the sides and below.",
+         field("color", &Ambient::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
+         field("intensity", &Ambient::intensity,
+               {.says = "Brightness of the surroundings from above, in the same unit as the lights; the default is a "
+                        "tenth of a light's default intensity.",
+                .range = kIntensityRange}));
 static_assert(kRowsAreComplete<Ambient>);
 
 template <>
 inline constexpr auto kRows<Background> =
-    rows("Background", "What stands where no surface is; neither exposed nor tone mapped.",
+    rows("Background", "What is shown where there is no surface; neither exposed nor tone mapped.",
          field("color", &Background::color, {.says = "Linear red, green and blue.", .range = kUnitRange}),
          field("alpha", &Background::alpha, {.says = "0 = transparent, 1 = opaque.", .range = kUnitRange}));
 static_assert(kRowsAreComplete<Background>);
 
 template <>
-inline constexpr auto kRows<Output> =
-    rows("Output", "The picture's file.",
-         field("format", &Output::format, {.says = "The kind of file where the Accept header names none."}),
-         field("pngCompression", &Output::pngCompression, {.says = "0 = fastest, 9 = smallest.", .range = {0, 9}}),
-         field("exrCompression", &Output::exrCompression, {.says = "Compression of an EXR, all without loss."}),
-         field("exrPixelType", &Output::exrPixelType, {.says = "Width of an EXR's numbers."}));
+inline constexpr auto kRows<Output> = rows(
+    "Output", "The picture's file.",
+    field("format", &Output::format, {.says = "File format if the Accept header names none."}),
+    field("pngCompression", &Output::pngCompression,
+          {.says = "0 = largest file and fastest, 9 = smallest and slowest. The picture is the same at any level; the "
+                   "default favours speed.",
+           .range = {0, 9}}),
+    field("exrCompression", &Output::exrCompression, {.says = "Compression of an EXR; all kinds are lossless."}),
+    field(
+        "exrPixelType", &Output::exrPixelType,
+        {.says = "Bits of a number in an EXR: `half` has 11 bits of precision, `float` 24 and about twice the size."}));
 static_assert(kRowsAreComplete<Output>);
 
 template <>
-inline constexpr auto kRows<Quality> =
-    rows("Quality", "A target for the shadows: an error or a time.",
-         field("maxError", &Quality::maxError,
-               {.says = "Share of misclassified receivers at most: the cheapest settings that hold it on this view.",
-                .range = kUnitRange}),
-         field("maxMilliseconds", &Quality::maxMilliseconds,
-               {.says = "Time of a whole warm frame at most, encoding apart: the most exact settings that fit.",
-                .unit = "milliseconds",
-                .range = {0, 1e6, true, false}}));
+inline constexpr auto kRows<Quality> = rows(
+    "Quality", "A target for the shadows: an error or a time.",
+    field("maxError", &Quality::maxError,
+          {.says = "Chooses the fastest settings that misclassify at most this share of the receivers in this view. "
+                   "The first frame measures them and takes as long as about fifty; later ones reuse the choice.",
+           .range = kUnitRange}),
+    field("maxMilliseconds", &Quality::maxMilliseconds,
+          {.says = "Chooses the most exact settings whose whole warm frame, without encoding, takes at most this long. "
+                   "The first frame measures them and takes as long as about fifty; later ones reuse the choice.",
+           .unit = "milliseconds",
+           .range = {0, 1e6, true, false}}));
 static_assert(kRowsAreComplete<Quality>);
 
 template <>
 inline constexpr auto kRows<AnimationMoment> =
-    rows("AnimationMoment", "A moment of one of the file's animations, by its index or its name.",
+    rows("AnimationMoment", "A moment of one of the file's animations, by index or name.",
          field("index", &AnimationMoment::index,
                {.says = "Index of the animation.", .range = {0, double(kLimits.maxAnimations - 1)}}),
          field("name", &AnimationMoment::name,
-               {.says = "The first animation of that name.", .minCount = 1, .maxCount = 1024}),
+               {.says = "Name of the animation; the first of that name.", .minCount = 1, .maxCount = 1024}),
          field("timeSeconds", &AnimationMoment::timeSeconds,
-               {.says = "When; before its first and after its last keyframe, what is animated stands still.",
+               {.says = "Time within the animation. Before the first and after the last keyframe its values stay as "
+                        "they are there.",
                 .unit = "seconds",
                 .range = {-1e9, 1e9}}))
         .withAlternatives({"index", "name"});
 static_assert(kRowsAreComplete<AnimationMoment>);
 
 template <>
-inline constexpr auto kRows<Debug> =
-    rows("Debug", "What the debug views show.",
-         field("light", &Debug::light,
-               {.says = "Index of the light; absent = the first that casts a shadow in this frame, or else the first.",
-                .range = {0, kLimits.maxLights - 1.0}}),
-         field("tile", &Debug::tile,
-               {.says = "Which of its tiles the view `tile` shows: a cascade or a face.",
-                .range = {0, kLimits.maxCascades - 1.0}}),
-         field("predictEdges", &Debug::predictEdges,
-               {.says = "The report says, without rays, how far the edges of its shadow map are expected to be off: "
-                        "`predictedError.edgeDisplacement`. Takes about as long as shading twice."}));
+inline constexpr auto kRows<Debug> = rows(
+    "Debug", "What the debug views show.",
+    field("light", &Debug::light,
+          {.says = "Index of the light that views of one light show; absent = the first light that casts a shadow in "
+                   "this frame, or else the first light.",
+           .range = {0, kLimits.maxLights - 1.0}}),
+    field("tile", &Debug::tile,
+          {.says = "Which tile of that light the view `tile` shows: a cascade or a face.",
+           .range = {0, kLimits.maxCascades - 1.0}}),
+    field("predictEdges", &Debug::predictEdges,
+          {.says = "True = the report estimates, without rays, how far the edges of this light's shadow map are from "
+                   "their true place (`predictedError.edgeDisplacement`). Costs about as much as shading twice."}));
 static_assert(kRowsAreComplete<Debug>);
 
 template <>
 inline constexpr auto kRows<FrameSpec> = rows(
-    "FrameSpec", "Everything that a frame depends on besides the scene; every field may be left out.",
-    field("width", &FrameSpec::width, {.says = "Width of the picture.", .unit = "pixels", .range = kFrameSideRange}),
+    "FrameSpec", "Everything that a frame depends on, apart from the scene; every field may be left out.",
+    field("width", &FrameSpec::width,
+          {.says = "Width of the picture. Time of shading grows with the number of pixels.",
+           .unit = "pixels",
+           .range = kFrameSideRange}),
     field("height", &FrameSpec::height, {.says = "Height of the picture.", .unit = "pixels", .range = kFrameSideRange}),
     field("camera", &FrameSpec::camera, {.says = "Where the picture is taken from, and with which lens."}),
     field("lights", &FrameSpec::lights,
-          {.says = "The lights; absent = the scene's own, or one sun where it has none.",
+          {.says = "The lights; absent = those of the scene, or one sun if it has none. Each one that casts shadows "
+                   "needs tiles of its own.",
            .maxCount = kLimits.maxLights}),
-    field("shadow", &FrameSpec::shadow, {.says = "The shadow of every light that has none of its own."}),
+    field("shadow", &FrameSpec::shadow, {.says = "The shadow of every light that has no `shadow` of its own."}),
     field("shadowLightPolicy", &FrameSpec::shadowLightPolicy, {.says = "Which lights cast shadows."}),
-    field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every tile."}),
+    field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every shadow tile."}),
     field("nodes", &FrameSpec::nodes,
-          {.says = "Switches of single nodes; of two for one node the later one counts.",
+          {.says = "Switches of single nodes; of two entries for one node, the later one applies.",
            .maxCount = kLimits.maxNodeOptions}),
     field("scene", &FrameSpec::scene,
-          {.says = "Index of the glTF scene; absent = the file's default.", .range = kNodeRange}),
+          {.says = "Index of the glTF scene; absent = the file's default scene.", .range = kNodeRange}),
     field("materialVariant", &FrameSpec::materialVariant,
-          {.says = "Name of one of the file's material variants; absent = the materials that the meshes name.",
+          {.says = "Name of one of the file's material variants (KHR_materials_variants); absent = the materials that "
+                   "the meshes name.",
            .maxCount = 1024}),
     field("animation", &FrameSpec::animation,
-          {.says = "The pose of an animated scene; absent = as the file has it at rest."}),
+          {.says = "The pose of an animated scene; absent = the file's rest pose."}),
     field("ambient", &FrameSpec::ambient,
-          {.says = "The surroundings: a neutral studio, brighter above than at the sides and below."}),
-    field("background", &FrameSpec::background, {.says = "What stands where no surface is."}),
+          {.says = "Light from the surroundings: a neutral studio, brighter above than at the sides and below."}),
+    field("background", &FrameSpec::background, {.says = "What is shown where there is no surface."}),
     field("exposure", &FrameSpec::exposure,
-          {.says = "Light is multiplied by 2 to this power before tone mapping.", .unit = "stops", .range = {-32, 32}}),
-    field("toneMapping", &FrameSpec::toneMapping, {.says = "How light is fitted into a PNG."}),
-    field("antialiasing", &FrameSpec::antialiasing, {.says = "How edges are smoothed."}),
+          {.says = "Light is multiplied by 2 to this power before tone mapping; each step up doubles it.",
+           .unit = "stops",
+           .range = {-32, 32}}),
+    field("toneMapping", &FrameSpec::toneMapping,
+          {.says = "How linear light is brought into the range of a PNG; an EXR is never tone mapped."}),
+    field("antialiasing", &FrameSpec::antialiasing,
+          {.says = "How edges of surfaces are smoothed. Four samples a pixel take two to three times as long to draw "
+                   "on a CPU."}),
     field("views", &FrameSpec::views,
-          {.says = "What to show, each view once; a reply of one picture shows the first.",
+          {.says = "What to show, each view once. A reply of one picture shows the first. Each view adds a pass over "
+                   "the picture; `reference`, `error` and `edgeDistance` also trace rays.",
            .minCount = 1,
            .maxCount = kSpellings<View>.size(),
            .distinct = true}),
     field("debug", &FrameSpec::debug, {.says = "What the debug views show."}),
     field("quality", &FrameSpec::quality,
-          {.says = "A target for the shadows; their technique, filter, cascades and sizes are then chosen for it."}),
-    field("output", &FrameSpec::output, {.says = "The picture's file."}));
+          {.says = "A target for the shadows instead of settings: technique, filter, cascades and sizes are then "
+                   "chosen to meet it."}),
+    field("output", &FrameSpec::output, {.says = "Format and compression of the picture."}));
 static_assert(kRowsAreComplete<FrameSpec>);
 
 } // namespace gnomon

@@ -11,102 +11,126 @@ namespace gnomon {
 template <>
 inline constexpr auto kRows<Partition> =
     rows("Partition", "How the depth range is cut into cascades.",
-         field("mode", &Partition::mode, {.says = "Where the cuts lie."}),
+         field("mode", &Partition::mode, {.says = "How split distances are chosen."}),
          field("pssmFactor", &Partition::pssmFactor,
-               {.says = "In mode logarithmic: 0 = purely logarithmic, 1 = uniform.", .range = kUnitRange}),
+               {.says = "In mode logarithmic: 0 = purely logarithmic, which gives the foreground the most texels; 1 = "
+                        "uniform. The default is half of each, the usual compromise.",
+                .range = kUnitRange}),
          field("splits", &Partition::splits,
-               {.says = "In mode manual: the cascades' far ends as shares of the depth range, one for each cascade, "
-                        "increasing.",
+               {.says = "In mode manual: far ends of the cascades as fractions of the depth range, one for each "
+                        "cascade, increasing.",
                 .range = {0, 1, true, false},
                 .maxCount = kLimits.maxCascades}));
 static_assert(kRowsAreComplete<Partition>);
 
 template <>
-inline constexpr auto kRows<PreviousRange> =
-    rows("PreviousRange", "A range that an earlier frame's report gave.",
-         field("near", &PreviousRange::near,
-               {.says = "View depth where it begins.", .unit = "metres", .range = kPositionRange}),
-         field("far", &PreviousRange::far,
-               {.says = "View depth where it ends, more than near.", .unit = "metres", .range = kPositionRange}));
+inline constexpr auto kRows<PreviousRange> = rows(
+    "PreviousRange", "A range that an earlier frame's report gave.",
+    field("near", &PreviousRange::near,
+          {.says = "View depth where the range begins.", .unit = "metres", .range = kPositionRange}),
+    field("far", &PreviousRange::far,
+          {.says = "View depth where the range ends, more than `near`.", .unit = "metres", .range = kPositionRange}));
 static_assert(kRowsAreComplete<PreviousRange>);
 
 template <>
-inline constexpr auto kRows<DepthRange> = rows(
-    "DepthRange", "The depths that the cascades cover.", field("mode", &DepthRange::mode, {.says = "Who decides."}),
-    field("min", &DepthRange::min,
-          {.says = "In mode manual: where shadows begin, from the camera's near plane.",
-           .unit = "metres",
-           .range = {0, 1e9}}),
-    field("max", &DepthRange::max,
-          {.says = "In mode manual: where shadows end, from the camera's near plane; more than min.",
-           .unit = "metres",
-           .range = kLengthRange}),
-    field(
-        "previous", &DepthRange::previous,
-        {.says = "In mode automatic, for sequences: the `depthRange` that the report gave for this light in the frame "
-                 "before; kept, with `guardDistance` on both ends, as long as it holds what is seen."}),
-    field("guardDistance", &DepthRange::guardDistance,
-          {.says = "Added to both ends of `previous`; absent = 1.", .unit = "metres", .range = {0, 1e9}}));
+inline constexpr auto kRows<DepthRange> =
+    rows("DepthRange", "The depths that the cascades cover.",
+         field("mode", &DepthRange::mode,
+               {.says = "Whether the range is computed or given. Computed is tightest, so shadows are sharpest."}),
+         field("min", &DepthRange::min,
+               {.says = "In mode manual: where shadows begin, measured from the camera's near plane.",
+                .unit = "metres",
+                .range = {0, 1e9}}),
+         field("max", &DepthRange::max,
+               {.says = "In mode manual: where shadows end, measured from the camera's near plane, more than `min`. "
+                        "Farther = coarser texels.",
+                .unit = "metres",
+                .range = kLengthRange}),
+         field("previous", &DepthRange::previous,
+               {.says = "In mode automatic, for sequences: this light's `depthRange` from the report of the previous "
+                        "frame. It is kept, extended by `guardDistance` at both ends, as long as it covers what is in "
+                        "view; this keeps shadows from crawling."}),
+         field("guardDistance", &DepthRange::guardDistance,
+               {.says = "Added to both ends of `previous`; absent = 1. Larger = the range changes less often and "
+                        "texels are coarser.",
+                .unit = "metres",
+                .range = {0, 1e9}}));
 static_assert(kRowsAreComplete<DepthRange>);
 
 template <>
 inline constexpr auto kRows<Filter> =
-    rows("Filter", "How the shadow map is sampled.", field("type", &Filter::type, {.says = "The kind of filter."}),
+    rows("Filter", "How the shadow map is sampled.",
+         field("type", &Filter::type,
+               {.says = "How the texels of the map are combined. hard is fastest; pcf costs time when shading, vsm, "
+                        "evsm and msm a blur of every tile."}),
          field("size", &Filter::size,
-               {.says = "Texels across the kernel; wider is softer and slower; nothing to hard, nor with a radius.",
+               {.says = "Width of the kernel. Wider is softer and slower, and darkens concave corners farther out. "
+                        "Ignored by `hard` and when `radius` is set.",
                 .unit = "texels",
                 .range = {3, 7},
                 .choices = choices(3, 5, 7)}),
          field("radius", &Filter::radius,
-               {.says = "Radius of the kernel in the world, instead of `size`: the same softness in every cascade; not "
-                        "with hard.",
+               {.says = "Radius of the kernel in the world, instead of `size`: the same softness in every cascade. "
+                        "Larger is slower; refused with `hard`.",
                 .unit = "metres",
                 .range = kLengthRange}));
 static_assert(kRowsAreComplete<Filter>);
 
 template <>
 inline constexpr auto kRows<Bias> =
-    rows("Bias", "How far a surface is moved before it is held against the map, so that it doesn't shadow itself.",
-         field("mode", &Bias::mode, {.says = "Who decides."}),
+    rows("Bias", "How far a surface is moved before it is compared with the map, so that it does not shadow itself.",
+         field("mode", &Bias::mode, {.says = "Whether the bias is computed or given."}),
          field("depth", &Bias::depth,
-               {.says = "In mode manual: towards the light; absent = 0.", .unit = "metres", .range = kBiasRange}),
+               {.says = "In mode manual: distance towards the light; absent = 0. Larger removes acne, and detaches "
+                        "shadows from their casters.",
+                .unit = "metres",
+                .range = kBiasRange}),
          field("slope", &Bias::slope,
-               {.says = "In mode manual: towards the light, times the tangent of the angle between normal and light; "
-                        "absent = 0.",
+               {.says = "In mode manual: distance towards the light, multiplied by the tangent of the angle between "
+                        "normal and light; absent = 0.",
                 .unit = "metres",
                 .range = kBiasRange}),
          field("normalOffsetScale", &Bias::normalOffsetScale,
-               {.says = "In mode manual: along the surface's normal, as a multiple of `depth`; absent = 0.",
+               {.says = "In mode manual: distance along the surface's normal, as a multiple of `depth`; absent = 0.",
                 .range = kBiasRange}));
 static_assert(kRowsAreComplete<Bias>);
 
 template <>
 inline constexpr auto kRows<Shadow> = rows(
     "Shadow", "The shadow of a light.",
-    field("enabled", &Shadow::enabled, {.says = "False = the light throws no shadow."}),
+    field("enabled", &Shadow::enabled, {.says = "False = the light casts no shadow, and takes no place in the atlas."}),
     field("technique", &Shadow::technique,
-          {.says = "How the shadow is found. Sizes, cascades, filter and bias belong to shadow maps."}),
+          {.says = "How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
     field("size", &Shadow::size,
-          {.says = "Side of one tile, of a cascade or of a spot or point light's face; larger is sharper and slower; "
-                   "absent = Large for a directional light, Medium for a spot, Small for a point light."}),
+          {.says =
+               "Side of one shadow tile (a cascade, or a face of a spot or point light), in steps of two. Each step up "
+               "halves the texels, makes shadows sharper, and takes four times the space and fill time. Absent = Large "
+               "for directional lights, Medium for spots, Small for point lights, which have up to six tiles."}),
     field("importance", &Shadow::importance,
-          {.says = "Shrinks the tile, and decides who yields when the atlas is full: the least important first."}),
+          {.says = "Each step below high halves the tile's side. Tiles of less important lights are also the first to "
+                   "shrink when the atlas is full."}),
     field("cascadeCount", &Shadow::cascadeCount,
-          {.says = "Directional: slices of the view, each with its own tile; more keep the foreground sharp.",
+          {.says = "Directional lights: number of slices of the view, each with a tile of its own. More keep the "
+                   "foreground sharp and cost a tile each; 4 suit views to the horizon, 1 suits a single object.",
            .unit = "cascades",
            .range = {1, kLimits.maxCascades}}),
-    field("partition", &Shadow::partition, {.says = "How the depth range is cut into cascades."}),
+    field("partition", &Shadow::partition, {.says = "How the depth range is split into cascades."}),
     field("depthRange", &Shadow::depthRange, {.says = "The depths that the cascades cover."}),
     field("stabilization", &Shadow::stabilization,
-          {.says = "How shadow edges are kept from crawling when the camera moves; costs sharpness."}),
-    field("blendCascades", &Shadow::blendCascades, {.says = "True = cross-fade over the last 20 % of each cascade."}),
-    field("filter", &Shadow::filter, {.says = "How the shadow map is sampled."}),
+          {.says = "Keeps shadow edges from crawling when the camera moves, at the price of larger texels. Off by "
+                   "default, as a single picture does not need it."}),
+    field("blendCascades", &Shadow::blendCascades,
+          {.says = "True = each cascade fades into the next over its last 20 %, which hides the seam and costs a "
+                   "second lookup there."}),
+    field("filter", &Shadow::filter, {.says = "How the shadow map is filtered."}),
     field("bias", &Shadow::bias, {.says = "How surfaces are kept from shadowing themselves."}),
-    field("blendedCasters", &Shadow::blendedCasters, {.says = "How materials of alphaMode BLEND cast."}),
+    field("blendedCasters", &Shadow::blendedCasters,
+          {.says = "How materials of alphaMode BLEND, and transmissive ones, cast shadows."}),
     field("raySamples", &Shadow::raySamples,
-          {.says = "Technique rayTraced: rays a pixel towards a light that has a size.",
+          {.says = "Technique rayTraced: rays for each pixel towards a light that has a size. Noise falls with the "
+                   "square root of the number, time grows with it; lights without a size take one ray.",
            .unit = "rays",
            .range = {1, kLimits.maxRaySamples}}));
 static_assert(kRowsAreComplete<Shadow>);
@@ -115,17 +139,20 @@ template <>
 inline constexpr auto kRows<Atlas> =
     rows("Atlas", "The one depth texture that holds every tile.",
          field("size", &Atlas::size,
-               {.says = "Side of the atlas at most, a power of two; the device may allow less.",
+               {.says = "Largest side of the atlas; it takes no more than its tiles need. A smaller limit saves memory "
+                        "and shrinks tiles when it is full. The device may allow less.",
                 .unit = "texels",
                 .range = {128, kLimits.maxAtlasSide},
                 .choices = kTexelSides}),
          field("baseSize", &Atlas::baseSize,
-               {.says = "Side of a tile of size Large, a power of two, at most the atlas.",
+               {.says = "Side of a tile of size Large, at most `size`. Doubling it halves the texels of every shadow, "
+                        "at four times the memory and fill time.",
                 .unit = "texels",
                 .range = {128, kLimits.maxAtlasSide},
                 .choices = kTexelSides}),
          field("samples", &Atlas::samples,
-               {.says = "Depths in each texel, each compared by itself; 4 where the device has such textures.",
+               {.says = "Depths in each texel, each compared by itself. 4 smooths edges within a texel at four times "
+                        "the memory; the device must support it.",
                 .range = {1, 4},
                 .choices = choices(1, 4)}));
 static_assert(kRowsAreComplete<Atlas>);

@@ -18,27 +18,27 @@ struct Place {
   std::size_t length = 0;
 };
 
-std::optional<Place> tableIn(const std::string& readme) {
-  const std::size_t begin = readme.find(kBegin);
+std::optional<Place> tableIn(const std::string& page) {
+  const std::size_t begin = page.find(kBegin);
   if (begin == std::string::npos) return std::nullopt;
   const std::size_t at = begin + kBegin.size();
-  const std::size_t end = readme.find(kEnd, at);
+  const std::size_t end = page.find(kEnd, at);
   if (end == std::string::npos) return std::nullopt;
   return Place{at, end - at};
 }
 
 /// GNOMON_README_UPDATE=1 writes the table first.
 TEST(Readme, ItsTableOfFieldsIsThatOfTheRows) {
-  const Bytes bytes = testing::readFile(GNOMON_README);
-  std::string readme(bytes.begin(), bytes.end());
-  auto place = tableIn(readme);
-  ASSERT_TRUE(place) << "README.md has lost its markers: " << kBegin << "..." << kEnd;
+  const Bytes bytes = testing::readFile(GNOMON_FIELDS);
+  std::string page(bytes.begin(), bytes.end());
+  auto place = tableIn(page);
+  ASSERT_TRUE(place) << "protocol/FIELDS.md has lost its markers: " << kBegin << "..." << kEnd;
   if (std::getenv("GNOMON_README_UPDATE") != nullptr) {
-    readme.replace(place->at, place->length, fieldTable());
-    place = tableIn(readme);
-    testing::writeFile(GNOMON_README, std::span(reinterpret_cast<const std::uint8_t*>(readme.data()), readme.size()));
+    page.replace(place->at, place->length, fieldTable());
+    place = tableIn(page);
+    testing::writeFile(GNOMON_FIELDS, std::span(reinterpret_cast<const std::uint8_t*>(page.data()), page.size()));
   }
-  EXPECT_EQ(readme.substr(place->at, place->length), fieldTable()) << "GNOMON_README_UPDATE=1 writes it anew";
+  EXPECT_EQ(page.substr(place->at, place->length), fieldTable()) << "GNOMON_README_UPDATE=1 writes it anew";
 }
 
 } // namespace

@@ -55,10 +55,10 @@ TEST(FieldList, TheTableHasARowForEachFieldAndFiveCellsInEach) {
     begin = end + 1;
   }
   EXPECT_EQ(rows, frameFields().size() + 2);
-  EXPECT_THAT(
-      table,
-      testing::HasSubstr(
-          "| `shadow.filter.type` | hard \\| pcf \\| vsm \\| evsm \\| msm |  | `\"pcf\"` | The kind of filter. |"));
+  EXPECT_THAT(table, testing::HasSubstr(R"(| `atlas.samples` | whole number | 1 or 4 | `1` | Depths in each texel)"));
+  EXPECT_THAT(table,
+              testing::HasSubstr(R"(| `shadow.filter.type` | hard \| pcf \| vsm \| evsm \| msm |  | `"pcf"` | How)"));
+  EXPECT_THAT(table, testing::HasSubstr("hard = one sample, a sharp edge; pcf = ")) << "what each value means";
 }
 
 TEST(FieldList, TheHelpNamesEachField) {

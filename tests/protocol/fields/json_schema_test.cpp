@@ -61,9 +61,10 @@ TEST(JsonSchema, EveryObjectIsClosed) {
 
 TEST(JsonSchema, SaysWhatTheRowsSay) {
   const Json& spec = schemaNamed("FrameSpec")["properties"];
-  EXPECT_EQ(spec["width"].dump(),
-            R"({"type":"integer","minimum":1,"maximum":16384,)"
-            R"("description":"Width of the picture. Unit: pixels.","x-unit":"pixels","default":1280})");
+  EXPECT_EQ(
+      spec["width"].dump(),
+      R"({"type":"integer","minimum":1,"maximum":16384,)"
+      R"("description":"Width of the picture. Time of shading grows with the number of pixels. Unit: pixels.","x-unit":"pixels","default":1280})");
   EXPECT_EQ(spec["views"]["uniqueItems"], true);
   EXPECT_EQ(spec["views"]["minItems"], 1);
   EXPECT_EQ(spec["views"]["default"].dump(), R"(["color"])");
