@@ -1,4 +1,4 @@
-// What users of the described systems may look for and not find; README.md, Limitations, says why it is not there.
+// What users of the described systems may look for and not find; renderer/LIMITATIONS.md says why it is not there.
 #include "protocol/json/json_codec.h"
 #include "tests/protocol/found_problems.h"
 

@@ -142,7 +142,7 @@ TEST(ShadowVolumeCasters, N3_CountsWrapRoundAndBack) {
 }
 
 TEST(ShadowVolumeCasters, N3_256VolumesAtOnceAreTheLimit) {
-  // Eight bits can't tell 256 from none: what the README's limitations say.
+  // Eight bits can't tell 256 from none: what renderer/LIMITATIONS.md says.
   const ScenePtr scene = stack(256);
   Json spec = volumeSpec(testLights().vertical, cameraFrom({3, 0.5, 3}, {0, 0, 0}));
   const auto shown = floatsOf(renderJson(scene, spec.dump()));
