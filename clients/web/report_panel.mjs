@@ -2,7 +2,7 @@
 
 import { count, element, short } from './dom.mjs';
 
-const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8']; // as the cascades view tints them
+const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8']; // as the view `cascades` tints them
 
 export function showReport(node, report) {
   node.replaceChildren(...report.lights.map(lightOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
@@ -22,7 +22,7 @@ function lightOf(light) {
       element('td', { title: `${count(tile.culledTriangles)} culled` }, count(tile.casterTriangles)),
     );
   });
-  const head = [['', ''], ['metres', 'View depth; of a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
+  const head = [['', ''], ['metres', 'View depth; for a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
   const table = element(
     'table',
     {},

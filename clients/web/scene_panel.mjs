@@ -17,7 +17,7 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
     }
     fillList();
     const wanted = scenes.find(({ id }) => id === wantedId);
-    if (wantedId && !wanted) fail(new Refusal(404, 'The scene of this link isn’t on this server.', []));
+    if (wantedId && !wanted) fail(new Refusal(404, 'The scene of this link is not on this server.', []));
     const first = wanted ?? scenes[0];
     if (first) show(first);
   }
@@ -99,5 +99,5 @@ function factsOf({ triangles, nodes, materials, images, boundsMin, boundsMax, wa
   const items = facts.map(([value, name]) => element('li', {}, element('b', {}, value), ` ${name}`));
   if (!warnings.length) return items;
   const list = element('ul', {}, ...warnings.map((text) => element('li', {}, text)));
-  return [...items, element('li', { class: 'warnings' }, element('details', {}, element('summary', {}, `${warnings.length} drawn differently`), list))];
+  return [...items, element('li', { class: 'warnings' }, element('details', {}, element('summary', {}, `${warnings.length} ${warnings.length === 1 ? 'warning' : 'warnings'}`), list))];
 }

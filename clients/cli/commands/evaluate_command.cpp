@@ -119,24 +119,29 @@ int runEvaluate(const EvaluateOptions& options) {
 
 Subcommand addEvaluateCommand(CLI::App& app) {
   auto options = std::make_shared<EvaluateOptions>();
-  auto* command = app.add_subcommand("evaluate", "Measure shadows: speed against error, held against rays");
+  auto* command =
+      app.add_subcommand("evaluate", "Measure speed and error of shadows, compared with exact ones by ray tracing");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
-  command->add_option("--spec", options->spec, "A frame spec as JSON, - is standard input; the flags go over it");
-  auto* variants = command->add_option("--variant", options->variants,
-                                       "What a variant changes in the spec, as a JSON merge patch. Repeatable");
+  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  auto* variants = command->add_option(
+      "--variant", options->variants, "One variant: what it changes in the request, as a JSON merge patch. Repeatable");
   variants->type_name("JSON")->take_all()->group("Evaluation");
-  command->add_option("--sweep", options->sweep, "Variants by name; techniques without one")
+  command->add_option("--sweep", options->sweep, "A named set of variants; techniques is the default")
       ->type_name("techniques|filters|sizes|all")
       ->excludes(variants)
       ->group("Evaluation");
-  command->add_option("--repeats", options->repeats, "Timed frames of a variant; 5")->group("Evaluation");
+  command
+      ->add_option("--repeats", options->repeats,
+                   "Timed frames of each variant, 5 by default. More are steadier and slower")
+      ->group("Evaluation");
   command
       ->add_option("--reference-samples", options->referenceSamples,
-                   "Rays a pixel of the reference towards lights that have a size; 256")
+                   "Rays for each pixel of the reference towards lights that have a size, 256 by default. More are "
+                   "less noisy and slower")
       ->group("Evaluation");
   command
       ->add_option("--path", options->path,
-                   R"(Measure shimmer along cameras: {"step": [X, Y, Z], "frames": N} or {"cameras": [...]})")
+                   R"(Measure shimmer along a path of cameras: {"step": [X, Y, Z], "frames": N} or {"cameras": [...]})")
       ->type_name("JSON")
       ->group("Evaluation");
   for (const auto& [flag, file, what] : {std::tuple("--json", &options->json, "The whole report as JSON"),

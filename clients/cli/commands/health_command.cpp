@@ -24,14 +24,15 @@ int runHealth(const HealthOptions& options) {
     std::cout << "ready\n";
     return kExitOk;
   }
-  return printProblems({{ProblemCode::unavailable, options.url, "is not ready", "200", std::to_string(reply->status)}});
+  return printProblems(
+      {{ProblemCode::unavailable, options.url, "The server is not ready.", "200", std::to_string(reply->status)}});
 }
 
 } // namespace
 
 Subcommand addHealthCommand(CLI::App& app) {
   auto options = std::make_shared<HealthOptions>();
-  auto* command = app.add_subcommand("health", "Ask a server whether it is ready: exit 0 when it is, else 1");
+  auto* command = app.add_subcommand("health", "Ask a server whether it is ready: exit code 0 if it is, else 1");
   command->add_option("--url", options->url, "The server's address")->envname("GNOMON_URL")->capture_default_str();
   command->add_option("--timeout", options->timeoutSeconds, "Seconds to wait for an answer")
       ->check(CLI::Range(1, 600))

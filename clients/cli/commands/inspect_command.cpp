@@ -45,9 +45,10 @@ int runInspect(const InspectOptions& options) {
 
 Subcommand addInspectCommand(CLI::App& app) {
   auto options = std::make_shared<InspectOptions>();
-  auto* command = app.add_subcommand("inspect", "Say what a scene holds, and what of it is drawn differently");
+  auto* command =
+      app.add_subcommand("inspect", "Print what a scene holds, and what of it is ignored or drawn differently");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
-  command->add_flag("--json", options->json, "The server's summary as JSON instead of a tree");
+  command->add_flag("--json", options->json, "Print JSON, as the server's summary, instead of a tree");
   return {[command] { return command->parsed(); }, [options] { return runInspect(*options); }};
 }
 

@@ -22,7 +22,7 @@ struct PlanOptions {
   WhereOptions where;
 };
 
-/// The renderer is made to be asked what it can do; it draws nothing.
+/// The renderer is created only to ask what it can do; it draws nothing.
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                              Progress& progress) {
   progress.stage("loading the scene");
@@ -67,9 +67,9 @@ int runPlan(const PlanOptions& options) {
 
 Subcommand addPlanCommand(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
-  auto* command = app.add_subcommand("plan", "Say what a frame's shadows would be, without rendering it");
+  auto* command = app.add_subcommand("plan", "Print what a frame's shadows would be, without rendering it");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
-  command->add_option("spec", options->spec, "A frame spec as JSON, - is standard input; the flags go over it");
+  command->add_option("spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   addPictureFlags(*command, options->arguments);
   addWhereFlags(*command, options->where);
   return {[command] { return command->parsed(); }, [options] { return runPlan(*options); }};

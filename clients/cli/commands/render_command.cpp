@@ -77,15 +77,16 @@ std::string checkOutput(const std::string& output) {
 
 Subcommand addRenderCommand(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
-  auto* command = app.add_subcommand("render", "Render a scene to a picture, here or on a server");
+  auto* command = app.add_subcommand("render", "Render a scene to a picture, in this process or on a server");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
   command
-      ->add_option("-o,--output", options->output,
-                   "The picture, .png or .exr; - is standard output. Several views as PNG get their names put in: "
-                   "frame.depth.png")
+      ->add_option(
+          "-o,--output", options->output,
+          "The picture, .png or .exr; - is standard output. With several views as PNG, each file name gets the "
+          "view's name: frame.depth.png")
       ->required()
       ->check(checkOutput);
-  command->add_option("--spec", options->spec, "A frame spec as JSON, - is standard input; the flags go over it");
+  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
   addPictureFlags(*command, options->arguments);
   addWhereFlags(*command, options->where);

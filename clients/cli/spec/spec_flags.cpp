@@ -6,8 +6,8 @@ namespace gnomon::cli {
 
 void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
   const auto refuse = [](const char* flag, const char* need) { throw CLI::ValidationError(flag, need); };
-  command.add_option("--width", arguments.width, "Pixels across")->group("Picture");
-  command.add_option("--height", arguments.height, "Pixels down")->group("Picture");
+  command.add_option("--width", arguments.width, "Width of the picture in pixels")->group("Picture");
+  command.add_option("--height", arguments.height, "Height of the picture in pixels")->group("Picture");
   command
       .add_option_function<std::string>(
           "--size",
@@ -17,7 +17,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
             arguments.width = (*size)[0];
             arguments.height = (*size)[1];
           },
-          "Both at once")
+          "Width and height, e.g. 1280x720")
       ->type_name("WxH")
       ->excludes("--width")
       ->excludes("--height")
@@ -30,20 +30,23 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
             if (!sun) refuse("--sun", "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40");
             arguments.sun = {(*sun)[0], (*sun)[1]};
           },
-          "Put the sun there: degrees clockwise from north (-Z), degrees above the horizon")
+          "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon")
       ->type_name("AZ,EL")
       ->group("Picture");
-  auto* camera = command.add_option("--camera", arguments.camera, "Look through a camera of the scene")
-                     ->type_name("NODE")
-                     ->group("Picture");
+  auto* camera =
+      command.add_option("--camera", arguments.camera, "Use a camera of the scene, by its node's name or index")
+          ->type_name("NODE")
+          ->group("Picture");
   command
       .add_option_function<std::string>(
           "--orbit",
           [&arguments, refuse](const std::string& text) {
             arguments.orbit = parseNumbers(text, 2, 3);
-            if (!arguments.orbit) refuse("--orbit", "needs AZIMUTH,ELEVATION in degrees and perhaps ,DISTANCE");
+            if (!arguments.orbit)
+              refuse("--orbit", "needs AZIMUTH,ELEVATION in degrees and optionally ,DISTANCE in metres");
           },
-          "Look at the scene from there; the distance, in metres, is found when absent")
+          "Place the camera around the scene: degrees clockwise from north, degrees above the horizon, and metres; "
+          "without a distance, far enough to see all of it")
       ->type_name("AZ,EL[,DIST]")
       ->excludes(camera)
       ->group("Picture");
@@ -65,7 +68,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
               arguments.sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
             }
           },
-          "Set any field of the spec by its dotted path. Repeatable")
+          "Set any field of the request by its dotted path. Repeatable")
       ->type_name("PATH=VALUE")
       ->take_all()
       ->group("Picture");
@@ -79,9 +82,9 @@ void addWhereFlags(CLI::App& command, WhereOptions& where) {
       },
       "Graphics context; auto is EGL, then OSMesa");
   backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");
-  auto* gpu =
-      command.add_flag("--require-gpu", where.backend.requireGpu, "Refuse to render in software")->group("Where");
-  command.add_option("--server", where.server, "Work on this server instead of in this process")
+  auto* gpu = command.add_flag("--require-gpu", where.backend.requireGpu, "Refuse to run if only software could draw")
+                  ->group("Where");
+  command.add_option("--server", where.server, "Let this server do the work instead of this process")
       ->type_name("URL")
       ->excludes(backend)
       ->excludes(gpu)

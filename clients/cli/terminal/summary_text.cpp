@@ -146,7 +146,8 @@ std::string summaryText(const std::string& title, const SceneSummary& s) {
   std::vector<Branch> branches{{"file  " + readableBytes(s.bytes), {}}, memoryBranch(s), boundsBranch(s)};
   if (s.scenes > 1) {
     branches.push_back(
-        {"scenes  " + std::to_string(s.scenes) + ", told of the default: scene " + std::to_string(s.defaultScene), {}});
+        {"scenes  " + std::to_string(s.scenes) + ", shown is the default: scene " + std::to_string(s.defaultScene),
+         {}});
   }
   branches.push_back(geometryBranch(s));
   branches.push_back(appearanceBranch(s));
