@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Each rule of check_docs.py is broken once, in a tree of its own, and has to be named."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_docs
+
+# The smallest tree in which every table has something to say, and nothing is wrong.
+SOUND = {
+    "README.md": "# House\n\n## What it can do\n\n| technique | is |\n|---|---|\n| `maps` | a map |\n\n"
+                 "[API](server/API.md#views)\n",
+    "server/API.md": "# API\n\n## Views\n\n| view | shows |\n|---|---|\n| `color` | all |\n| `depth` | depth |\n\n"
+                     "## Stages\n\n| stage | is |\n|---|---|\n| `plan` | planning |\n| `encode` | writing |\n",
+    "server/OPERATIONS.md": "## Start and stop\n\n| flag | does |\n|---|---|\n| `--port` | listens |\n",
+    "server/process/serve_flags.cpp": 'serve.add_option("--port", options.port);\n',
+    "server/frames/reply.cpp": 'stages.push_back({"encode", took});\n',
+    "server/main.cpp": 'app.add_subcommand("serve", "Serve");\n',
+    "clients/USING.md": "## Command line\n\n| command | does |\n|---|---|\n| `gnomon serve` | serves |\n",
+    "clients/cli/spec/spec_flags.cpp": 'command.add_option("--view", views,\n  "color, "\n  "depth")->take_all();\n',
+    "clients/web/fields.mjs": "const kViews = [\n  ['color', 'Colour'],\n];\n"
+                              "const kDebugViews = [\n  ['depth', 'Depth'],\n];\n"
+                              "const kStageColors = {\n  plan: '#1',\n  encode: '#2',\n};\n",
+    "protocol/FIELDS.md": "| field | type |\n|---|---|\n| `width` | number |\n| `lights[].color` | 3 numbers |\n",
+    "protocol/report/frame_report.h": "/// One stage's time. Names and order: plan\n/// encode. More.\n",
+    "protocol/report/report_rows.h": 'field("stages", &FrameReport::stages, {.says = "plan, "\n "encode."}),\n',
+    "protocol/spec/enum_rows.h": 'kSpellings<View>{\n  spelling(View::color, "color", "x"),\n'
+                                 '  spelling(\n    View::depth, "depth", "x"),\n};\n'
+                                 'kSpellings<ShadowTechnique>{\n  spelling(ShadowTechnique::maps, "maps", "x"),\n};\n',
+    "protocol/spec/field_rows.h": 'field("width", &A::width)\nfield(\n  "lights", &A::lights)\n'
+                                  'field("color", &B::color)\n',
+    "renderer/SHADOWS.md": "## Techniques\n\n| technique | is |\n|---|---|\n| `maps` | a map |\n",
+    "renderer/render.cpp": 'clock.finish("plan");\n',
+    "renderer/shaders/README.md": "| shader | draws |\n|---|---|\n| `view.frag` | a view |\n",
+    "renderer/shaders/view.frag": "",
+}
+
+# Path, a text in it, what stands there instead, and words of the one fault that it has to give.
+BROKEN = [
+    ("README.md", "server/API.md#views", "server/NONE.md", "README.md:9: the link server/NONE.md leads nowhere"),
+    ("README.md", "#views", "#sights", "has no heading of that name"),
+    ("README.md", "[API]", '<img src="none.png" alt="x"> [API]', "the link none.png leads nowhere"),
+    ("README.md", "# House", "# House\n\nSee `renderer/none.cpp`.", "README.md:3: there is no renderer/none.cpp"),
+    ("README.md", "# House", "# House\n\nSee `none.h`.", "there is no none.h"),
+    ("README.md", "# House", "# House\n\n```sh\nserver/start   # go\n```", "README.md:4: there is no server/start"),
+    ("renderer/shaders/README.md", "`view.frag` |", "`view.frag`, `other` |", "there is no other"),
+    ("renderer/shaders/README.md", "`view.frag` |", "`view.frag`, `render` |", "no render in this folder"),
+    ("renderer/shaders/README.md", "| `view.frag` | a view |", "", "shader view.frag is missing"),
+    ("server/API.md", "| `depth` | depth |\n", "", "server/API.md: view depth is missing"),
+    ("server/API.md", "| `depth` | depth |\n", "| `depth` | x |\n| `old` | x |\n", "server/API.md: there is no view old"),
+    ("server/API.md", "| `plan` | planning |\n", "", "server/API.md: stage plan is missing"),
+    ("clients/web/fields.mjs", "  ['depth', 'Depth'],\n", "", "clients/web/fields.mjs: view depth is missing"),
+    ("clients/web/fields.mjs", "  plan: '#1',\n", "", "clients/web/fields.mjs: stage plan is missing"),
+    ("clients/cli/spec/spec_flags.cpp", "color, ", "", "--view: view color is missing"),
+    ("protocol/report/frame_report.h", "plan", "plan load", "there is no stage load"),
+    ("protocol/report/report_rows.h", "plan, ", "", "protocol/report/report_rows.h: stage plan is missing"),
+    ("renderer/SHADOWS.md", "| `maps` | a map |\n", "", "renderer/SHADOWS.md: technique maps is missing"),
+    ("README.md", "| `maps` | a map |\n", "", "README.md: technique maps is missing"),
+    ("server/OPERATIONS.md", "| `--port` | listens |\n", "", "flag --port is missing"),
+    ("clients/USING.md", "| `gnomon serve` | serves |\n", "", "command serve is missing"),
+    ("protocol/FIELDS.md", "| `width` | number |\n", "", "field width is missing"),
+    ("server/process/serve_flags.cpp", '"--port"', "kPort", "the code names no flag"),
+]
+
+FINE = ["`image/png`", "`text/csv`", "`/v1/scenes`", "`build/release/bin/x`", "`spec_flags.cpp`",
+        "`cli/spec/spec_flags`", "`shaders/*.frag`", "`renderer/shaders/NAME.frag`", "`KHR/none`",
+        "[x](https://none.example/a.md)", "[x](#house)", "```\nserver/anything in a drawing\n```", "`./build`", "`shadow.filter.size`"]
+
+
+class CheckDocs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for path, text in SOUND.items():
+            self.write(path, text)
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text, encoding="utf-8")
+
+    def faults(self):
+        return list(check_docs.faults_of(self.root))
+
+    def test_a_sound_tree_has_none(self):
+        self.assertEqual(self.faults(), [])
+
+    def test_each_fault_is_named(self):
+        for path, old, new, words in BROKEN:
+            with self.subTest(path=path, words=words):
+                self.assertIn(old, SOUND[path])
+                self.write(path, SOUND[path].replace(old, new, 1))
+                faults = self.faults()
+                self.write(path, SOUND[path])
+                self.assertTrue(any(words in fault for fault in faults), faults)
+
+    def test_what_is_no_path_of_the_tree_is_left_alone(self):
+        for text in FINE:
+            with self.subTest(text=text):
+                self.write("README.md", SOUND["README.md"] + "\n" + text + "\n")
+                self.assertEqual(self.faults(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
