@@ -48,6 +48,5 @@ export function createProblems(root, banner) {
 }
 
 export function sentence({ detail, limit, actual }) {
-  const facts = [limit && `allowed: ${limit}`, actual && `got: ${actual}`].filter(Boolean).join(', ');
-  return facts ? `${detail} (${facts})` : detail;
+  return [detail, limit && `Allowed: ${limit}.`, actual && `Got: ${actual}.`].filter(Boolean).join(' ');
 }

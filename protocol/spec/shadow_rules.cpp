@@ -14,7 +14,7 @@ void appendPartitionRules(const Shadow& shadow, const std::string& pointer, std:
     if (partition.splits.empty()) return;
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = splits,
-                       .detail = "splits need partition mode manual.",
+                       .detail = "A list of splits needs partition mode manual.",
                        .actual = "mode " + std::string(spell(partition.mode))},
                       {mode}});
     return;
@@ -45,17 +45,17 @@ void appendDepthRangeRules(const DepthRange& range, const std::string& pointer, 
   const bool manual = range.mode == DepthRangeMode::manual;
   for (const auto& [value, place] : {std::pair(range.min, min), std::pair(range.max, max)}) {
     if (value.has_value() == manual) continue;
-    broken.push_back(
-        {{.code = ProblemCode::invalidValue,
-          .pointer = place,
-          .detail = manual ? "depthRange mode manual needs min and max." : "min and max need depthRange mode manual.",
-          .actual = manual ? "absent" : "mode automatic"},
-         {mode, place}});
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = place,
+                       .detail = manual ? "Mode manual of depthRange needs min and max."
+                                        : "Only mode manual of depthRange has min and max.",
+                       .actual = manual ? "absent" : "mode automatic"},
+                      {mode, place}});
   }
   if (manual && range.min && range.max && *range.min >= *range.max) {
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = max,
-                       .detail = "max must be more than min.",
+                       .detail = "The value of max must be more than min.",
                        .limit = "more than " + numberText(*range.min),
                        .actual = numberText(*range.max)},
                       {mode, min, max}});
@@ -67,21 +67,21 @@ void appendPreviousRangeRules(const DepthRange& range, const std::string& pointe
   if (range.guardDistance && !range.previous) {
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = pointer + "/guardDistance",
-                       .detail = "guardDistance guards a previous range; without one the range is this frame's own."},
+                       .detail = "A guardDistance needs a previous range."},
                       {previous}});
   }
   if (!range.previous) return;
   if (range.mode == DepthRangeMode::manual) {
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = previous,
-                       .detail = "previous needs depthRange mode automatic.",
+                       .detail = "A previous range needs depthRange mode automatic.",
                        .actual = "mode manual"},
                       {pointer + "/mode"}});
   }
   if (range.previous->near >= range.previous->far) {
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = previous + "/far",
-                       .detail = "far must be more than near.",
+                       .detail = "The value of far must be more than near.",
                        .limit = "more than " + numberText(range.previous->near),
                        .actual = numberText(range.previous->far)},
                       {previous}});
@@ -105,7 +105,7 @@ void appendBiasRules(const Bias& bias, const std::string& pointer, std::vector<B
     if (!value) continue;
     broken.push_back({{.code = ProblemCode::invalidValue,
                        .pointer = pointer + "/" + name,
-                       .detail = std::string(name) + " needs bias mode manual.",
+                       .detail = "The bias value " + std::string(name) + " needs bias mode manual.",
                        .actual = "mode automatic"},
                       {pointer + "/mode"}});
   }
@@ -123,7 +123,7 @@ void appendAtlasRules(const Atlas& atlas, std::vector<BrokenRule>& broken) {
   if (atlas.baseSize <= atlas.size) return;
   broken.push_back({{.code = ProblemCode::invalidValue,
                      .pointer = "/atlas/baseSize",
-                     .detail = "baseSize can't be more than the atlas' size.",
+                     .detail = "The baseSize of a tile can't be more than the atlas's size.",
                      .limit = "at most " + std::to_string(atlas.size),
                      .actual = std::to_string(atlas.baseSize)},
                     {"/atlas/size", "/atlas/baseSize"}});

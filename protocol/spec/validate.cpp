@@ -15,7 +15,7 @@ void appendPixelRule(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
   if (pixels <= kLimits.maxFramePixels) return;
   broken.push_back({{.code = ProblemCode::tooLarge,
                      .pointer = "/width",
-                     .detail = "width times height is more than one frame may have.",
+                     .detail = "Width times height is more than one frame may have.",
                      .limit = std::to_string(kLimits.maxFramePixels) + " pixels",
                      .actual = std::to_string(pixels) + " pixels"},
                     {"/width", "/height"}});
@@ -49,7 +49,7 @@ void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken)
   if (quality.maxError.has_value() != quality.maxMilliseconds.has_value()) return;
   broken.push_back({{.code = ProblemCode::invalidValue,
                      .pointer = "/quality",
-                     .detail = "A target is one of maxError and maxMilliseconds.",
+                     .detail = "A target needs exactly one of maxError and maxMilliseconds.",
                      .limit = "maxError | maxMilliseconds",
                      .actual = quality.maxError ? "both" : "neither"},
                     {"/quality"}});

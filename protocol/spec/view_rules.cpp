@@ -55,7 +55,7 @@ void appendAlternatives(const T& value, const std::string& pointer, std::vector<
       }
     });
     for (std::size_t i = 1; i < given.size(); ++i) {
-      broken.push_back({invalid(pointer + "/" + given[i], "Only one of these can be given.", names), {}});
+      broken.push_back({invalid(pointer + "/" + given[i], "Only one of these may be given.", names), {}});
     }
   }
 }
@@ -73,17 +73,17 @@ void appendLookAtRules(const EyeTarget& lookAt, std::vector<BrokenRule>& broken)
         {invalid("/camera/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
          {"/camera/up"}});
   } else if (length(cross(unit(view), unit(lookAt.up))) < kParallel) {
-    broken.push_back({invalid("/camera/up", "up is parallel to the direction of view.", "any direction but the view's",
-                              vecText(lookAt.up)),
+    broken.push_back({invalid("/camera/up", "The direction up is parallel to the direction of view.",
+                              "any direction but the view's", vecText(lookAt.up)),
                       {"/camera/eye", "/camera/target", "/camera/up"}});
   }
 }
 
 void appendNearFar(double near, double far, const std::string& lens, std::vector<BrokenRule>& broken) {
   if (near < far) return;
-  broken.push_back(
-      {invalid(lens + "/far", "far must be more than near.", "more than " + numberText(near), numberText(far)),
-       {lens + "/near", lens + "/far"}});
+  broken.push_back({invalid(lens + "/far", "The value of far must be more than near.", "more than " + numberText(near),
+                            numberText(far)),
+                    {lens + "/near", lens + "/far"}});
 }
 
 } // namespace

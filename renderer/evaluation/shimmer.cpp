@@ -26,7 +26,7 @@ struct Watched {
 };
 
 Problem stopped() {
-  return {ProblemCode::unavailable, "", "the measurement was stopped"};
+  return {ProblemCode::unavailable, "", "The measurement was stopped."};
 }
 
 /// Shadows of full strength: a flip is one of visibility.
@@ -69,8 +69,8 @@ Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std:
   }
   if (!watched.empty()) return watched;
   return Problem{ProblemCode::invalidValue, "/path",
-                 casting.empty() ? "no light of this frame casts a shadow"
-                                 : "no surface that faces a light is in sight of every camera of the path"};
+                 casting.empty() ? "No light of this frame casts a shadow."
+                                 : "No surface that faces a light is in sight of every camera of the path."};
 }
 
 std::vector<shared::ProbeData> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {

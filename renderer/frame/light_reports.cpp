@@ -53,7 +53,7 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
 std::string sharpNote(const Light& light) {
   const bool sized = light.angularDiameterDegrees.value_or(0) > 0 || light.radius.value_or(0) > 0;
   if (!sized || light.shadow->technique == ShadowTechnique::rayTraced) return "";
-  return "its size is left out: technique " + std::string(spell(light.shadow->technique)) + " draws it without one";
+  return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 
 } // namespace
@@ -65,7 +65,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     LightReport report;
     report.light = static_cast<int>(i);
     const Light& light = (*spec.lights)[i];
-    report.note = !light.shadow->enabled ? "its shadow is turned off"
+    report.note = !light.shadow->enabled ? "its shadow is disabled"
                   : light.intensity <= 0 ? "its intensity is 0"
                                          : "shadowLightPolicy is first, and this is not the first directional light";
     reports.push_back(std::move(report));
@@ -76,7 +76,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
     const std::string sharp = sharpNote(light);
     const bool unmapped = light.shadow->technique == ShadowTechnique::hybrid;
-    report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it spares" : "";
+    report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it saves" : "";
     report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
   }
   for (std::size_t i = 0; i < plan.lights.size(); ++i) {

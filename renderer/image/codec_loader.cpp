@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kModuleFile = "libgnomon_image_codec.so";
 
 Problem codecProblem(const std::string& detail) {
-  return {ProblemCode::internal, "", "the image codec is not usable: " + detail, "", ""};
+  return {ProblemCode::internal, "", "The image codec is not usable: " + detail + ".", "", ""};
 }
 
 } // namespace

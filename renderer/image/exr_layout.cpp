@@ -69,10 +69,10 @@ ExrPart makePart(const std::vector<const ImageLayer*>& layers, ExrPixelType pixe
 } // namespace
 
 Result<std::vector<ExrPart>> exrParts(std::span<const ImageLayer> layers, ExrPixelType pixelType) {
-  if (layers.empty()) return mistake("an EXR needs a layer");
+  if (layers.empty()) return mistake("An EXR needs a layer.");
   std::vector<std::vector<const ImageLayer*>> groups;
   for (const ImageLayer& layer : layers) {
-    if (!floatsOf(layer)) return mistake("an EXR's layer is no float image of its own size");
+    if (!floatsOf(layer)) return mistake("An EXR's layer is no float image of its own size.");
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
       const Image& member = *members.front()->image;
       return member.width == layer.image->width && member.height == layer.image->height;
@@ -89,9 +89,9 @@ Result<std::vector<ExrPart>> exrParts(std::span<const ImageLayer> layers, ExrPix
   for (const auto& group : groups) {
     parts.push_back(makePart(group, pixelType));
     partNames.push_back(parts.back().name);
-    if (hasDuplicates(parts.back().channels)) return mistake("two channels of an EXR have the same name");
+    if (hasDuplicates(parts.back().channels)) return mistake("Two channels of an EXR have the same name.");
   }
-  if (hasDuplicates(partNames)) return mistake("two parts of an EXR have the same name");
+  if (hasDuplicates(partNames)) return mistake("Two parts of an EXR have the same name.");
   return parts;
 }
 

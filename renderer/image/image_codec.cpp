@@ -38,7 +38,7 @@ std::string oneLine(std::string text) {
 }
 
 Problem failure(ProblemCode code, const std::string& what, const std::string& message) {
-  return {code, "", message.empty() ? what : what + ": " + oneLine(message), "", ""};
+  return {code, "", (message.empty() ? what : what + ": " + oneLine(message)) + ".", "", ""};
 }
 
 codec::Compression tableValue(ExrCompression compression) {
@@ -72,11 +72,11 @@ struct PartView {
 Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
   const std::string actual = std::to_string(size.width) + "x" + std::to_string(size.height);
   if (size.width > maxSide || size.height > maxSide) {
-    return Problem{ProblemCode::tooLarge, "", "the image is too wide or too high", std::to_string(maxSide) + " a side",
+    return Problem{ProblemCode::tooLarge, "", "The image is too wide or too high.", std::to_string(maxSide) + " a side",
                    actual};
   }
   if (std::int64_t{size.width} * size.height > maxPixels) {
-    return Problem{ProblemCode::tooLarge, "", "the image has too many pixels", std::to_string(maxPixels) + " pixels",
+    return Problem{ProblemCode::tooLarge, "", "The image has too many pixels.", std::to_string(maxPixels) + " pixels",
                    actual};
   }
   return Done{};
@@ -107,10 +107,10 @@ Result<Bytes> encodePng(const Image& image, int level) {
   const bool sound = pixels && image.width > 0 && image.height > 0 && (channels == 1 || channels == 3 || channels == 4);
   if (!sound ||
       pixels->size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * channels) {
-    return failure(ProblemCode::internal, "a PNG needs an 8-bit image of 1, 3 or 4 channels", "");
+    return failure(ProblemCode::internal, "A PNG needs an 8-bit image of 1, 3 or 4 channels", "");
   }
   if (level < 0 || level > 9) {
-    return Problem{ProblemCode::invalidValue, "", "the PNG compression level is out of range", "0..9",
+    return Problem{ProblemCode::invalidValue, "", "The PNG compression level is out of range.", "0..9",
                    std::to_string(level)};
   }
   auto codec = imageCodec();
@@ -119,7 +119,7 @@ Result<Bytes> encodePng(const Image& image, int level) {
   std::string message;
   if (!(*codec)->encodePng({image.width, image.height, static_cast<int>(channels), pixels->data()}, level,
                            sinkInto(encoded), sinkInto(message))) {
-    return failure(ProblemCode::internal, "the PNG could not be written", message);
+    return failure(ProblemCode::internal, "The PNG could not be written", message);
   }
   return encoded;
 }
@@ -137,14 +137,14 @@ Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compr
   std::string message;
   if (!(*codec)->encodeExr(tableParts.data(), tableParts.size(), tableValue(compression), sinkInto(encoded),
                            sinkInto(message))) {
-    return failure(ProblemCode::internal, "the EXR could not be written", message);
+    return failure(ProblemCode::internal, "The EXR could not be written", message);
   }
   return encoded;
 }
 
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
   const auto format = formatOf(encoded);
-  if (!format) return unsupportedImage("the image is no PNG, JPEG or WebP");
+  if (!format) return unsupportedImage("The image is no PNG, JPEG or WebP.");
   switch (*format) {
     case codec::Format::png:
       return pngSize(encoded);
@@ -153,7 +153,7 @@ Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
     case codec::Format::webp:
       return webpSize(encoded);
   }
-  return unsupportedImage("the image is no PNG, JPEG or WebP");
+  return unsupportedImage("The image is no PNG, JPEG or WebP.");
 }
 
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
@@ -172,7 +172,7 @@ Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, st
   };
   if (!decodeWith((*codec)->decode, essential->picture) ||
       (!essential->alpha.empty() && !decodeWith((*codec)->decodeAlpha, essential->alpha))) {
-    return failure(ProblemCode::malformed, "the image could not be decoded", message);
+    return failure(ProblemCode::malformed, "The image could not be decoded", message);
   }
   return Image{size->width, size->height, {"R", "G", "B", "A"}, std::move(rgba)};
 }

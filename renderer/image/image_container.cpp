@@ -66,14 +66,14 @@ Problem unsupportedImage(const std::string& detail) {
 }
 
 Result<ImageSize> pngSize(EncodedBytes encoded) {
-  if (encoded.size() < kHeaderEnd) return malformedImage("the PNG ends within its header");
+  if (encoded.size() < kHeaderEnd) return malformedImage("The PNG ends within its header.");
   if (typeAt(encoded, kSignatureSize) != "IHDR" || bigEndian(encoded, kSignatureSize, 4) != kHeaderLength) {
-    return malformedImage("the PNG does not begin with its header");
+    return malformedImage("The PNG does not begin with its header.");
   }
   const std::uint32_t width = bigEndian(encoded, kSignatureSize + 8, 4);
   const std::uint32_t height = bigEndian(encoded, kSignatureSize + 12, 4);
   if (width == 0 || height == 0 || width > kMaxNumber || height > kMaxNumber) {
-    return malformedImage("the PNG has no valid width and height");
+    return malformedImage("The PNG has no valid width and height.");
   }
   return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
@@ -88,12 +88,12 @@ Result<Bytes> essentialPng(EncodedBytes encoded) {
     const std::size_t next = chunk + kChunkFrame + length;
     bool wanted = false;
     for (const std::string_view name : kEssentialChunks) wanted = wanted || name == type;
-    if (!wanted && isCritical(type)) return unsupportedImage("the PNG has a critical chunk of an unknown type");
+    if (!wanted && isCritical(type)) return unsupportedImage("The PNG has a critical chunk of an unknown type.");
     if (wanted) essential.insert(essential.end(), encoded.begin() + chunk, encoded.begin() + next);
     if (type == "IEND") return essential;
     chunk = next;
   }
-  return malformedImage("the PNG is cut short");
+  return malformedImage("The PNG is cut short.");
 }
 
 } // namespace gnomon

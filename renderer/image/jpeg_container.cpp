@@ -67,16 +67,16 @@ bool isSupportedFrame(std::uint8_t marker) {
 
 Result<ImageSize> sizeFromFrame(EncodedBytes encoded, const Segment& frame) {
   if (!isSupportedFrame(frame.marker)) {
-    return unsupportedImage("the JPEG is lossless or hierarchical; only sequential and progressive ones are read");
+    return unsupportedImage("The JPEG is lossless or hierarchical; only sequential and progressive ones are read.");
   }
-  if (frame.end - frame.payload < 6) return malformedImage("the JPEG's frame header is too short");
-  if (encoded[frame.payload] != 8) return unsupportedImage("the JPEG does not have 8 bits a sample");
+  if (frame.end - frame.payload < 6) return malformedImage("The JPEG's frame header is too short.");
+  if (encoded[frame.payload] != 8) return unsupportedImage("The JPEG does not have 8 bits a sample.");
   const auto height = static_cast<int>(bigEndian(encoded, frame.payload + 1, 2));
   const auto width = static_cast<int>(bigEndian(encoded, frame.payload + 3, 2));
-  if (width == 0 || height == 0) return malformedImage("the JPEG has no valid width and height");
+  if (width == 0 || height == 0) return malformedImage("The JPEG has no valid width and height.");
   const int components = encoded[frame.payload + 5];
   if (components != 1 && components != 3) {
-    return unsupportedImage("the JPEG is neither grey nor RGB; CMYK is not read");
+    return unsupportedImage("The JPEG is neither grey nor RGB; CMYK is not read.");
   }
   return ImageSize{width, height};
 }
@@ -95,7 +95,7 @@ Result<ImageSize> jpegSize(EncodedBytes encoded) {
     if (segment->marker == kStartOfScan || segment->marker == kEndOfImage) break;
     position = segment->end;
   }
-  return malformedImage("the JPEG has no frame header before its data");
+  return malformedImage("The JPEG has no frame header before its data.");
 }
 
 Result<Bytes> essentialJpeg(EncodedBytes encoded) {
@@ -105,7 +105,7 @@ Result<Bytes> essentialJpeg(EncodedBytes encoded) {
   while (const std::optional<Segment> segment = segmentAt(encoded, position)) {
     const bool scan = segment->marker == kStartOfScan;
     if (scan && ++scans > kMaxScans) {
-      return Problem{ProblemCode::tooLarge, "", "the JPEG has too many scans", "1.." + std::to_string(kMaxScans),
+      return Problem{ProblemCode::tooLarge, "", "The JPEG has too many scans.", "1.." + std::to_string(kMaxScans),
                      "more"};
     }
     const std::size_t end = scan ? endOfScan(encoded, segment->end) : segment->end;
@@ -115,7 +115,7 @@ Result<Bytes> essentialJpeg(EncodedBytes encoded) {
     if (segment->marker == kEndOfImage) return essential;
     position = end;
   }
-  return malformedImage("the JPEG is cut short");
+  return malformedImage("The JPEG is cut short.");
 }
 
 } // namespace gnomon

@@ -30,11 +30,11 @@ struct StillWebp {
 };
 
 Problem cutShort() {
-  return malformedImage("the WebP is cut short");
+  return malformedImage("The WebP is cut short.");
 }
 
 Problem animated() {
-  return unsupportedImage("the WebP is animated; only still ones are read");
+  return unsupportedImage("The WebP is animated; only still ones are read.");
 }
 
 /// `riff` ends where the container says that it does.
@@ -49,7 +49,7 @@ std::optional<Chunk> chunkAt(EncodedBytes riff, std::size_t position) {
 }
 
 Result<ImageSize> lossySize(EncodedBytes bitstream) {
-  if (bitstream.size() < 10) return malformedImage("the WebP ends within its frame header");
+  if (bitstream.size() < 10) return malformedImage("The WebP ends within its frame header.");
   const std::uint32_t tag = littleEndian(bitstream, 0, 3);
   const bool keyFrame = (tag & 1) == 0;
   const std::uint32_t profile = tag >> 1 & 7;
@@ -57,19 +57,19 @@ Result<ImageSize> lossySize(EncodedBytes bitstream) {
   const std::size_t firstPartition = tag >> 5;
   if (!keyFrame || profile > 3 || !shown || firstPartition >= bitstream.size() ||
       littleEndian(bitstream, 3, 3) != 0x2a019d) {
-    return malformedImage("the WebP has no valid frame header");
+    return malformedImage("The WebP has no valid frame header.");
   }
   const auto width = static_cast<int>(littleEndian(bitstream, 6, 2) & 0x3fff);
   const auto height = static_cast<int>(littleEndian(bitstream, 8, 2) & 0x3fff);
-  if (width == 0 || height == 0) return malformedImage("the WebP has no valid width and height");
+  if (width == 0 || height == 0) return malformedImage("The WebP has no valid width and height.");
   return ImageSize{width, height};
 }
 
 Result<ImageSize> losslessSize(EncodedBytes bitstream) {
-  if (bitstream.size() < 5) return malformedImage("the WebP ends within its frame header");
+  if (bitstream.size() < 5) return malformedImage("The WebP ends within its frame header.");
   const std::uint32_t bits = littleEndian(bitstream, 1, 4);
   const std::uint32_t version = bits >> 29;
-  if (bitstream[0] != 0x2f || version != 0) return malformedImage("the WebP has no valid frame header");
+  if (bitstream[0] != 0x2f || version != 0) return malformedImage("The WebP has no valid frame header.");
   return ImageSize{static_cast<int>(bits & 0x3fff) + 1, static_cast<int>(bits >> 14 & 0x3fff) + 1};
 }
 
@@ -86,7 +86,7 @@ bool isPicture(const Chunk& chunk) {
 
 /// The picture behind the chunk `header` of an extended file.
 Result<StillWebp> extendedStill(EncodedBytes riff, const Chunk& header) {
-  if (header.payload.size() != kExtendedHeader) return malformedImage("the WebP has no valid extended header");
+  if (header.payload.size() != kExtendedHeader) return malformedImage("The WebP has no valid extended header.");
   if ((header.payload[0] & kAnimationFlag) != 0) return animated();
   const std::uint32_t width = littleEndian(header.payload, 4, 3) + 1;
   const std::uint32_t height = littleEndian(header.payload, 7, 3) + 1;
@@ -99,7 +99,7 @@ Result<StillWebp> extendedStill(EncodedBytes riff, const Chunk& header) {
       auto still = stillOf(*chunk, alpha);
       if (still && (static_cast<std::uint32_t>(still->size.width) != width ||
                     static_cast<std::uint32_t>(still->size.height) != height)) {
-        return malformedImage("the WebP's picture is not as large as its canvas");
+        return malformedImage("The WebP's picture is not as large as its canvas.");
       }
       return still;
     }
@@ -117,7 +117,7 @@ Result<StillWebp> readStill(EncodedBytes encoded) {
   if (!first) return cutShort();
   if (first->type == "VP8X") return extendedStill(riff, *first);
   if (isPicture(*first)) return stillOf(*first, {});
-  return malformedImage("the WebP does not begin with a picture");
+  return malformedImage("The WebP does not begin with a picture.");
 }
 
 void appendLittleEndian(Bytes& bytes, std::size_t value, int count) {

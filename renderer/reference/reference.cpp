@@ -70,7 +70,7 @@ Result<Reference> traceReference(const TraceInput& input, std::span<const int> l
   reference.pixelWidth.reserve(count);
   for (std::size_t first = 0; first < count; first += step) {
     if (progress && !progress(static_cast<double>(first) / static_cast<double>(count))) {
-      return Problem{ProblemCode::unavailable, "", "the exact shadows were no longer wanted before they were traced"};
+      return Problem{ProblemCode::unavailable, "", "The exact shadows were cancelled before they were traced."};
     }
     const std::vector<SurfacePoint> points =
         firstHits(input, centresOf(input.width, first, std::min(count, first + step)));

@@ -102,7 +102,7 @@ void sortTriangles(Tree& tree) {
 }
 
 Problem outOfMemory() {
-  return {ProblemCode::unavailable, "", "memory ran out while the scene was made ready for rays"};
+  return {ProblemCode::unavailable, "", "Memory ran out while the scene was prepared for ray tracing."};
 }
 
 } // namespace
@@ -122,7 +122,7 @@ Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int i
     sortTriangles(*tree);
     if (tree->error == RTC_ERROR_OUT_OF_MEMORY) return outOfMemory();
     if (tree->error != RTC_ERROR_NONE) {
-      return Problem{ProblemCode::internal, "", "the scene could not be made ready for rays", "",
+      return Problem{ProblemCode::internal, "", "The scene could not be prepared for ray tracing.", "",
                      "Embree error " + std::to_string(tree->error)};
     }
     return TracedScene(std::move(tree));

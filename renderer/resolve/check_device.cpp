@@ -13,15 +13,15 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   ProblemList problems;
   for (const auto& [side, place] : {std::pair(spec.width, "/width"), std::pair(spec.height, "/height")}) {
     if (side <= device.maxTextureSize) continue;
-    problems.add({ProblemCode::invalidValue, place, "the device has no pictures as large as that",
+    problems.add({ProblemCode::invalidValue, place, "The device has no pictures as large as that.",
                   "at most " + std::to_string(device.maxTextureSize), std::to_string(side)});
   }
   if (spec.atlas.samples > device.maxSamples) {
-    problems.add({ProblemCode::invalidValue, "/atlas/samples", "the device has no depth textures of so many samples",
+    problems.add({ProblemCode::invalidValue, "/atlas/samples", "The device has no depth textures of so many samples.",
                   "at most " + std::to_string(device.maxSamples), std::to_string(spec.atlas.samples)});
   }
   if (spec.atlas.size > device.maxTextureSize) {
-    problems.add({ProblemCode::invalidValue, "/atlas/size", "the device has no textures as large as that",
+    problems.add({ProblemCode::invalidValue, "/atlas/size", "The device has no textures as large as that.",
                   "at most " + std::to_string(device.maxTextureSize), std::to_string(spec.atlas.size)});
   }
   if (problems.empty()) return Done{};
@@ -36,7 +36,7 @@ Status checkAtlas(const ShadowPlan& plan, int samples) {
   const std::int64_t bytes = texels * (kDepthBytes * samples + (moments ? kMomentBytes : 0));
   if (bytes <= kLimits.maxAtlasBytes) return Done{};
   return Problem{ProblemCode::tooLarge, "/atlas/size",
-                 "the shadow atlas would take more memory than a frame may have; samples and moments count",
+                 "The shadow atlas would take more memory than a frame may have; samples and moments count.",
                  std::to_string(kLimits.maxAtlasBytes) + " bytes", std::to_string(bytes) + " bytes"};
 }
 

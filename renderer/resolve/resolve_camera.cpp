@@ -75,7 +75,7 @@ Result<const SceneCamera*> findCamera(const std::variant<int, std::string>& node
   }
   const std::string asked =
       std::holds_alternative<int>(node) ? std::to_string(std::get<int>(node)) : std::get<std::string>(node);
-  return Problem{ProblemCode::invalidValue, "/camera/node", "no node of this scene by that index or name has a camera",
+  return Problem{ProblemCode::invalidValue, "/camera/node", "No node of this scene by that index or name has a camera.",
                  known.empty() ? "the scene has no cameras" : "one of " + known, asked};
 }
 

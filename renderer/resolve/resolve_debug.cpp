@@ -28,7 +28,7 @@ int lightToShow(const FrameSpec& spec, const ShadowPlan& plan, std::span<const i
 }
 
 Problem noAtlas(const char* view) {
-  return {ProblemCode::invalidValue, "/views", "this frame has no shadow atlas: no light casts in it", "", view};
+  return {ProblemCode::invalidValue, "/views", "This frame has no shadow atlas: no light casts in it.", "", view};
 }
 
 std::string upTo(int count) {
@@ -39,13 +39,13 @@ Result<const ShadowTile*> tileToShow(const FrameSpec& spec, const ShadowPlan& pl
   if (subject.planned == nullptr || subject.planned->tileCount == 0) {
     if (!spec.debug.light) return noAtlas("tile");
     const std::string note = subject.planned == nullptr ? "" : ": " + subject.planned->note;
-    return Problem{ProblemCode::invalidValue, "/debug/light", "this light casts no shadow in this frame" + note, "",
-                   std::to_string(subject.light)};
+    return Problem{ProblemCode::invalidValue, "/debug/light", "This light casts no shadow in this frame" + note + ".",
+                   "", std::to_string(subject.light)};
   }
   const PlannedLight& light = *subject.planned;
   if (spec.debug.tile >= light.tileCount) {
     return Problem{ProblemCode::invalidValue, "/debug/tile",
-                   "light " + std::to_string(light.light) + " has tiles " + upTo(light.tileCount) + " in this frame",
+                   "Light " + std::to_string(light.light) + " has tiles " + upTo(light.tileCount) + " in this frame.",
                    upTo(light.tileCount), std::to_string(spec.debug.tile)};
   }
   const auto first = plan.tiles.begin() + light.firstTile;
@@ -55,15 +55,15 @@ Result<const ShadowTile*> tileToShow(const FrameSpec& spec, const ShadowPlan& pl
   for (int i = 0; i < light.tileCount; ++i) {
     if (first[i].rect.width > 0) drawn += (drawn.empty() ? "" : ", ") + std::to_string(i);
   }
-  return Problem{ProblemCode::invalidValue, "/debug/tile", "this tile was not drawn: nothing in view lies in it", drawn,
-                 std::to_string(spec.debug.tile)};
+  return Problem{ProblemCode::invalidValue, "/debug/tile", "This tile was not drawn: nothing in view lies in it.",
+                 drawn, std::to_string(spec.debug.tile)};
 }
 
 } // namespace
 
 Status checkDebugLight(const Debug& debug, std::size_t lightCount) {
   if (!debug.light || static_cast<std::size_t>(*debug.light) < lightCount) return Done{};
-  return Problem{ProblemCode::invalidValue, "/debug/light", "the frame has no light of that index",
+  return Problem{ProblemCode::invalidValue, "/debug/light", "The frame has no light of that index.",
                  lightCount == 0 ? "no lights" : upTo(static_cast<int>(lightCount)), std::to_string(*debug.light)};
 }
 

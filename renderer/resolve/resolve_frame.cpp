@@ -17,8 +17,8 @@ std::vector<Light> chooseLights(const FrameSpec& spec, const SceneView& scene, s
   for (const SceneLight& light : scene.lights) lights.push_back(light.light);
   const auto most = static_cast<std::size_t>(kLimits.maxLights);
   if (lights.size() > most) {
-    warnings.push_back("the scene has " + std::to_string(lights.size()) + " lights; only the first " +
-                       std::to_string(most) + " light this frame");
+    warnings.push_back("The scene has " + std::to_string(lights.size()) + " lights; only the first " +
+                       std::to_string(most) + " light this frame.");
     lights.resize(most);
   }
   if (lights.empty()) {
@@ -45,13 +45,13 @@ ShadowSize usualSize(LightType type) {
 
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   if (spec.quality) {
-    return Problem{ProblemCode::invalidValue, "/quality", "it takes frames to meet a target; here settings are needed",
-                   "", ""};
+    return Problem{ProblemCode::invalidValue, "/quality",
+                   "This call does not support quality targets; give settings instead.", "", ""};
   }
   ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
   const int count = fileScenes(scene);
   if (frame.scene < 0 || frame.scene >= count) {
-    return Problem{ProblemCode::invalidValue, "/scene", "the file has no scene of that index",
+    return Problem{ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
                    "0.." + std::to_string(count - 1), std::to_string(frame.scene)};
   }
   frame.spec.scene = frame.scene;

@@ -66,7 +66,7 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
       if (node < own.size()) {
         addSwitches(entries[i], own[node]);
       } else {
-        problems.add({ProblemCode::invalidValue, pointer, "the file has no node of that index", indicesOf(scene),
+        problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that index.", indicesOf(scene),
                       std::to_string(*index)});
       }
       continue;
@@ -75,7 +75,7 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
     const std::string& name = std::get<std::string>(*entries[i].node);
     const auto [first, last] = byName->equal_range(name);
     if (first == last) {
-      problems.add({ProblemCode::invalidValue, pointer, "the file has no node of that name", namesOf(scene), name});
+      problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that name.", namesOf(scene), name});
     }
     std::for_each(first, last, [&](const auto& found) { addSwitches(entries[i], own[found.second]); });
   }
@@ -150,7 +150,7 @@ Result<ReceiverGroups> resolveReceiverGroups(const SceneView& view, std::span<co
   }
   if (members.size() > static_cast<std::size_t>(kLimits.maxReceiverGroups)) {
     return Problem{ProblemCode::invalidValue, "/nodes",
-                   "visible nodes differ in more pairs of layers and receiveShadow than one frame tells apart",
+                   "Visible nodes differ in more pairs of layers and receiveShadow than one frame can distinguish.",
                    std::to_string(kLimits.maxReceiverGroups), std::to_string(members.size())};
   }
   for (const Light& light : lights) {

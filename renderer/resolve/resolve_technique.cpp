@@ -44,11 +44,11 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
     if (instance == nullptr) continue;
     const int material = materialOf(scene, *instance);
     problems.add({ProblemCode::unsupportedFeature, pointer,
-                  "technique shadowVolume knows no alpha: node " +
+                  "Technique shadowVolume does not support alpha: node " +
                       told(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
                       " casts, and its material " +
                       told(scene.materials[static_cast<std::size_t>(material)].name, material) +
-                      " is masked, blended or lets light through",
+                      " is masked, blended or lets light through.",
                   "opaque casters: turn the node's castShadow off, or choose another technique", "shadowVolume"});
     last = pointer;
   }

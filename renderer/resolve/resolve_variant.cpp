@@ -21,7 +21,7 @@ std::string namesOf(const std::vector<std::string>& variants) {
 Result<int> resolveVariant(const std::string& name, const Scene& scene) {
   const auto found = std::find(scene.variants.begin(), scene.variants.end(), name);
   if (found != scene.variants.end()) return static_cast<int>(found - scene.variants.begin());
-  return Problem{ProblemCode::invalidValue, "/materialVariant", "the file has no material variant of that name",
+  return Problem{ProblemCode::invalidValue, "/materialVariant", "The file has no material variant of that name.",
                  namesOf(scene.variants), name};
 }
 

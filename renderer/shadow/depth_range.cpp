@@ -86,7 +86,7 @@ DepthInterval moved(const DepthInterval& previous, const DepthInterval& covered,
 std::string movedNote(const DepthInterval& previous, const DepthInterval& surfaces, bool outside) {
   std::ostringstream text;
   text << "the depth range was planned anew: the previous one, " << previous.near << ".." << previous.far << " m, "
-       << (outside ? "does not hold" : "is far longer than") << " this frame's " << surfaces.near << ".."
+       << (outside ? "does not cover" : "is far longer than") << " this frame's " << surfaces.near << ".."
        << surfaces.far << " m";
   return text.str();
 }

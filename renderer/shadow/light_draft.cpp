@@ -36,7 +36,7 @@ void noteEmptyCascades(LightDraft& draft) {
     draft.tiles.clear();
     addNote(draft.planned, "nothing in view within the depth range");
   } else if (!indices.empty()) {
-    addNote(draft.planned, "not drawn, for nothing in view lies in them: cascades " + indices);
+    addNote(draft.planned, "not drawn, no receiver in view: cascades " + indices);
   }
 }
 
@@ -109,7 +109,7 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
     draft.tiles.push_back(std::move(tile));
   }
   if (shadow.stabilization != Stabilization::none && !draft.stable) {
-    addNote(draft.planned, "stabilization is ignored: the depth range is automatic");
+    addNote(draft.planned, "stabilization is ignored, because the depth range is automatic and has no previous one");
   }
   if (!planned.note.empty()) addNote(draft.planned, planned.note);
   noteEmptyCascades(draft);

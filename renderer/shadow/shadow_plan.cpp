@@ -23,7 +23,7 @@ std::string texels(int size) {
 
 /// Why no shadow of this light needs to be drawn; nothing where one may.
 std::optional<std::string> reasonToSkip(const ShadowCaster& caster, const PlanInput& input) {
-  if (!caster.shadow.enabled) return "the light's shadow is switched off";
+  if (!caster.shadow.enabled) return "the light's shadow is disabled";
   if (caster.shadow.strength <= 0) return "the shadow's strength is 0";
   if (input.receivers.range.empty()) return "nothing in view";
   if (input.sceneBounds.empty()) return "nothing in the scene casts a shadow";
@@ -91,7 +91,7 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
                            ": the atlas of " + texels(side) + " is full");
     } else if (sizes[i] > planned.askedTileSize) {
       addNote(planned, "tiles of " + texels(sizes[i]) + " instead of " + texels(planned.askedTileSize) +
-                           ": the least that a filter can use");
+                           ": the smallest that the filter can use");
     }
   }
 }

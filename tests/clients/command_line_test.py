@@ -115,7 +115,7 @@ class Problems(CommandLine):
         self.refused(BOX, "--camera", "nobody", said=["--camera (/camera/node)"])
 
     def test_a_server_that_is_not(self):
-        self.refused(BOX, "--server", "http://127.0.0.1:1", said=["http://127.0.0.1:1: no reply"])
+        self.refused(BOX, "--server", "http://127.0.0.1:1", said=["http://127.0.0.1:1: There was no reply"])
         self.refused(BOX, "--server", "127.0.0.1:8080", said=["is not a server's address"])
 
     def test_what_was_there_stays_when_the_frame_fails(self):

@@ -12,11 +12,11 @@ namespace gnomon::cli {
 namespace {
 
 Problem fileProblem(ProblemCode code, const std::string& path, const std::string& detail) {
-  return {code, path, detail, "", ""};
+  return {code, path, detail + ".", "", ""};
 }
 
 Problem tooLarge(const std::string& path, std::size_t maxBytes, const std::string& actual) {
-  return {ProblemCode::tooLarge, path, "the file is too large", std::to_string(maxBytes) + " bytes", actual};
+  return {ProblemCode::tooLarge, path, "The file is too large.", std::to_string(maxBytes) + " bytes", actual};
 }
 
 bool writeAll(int file, std::span<const std::uint8_t> bytes) {
@@ -34,9 +34,10 @@ bool writeAll(int file, std::span<const std::uint8_t> bytes) {
 Result<Bytes> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return fileProblem(ProblemCode::notFound, path.string(), "no such file");
+  if (!std::filesystem::exists(status))
+    return fileProblem(ProblemCode::notFound, path.string(), "There is no such file");
   if (!std::filesystem::is_regular_file(status)) {
-    return fileProblem(ProblemCode::invalidValue, path.string(), "is not a file");
+    return fileProblem(ProblemCode::invalidValue, path.string(), "This is not a file");
   }
   const auto size = std::filesystem::file_size(path, error);
   if (error) return fileProblem(ProblemCode::notFound, path.string(), error.message());
@@ -45,7 +46,7 @@ Result<Bytes> readFile(const std::filesystem::path& path, std::size_t maxBytes) 
   Bytes bytes(size);
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    return fileProblem(ProblemCode::notFound, path.string(), "can't be read");
+    return fileProblem(ProblemCode::notFound, path.string(), "The file can't be read");
   }
   return bytes;
 }

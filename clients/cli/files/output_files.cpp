@@ -22,7 +22,7 @@ std::string pictureFile(const std::string& output, const std::string& view, std:
 
 Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output) {
   if (output == "-" && pictures.size() > 1) {
-    return Problem{ProblemCode::invalidValue, "--output", "standard output takes one picture", "1",
+    return Problem{ProblemCode::invalidValue, "--output", "Standard output takes one picture.", "1",
                    std::to_string(pictures.size())};
   }
   std::vector<std::string> names;

@@ -67,7 +67,7 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limit
 
   const auto uris = externalUris(bundle.model);
   if (uris.size() > limits.maxBundleFiles) {
-    return Problem{ProblemCode::tooLarge, path.string(), "the model names too many files",
+    return Problem{ProblemCode::tooLarge, path.string(), "The model names too many files.",
                    std::to_string(limits.maxBundleFiles), std::to_string(uris.size())};
   }
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
@@ -78,7 +78,7 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limit
     const auto file = name ? resolve(folder, *name) : std::nullopt;
     if (!file) {
       problems.push_back({ProblemCode::invalidScene, path.string(),
-                          "the model names a file that isn't inside its folder",
+                          "The model names a file that isn't inside its folder.",
                           "a relative name without \"..\" or a scheme", uri.substr(0, 200)});
       continue;
     }
@@ -86,7 +86,7 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limit
     if (!bytes) {
       for (Problem problem : bytes.problems()) {
         problem.pointer = (folder / *name).string();
-        problem.detail += " (the model names it)";
+        problem.detail += " The model names it.";
         problems.push_back(std::move(problem));
       }
       continue;

@@ -76,11 +76,12 @@ httplib::Result send(httplib::Client& client, const std::string& path, const Htt
 
 Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
   const auto address = parseAddress(server);
-  if (!address) return Problem{ProblemCode::invalidValue, server, "is not a server's address", "http://HOST:PORT", ""};
+  if (!address)
+    return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
   try {
     httplib::Client client(address->origin);
     if (!client.is_valid()) {
-      return Problem{ProblemCode::invalidValue, server, "is not a server's address", "http://HOST:PORT", ""};
+      return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
     }
     client.set_connection_timeout(std::min(call.patience, std::chrono::seconds{10}));
     client.set_read_timeout(call.patience);
@@ -88,11 +89,12 @@ Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
     client.set_tcp_nodelay(true);
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
-      return Problem{ProblemCode::unavailable, server, "no reply: " + httplib::to_string(reply.error()), "", ""};
+      return Problem{ProblemCode::unavailable, server, "There was no reply: " + httplib::to_string(reply.error()) + ".",
+                     "", ""};
     const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
     return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};
   } catch (const std::exception& error) {
-    return Problem{ProblemCode::internal, server, std::string("the call failed: ") + error.what(), "", ""};
+    return Problem{ProblemCode::internal, server, std::string("The call failed: ") + error.what() + ".", "", ""};
   }
 }
 

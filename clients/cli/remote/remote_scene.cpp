@@ -30,8 +30,8 @@ Problems problemsOf(const std::string& server, const HttpReply& reply) {
   }
   if (problems.empty()) {
     const std::string detail = body.is_object() ? textAt(body, "detail") : "";
-    problems.push_back({ProblemCode::unavailable, server, detail.empty() ? "the server refused" : detail, "",
-                        "status " + std::to_string(reply.status)});
+    problems.push_back({ProblemCode::unavailable, server, detail.empty() ? "The server refused the request." : detail,
+                        "", "status " + std::to_string(reply.status)});
   }
   return problems;
 }
@@ -69,7 +69,7 @@ Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle
   if (reply->status != 200 && reply->status != 201) return problemsOf(server, *reply);
   const Json summary = Json::parse(reply->body, nullptr, false);
   const std::string id = summary.is_object() ? textAt(summary, "id") : "";
-  if (id.empty()) return Problem{ProblemCode::internal, server, "the reply to the upload names no scene", "", ""};
+  if (id.empty()) return Problem{ProblemCode::internal, server, "The reply to the upload names no scene.", "", ""};
   return id;
 }
 

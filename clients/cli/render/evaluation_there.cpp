@@ -42,10 +42,10 @@ Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBun
   const auto reply = callPatiently(server, call, progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(server, *reply);
-  if (!last) return Problem{ProblemCode::unavailable, server, "the reply ended before the evaluation did", "", ""};
+  if (!last) return Problem{ProblemCode::unavailable, server, "The reply ended before the evaluation did.", "", ""};
   if (last->name == "problem") return problemsOf(server, {reply->status, "", last->data, 0});
   auto report = readEvaluationReport(last->data);
-  if (!report) return Problem{ProblemCode::internal, server, "the reply is not an evaluation", "", ""};
+  if (!report) return Problem{ProblemCode::internal, server, "The reply is not an evaluation.", "", ""};
   return *std::move(report);
 }
 

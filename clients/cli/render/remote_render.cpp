@@ -52,7 +52,7 @@ Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundl
   const auto reply = askAbout(server, bundle, "/frames", spec, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
-  if (!rendered) return Problem{ProblemCode::internal, server, "the reply is not a frame", "", ""};
+  if (!rendered) return Problem{ProblemCode::internal, server, "The reply is not a frame.", "", ""};
   return std::move(*rendered);
 }
 
@@ -61,7 +61,7 @@ Result<std::string> planThere(const std::string& server, const SceneBundle& bund
   const auto reply = askAbout(server, bundle, "/plan", spec, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
-  if (!plan.is_object()) return Problem{ProblemCode::internal, server, "the reply is not a plan", "", ""};
+  if (!plan.is_object()) return Problem{ProblemCode::internal, server, "The reply is not a plan.", "", ""};
   return plan.dump(2) + "\n";
 }
 

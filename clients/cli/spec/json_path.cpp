@@ -50,7 +50,7 @@ std::string pointerOf(std::string_view dottedPath) {
 Status setAtPath(Json& root, std::string_view dottedPath, Json value) {
   const auto parts = steps(dottedPath);
   if (parts.size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
-    return Problem{ProblemCode::invalidValue, "", "the path is too deep",
+    return Problem{ProblemCode::invalidValue, "", "The path is too deep.",
                    std::to_string(kLimits.maxJsonDepth) + " steps", std::to_string(parts.size())};
   }
   Json* place = &root;
@@ -58,7 +58,7 @@ Status setAtPath(Json& root, std::string_view dottedPath, Json value) {
   for (const std::string& step : parts) {
     pointer += "/" + step;
     place = stepInto(*place, step);
-    if (!place) return Problem{ProblemCode::invalidValue, pointer, "no such place in the spec", "", ""};
+    if (!place) return Problem{ProblemCode::invalidValue, pointer, "There is no such place in the spec.", "", ""};
   }
   *place = std::move(value);
   return Done{};

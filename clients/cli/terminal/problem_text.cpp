@@ -27,8 +27,8 @@ std::string problemLine(const Problem& problem, const FlagOrigins& origins) {
   if (!flag.empty()) line += flag + " (" + problem.pointer + "): ";
   if (flag.empty() && !problem.pointer.empty()) line += problem.pointer + ": ";
   line += problem.detail;
-  if (!problem.limit.empty()) line += "; allowed: " + problem.limit;
-  if (!problem.actual.empty()) line += "; got: " + problem.actual;
+  if (!problem.limit.empty()) line += " Allowed: " + problem.limit + ".";
+  if (!problem.actual.empty()) line += " Got: " + problem.actual + ".";
   return printable(line);
 }
 

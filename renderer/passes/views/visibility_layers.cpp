@@ -9,10 +9,10 @@ namespace gnomon {
 Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers) {
   const std::int64_t bytes = std::int64_t{2} * width * height * samples * layers;
   if (bytes > kLimits.maxVisibilityBytes) {
-    return Problem{ProblemCode::tooLarge, "/lights",
-                   "what rays and shadow volumes say of every sample and light would take more memory than a frame may "
-                   "have",
-                   std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
+    return Problem{
+        ProblemCode::tooLarge, "/lights",
+        "What rays and shadow volumes decide for every sample and light would take more memory than a frame may have.",
+        std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
   }
   gl::TextureShape shape{samples > 1 ? GLenum{GL_RGBA16} : GLenum{GL_R16}, width, height};
   shape.layers = layers;

@@ -42,7 +42,7 @@ class Reading {
       const std::string at = pointerTo(pointer + "/channels", i);
       const auto target = targetOf(document_, channels[i]);
       if (!target) {
-        findings_.warn("What moves " + inQuotes(targetName(channels[i])) + " is not animated.");
+        findings_.warn("The animation of " + inQuotes(targetName(channels[i])) + " is not supported and ignored.");
         continue;
       }
       if (!moved.insert(keyOf(*target)).second) {

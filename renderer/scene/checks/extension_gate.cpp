@@ -34,7 +34,7 @@ struct Consequence {
 constexpr std::array kConsequences{
     Consequence{"KHR_materials_anisotropy", "highlights are as wide along the surface as across it"},
     Consequence{"KHR_materials_clearcoat", "surfaces have no coat"},
-    Consequence{"KHR_materials_dispersion", "all colors pass alike"},
+    Consequence{"KHR_materials_dispersion", "light is not split into colors"},
     Consequence{"KHR_materials_ior", "the index of refraction is 1.5"},
     Consequence{"KHR_materials_iridescence", "surfaces have no thin film"},
     Consequence{"KHR_materials_sheen", "surfaces have no sheen"},

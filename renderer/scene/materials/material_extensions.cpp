@@ -51,7 +51,7 @@ void readTransmission(const json& extension, const std::string& name, Material& 
   findings.warn("The " + name +
                 " lets light through: the surroundings are seen through it, but not what stands behind it.");
   if (extension.contains("transmissionTexture")) {
-    findings.warn("The transmission of the " + name + " is the same everywhere: its texture is left out.");
+    findings.warn("The transmission of the " + name + " is the same everywhere: its texture is ignored.");
   }
   const float left = 1 - material.transmission;
   if (material.alphaMode == AlphaMode::opaque) {

@@ -9,8 +9,8 @@ namespace gnomon::cli {
 namespace {
 
 TEST(ProblemLine, SaysWhereWhatAndWhich) {
-  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/width", "too wide", "1..8192", "9000"}),
-            "/width: too wide; allowed: 1..8192; got: 9000");
+  EXPECT_EQ(problemLine({ProblemCode::invalidValue, "/width", "Too wide.", "1..8192", "9000"}),
+            "/width: Too wide. Allowed: 1..8192. Got: 9000.");
   EXPECT_EQ(problemLine({ProblemCode::malformed, "", "not JSON", "", ""}), "not JSON");
 }
 
@@ -94,7 +94,7 @@ TEST(SummaryText, TellsWhichOfSeveralScenesItIsAbout) {
   SceneSummary summary;
   summary.scenes = 3;
   summary.defaultScene = 1;
-  EXPECT_NE(summaryText("box.glb", summary).find("├─ scenes  3, told of the default: scene 1\n"), std::string::npos);
+  EXPECT_NE(summaryText("box.glb", summary).find("├─ scenes  3, shown is the default: scene 1\n"), std::string::npos);
 }
 
 } // namespace

@@ -217,7 +217,7 @@ TEST(ShadowPlan, X4_ATileSmallerThanItsFilterIsRaisedAndNoted) {
   const ShadowPlan plan = planShadows(input);
   EXPECT_EQ(plan.lights[0].askedTileSize, 16);
   EXPECT_EQ(plan.lights[0].grantedTileSize, 64);
-  EXPECT_THAT(plan.lights[0].note, HasSubstr("least"));
+  EXPECT_THAT(plan.lights[0].note, HasSubstr("smallest"));
 }
 
 TEST(ShadowPlan, M4_ReceiversUseTheWholeDepthOfTheirTile) {

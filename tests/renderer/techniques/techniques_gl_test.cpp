@@ -106,7 +106,7 @@ TEST(HybridShadow, WhereRaysCostLessTheyDecideAloneAndTheReportSaysSo) {
   if (!alone) GTEST_SKIP() << "a GPU draws every map";
   const Frame mapped = renderJson(scene, spec);
   EXPECT_EQ(alone->report.lights[0].tracedPixels, 320u * 180u);
-  EXPECT_EQ(alone->report.lights[0].note, "rays alone decide: a map would cost more than the rays that it spares");
+  EXPECT_EQ(alone->report.lights[0].note, "rays alone decide: a map would cost more than the rays that it saves");
   EXPECT_TRUE(alone->report.lights[0].tiles.empty());
   EXPECT_FALSE(mapped.report.lights[0].tiles.empty());
   EXPECT_EQ(floatsOf(*alone), floatsOf(mapped));
