@@ -14,11 +14,12 @@
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "renderer/core/progress.h"
+#include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
-#include "renderer/resolve/hybrid_maps.h"
 #include "renderer/scene/scene_bundle.h"
 
 /// The only door into the renderer.
@@ -30,25 +31,20 @@ Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLi
 /// What the scene holds; `id` is empty. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);
 
-/// What rendering `spec` on a device of that kind would do, without one: bounds stand in for what the camera sees. Any
-/// thread. The same problems as render gives.
-Result<PlanReport> planFrame(const Scene& scene, const FrameSpec& spec, const RendererInfo& device);
-
 struct RendererOptions {
   BackendOptions backend;
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
-  std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, alike
+  std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, dropped in the same order
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
-  HybridMaps hybridMaps = HybridMaps::whenCheaper;
 };
 
-/// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
-enum class TileUse { kept, drawnAnew };
-
-/// Owns a graphics context. Everything but `info` only on the thread that made it.
+/// Owns a device that draws. Everything but `info` only on the thread that made it.
 class Renderer {
  public:
+  /// Over OpenGL, with a context of its own.
   static Result<Renderer> create(const RendererOptions& options);
+  /// Over any device. `tracedSceneBytes`: as in RendererOptions.
+  explicit Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes = RendererOptions{}.tracedSceneBytes);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
@@ -68,7 +64,6 @@ class Renderer {
 
  private:
   struct Impl;
-  explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

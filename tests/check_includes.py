@@ -4,11 +4,12 @@
 usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
 
 Who may include whom, one way:
-  protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,shaders} <- renderer/gl
-           <- renderer/{passes,reference} <- renderer/{techniques,resolve} <- renderer/frame <- renderer/evaluation
+  protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow} <- renderer/prepare
+           <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame <- renderer/evaluation
            <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations
            <- server/handlers <- server/process;
-  clients see protocol and renderer/render.h.
+  clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
+  only render.cpp knows them, by one header.
 """
 
 import re
@@ -18,14 +19,15 @@ from pathlib import Path
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
 ROOMS = ("protocol", "renderer", "server", "clients")
 
-BELOW_GL = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
-BELOW_DOOR = BELOW_GL + ["renderer/shaders", "renderer/gl", "renderer/passes"]
-
-FRAME = BELOW_DOOR + ["renderer/reference", "renderer/techniques", "renderer/resolve", "renderer/frame"]
+VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
+PREPARED = VALUES + ["renderer/shaders/shared", "renderer/prepare"]
+SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
+DEVICE = SETTLED + ["renderer/device"]
+FRAME = DEVICE + ["renderer/frame"]
 
 BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations"]
 
-# Folder -> folders that its files may include.
+# Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
     "protocol/base": ["protocol/base"],
     "protocol": ["protocol"],
@@ -34,15 +36,18 @@ MAY_INCLUDE = {
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
     "renderer/reference": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/reference"],
-    "renderer/shaders": ["renderer/shaders"],
-    "renderer/gl": BELOW_GL + ["renderer/shaders", "renderer/gl"],
-    "renderer/passes": BELOW_DOOR,
-    "renderer/techniques": BELOW_DOOR + ["renderer/reference", "renderer/techniques"],
-    "renderer/resolve": BELOW_DOOR + ["renderer/resolve"],
+    "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],
+    "renderer/shaders/shared": ["renderer/shaders/shared"],
+    "renderer/prepare": PREPARED,
+    "renderer/techniques": PREPARED + ["renderer/reference", "renderer/techniques"],
+    "renderer/resolve": PREPARED + ["renderer/resolve"],
+    "renderer/device": DEVICE,
     "renderer/frame": FRAME,
     "renderer/evaluation": FRAME + ["renderer/evaluation"],
+    "renderer/gl": VALUES + ["renderer/shaders", "renderer/gl"],
+    "renderer/passes": DEVICE + ["renderer/techniques", "renderer/shaders", "renderer/gl", "renderer/passes"],
     "renderer/charts": ["protocol", "renderer/charts"],
-    "renderer": FRAME + ["renderer/evaluation", "renderer/charts", "renderer"],
+    "renderer": FRAME + ["renderer/evaluation", "renderer/charts", "renderer/passes/gl_device.h", "renderer"],
     "server/http": ["protocol", "server/http"],
     "server/scenes": ["protocol", "server/http", "server/scenes"],
     "server/frames": ["protocol", "server/http", "server/scenes", "server/frames"],
@@ -113,7 +118,8 @@ def door_of(root):
 def may_include(path, target, door):
     allowed = MAY_INCLUDE[room_of(path)] + (ASSEMBLED if path == ASSEMBLER else [])
     at_the_door = any(inside(path, place) for place in AT_THE_DOOR)
-    return any(room in allowed for room in rooms_around(target)) or (at_the_door and target in door)
+    seen = target in allowed or any(room in allowed for room in rooms_around(target))
+    return seen or (at_the_door and target in door)
 
 
 def fault_of(root, path, kind, target, door):

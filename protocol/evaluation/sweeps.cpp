@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
-#include "protocol/spec/enum_rows.h"
+#include "protocol/spec/technique_traits.h"
 
 namespace gnomon {
 namespace {
@@ -30,9 +30,9 @@ void appendTechniques(std::vector<ShadowVariant>& variants) {
   variants.push_back(filtered(FilterType::hard));
   variants.push_back(filtered(FilterType::pcf, 3));
   variants.push_back(filtered(FilterType::pcf, 5));
-  for (const Spelling& technique : kSpellings<ShadowTechnique>) {
-    if (technique.value == static_cast<int>(ShadowTechnique::shadowMap)) continue;
-    variants.push_back({std::string(technique.name), {{"technique", std::string(technique.name)}}});
+  for (const TechniqueTraits& technique : kTechniqueTraits) {
+    const std::string name(spell(technique.technique));
+    if (technique.layered) variants.push_back({name, {{"technique", name}}});
   }
 }
 

@@ -49,6 +49,15 @@ consteval bool spellsAll() {
   }
 }
 
+/// True where a table has one row for each enumerator, in order. `key`: the row's enumerator.
+template <class Row, std::size_t kCount, Spelled Enum>
+consteval bool rowsAreComplete(const std::array<Row, kCount>& rows, Enum Row::*key) {
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (static_cast<std::size_t>(rows[i].*key) != i) return false;
+  }
+  return kCount == kSpellings<Enum>.size();
+}
+
 /// The JSON word of an enumerator.
 template <Spelled Enum>
 constexpr std::string_view spell(Enum value) {

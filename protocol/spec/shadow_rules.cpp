@@ -1,7 +1,7 @@
 #include "protocol/spec/shadow_rules.h"
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/enum_rows.h"
+#include "protocol/spec/technique_traits.h"
 
 namespace gnomon {
 namespace {
@@ -136,13 +136,14 @@ void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::stri
   appendPreviousRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
   appendFilterRules(shadow.filter, pointer + "/filter", broken);
   appendBiasRules(shadow.bias, pointer + "/bias", broken);
-  if (shadow.technique == ShadowTechnique::hybrid && atlas.samples != 1) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer + "/technique",
-                       .detail = "Technique hybrid needs an atlas of one depth a texel.",
-                       .limit = "atlas.samples 1",
-                       .actual = std::to_string(atlas.samples)},
-                      {pointer + "/technique", "/atlas/samples"}});
+  if (traitsOf(shadow.technique).oneDepthATexel && atlas.samples != 1) {
+    broken.push_back(
+        {{.code = ProblemCode::invalidValue,
+          .pointer = pointer + "/technique",
+          .detail = "Technique " + std::string(spell(shadow.technique)) + " needs an atlas of one depth a texel.",
+          .limit = "atlas.samples 1",
+          .actual = std::to_string(atlas.samples)},
+         {pointer + "/technique", "/atlas/samples"}});
   }
   const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
   if (side > atlas.size && atlas.baseSize <= atlas.size) {

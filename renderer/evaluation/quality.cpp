@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "protocol/spec/enum_rows.h"
+#include "protocol/spec/technique_traits.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/animation/posed_scene.h"
@@ -46,7 +46,8 @@ QualityTrial trialOf(const FrameSpec& spec, ShadowTechnique technique, MapSettin
   if (trial.shadow.partition.mode == PartitionMode::manual) trial.shadow.partition = Partition{};
   trial.atlas = Atlas{std::max(4096, spec.atlas.size), map.baseSize, 1};
   trial.settings = std::string(spell(technique));
-  if (isMapped(technique)) trial.settings += " " + std::to_string(map.cascades) + " x " + std::to_string(map.baseSize);
+  if (traitsOf(technique).mapped)
+    trial.settings += " " + std::to_string(map.cascades) + " x " + std::to_string(map.baseSize);
   return trial;
 }
 

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 
+#include "protocol/spec/technique_traits.h"
 #include "renderer/evaluation/world_points.h"
-#include "renderer/frame/frame_data.h"
-#include "renderer/gl/debug_log.h"
-#include "renderer/passes/survey/survey_pass.h"
-#include "renderer/passes/tiles/shadow_pass.h"
-#include "renderer/passes/views/light_data.h"
-#include "renderer/passes/views/probe_pass.h"
 #include "renderer/resolve/check_device.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/scene/animation/posed_scene.h"
@@ -32,6 +27,7 @@ Problem stopped() {
 /// Shadows of full strength: a flip is one of visibility.
 FrameSpec measured(const FrameSpec& spec) {
   FrameSpec full = spec;
+  full.antialiasing = Antialiasing::none; // points are asked, not pixels
   full.shadow.strength = 1;
   if (!full.lights) return full;
   for (Light& light : *full.lights) {
@@ -73,14 +69,13 @@ Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std:
                                  : "No surface that faces a light is in sight of every camera of the path."};
 }
 
-std::vector<shared::ProbeData> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {
-  std::vector<shared::ProbeData> probes;
+std::vector<ProbePoint> probesOf(const ResolvedFrame& frame, const glm::dvec3& anchor, const Watched& watched) {
+  std::vector<ProbePoint> probes;
   probes.reserve(watched.points.size());
+  const bool grouped = !frame.groups.ofInstance.empty();
   for (const SurfacePoint& point : watched.points) {
-    const glm::dvec3 relative = point.position + (anchor - frame.view.eye);
-    const bool grouped = !frame.groups.ofInstance.empty();
-    probes.push_back({glm::vec4(relative, glm::dot(relative, frame.view.forward)),
-                      glm::vec4(point.normal, grouped ? frame.groups.ofInstance[point.instance] : 0)});
+    const std::uint8_t group = grouped ? frame.groups.ofInstance[point.instance] : std::uint8_t{0};
+    probes.push_back({point.position + (anchor - frame.view.eye), glm::dvec3(point.normal), group});
   }
   return probes;
 }
@@ -95,15 +90,13 @@ std::uint64_t flipsOf(Watched& watched, const std::vector<float>& visibility) {
   return flips;
 }
 
-bool isMap(const ResolvedFrame& frame, int light) {
-  return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique == ShadowTechnique::shadowMap;
+bool isExact(const Light& light) {
+  return traitsOf(light.shadow->technique).layered;
 }
 
 /// Lights whose shadows come from no map need no tiles.
 void dropExact(FrameSpec& spec) {
-  for (Light& light : *spec.lights) {
-    light.shadow->enabled = light.shadow->enabled && light.shadow->technique == ShadowTechnique::shadowMap;
-  }
+  for (Light& light : *spec.lights) light.shadow->enabled = light.shadow->enabled && !isExact(light);
 }
 
 /// The next frame of a sequence starts from this one's depth ranges, where it asks for a previous one.
@@ -120,69 +113,46 @@ struct ProbedFrame {
   ShadowPlan plan;
 };
 
-Result<ProbedFrame> probeFrame(const DrawingTools& tools, const ScenePtr& scene, const ResolvedFrame& frame,
+Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const ResolvedFrame& frame,
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
   const FrameSpec& spec = frame.spec;
-  const GpuScene& gpu = tools.scenes.get(scene);
-  const FrameGeometry geometry = frameGeometry(*scene, view, frame.view.eye, frame.groups.ofInstance);
-  const gl::Buffer instances(gl::bytesOf(geometry.instances), "instances");
-  const SceneVertices vertices = sceneVertices(gpu, instances);
-  const SceneVertices anchored = sceneVertices(gpu, gpu.anchored[static_cast<std::size_t>(frame.scene)]);
-  const shared::FrameData data = frameData(frame);
-  gl::Buffer frameBuffer(sizeof(data), "frame");
-  frameBuffer.update(0, gl::bytesOfValue(data));
-  const PassInputs inputs{.scene = *scene,
-                          .view = view,
-                          .gpu = gpu,
-                          .geometry = geometry,
-                          .camera = frame.view,
-                          .frame = frameBuffer,
-                          .instances = instances,
-                          .vertices = vertices,
-                          .anchored = anchored,
-                          .programs = tools.programs,
-                          .width = spec.width,
-                          .height = spec.height,
-                          .nodes = frame.nodes,
-                          .edges = {},
-                          .receiverGroups = frame.groups.matter()};
-
-  const auto survey = surveyScene(inputs, 1);
-  if (!survey) return survey.problems();
+  const auto begun = device.begin({.scene = scene, .frame = frame, .layered = {}, .traced = {}});
+  if (!begun) return begun.problems();
+  FrameDrawing& drawing = **begun;
+  const auto receivers = drawing.survey();
+  if (!receivers) return receivers.problems();
   ProbedFrame probed;
-  probed.plan =
-      planShadows(planInput(frame, view, survey->receivers, mappedLights(frame, view, tools.device, HybridMaps::always),
-                            tools.device.maxTextureSize));
+  probed.plan = planShadows(
+      planInput(frame, view, *receivers, mappedLights(frame, view, device.info()), device.info().maxTextureSize));
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
-  const auto atlas = castShadows(inputs, probed.plan, spec, tools.tiles);
-  if (!atlas) return atlas.problems();
-  const auto lights = lightData(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
-  const auto tiles = tileData(probed.plan);
+  if (const Status cast = drawing.cast(probed.plan, TileUse::kept); !cast) return cast.problems();
+  const auto lights = litLights(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
   for (Watched& light : watched) {
-    const auto visibility = probeShadow(inputs, {*survey, *atlas, lights, tiles, {}, spec, light.light},
-                                        probesOf(frame, anchorOf(view), light));
+    const auto visibility = drawing.probe({.plan = probed.plan, .lights = lights, .debugLight = light.light},
+                                          probesOf(frame, anchorOf(view), light));
     if (!visibility) return visibility.problems();
     probed.flips += flipsOf(light, *visibility);
   }
+  if (const auto done = drawing.finish(); !done) return done.problems();
   return probed;
 }
 
 } // namespace
 
-Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& loaded, const FrameSpec& spec,
-                               std::span<const Camera> path, const Progress& progress) {
+Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, const ScenePtr& loaded,
+                               const FrameSpec& spec, std::span<const Camera> path, const Progress& progress) {
   if (path.size() < 2) {
     return Problem{ProblemCode::invalidValue, "/path", "a path has two cameras or more", "at least 2",
                    std::to_string(path.size())};
   }
-  if (const Status able = checkDevice(spec, tools.device); !able) return able.problems();
+  if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
   const auto posed = posedScene(loaded, spec.animation);
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
   auto frames = resolvePath(*scene, measured(spec), path);
   if (!frames) return frames.problems();
-  const auto traced = tools.traced.get(scene, frames->front().scene);
+  const auto traced = tracedScenes.get(scene, frames->front().scene);
   if (!traced) return traced.problems();
   auto watched = watchedPoints(**traced, *frames);
   if (!watched) return watched.problems();
@@ -191,17 +161,18 @@ Result<Shimmer> measureShimmer(const DrawingTools& tools, const ScenePtr& loaded
   shimmer.steps = path.size() - 1;
   for (const Watched& light : *watched) shimmer.points += light.points.size();
   // What is exact is so for a point, whoever looks at it: it never flips.
-  std::erase_if(*watched, [&](const Watched& light) { return !isMap(frames->front(), light.light); });
+  std::erase_if(*watched, [&](const Watched& light) {
+    return isExact((*frames->front().spec.lights)[static_cast<std::size_t>(light.light)]);
+  });
   if (watched->empty()) return shimmer;
   for (std::size_t i = 0; i < frames->size(); ++i) {
     dropExact((*frames)[i].spec);
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames->size()))) return stopped();
-    const auto probed = probeFrame(tools, scene, (*frames)[i], *watched);
+    const auto probed = probeFrame(device, scene, (*frames)[i], *watched);
     if (!probed) return probed.problems();
     shimmer.flips += probed->flips;
     if (i + 1 < frames->size()) passRangesOn(probed->plan, (*frames)[i + 1].spec);
   }
-  if (const Status clean = gl::checkErrors("measuring shimmer"); !clean) return clean.problems();
   return shimmer;
 }
 

@@ -83,14 +83,6 @@ void paintDistances(const MeasuredShadow& measured, std::vector<std::uint8_t>& p
 
 } // namespace
 
-bool isErrorView(View view) {
-  return view == View::reference || view == View::error || view == View::edgeDistance;
-}
-
-bool hasBackdrop(View view) {
-  return view == View::error || view == View::edgeDistance;
-}
-
 Image errorNumbers(const MeasuredShadow& measured, View view) {
   Image image = imageOf(measured, {"Y"});
   image.pixels = view == View::reference ? visibilityOf(measured)

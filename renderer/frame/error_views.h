@@ -4,14 +4,8 @@
 #include "renderer/frame/measured_shadow.h"
 #include "renderer/image/image.h"
 
-/// The views that hold the shadow of debug.light against rays.
+/// Pictures that compare the shadow of debug.light with rays.
 namespace gnomon {
-
-/// reference, error, edgeDistance: made from a traced reference, not drawn.
-bool isErrorView(View view);
-
-/// Whether its picture has the scene behind it.
-bool hasBackdrop(View view);
 
 /// reference: V. error: S - V, 0 where no receiver. edgeDistance: pixels, -1 = no edge, infinity where V has none.
 Image errorNumbers(const MeasuredShadow& measured, View view);

@@ -1,6 +1,6 @@
 #include "renderer/frame/light_reports.h"
 
-#include "protocol/spec/enum_rows.h"
+#include "protocol/spec/technique_traits.h"
 #include "renderer/shadow/bias.h"
 
 namespace gnomon {
@@ -52,7 +52,7 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
 /// What a light with a size loses to a technique that knows none.
 std::string sharpNote(const Light& light) {
   const bool sized = light.angularDiameterDegrees.value_or(0) > 0 || light.radius.value_or(0) > 0;
-  if (!sized || light.shadow->technique == ShadowTechnique::rayTraced) return "";
+  if (!sized || traitsOf(light.shadow->technique).knowsSize) return "";
   return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 
@@ -75,7 +75,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     report.shadowed = true;
     const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
     const std::string sharp = sharpNote(light);
-    const bool unmapped = light.shadow->technique == ShadowTechnique::hybrid;
+    const bool unmapped = traitsOf(light.shadow->technique).mapSparesRays();
     report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it saves" : "";
     report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
   }

@@ -1,27 +1,25 @@
 #pragma once
 
 #include "protocol/report/frame_report.h"
-#include "renderer/frame/draw_views.h"
+#include "renderer/device/facts.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 
 /// What the stages of a frame returned.
-struct FrameStages {
+struct FrameOutcome {
   const ResolvedFrame& frame;
-  const SceneView& scene;
-  const GpuScene& gpu;
-  const Survey& survey;
+  std::uint64_t sceneTriangles; ///< of the chosen glTF scene
+  DepthSpan depths;             ///< of all that the camera sees
   const ShadowPlan& plan;
   const PredictedErrors& errors;
-  const ShadowAtlas& atlas;
-  const DrawnViews& drawn;
-  std::optional<ErrorMetrics> error; ///< where a view holds a shadow against rays
+  std::span<const int> layered; ///< as in FrameWork
+  FrameFacts facts;
+  std::optional<ErrorMetrics> error; ///< where a view compares a shadow with rays
 };
 
-/// What happened, told from what the stages returned. Reads the timers, so that it waits for the device if that is not
-/// done.
-FrameReport makeReport(const FrameStages& stages, std::vector<StageTime> times);
+/// What happened, in the words of protocol/report/frame_report.h.
+FrameReport makeReport(FrameOutcome outcome);
 
 } // namespace gnomon

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "renderer/frame/read_views.h"
-#include "renderer/passes/views/read_back.h"
 #include "renderer/reference/shadow_edges.h"
 #include "renderer/shadow/edge_displacement.h"
 
@@ -67,16 +65,25 @@ struct EdgeWalk {
 
 } // namespace
 
-std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int width, int height,
+bool readsMap(std::span<const LitLight> lights, int light) {
+  if (light < 0) return false;
+  const LitLight& lit = lights[static_cast<std::size_t>(light)];
+  return lit.tileCount > 0 && lit.visibilityLayer < 0;
+}
+
+std::optional<PredictedDisplacement> displacementOf(const CameraView& view, const FrameSpec& spec,
+                                                    const ShadowPlan& plan, const PlannedLight& planned,
                                                     std::span<const MapFootprint> footprints,
-                                                    std::span<const float> shown, std::span<const ShadowTile> tiles,
-                                                    int atlasSamples) {
-  const Reference seen = seenSurfaces(view, width, height, footprints);
+                                                    std::span<const float> shown) {
+  const Reference seen = seenSurfaces(view, spec.width, spec.height, footprints);
   const SurfaceLinks links = surfaceLinks(seen);
   std::vector<std::uint8_t> receiver(footprints.size());
   for (std::size_t i = 0; i < receiver.size(); ++i) receiver[i] = footprints[i].viewDepth > 0 ? 1 : 0;
   std::vector<MapReading> readings;
-  for (const ShadowTile& tile : tiles) readings.push_back(readingOf(tile, atlasSamples));
+  const auto tiles =
+      std::span(plan.tiles)
+          .subspan(static_cast<std::size_t>(planned.firstTile), static_cast<std::size_t>(planned.tileCount));
+  for (const ShadowTile& tile : tiles) readings.push_back(readingOf(tile, spec.atlas.samples));
 
   const EdgeWalk walk{seen, receiver, shown};
   PredictedDisplacement sum;
@@ -99,18 +106,6 @@ std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int 
   if (!(sum.length > 0)) return std::nullopt;
   sum.mean /= sum.length;
   return sum;
-}
-
-Result<std::optional<PredictedDisplacement>> predictDisplacement(const PassInputs& inputs, const ViewInputs& shading,
-                                                                 const ShadowPlan& plan, const DrawnViews& drawn) {
-  using Predicted = std::optional<PredictedDisplacement>;
-  if (!shading.spec.debug.predictEdges || shading.debugLight < 0) return Predicted{};
-  const shared::LightData& light = shading.lights[static_cast<std::size_t>(shading.debugLight)];
-  if (light.tiles.x == 0 || light.tiles.w > 0) return Predicted{};
-  const auto footprints = mapFootprints(inputs, shading, drawn.surfaces.at(1));
-  if (!footprints) return footprints.problems();
-  return displacementOf(inputs.camera, inputs.width, inputs.height, *footprints, readFullShadow(drawn),
-                        std::span(plan.tiles).subspan(light.tiles.z, light.tiles.x), shading.spec.atlas.samples);
 }
 
 } // namespace gnomon

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/frame/draw_views.h"
-#include "renderer/passes/views/displacement_pass.h"
+#include "renderer/device/device.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"
 
@@ -17,15 +16,14 @@ struct PredictedDisplacement {
   double length = 0; ///< pixels: of the edges
 };
 
-/// Shadow edges of the picture `shown` (S at full strength, a value a pixel, first row on top) and the map under them,
-/// for a light whose tiles these are. Absent where S has no edge.
-std::optional<PredictedDisplacement> displacementOf(const CameraView& view, int width, int height,
-                                                    std::span<const MapFootprint> footprints,
-                                                    std::span<const float> shown, std::span<const ShadowTile> tiles,
-                                                    int atlasSamples);
+/// Whether a map alone makes the shadow of that light; false for -1, no light.
+bool readsMap(std::span<const LitLight> lights, int light);
 
-/// The same of a frame's debug light. Absent, too, where the frame doesn't ask, or no map makes that light's shadow.
-Result<std::optional<PredictedDisplacement>> predictDisplacement(const PassInputs& inputs, const ViewInputs& shading,
-                                                                 const ShadowPlan& plan, const DrawnViews& drawn);
+/// Shadow edges of the picture `shown` (S at full strength, a value a pixel, first row on top) and the map under them,
+/// for the light `planned`. `spec`: effective. Absent where S has no edge.
+std::optional<PredictedDisplacement> displacementOf(const CameraView& view, const FrameSpec& spec,
+                                                    const ShadowPlan& plan, const PlannedLight& planned,
+                                                    std::span<const MapFootprint> footprints,
+                                                    std::span<const float> shown);
 
 } // namespace gnomon

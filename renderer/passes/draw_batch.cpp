@@ -4,6 +4,32 @@
 #include <cstddef>
 
 namespace gnomon {
+namespace {
+
+static_assert(sizeof(DrawRange) == sizeof(gl::DrawCommand) &&
+              offsetof(DrawRange, instance) == offsetof(gl::DrawCommand, baseInstance));
+
+shared::InstanceData instanceData(const PlacedInstance& instance) {
+  shared::InstanceData data{};
+  const glm::dmat4 place = glm::transpose(instance.relativeFromLocal);
+  const glm::dmat3 normals = glm::transpose(instance.normalFromLocal);
+  for (int row = 0; row < 3; ++row) {
+    data.relativeFromLocal[row] = glm::vec4(place[row]);
+    data.normalFromLocal[row] = glm::vec4(normals[row], 0.0);
+  }
+  data.normalFromLocal[0].w = instance.group;
+  data.normalFromLocal[2].w = static_cast<float>(instance.node); // exact: there are no more than kLimits.maxNodes
+  return data;
+}
+
+} // namespace
+
+std::vector<shared::InstanceData> instanceData(const FrameGeometry& geometry) {
+  std::vector<shared::InstanceData> data;
+  data.reserve(geometry.instances.size());
+  for (const PlacedInstance& instance : geometry.instances) data.push_back(instanceData(instance));
+  return data;
+}
 
 SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) {
   const std::array<gl::VertexStream, 3> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
@@ -36,13 +62,32 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) 
 }
 
 DrawBatch uploadDraws(const DrawList& list) {
-  return {gl::Buffer(gl::bytesOf(list.commands), "draw commands"), list.groups, list.triangles, list.commands.size()};
+  return {gl::Buffer(gl::bytesOf(list.ranges), "draw ranges"), list.groups, list.triangles, list.ranges.size()};
+}
+
+gl::Buffer numberedInstances(const FrameGeometry& geometry, DrawList& list) {
+  std::vector<shared::InstanceData> instances;
+  instances.reserve(list.ranges.size());
+  std::uint32_t number = 0;
+  for (DrawRange& range : list.ranges) {
+    shared::InstanceData instance = instanceData(geometry.instances[range.instance]);
+    instance.normalFromLocal[1].w = static_cast<float>(number); // exact: see kLimits.maxTriangles
+    range.instance = static_cast<std::uint32_t>(instances.size());
+    instances.push_back(instance);
+    number += range.indexCount / 3;
+  }
+  return gl::Buffer(gl::bytesOf(instances), "numbered instances");
+}
+
+void applyFacing(Facing facing, gl::PipelineState& state) {
+  state.cull = facing == Facing::both ? gl::Cull::none : gl::Cull::back;
+  state.frontFace = facing == Facing::clockwise ? gl::FrontFace::clockwise : gl::FrontFace::counterClockwise;
 }
 
 void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertices& vertices,
                const gl::Program& program) {
-  gl::drawIndirect(program, group.material < 0 ? vertices.positions : vertices.all, batch.commands, group.firstCommand,
-                   group.commandCount);
+  gl::drawIndirect(program, group.material < 0 ? vertices.positions : vertices.all, batch.ranges, group.firstRange,
+                   group.rangeCount);
 }
 
 void bindMaterial(const GpuScene& scene, int material, const gl::Program& program) {

@@ -2,10 +2,15 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/draw.h"
-#include "renderer/passes/draw_list.h"
+#include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/gpu_scene.h"
+#include "renderer/prepare/draw_list.h"
+#include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
+
+/// The instances as shaders read them, relative to the geometry's eye.
+std::vector<shared::InstanceData> instanceData(const FrameGeometry& geometry);
 
 /// Feeds a scene's vertices and its instances (shared::InstanceData) to every pass of a frame. Both outlive it.
 struct SceneVertices {
@@ -17,7 +22,7 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances);
 
 /// A draw list on the device.
 struct DrawBatch {
-  gl::Buffer commands;
+  gl::Buffer ranges;
   std::vector<DrawGroup> groups;
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
@@ -25,9 +30,16 @@ struct DrawBatch {
 
 DrawBatch uploadDraws(const DrawList& list);
 
+/// Instances that know the number of their draw's first triangle (prepare/triangle_numbers.h): a copy for each range of
+/// `list`, which names that copy from now on.
+gl::Buffer numberedInstances(const FrameGeometry& geometry, DrawList& list);
+
 /// Draws one group with a program whose state has been applied.
 void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertices& vertices,
                const gl::Program& program);
+
+/// The state that a group adds to its pass's.
+void applyFacing(Facing facing, gl::PipelineState& state);
 
 /// Binds the textures that a material has to their units, and tells the program which material it is.
 void bindMaterial(const GpuScene& scene, int material, const gl::Program& program);

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "renderer/passes/frame_geometry.h"
+#include "renderer/prepare/frame_geometry.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
@@ -132,7 +132,8 @@ GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuTextures> text
   gpu.indices = gl::Buffer(gl::bytesOf(scene.indices), "indices");
   gpu.welded = gl::Buffer(gl::bytesOf(scene.welded), "welded indices");
   for (const SceneView& view : scene.scenes) {
-    gpu.anchored.emplace_back(gl::bytesOf(frameGeometry(scene, view, anchorOf(view)).instances), "anchored instances");
+    gpu.anchored.emplace_back(gl::bytesOf(instanceData(frameGeometry(scene, view, anchorOf(view)))),
+                              "anchored instances");
     gpu.bytes += gpu.anchored.back().bytes();
   }
   gpu.bytes += gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();

@@ -17,8 +17,7 @@ Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const
     const auto program = programOf(group, material);
     if (!program) return program.problems();
     if (material != nullptr) bindMaterial(inputs.gpu, group.material, **program);
-    state.cull = group.cull;
-    state.frontFace = group.frontFace;
+    applyFacing(group.facing, state);
     gl::apply(state);
     drawGroup(batch, group, vertices, **program);
   }

@@ -9,9 +9,9 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
-#include "renderer/passes/frame_geometry.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/program_cache.h"
+#include "renderer/prepare/frame_geometry.h"
 #include "renderer/scene/edge_mesh.h"
 #include "renderer/scene/node_switches.h"
 

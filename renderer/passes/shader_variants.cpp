@@ -1,7 +1,9 @@
 #include "renderer/passes/shader_variants.h"
 
 #include <array>
+#include <cctype>
 
+#include "protocol/spec/view_traits.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
@@ -20,38 +22,14 @@ void addTextureDefines(const std::string& name, const TextureUse& use, std::size
   defines.push_back("NORMAL_STEP(derivative) " + (use.transform ? "movedStep(" + step + at : step));
 }
 
-const char* viewDefine(View view) {
-  switch (view) {
-    case View::color:
-      return "VIEW_COLOR";
-    case View::depth:
-      return "VIEW_DEPTH";
-    case View::normal:
-      return "VIEW_NORMAL";
-    case View::cascades:
-      return "VIEW_CASCADES";
-    case View::shadow:
-      return "VIEW_SHADOW";
-    case View::texelGrid:
-      return "VIEW_TEXEL_GRID";
-    case View::texelDensity:
-      return "VIEW_TEXEL_DENSITY";
-    case View::blendWeight:
-      return "VIEW_BLEND_WEIGHT";
-    case View::bias:
-      return "VIEW_BIAS";
-    case View::casterIds:
-      return "VIEW_CASTER_IDS";
-    case View::lightContribution:
-      return "VIEW_LIGHT_CONTRIBUTION";
-    case View::atlas:
-    case View::tile:
-    case View::reference:
-    case View::error:
-    case View::edgeDistance:
-      break; // read from the atlas or made from rays, not drawn
+/// VIEW_ and the view's name in capitals: texelGrid is VIEW_TEXEL_GRID.
+std::string viewDefine(View view) {
+  std::string define = "VIEW_";
+  for (const char letter : spell(view)) {
+    if (letter >= 'A' && letter <= 'Z') define += '_';
+    define += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
   }
-  return "VIEW_COLOR";
+  return define;
 }
 
 void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& defines) {
@@ -62,7 +40,7 @@ void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& d
   if (shadows.kinds.size() == 1) defines.push_back("FILTER_KIND " + std::to_string(*shadows.kinds.begin()));
   if (shadows.texels.size() == 1) defines.push_back("FILTER_SIZE " + std::to_string(*shadows.texels.begin()));
   if (shadows.kinds.contains(GNOMON_FILTER_DISC)) defines.emplace_back("FILTER_DISC");
-  if (*shadows.kinds.rbegin() >= GNOMON_FILTER_VSM) defines.emplace_back("FILTER_MOMENTS");
+  if (shadows.moments) defines.emplace_back("FILTER_MOMENTS");
   if (shadows.manualBias) defines.emplace_back("MANUAL_BIAS");
   if (shadows.atlasSamples > 1) defines.push_back("ATLAS_SAMPLES " + std::to_string(shadows.atlasSamples));
 }
@@ -137,30 +115,6 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   return {"surface.vert", "surface.frag", std::move(defines)};
 }
 
-bool showsOneLight(View view) {
-  switch (view) {
-    case View::cascades:
-    case View::shadow:
-    case View::texelGrid:
-    case View::texelDensity:
-    case View::blendWeight:
-    case View::bias:
-    case View::casterIds:
-    case View::lightContribution:
-    case View::reference:
-    case View::error:
-    case View::edgeDistance:
-      return true;
-    case View::color:
-    case View::depth:
-    case View::normal:
-    case View::atlas:
-    case View::tile:
-      return false;
-  }
-  return false;
-}
-
 gl::ProgramSource viewProgram(const ViewVariant& variant) {
   std::vector<std::string> defines{viewDefine(variant.view)};
   defines.push_back("SAMPLES " + std::to_string(variant.samples));
@@ -172,7 +126,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.unlit) defines.emplace_back("UNLIT");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
-  if (showsOneLight(variant.view)) defines.emplace_back("DEBUG_LIGHT");
+  if (traitsOf(variant.view).oneLight) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) {
     defines.emplace_back("ENCODED");
     defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");

@@ -36,12 +36,10 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
 struct ShadowSampling {
   std::set<int> kinds{};   ///< GNOMON_FILTER_...; none = nothing casts a shadow
   std::set<int> texels{};  ///< sides of the kernels that compare texels
+  bool moments = false;    ///< some light's filter reads moments
   bool manualBias = false; ///< of some light
   int atlasSamples = 1;
 };
-
-/// True for views of one light, debug.light.
-bool showsOneLight(View view);
 
 /// What lighting the surfaces needs, and no more.
 struct ViewVariant {

@@ -5,7 +5,6 @@
 
 #include "protocol/base/problem_list.h"
 #include "protocol/spec/limits.h"
-#include "renderer/passes/tiles/moments_pass.h"
 
 namespace gnomon {
 

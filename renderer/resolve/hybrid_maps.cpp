@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "protocol/spec/view_traits.h"
 #include "renderer/shadow/tile_size.h"
 
 namespace gnomon {
@@ -19,22 +20,6 @@ struct Cost {
 };
 constexpr Cost kCost;
 
-bool showsTiles(View view) {
-  switch (view) {
-    case View::cascades:
-    case View::atlas:
-    case View::tile:
-    case View::texelGrid:
-    case View::texelDensity:
-    case View::blendWeight:
-    case View::bias:
-    case View::casterIds:
-      return true;
-    default:
-      return false;
-  }
-}
-
 double texelsOf(const Light& light, const FrameSpec& spec) {
   const Shadow& shadow = *light.shadow;
   const int side = askedTileSize(shadow.size.value_or(ShadowSize::Large), shadow.importance, spec.atlas.baseSize,
@@ -45,11 +30,10 @@ double texelsOf(const Light& light, const FrameSpec& spec) {
 
 } // namespace
 
-bool drawsHybridMap(const ResolvedFrame& frame, const SceneView& scene, int light, const RendererInfo& device,
-                    HybridMaps maps) {
+bool drawsHybridMap(const ResolvedFrame& frame, const SceneView& scene, int light, const RendererInfo& device) {
   const FrameSpec& spec = frame.spec;
-  if (maps == HybridMaps::always || !device.software) return true;
-  if (std::any_of(spec.views.begin(), spec.views.end(), showsTiles)) return true;
+  if (!device.software) return true;
+  if (std::any_of(spec.views.begin(), spec.views.end(), [](View view) { return traitsOf(view).tiles; })) return true;
   const double pixels = static_cast<double>(spec.width) * spec.height;
   const double map = static_cast<double>(scene.triangles) * (kCost.tileTriangle + kCost.outlines) +
                      texelsOf((*spec.lights)[static_cast<std::size_t>(light)], spec) * kCost.tileTexel +

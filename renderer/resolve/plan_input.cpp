@@ -1,7 +1,9 @@
 #include "renderer/resolve/plan_input.h"
 
+#include <algorithm>
 #include <vector>
 
+#include "protocol/spec/technique_traits.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 
@@ -19,23 +21,36 @@ std::vector<int> shadowingLights(const ResolvedFrame& frame) {
   return lights;
 }
 
+namespace {
+
+const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light) {
+  return traitsOf((*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique);
+}
+
+} // namespace
+
 std::vector<int> layeredLights(const ResolvedFrame& frame) {
   std::vector<int> lights = shadowingLights(frame);
+  std::erase_if(lights, [&](int light) { return !techniqueOf(frame, light).layered; });
+  return lights;
+}
+
+std::vector<int> mappedLights(const ResolvedFrame& frame, const SceneView& scene, const RendererInfo& device) {
+  std::vector<int> lights = shadowingLights(frame);
   std::erase_if(lights, [&](int light) {
-    return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique == ShadowTechnique::shadowMap;
+    const TechniqueTraits& technique = techniqueOf(frame, light);
+    return !technique.mapped || (technique.mapSparesRays() && !drawsHybridMap(frame, scene, light, device));
   });
   return lights;
 }
 
-std::vector<int> mappedLights(const ResolvedFrame& frame, const SceneView& scene, const RendererInfo& device,
-                              HybridMaps maps) {
-  std::vector<int> lights = shadowingLights(frame);
-  std::erase_if(lights, [&](int light) {
-    const ShadowTechnique technique = (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique;
-    if (technique == ShadowTechnique::hybrid) return !drawsHybridMap(frame, scene, light, device, maps);
-    return !isMapped(technique);
-  });
-  return lights;
+bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped) {
+  for (int light = 0; light < static_cast<int>(frame.spec.lights->size()); ++light) {
+    const TechniqueTraits& technique = techniqueOf(frame, light);
+    if (!technique.needsEdges) continue;
+    if (!technique.mapped || std::find(mapped.begin(), mapped.end(), light) != mapped.end()) return true;
+  }
+  return false;
 }
 
 PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
@@ -52,7 +67,7 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Re
   for (const int index : mapped) {
     const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
     ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
-    if (light.shadow->technique == ShadowTechnique::hybrid) {
+    if (traitsOf(light.shadow->technique).mapSparesRays()) {
       // Rays draw the edges: what the map needs is the nearest tile, sharp.
       caster.shadow.filter = Filter{FilterType::hard};
       caster.shadow.bias = Bias{};

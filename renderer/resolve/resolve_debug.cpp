@@ -71,6 +71,7 @@ Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan,
   DebugSubject subject;
   subject.light = lightToShow(spec, plan, layeredLights);
   subject.planned = plannedOf(plan, subject.light);
+  if (subject.planned != nullptr) subject.index = static_cast<std::size_t>(subject.planned - plan.lights.data());
   if (plan.atlasWidth == 0 && shows(spec, View::atlas)) return noAtlas("atlas");
   if (shows(spec, View::tile)) {
     const auto tile = tileToShow(spec, plan, subject);

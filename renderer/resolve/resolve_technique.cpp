@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/base/problem_list.h"
+#include "protocol/spec/technique_traits.h"
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
@@ -39,17 +40,18 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
     const auto light = static_cast<std::size_t>(index);
     const Light& settled = (*frame.spec.lights)[light];
     const std::string pointer = pointerOf(asked, light);
-    if (settled.shadow->technique != ShadowTechnique::shadowVolume || pointer == last) continue;
+    if (!traitsOf(settled.shadow->technique).needsOpaqueCasters || pointer == last) continue;
     const Instance* instance = firstWithHoles(scene, frame, settled);
     if (instance == nullptr) continue;
     const int material = materialOf(scene, *instance);
     problems.add({ProblemCode::unsupportedFeature, pointer,
-                  "Technique shadowVolume does not support alpha: node " +
+                  "Technique " + std::string(spell(settled.shadow->technique)) + " does not support alpha: node " +
                       told(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
                       " casts, and its material " +
                       told(scene.materials[static_cast<std::size_t>(material)].name, material) +
                       " is masked, blended or lets light through.",
-                  "opaque casters: turn the node's castShadow off, or choose another technique", "shadowVolume"});
+                  "opaque casters: turn the node's castShadow off, or choose another technique",
+                  std::string(spell(settled.shadow->technique))});
     last = pointer;
   }
   if (problems.empty()) return Done{};

@@ -10,14 +10,6 @@ constexpr double kFloatRounding = 0x1p-24; ///< of a float operation, relative; 
 
 } // namespace
 
-FilterKernel kernelOf(const Filter& filter) {
-  const bool bySize = filter.type != FilterType::hard && !filter.radius;
-  const double reach = 0.5 * ((bySize ? filter.size : 1) + 1);
-  const double radius = filter.type == FilterType::hard ? 0.0 : filter.radius.value_or(0.0);
-  const bool compared = filter.type == FilterType::hard || filter.type == FilterType::pcf;
-  return {reach, static_cast<int>(std::ceil(reach)) + 1, radius, !compared};
-}
-
 double biasReach(const FilterKernel& kernel) {
   return kBiasReach + (kernel.moments ? kernel.reach : 0.0);
 }

@@ -36,18 +36,13 @@ double tapsOfKernel(int size) {
 } // namespace
 
 MapReading readingOf(const ShadowTile& tile, int atlasSamples) {
-  const Filter& filter = tile.filter;
+  const FilterKernel& filter = tile.filter;
   MapReading reading;
-  reading.bilinear = atlasSamples <= 1 || filter.type == FilterType::vsm || filter.type == FilterType::evsm ||
-                     filter.type == FilterType::msm;
-  if (filter.type == FilterType::hard) return reading;
-  if (!filter.radius) {
-    reading.taps = filter.type == FilterType::pcf ? tapsOfKernel(filter.size) : filter.size;
-    return reading;
-  }
+  reading.bilinear = atlasSamples <= 1 || filter.moments;
+  reading.taps = filter.moments ? filter.size : tapsOfKernel(filter.size);
   // A disc weighs as a square of the same variance does, whose side is sqrt 3 times the radius.
   const double texel = std::max(tile.space.fit.texelSize.x, tile.space.fit.texelSize.y);
-  if (texel > 0) reading.taps += std::sqrt(3.0) * tile.space.fit.radius / texel;
+  if (filter.radius > 0 && texel > 0) reading.taps += std::sqrt(3.0) * tile.space.fit.radius / texel;
   return reading;
 }
 

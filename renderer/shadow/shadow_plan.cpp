@@ -149,13 +149,13 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   tile.near = draft.cascade.near;
   tile.far = draft.cascade.far;
   tile.blendNear = draft.cascade.blendNear;
-  tile.filter = caster.shadow.filter;
+  tile.filter = kernelOf(caster.shadow.filter);
   tile.space.basis = draft.basis;
   if (draft.receivers.empty()) return tile;
 
   FitTarget target;
   target.tileSize = light.planned.grantedTileSize;
-  target.kernel = kernelOf(caster.shadow.filter);
+  target.kernel = tile.filter;
   target.manualOffset = manualOffset(caster.shadow.bias);
   const bool parallel = caster.type == LightType::directional;
   const Fit fit = parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, light, input, target);

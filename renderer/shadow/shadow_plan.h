@@ -9,6 +9,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/receiver_mask.h"
 #include "renderer/shadow/splits.h"
 #include "renderer/shadow/tile_space.h"
@@ -23,11 +24,14 @@ struct DepthSpan {
   bool empty() const { return farthest < nearest; }
 };
 
+/// Pixels along a side of the blocks that a survey is reduced to.
+inline constexpr int kSurveyBlock = 8;
+
 /// What the camera sees, reduced: a span for each square block of pixels, row by row from the TOP of the picture.
 /// The spans hold every sample of every pixel that shows a surface.
 struct ReceiverDepths {
-  int blockSize = 8; ///< pixels
-  int width = 0;     ///< of the frame, pixels
+  int blockSize = kSurveyBlock; ///< pixels
+  int width = 0;                ///< of the frame, pixels
   int height = 0;
   int columns = 0; ///< ceil(width / blockSize)
   int rows = 0;
@@ -69,7 +73,7 @@ struct ShadowTile {
   double blendNear = 0; ///< cascade: where blending to the next (or fading out) begins; = far where there is none
   Rect rect;            ///< in the atlas, border included; width 0 = no surface in view lies in it, not drawn
   int border = 0;       ///< texels kept on each side, so that no filter leaves the rectangle
-  Filter filter;        ///< of its light
+  FilterKernel filter;  ///< of its light
   TileSpace space;
   glm::dmat4 clipFromRelative{1}; ///< of the space
   glm::dmat4 clipFromAnchored{1}; ///< the same from positions relative to the plan's anchor
@@ -78,6 +82,11 @@ struct ShadowTile {
   double depthBiasNear = 0; ///< 0 for parallel light, whose w is 1
   ReceiverMask receivers;   ///< what the tile serves
 };
+
+/// True for a tile that has texels and whose filter reads moments.
+inline bool isBlurred(const ShadowTile& tile) {
+  return tile.rect.width > 0 && tile.filter.moments;
+}
 
 struct PlannedLight {
   int light = 0;

@@ -11,7 +11,7 @@ std::vector<SurfacePoint> PicturePoints::drawn(std::span<const std::uint32_t> pi
     places[i] = placeIn(grid_, pixels[i], grid_.positions.front());
     numbers[i] = shown_[pixels[i] * grid_.samples()];
   }
-  return pointsOn(rays_, places, surfaces_.numbers.of(numbers));
+  return pointsOn(rays_, places, numbers_.of(numbers));
 }
 
 std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> pixels) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/passes/views/surface_pass.h"
+#include "renderer/prepare/triangle_numbers.h"
 #include "renderer/reference/trace.h"
 #include "renderer/techniques/sample_grid.h"
 
@@ -9,10 +9,11 @@ namespace gnomon {
 /// The points that a picture's samples show, for rays that go on from there. Pixels are numbered as in SampleGrid.
 class PicturePoints {
  public:
-  /// `shown`: shownTriangles of `surfaces`; `masks`: maskCoverage. All that the others refer to outlives it.
-  PicturePoints(const TraceInput& rays, const SampleGrid& grid, const Surfaces& surfaces,
+  /// `shown`: the number of the triangle that each sample shows, or kNoNumber; `masks`: a byte a pixel, not 0 where
+  /// masked triangles lie, empty = nowhere. All that the others refer to outlives it.
+  PicturePoints(const TraceInput& rays, const SampleGrid& grid, const TriangleNumbers& numbers,
                 std::vector<std::uint32_t> shown, std::vector<std::uint8_t> masks)
-      : rays_(rays), grid_(grid), surfaces_(surfaces), shown_(std::move(shown)), masks_(std::move(masks)) {}
+      : rays_(rays), grid_(grid), numbers_(numbers), shown_(std::move(shown)), masks_(std::move(masks)) {}
 
   const TraceInput& rays() const { return rays_; }
   const SampleGrid& grid() const { return grid_; }
@@ -30,7 +31,7 @@ class PicturePoints {
  private:
   TraceInput rays_;
   const SampleGrid& grid_;
-  const Surfaces& surfaces_;
+  const TriangleNumbers& numbers_;
   std::vector<std::uint32_t> shown_;
   std::vector<std::uint8_t> masks_;
 };

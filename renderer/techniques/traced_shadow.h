@@ -2,10 +2,17 @@
 
 #include <span>
 
-#include "renderer/passes/views/certainty_pass.h"
 #include "renderer/techniques/picture_points.h"
 
 namespace gnomon {
+
+/// What a shadow map knows of a pixel.
+enum class Verdict : std::uint8_t {
+  shadow = 0,
+  turnedAway = 64, ///< in shadow, because the surface faces away from the light
+  unsure = 128,
+  lit = 255
+};
 
 struct TracedShadow {
   std::vector<std::uint16_t> values; ///< share of the light at every sample, 0..65535, in the grid's order

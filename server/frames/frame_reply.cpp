@@ -7,6 +7,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/view_traits.h"
 #include "server/http/ascii.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
@@ -16,7 +17,7 @@ namespace gnomon {
 namespace {
 
 bool needsReference(View view) {
-  return view == View::reference || view == View::error || view == View::edgeDistance;
+  return traitsOf(view).source == ViewSource::rays;
 }
 
 std::string multipartBody(const Frame& frame, const std::vector<EncodedPicture>& pictures, ImageFormat format,
@@ -53,7 +54,7 @@ std::size_t frameBytes(const FrameSpec& spec) {
   std::size_t pixels = 0;
   for (const View view : spec.views) {
     const auto side = static_cast<std::size_t>(spec.atlas.size);
-    pixels += view == View::atlas || view == View::tile ? side * side : ofFrame;
+    pixels += traitsOf(view).source == ViewSource::atlas ? side * side : ofFrame;
   }
   const bool traced = std::any_of(spec.views.begin(), spec.views.end(), needsReference);
   return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0);

@@ -41,7 +41,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
   p.gpu = uploadScene(scene, uploadTextures(scene));
   const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye);
-  p.instances = gl::Buffer(gl::bytesOf(geometry.instances), "instances");
+  p.instances = gl::Buffer(gl::bytesOf(instanceData(geometry)), "instances");
   p.vertices = sceneVertices(p.gpu, p.instances);
   shared::FrameData data{};
   const glm::mat4 clipFromRelative(clipFromView(frame.view) * viewFromRelative(frame.view));
@@ -72,8 +72,7 @@ double DepthFloor::draw() {
   p.target.clearDepth(0.0f);
   p.frame.bindUniform(GNOMON_FRAME_BUFFER);
   for (const DrawGroup& group : p.batch.groups) {
-    p.state.cull = group.cull;
-    p.state.frontFace = group.frontFace;
+    applyFacing(group.facing, p.state);
     gl::apply(p.state);
     drawGroup(p.batch, group, p.vertices, *p.program);
   }

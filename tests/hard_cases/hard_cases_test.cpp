@@ -10,6 +10,7 @@
 #include "tests/hard_cases/hard_case.h"
 #include "tests/hard_cases/hard_table.h"
 #include "tests/support/files.h"
+#include "tests/support/gpu_renderer.h"
 
 namespace gnomon {
 namespace {
@@ -44,8 +45,7 @@ std::string told(const Problems& problems) {
 
 Renderer& renderer() {
   static Renderer made = [] {
-    // Every frame draws its tiles, also those that hybrid shadows could do without.
-    auto renderer = Renderer::create({.backend = {}, .tileCacheBytes = 0, .hybridMaps = HybridMaps::always});
+    auto renderer = testing::gpuRenderer();
     if (!renderer) throw std::runtime_error(told(renderer.problems()));
     return std::move(*renderer);
   }();

@@ -2,6 +2,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "tests/support/files.h"
+#include "tests/support/gpu_renderer.h"
 
 namespace gnomon::testing {
 namespace {
@@ -16,8 +17,7 @@ std::string told(const Problems& problems) {
 
 Renderer& sharedRenderer() {
   static Renderer renderer = [] {
-    // Tiles are not kept, so that counts don't depend on other cases; hybrid shadows ask a map on every device.
-    auto made = Renderer::create({.backend = {}, .tileCacheBytes = 0, .hybridMaps = HybridMaps::always});
+    auto made = gpuRenderer();
     if (!made) throw std::runtime_error(told(made.problems()));
     return std::move(*made);
   }();

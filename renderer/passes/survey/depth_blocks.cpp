@@ -6,7 +6,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
-#include "renderer/passes/survey/box_depths.h"
+#include "renderer/prepare/box_depths.h"
 
 namespace gnomon {
 namespace {

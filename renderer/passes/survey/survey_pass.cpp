@@ -9,7 +9,7 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/survey/depth_blocks.h"
-#include "renderer/passes/survey/occlusion.h"
+#include "renderer/prepare/occlusion.h"
 
 namespace gnomon {
 namespace {

@@ -14,7 +14,7 @@ namespace {
 
 /// Texels to each side that the blur takes whole: (x, y).
 glm::vec2 blurOf(const ShadowTile& tile) {
-  if (!tile.filter.radius) return glm::vec2(0.5f * static_cast<float>(tile.filter.size - 1));
+  if (tile.filter.radius <= 0) return glm::vec2(0.5f * static_cast<float>(tile.filter.size - 1));
   const glm::dvec2 texels = tile.space.fit.radius / tile.space.fit.texelSize;
   return glm::vec2(glm::max(glm::dvec2(0.0), texels - 0.5));
 }
@@ -49,10 +49,6 @@ Status blur(const PassInputs& inputs, const ShadowTile& tile, int samples, const
 }
 
 } // namespace
-
-bool isBlurred(const ShadowTile& tile) {
-  return tile.rect.width > 0 && filterKind(tile.filter) >= GNOMON_FILTER_VSM;
-}
 
 Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*>& tiles, AtlasTextures& atlas) {
   int side = 0;

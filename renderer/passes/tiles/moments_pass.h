@@ -9,9 +9,6 @@
 
 namespace gnomon {
 
-/// True for a tile that has texels and whose filter looks up moments.
-bool isBlurred(const ShadowTile& tile);
-
 /// Makes the moments of the depths of these tiles, each at its own place. No blur reads beside its tile.
 Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*>& tiles, AtlasTextures& atlas);
 

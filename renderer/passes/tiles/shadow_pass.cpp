@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/spec/technique_traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/moments_pass.h"
-#include "renderer/passes/tiles/outlines.h"
 #include "renderer/passes/tiles/tile_draw.h"
-#include "renderer/passes/tiles/tile_key.h"
+#include "renderer/prepare/outlines.h"
 
 namespace gnomon {
 namespace {
@@ -45,7 +45,7 @@ AtlasTextures emptyAtlas(const ShadowPlan& plan, int samples, bool outlined) {
 }
 
 bool isOutlined(const Light& light) {
-  return light.shadow->technique == ShadowTechnique::hybrid;
+  return traitsOf(light.shadow->technique).mapSparesRays();
 }
 
 /// Finds the outlines of tiles and writes them; a light's tiles follow each other.
@@ -87,8 +87,10 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
   const std::vector<TileContent> contents = contentsOf(inputs, plan, spec);
   std::vector<TileKey> keys;
   keys.reserve(contents.size());
+  const int view = static_cast<int>(&inputs.view - inputs.scene.scenes.data());
   for (const TileContent& content : contents) {
-    keys.push_back(tileKey(inputs, plan.tiles[content.index], content.light, content.casters, spec.atlas.samples));
+    keys.push_back(
+        tileKey(inputs.gpu.id, view, plan.tiles[content.index], content.light, content.casters, spec.atlas.samples));
   }
 
   if (auto same = cache.findAll(keys);

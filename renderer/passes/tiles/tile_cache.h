@@ -3,11 +3,11 @@
 #include <list>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "renderer/core/rect.h"
 #include "renderer/gl/texture.h"
+#include "renderer/prepare/tile_casters.h"
 
 namespace gnomon {
 
@@ -19,9 +19,6 @@ struct AtlasTextures {
 
   std::size_t bytes() const;
 };
-
-/// Everything that a tile's texels depend on, in one text: equal keys stand for equal texels at the same place.
-using TileKey = std::string;
 
 /// The atlases of the last frames, so that a tile that was drawn before need not be drawn again. The least recently
 /// used are dropped first once they take more than a budget; a budget of 0 keeps nothing.

@@ -4,7 +4,7 @@
 
 #include "protocol/base/result.h"
 #include "renderer/passes/pass_inputs.h"
-#include "renderer/passes/tiles/tile_casters.h"
+#include "renderer/prepare/tile_casters.h"
 
 namespace gnomon {
 

@@ -7,15 +7,13 @@
 
 namespace gnomon {
 
-Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces,
+Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces,
                                          int light) {
-  const bool mapped = shading.lights[static_cast<std::size_t>(light)].tiles.x > 0;
-  if (!mapped || shading.atlas.textures->outlines.id() == 0) return std::vector<Verdict>{};
+  const LitLight& lit = shading.lights[static_cast<std::size_t>(light)];
+  if (lit.tileCount == 0 || shading.atlas.textures->outlines.id() == 0) return std::vector<Verdict>{};
 
   std::vector<std::string> defines{"SAMPLES " + std::to_string(surfaces.samplePositions.size())};
-  if (shading.lights[static_cast<std::size_t>(light)].direction.w != GNOMON_DIRECTIONAL) {
-    defines.emplace_back("PUNCTUAL");
-  }
+  if (lit.type != LightType::directional) defines.emplace_back("PUNCTUAL");
   if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", std::move(defines)});
   if (!program) return program.problems();
@@ -29,12 +27,10 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const ViewInp
   gl::apply(state);
 
   bindInputs(inputs);
-  const gl::Buffer lights(std::as_bytes(shading.lights), "lights");
-  const gl::Buffer tiles(std::as_bytes(shading.tiles), "tiles");
-  lights.bindStorage(GNOMON_LIGHT_BUFFER);
-  tiles.bindStorage(GNOMON_TILE_BUFFER);
+  shading.buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  shading.buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
-  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, texels, GNOMON_DEPTH_UNIT);
+  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   bindTexture(shading.atlas.textures->depth, texels, GNOMON_ATLAS_UNIT);
   bindTexture(shading.atlas.textures->outlines, texels, GNOMON_OUTLINES_UNIT);

@@ -36,7 +36,7 @@ MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
 
 } // namespace
 
-Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const ViewInputs& shading,
+Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const Shading& shading,
                                                 const Surfaces& surfaces) {
   const auto program = inputs.programs.get(displacementProgram(lightVariant(inputs, shading, false)));
   if (!program) return program.problems();
@@ -52,7 +52,7 @@ Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const 
   bindInputs(inputs);
   const ShadowBindings bindings(shading);
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
-  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, texels, GNOMON_DEPTH_UNIT);
+  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   const gl::Texture& atlas = shading.atlas.textures->depth;
   (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);

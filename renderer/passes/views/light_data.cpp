@@ -6,9 +6,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/spec/limits.h"
-#include "renderer/core/light.h"
-#include "renderer/core/vec3.h"
-#include "renderer/shadow/bias.h"
 
 namespace gnomon {
 
@@ -34,29 +31,55 @@ float typeOf(LightType type) {
 }
 
 /// Angular falloff as KHR_lights_punctual recommends: 1 inside the inner cone, 0 outside the outer one.
-glm::vec2 coneFalloff(const Light& light) {
-  const double inner = std::cos(glm::radians(light.innerConeDegrees));
-  const double outer = std::cos(glm::radians(light.outerConeDegrees));
+glm::vec2 coneFalloff(const LitLight& light) {
+  const double inner = std::cos(light.innerCone);
+  const double outer = std::cos(light.outerCone);
   const double scale = 1.0 / std::max(1e-3, inner - outer);
   return {scale, -outer * scale};
 }
 
-glm::dvec3 colorOf(const Light& light) {
-  if (light.temperatureKelvin) return blackBodyColor(*light.temperatureKelvin);
-  return toVector(light.color.value_or(Vec3{1, 1, 1}));
+} // namespace
+
+int filterKind(const FilterKernel& filter) {
+  switch (filter.kind) {
+    case MapReadingKind::texels:
+      return GNOMON_FILTER_KERNEL;
+    case MapReadingKind::disc:
+      return GNOMON_FILTER_DISC;
+    case MapReadingKind::vsm:
+      return GNOMON_FILTER_VSM;
+    case MapReadingKind::evsm:
+      return GNOMON_FILTER_EVSM;
+    case MapReadingKind::msm:
+      return GNOMON_FILTER_MSM;
+  }
+  return GNOMON_FILTER_KERNEL;
 }
 
-/// Texels a side that the shader's filter compares.
-unsigned filterTexels(const Filter& filter) {
-  return filterKind(filter) == GNOMON_FILTER_KERNEL && filter.type != FilterType::hard
-             ? static_cast<unsigned>(filter.size)
-             : 1u;
+namespace {
+
+/// Texels a side that the shader compares.
+unsigned comparedTexels(const FilterKernel& filter) {
+  return filter.kind == MapReadingKind::texels ? static_cast<unsigned>(filter.size) : 1u;
 }
 
-glm::vec4 manualBias(const Bias& bias) {
-  const auto offset = manualOffset(bias);
-  if (!offset) return glm::vec4(0.0f);
-  return {bias.depth.value_or(0.0), bias.slope.value_or(0.0), *offset, 1.0};
+shared::LightData packed(const LitLight& light) {
+  shared::LightData out{};
+  const bool directional = light.type == LightType::directional;
+  out.direction = glm::vec4(directional ? -light.direction : light.direction, typeOf(light.type));
+  out.position = glm::vec4(light.position, light.range);
+  out.radiance = glm::vec4(light.radiance, 0.0);
+  if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
+  out.cone.z = static_cast<float>(light.strength);
+  out.cone.w = light.fadesOut ? 1.0f : 0.0f;
+  out.groups = {light.groups.lit, light.groups.shadowed, 0, 0};
+  if (light.tileCount > 0) out.tiles = {light.tileCount, comparedTexels(light.filter), light.firstTile, 0};
+  out.tiles.w = static_cast<unsigned>(light.visibilityLayer + 1);
+  out.sampling = {filterKind(light.filter), light.filter.radius, light.layerOmitsTurnedFaces ? 1.0f : 0.0f, 0};
+  if (light.manualBias) {
+    out.bias = {light.manualBias->depth, light.manualBias->slope, light.manualBias->normalOffset, 1.0};
+  }
+  return out;
 }
 
 shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
@@ -91,51 +114,9 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
 
 } // namespace
 
-int filterKind(const Filter& filter) {
-  switch (filter.type) {
-    case FilterType::hard:
-      return GNOMON_FILTER_KERNEL;
-    case FilterType::pcf:
-      return filter.radius ? GNOMON_FILTER_DISC : GNOMON_FILTER_KERNEL;
-    case FilterType::vsm:
-      return GNOMON_FILTER_VSM;
-    case FilterType::evsm:
-      return GNOMON_FILTER_EVSM;
-    case FilterType::msm:
-      return GNOMON_FILTER_MSM;
-  }
-  return GNOMON_FILTER_KERNEL;
-}
-
-std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
-                                         std::span<const LitGroups> groups, std::span<const int> layered) {
+std::vector<shared::LightData> lightData(std::span<const LitLight> lights) {
   std::vector<shared::LightData> data;
-  for (const Light& light : lights) {
-    shared::LightData out{};
-    const glm::dvec3 direction = directionOf(light);
-    out.direction = glm::vec4(light.type == LightType::directional ? -direction : direction, typeOf(light.type));
-    if (light.position) out.position = glm::vec4(toVector(*light.position) - eye, light.range.value_or(0.0));
-    out.radiance = glm::vec4(colorOf(light) * light.intensity, 0.0);
-    if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
-    const LitGroups lit = groups.empty() ? LitGroups{} : groups[data.size()];
-    out.groups = {lit.lit, lit.shadowed, 0, 0};
-    data.push_back(out);
-  }
-  for (const PlannedLight& planned : plan.lights) {
-    shared::LightData& out = data[static_cast<std::size_t>(planned.light)];
-    const Shadow& shadow = *lights[static_cast<std::size_t>(planned.light)].shadow;
-    out.tiles = {planned.tileCount, filterTexels(shadow.filter), planned.firstTile, 0};
-    out.sampling = {filterKind(shadow.filter), shadow.filter.radius.value_or(0.0), 0, 0};
-    out.bias = manualBias(shadow.bias);
-    out.cone.z = static_cast<float>(shadow.strength);
-    out.cone.w = planned.fadeOut ? 1.0f : 0.0f;
-  }
-  for (std::size_t layer = 0; layer < layered.size(); ++layer) {
-    const auto light = static_cast<std::size_t>(layered[layer]);
-    data[light].tiles.w = static_cast<unsigned>(layer) + 1;
-    data[light].cone.z = static_cast<float>(lights[light].shadow->strength);
-    data[light].sampling.z = lights[light].shadow->technique == ShadowTechnique::shadowVolume ? 1.0f : 0.0f;
-  }
+  std::transform(lights.begin(), lights.end(), std::back_inserter(data), packed);
   return data;
 }
 
@@ -145,6 +126,12 @@ std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
   std::transform(plan.tiles.begin(), plan.tiles.end(), std::back_inserter(data),
                  [&](const ShadowTile& tile) { return tileData(tile, atlas); });
   return data;
+}
+
+LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
+                          std::span<const std::uint32_t> lists) {
+  return {gl::Buffer(gl::bytesOf(lightData(lights)), "lights"), gl::Buffer(gl::bytesOf(tileData(plan)), "tiles"),
+          gl::Buffer(std::as_bytes(lists), "light lists")};
 }
 
 } // namespace gnomon

@@ -3,23 +3,29 @@
 #include <span>
 #include <vector>
 
-#include "protocol/spec/light.h"
-#include "renderer/scene/node_switches.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/prepare/lit_light.h"
 #include "renderer/shaders/shared/frame_types.h"
-#include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
 
-/// How the shader samples the map: GNOMON_FILTER_...
-int filterKind(const Filter& filter);
+/// How the shader reads a map: GNOMON_FILTER_...
+int filterKind(const FilterKernel& filter);
 
-/// The lights as the shader reads them, relative to the eye; `plan` tells which have tiles. `groups`: what each does to
-/// the receiver groups; none = every light lights and shadows all. `layered`: lights that visibility layers serve, one
-/// a layer.
-std::vector<shared::LightData> lightData(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
-                                         std::span<const LitGroups> groups = {}, std::span<const int> layered = {});
+/// The lights as the shader reads them.
+std::vector<shared::LightData> lightData(std::span<const LitLight> lights);
 
 /// The plan's tiles, in its order.
 std::vector<shared::TileData> tileData(const ShadowPlan& plan);
+
+/// The same on the device, with the light lists of the picture's squares.
+struct LightBuffers {
+  gl::Buffer lights;
+  gl::Buffer tiles;
+  gl::Buffer lists;
+};
+
+LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
+                          std::span<const std::uint32_t> lists = {});
 
 } // namespace gnomon

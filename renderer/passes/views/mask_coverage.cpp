@@ -23,7 +23,7 @@ std::vector<std::uint8_t> maskedSlots(const PassInputs& inputs, const Survey& su
 Result<std::vector<std::uint8_t>> maskCoverage(const PassInputs& inputs, const Survey& survey) {
   DrawList list =
       buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, maskedSlots(inputs, survey));
-  if (list.commands.empty()) return std::vector<std::uint8_t>{};
+  if (list.ranges.empty()) return std::vector<std::uint8_t>{};
   for (DrawGroup& group : list.groups) group.material = -1; // nothing but positions matters
   const auto program = inputs.programs.get({"survey.vert", "covered.frag", {}});
   if (!program) return program.problems();

@@ -8,8 +8,13 @@ namespace gnomon {
 namespace {
 
 /// Whole rows of the target.
-std::vector<shared::ProbeData> padded(std::span<const shared::ProbeData> points) {
-  std::vector<shared::ProbeData> rows(points.begin(), points.end());
+std::vector<shared::ProbeData> padded(std::span<const ProbePoint> points, const glm::dvec3& forward) {
+  std::vector<shared::ProbeData> rows;
+  rows.reserve(points.size() + GNOMON_PROBE_COLUMNS);
+  for (const ProbePoint& point : points) {
+    rows.push_back(
+        {glm::vec4(point.relative, glm::dot(point.relative, forward)), glm::vec4(point.normal, point.group)});
+  }
   rows.resize((rows.size() + GNOMON_PROBE_COLUMNS - 1) / GNOMON_PROBE_COLUMNS * GNOMON_PROBE_COLUMNS,
               {glm::vec4(0, 0, 0, 1), glm::vec4(0, 1, 0, 0)});
   return rows;
@@ -17,12 +22,12 @@ std::vector<shared::ProbeData> padded(std::span<const shared::ProbeData> points)
 
 } // namespace
 
-Result<std::vector<float>> probeShadow(const PassInputs& inputs, const ViewInputs& shading,
-                                       std::span<const shared::ProbeData> points) {
+Result<std::vector<float>> probeShadow(const PassInputs& inputs, const Shading& shading,
+                                       std::span<const ProbePoint> points) {
   if (points.empty()) return std::vector<float>{};
   const auto program = inputs.programs.get(probeProgram(lightVariant(inputs, shading, false)));
   if (!program) return program.problems();
-  const std::vector<shared::ProbeData> rows = padded(points);
+  const std::vector<shared::ProbeData> rows = padded(points, inputs.camera.forward);
   const Rect whole{0, 0, GNOMON_PROBE_COLUMNS, static_cast<int>(rows.size()) / GNOMON_PROBE_COLUMNS};
   const gl::Texture color({GL_R32F, whole.width, whole.height}, "probes");
   const auto target = gl::Framebuffer::create({{{&color}}, {}}, "probes");

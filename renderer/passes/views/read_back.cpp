@@ -3,28 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/passes/tiles/named_tiles.h"
+#include "protocol/spec/view_traits.h"
+#include "renderer/prepare/named_tiles.h"
 
 namespace gnomon {
 namespace {
 
 std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
-  if (isPicture(view)) {
-    return opaque ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"R", "G", "B", "A"};
+  const ViewTraits& traits = traitsOf(view);
+  std::vector<std::string> channels;
+  for (const std::string_view name : encoded ? traits.png : traits.exr) {
+    if (!name.empty()) channels.emplace_back(name);
   }
-  switch (view) {
-    case View::normal:
-      return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"X", "Y", "Z"};
-    case View::texelDensity:
-    case View::bias:
-      return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
-    case View::casterIds:
-      return encoded ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"id"};
-    case View::depth:
-      return {encoded ? "Y" : "Z"};
-    default:
-      return {"Y"};
-  }
+  if (traits.source == ViewSource::picture && !opaque) channels.emplace_back("A");
+  return channels;
 }
 
 /// The first `channels` of four, rows turned over.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/views/view_pass.h"
 
@@ -10,11 +9,9 @@ namespace gnomon {
 /// that is drawn.
 class ShadowBindings {
  public:
-  explicit ShadowBindings(const ViewInputs& shading);
+  explicit ShadowBindings(const Shading& shading);
 
  private:
-  gl::Buffer lights_;
-  gl::Buffer tiles_;
   gl::Sampler texels_;
   gl::Sampler blurred_;
 };

@@ -26,11 +26,12 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   DrawList list = buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
                                 reuse ? survey.visible : survey.inView);
   Surfaces surfaces;
-  std::optional<NumberedInstances> instances;
+  gl::Buffer instances;
   if (numbered) {
     surfaces.numbers = TriangleNumbers(inputs.scene, inputs.view, list);
-    instances.emplace(inputs, list);
+    instances = numberedInstances(inputs.geometry, list);
   }
+  const SceneVertices numberedVertices = numbered ? sceneVertices(inputs.gpu, instances) : SceneVertices{};
   const DrawBatch batch = uploadDraws(list);
 
   surfaces.triangles = batch.triangles;
@@ -62,7 +63,7 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   if (!reuse) target->clearDepth(0.0f);
   if (numbered) target->clearColor(static_cast<int>(attachments.color.size()) - 1, glm::uvec4(kNoNumber));
   bindInputs(inputs);
-  const Status drawn = drawGroups(inputs, instances ? instances->vertices() : inputs.vertices, batch, state,
+  const Status drawn = drawGroups(inputs, numbered ? numberedVertices : inputs.vertices, batch, state,
                                   [&](const DrawGroup& group, const Material* material) {
                                     return inputs.programs.get(surfaceProgram(
                                         *material, {group.tangents, emission, inputs.receiverGroups, numbered}));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "protocol/spec/view_traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/views/shadow_bindings.h"
@@ -11,58 +12,57 @@ namespace {
 
 GLenum formatOf(View view, bool encoded) {
   if (!encoded) return GL_RGBA32F;
-  return isPicture(view) ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  return traitsOf(view).source == ViewSource::picture ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
 /// A variant that holds no more than these lights and surfaces need.
-ViewVariant variantFor(const PassInputs& inputs, const ViewInputs& shading, const Surfaces& surfaces, View view) {
+ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces, View view,
+                       bool encoded) {
+  const ViewTraits& traits = traitsOf(view);
   // Views of a light's tiles look into them whatever decides its shadow.
-  const bool layersDecide = view == View::color || view == View::shadow || view == View::lightContribution;
+  const bool layersDecide = traits.shadowed && !traits.tiles;
   ViewVariant variant = lightVariant(inputs, shading, layersDecide);
   variant.view = view;
-  variant.encoded = shading.spec.output.format == ImageFormat::png;
+  variant.encoded = encoded;
   variant.toneMapping = shading.spec.toneMapping;
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.emission = surfaces.emission.id() != 0;
   variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
                               [](const Material& material) { return material.unlit; });
   variant.visibilityLayers =
-      showsShadow(view) && std::any_of(shading.lights.begin(), shading.lights.end(),
-                                       [](const shared::LightData& light) { return light.tiles.w > 0; });
+      traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
+                                     [](const LitLight& light) { return light.visibilityLayer >= 0; });
   return variant;
 }
 
 } // namespace
 
-ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading, bool layersDecide) {
+ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool layersDecide) {
   ViewVariant variant;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;
   variant.receiverGroups = inputs.receiverGroups;
   variant.lights = static_cast<int>(shading.spec.lights->size());
-  variant.lightLists = !shading.lightLists.empty();
-  for (const shared::LightData& light : shading.lights) {
-    variant.punctual = variant.punctual || light.direction.w != GNOMON_DIRECTIONAL;
-    if (light.tiles.x == 0 || (layersDecide && light.tiles.w > 0)) continue;
-    variant.tiles = std::max(variant.tiles, static_cast<int>(light.tiles.x));
-    const int kind = static_cast<int>(light.sampling.x);
-    variant.shadows.kinds.insert(kind);
-    if (kind == GNOMON_FILTER_KERNEL) variant.shadows.texels.insert(static_cast<int>(light.tiles.y));
-    variant.shadows.manualBias = variant.shadows.manualBias || light.bias.w > 0;
+  variant.lightLists = shading.lightLists;
+  for (const LitLight& light : shading.lights) {
+    variant.punctual = variant.punctual || light.type != LightType::directional;
+    if (light.tileCount == 0 || (layersDecide && light.visibilityLayer >= 0)) continue;
+    variant.tiles = std::max(variant.tiles, light.tileCount);
+    variant.shadows.kinds.insert(filterKind(light.filter));
+    variant.shadows.moments = variant.shadows.moments || light.filter.moments;
+    if (light.filter.kind == MapReadingKind::texels) variant.shadows.texels.insert(light.filter.size);
+    variant.shadows.manualBias = variant.shadows.manualBias || light.manualBias.has_value();
   }
   return variant;
 }
 
-bool isPicture(View view) {
-  return view == View::color || view == View::cascades || view == View::texelGrid || view == View::lightContribution;
+const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey) {
+  return surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : survey.depth;
 }
 
-bool showsShadow(View view) {
-  return isPicture(view) || view == View::shadow;
-}
-
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view) {
+Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
+                           bool encoded) {
   const Surfaces& surfaces = sources.surfaces;
-  const ViewVariant variant = variantFor(inputs, shading, surfaces, view);
+  const ViewVariant variant = variantFor(inputs, shading, surfaces, view, encoded);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
 
@@ -81,16 +81,15 @@ Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, 
 
   bindInputs(inputs);
   const ShadowBindings shadows(shading);
-  const gl::Buffer lists(std::as_bytes(shading.lightLists), "light lists");
-  lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
+  shading.buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
-  bindTexture(surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : shading.survey.depth, texels, GNOMON_DEPTH_UNIT);
+  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
   bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
   bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
   bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);
-  if (showsOneLight(view)) {
+  if (traitsOf(view).oneLight) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
     (*program)->set(GNOMON_ATLAS_SIZE,
                     glm::vec2(shading.atlas.textures->depth.width(), shading.atlas.textures->depth.height()));

@@ -10,6 +10,7 @@
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/caster_node_pass.h"
 #include "renderer/passes/tiles/shadow_pass.h"
+#include "renderer/passes/views/light_data.h"
 #include "renderer/passes/views/surface_pass.h"
 #include "renderer/passes/views/visibility_layers.h"
 
@@ -22,24 +23,18 @@ struct DrawnView {
   gl::Timer timer;
 };
 
-struct ViewInputs {
+/// What lights the surfaces of a frame.
+struct Shading {
+  const FrameSpec& spec; ///< effective
   const Survey& survey;
   const ShadowAtlas& atlas;
-  std::span<const shared::LightData> lights; ///< the spec's
-  std::span<const shared::TileData> tiles;   ///< the plan's
-  std::span<const std::uint32_t> lightLists; ///< empty = every light is tried at every pixel
-  const FrameSpec& spec;                     ///< effective
-  int debugLight = -1;                       ///< what views of one light show; -1 = there is none
+  std::span<const LitLight> lights; ///< the spec's
+  const LightBuffers& buffers;      ///< of the same
+  bool lightLists = false;          ///< each square of the picture lists its own; else every light is tried everywhere
+  int debugLight = -1;              ///< what views of one light show; -1 = there is none
 };
 
-/// Pictures (color, cascades, texelGrid, lightContribution) are antialiased as the spec asks; all else is data and
-/// never averaged: it belongs to the surface at the pixel's centre.
-bool isPicture(View view);
-
-/// True for views that show a shadow.
-bool showsShadow(View view);
-
-/// What one view is made from besides the frame.
+/// What one view is made from.
 struct ViewSources {
   const Surfaces& surfaces;           ///< data wants one sample a pixel
   const VisibilityLayers& visibility; ///< of the surfaces' samples; empty where no light has a layer
@@ -48,9 +43,13 @@ struct ViewSources {
 
 /// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults. `layersDecide`:
 /// no light that has a layer (visibility_layers.h) is looked up in its tiles.
-ViewVariant lightVariant(const PassInputs& inputs, const ViewInputs& shading, bool layersDecide);
+ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool layersDecide);
 
-/// Lights the surfaces of every pixel for any view but atlas and tile.
-Result<DrawnView> drawView(const PassInputs& inputs, const ViewInputs& shading, const ViewSources& sources, View view);
+/// Lights the surfaces of every pixel for a view that is a picture or data. `encoded`: as in ViewRequest.
+Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
+                           bool encoded);
+
+/// The depth of these surfaces.
+const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey);
 
 } // namespace gnomon

@@ -7,7 +7,7 @@
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/shader_variants.h"
-#include "renderer/passes/views/volume_mesh.h"
+#include "renderer/prepare/volume_mesh.h"
 #include "renderer/scene/silhouette.h"
 
 namespace gnomon {
@@ -24,7 +24,7 @@ std::vector<std::string> samplesDefine(int samples) {
 /// Index lists on the device, with the vertices that they go over.
 struct UploadedDraws {
   gl::Buffer indices;
-  gl::Buffer commands;
+  gl::Buffer ranges;
   gl::VertexArray vertices;
   std::size_t count = 0;
 };
@@ -40,9 +40,9 @@ UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool wei
   if (weighted) attributes.push_back({GNOMON_PLACE_WEIGHT, 0, 1, GL_FLOAT, false, false, sizeof(glm::vec3)});
   UploadedDraws uploaded;
   uploaded.indices = gl::Buffer(gl::bytesOf(draws.indices), "shadow volume indices");
-  uploaded.commands = gl::Buffer(gl::bytesOf(draws.commands), "shadow volume commands");
+  uploaded.ranges = gl::Buffer(gl::bytesOf(draws.ranges), "shadow volume ranges");
   uploaded.vertices = gl::VertexArray(streams, attributes, &uploaded.indices, "shadow volumes");
-  uploaded.count = draws.commands.size();
+  uploaded.count = draws.ranges.size();
   return uploaded;
 }
 
@@ -101,12 +101,12 @@ class VolumeDraws {
 
   Status draw(const IndexedDraws& draws, const Streams& streams, bool weighted, const gl::ProgramSource& source,
               const gl::PipelineState& state) {
-    if (draws.commands.empty()) return Done{};
+    if (draws.ranges.empty()) return Done{};
     const auto program = inputs_.programs.get(source);
     if (!program) return program.problems();
     const UploadedDraws uploaded = upload(draws, streams, weighted);
     gl::apply(state);
-    gl::drawIndirect(**program, uploaded.vertices, uploaded.commands, 0, uploaded.count);
+    gl::drawIndirect(**program, uploaded.vertices, uploaded.ranges, 0, uploaded.count);
     drawn_.triangles += draws.indices.size() / 3;
     drawn_.drawCalls += uploaded.count;
     return Done{};

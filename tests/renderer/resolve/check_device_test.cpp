@@ -49,7 +49,7 @@ TEST(CheckDevice, AnAtlasIsAsLargeAsItsTilesSamplesAndMoments) {
   plan.tiles.push_back(tile);
   EXPECT_TRUE(checkAtlas(plan, 1));
   EXPECT_FALSE(checkAtlas(plan, 4)) << "1 GiB";
-  plan.tiles[0].filter.type = FilterType::msm;
+  plan.tiles[0].filter = kernelOf({FilterType::msm});
   const Status refused = checkAtlas(plan, 1);
   ASSERT_FALSE(refused) << "1.25 GiB";
   EXPECT_EQ(refused.problems()[0].code, ProblemCode::tooLarge);

@@ -25,11 +25,10 @@ SceneView sceneOf(std::uint64_t triangles) {
   return scene;
 }
 
-bool draws(const ResolvedFrame& frame, std::uint64_t triangles, bool software,
-           HybridMaps maps = HybridMaps::whenCheaper) {
+bool draws(const ResolvedFrame& frame, std::uint64_t triangles, bool software) {
   RendererInfo device;
   device.software = software;
-  return drawsHybridMap(frame, sceneOf(triangles), 0, device, maps);
+  return drawsHybridMap(frame, sceneOf(triangles), 0, device);
 }
 
 TEST(HybridMaps, AreLeftOutWhereRaysCostLess) {
@@ -52,10 +51,6 @@ TEST(HybridMaps, AreDrawnWhereAViewShowsThem) {
   EXPECT_FALSE(draws(frame, 600, true));
   frame.spec.views = {View::color, View::cascades};
   EXPECT_TRUE(draws(frame, 600, true));
-}
-
-TEST(HybridMaps, AreDrawnWhereARendererIsToldTo) {
-  EXPECT_TRUE(draws(frameOf(64, 64, 1024), 600, true, HybridMaps::always));
 }
 
 } // namespace

@@ -120,17 +120,15 @@ TEST(EdgeDisplacement, H2_NothingThatIsNotFiniteCounts) {
 TEST(EdgeDisplacement, H2_AFiltersTapsAreItsSizeOrItsDiscInTexels) {
   ShadowTile tile;
   tile.space.fit.texelSize = {0.5, 0.25};
-  tile.filter.type = FilterType::hard;
+  tile.filter = kernelOf({FilterType::hard, 5});
   EXPECT_EQ(readingOf(tile, 1).taps, 1);
   EXPECT_FALSE(readingOf(tile, 4).bilinear);
-  tile.filter.type = FilterType::pcf;
-  tile.filter.size = 5;
+  tile.filter = kernelOf({FilterType::pcf, 5});
   EXPECT_NEAR(readingOf(tile, 1).taps, std::sqrt(15.0), 1e-12) << "1 3 4 3 1 weighs as four even taps do";
-  tile.filter.radius = 2;
+  tile.filter = kernelOf({FilterType::pcf, 5, 2.0});
   tile.space.fit.radius = 2;
   EXPECT_NEAR(readingOf(tile, 1).taps, 1 + std::sqrt(3.0) * 4, 1e-12);
-  tile.filter.radius.reset();
-  tile.filter.type = FilterType::vsm;
+  tile.filter = kernelOf({FilterType::vsm, 5});
   EXPECT_TRUE(readingOf(tile, 4).bilinear) << "moments are resolved before they are looked up";
 }
 

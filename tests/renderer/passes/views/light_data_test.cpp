@@ -5,34 +5,29 @@
 namespace gnomon {
 namespace {
 
-TEST(LightData, OnlyPlannedLightsHaveTiles) {
-  Light sun;
-  sun.shadow = Shadow{};
-  sun.shadow->strength = 0.5;
-  sun.shadow->filter = {FilterType::hard, 5};
-  Light lamp;
+TEST(LightData, ALightIsPackedByName) {
+  LitLight sun;
+  sun.direction = {0, -1, 0};
+  sun.strength = 0.5;
+  sun.firstTile = 2;
+  sun.tileCount = 3;
+  sun.filter = kernelOf({FilterType::pcf, 5});
+  sun.fadesOut = true;
+  sun.groups = {5u, 4u};
+  LitLight lamp;
   lamp.type = LightType::point;
-  lamp.position = Vec3{1, 2, 3};
-  ShadowPlan plan;
-  plan.lights.push_back({.light = 1, .firstTile = 2, .tileCount = 3, .fadeOut = true, .note = ""});
-  const std::vector<Light> lights{lamp, sun};
-  const auto data = lightData(lights, plan, {1, 1, 1});
+  lamp.position = {0, 1, 2};
+  lamp.visibilityLayer = 1;
+  const std::vector<LitLight> lights{lamp, sun};
+  const auto data = lightData(lights);
   ASSERT_EQ(data.size(), 2u);
-  EXPECT_EQ(data[0].tiles.x, 0u);
-  EXPECT_EQ(glm::vec3(data[0].position), glm::vec3(0, 1, 2));
-  EXPECT_EQ(data[0].position.w, 0.0f) << "no range is infinite";
-  EXPECT_EQ(data[1].tiles, glm::uvec4(3, 1, 2, 0));
+  EXPECT_EQ(data[0].tiles, glm::uvec4(0, 0, 0, 2)) << "no tiles, second layer";
+  EXPECT_EQ(data[0].position, glm::vec4(0, 1, 2, 0)) << "no range is infinite";
+  EXPECT_EQ(glm::vec3(data[1].direction), glm::vec3(0, 1, 0)) << "towards the light";
+  EXPECT_EQ(data[1].tiles, glm::uvec4(3, 5, 2, 0));
   EXPECT_EQ(data[1].cone.z, 0.5f);
   EXPECT_EQ(data[1].cone.w, 1.0f);
-}
-
-TEST(LightData, X14_LightsHoldTheGroupsThatTheyLight) {
-  const std::vector<Light> lights(2);
-  const std::vector<LitGroups> groups{{~0u, ~0u}, {5u, 4u}};
-  const auto data = lightData(lights, {}, {0, 0, 0}, groups);
-  EXPECT_EQ(data[0].groups, glm::uvec4(~0u, ~0u, 0, 0));
   EXPECT_EQ(data[1].groups, glm::uvec4(5, 4, 0, 0));
-  EXPECT_EQ(lightData(lights, {}, {0, 0, 0})[1].groups, glm::uvec4(~0u, ~0u, 0, 0));
 }
 
 TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "protocol/spec/enum_rows.h"
+
+namespace gnomon {
+
+/// What a view's pixels are taken from.
+enum class ViewSource {
+  picture, ///< the lit surfaces, antialiased as the spec asks; alpha where the background is not opaque
+  data,    ///< the surface at the pixel's centre: never averaged
+  atlas,   ///< the shadow atlas, at a size of its own
+  rays     ///< a traced reference that the shadow of debug.light is compared with
+};
+
+/// Names of up to three channels; the rest is empty.
+using ChannelNames = std::array<std::string_view, 3>;
+
+/// What a view is and needs: one row each, complete by static_assert.
+struct ViewTraits {
+  View view;
+  ViewSource source;
+  bool shadowed;    ///< shows the shadow that the light's technique makes
+  bool oneLight;    ///< shows debug.light alone
+  bool tiles;       ///< looks into the tiles of a shadow map, whatever decides the light's shadow
+  bool backdrop;    ///< painted over the color view
+  ChannelNames png; ///< 8 bits a channel
+  ChannelNames exr; ///< numbers
+};
+
+namespace channels {
+inline constexpr ChannelNames kRgb{"R", "G", "B"};
+inline constexpr ChannelNames kXyz{"X", "Y", "Z"};
+inline constexpr ChannelNames kValue{"Y"};
+inline constexpr ChannelNames kDepth{"Z"};
+inline constexpr ChannelNames kId{"id"};
+} // namespace channels
+
+// clang-format off
+inline constexpr std::array kViewTraits{
+    //          view                     source               shadowed light  tiles  backdrop PNG               EXR
+    ViewTraits{View::color,             ViewSource::picture, true,  false, false, false, channels::kRgb,   channels::kRgb},
+    ViewTraits{View::depth,             ViewSource::data,    false, false, false, false, channels::kValue, channels::kDepth},
+    ViewTraits{View::normal,            ViewSource::data,    false, false, false, false, channels::kRgb,   channels::kXyz},
+    ViewTraits{View::cascades,          ViewSource::picture, true,  true,  true,  false, channels::kRgb,   channels::kRgb},
+    ViewTraits{View::shadow,            ViewSource::data,    true,  true,  false, false, channels::kValue, channels::kValue},
+    ViewTraits{View::atlas,             ViewSource::atlas,   false, false, true,  false, channels::kRgb,   channels::kDepth},
+    ViewTraits{View::tile,              ViewSource::atlas,   false, true,  true,  false, channels::kValue, channels::kDepth},
+    ViewTraits{View::texelGrid,         ViewSource::picture, true,  true,  true,  false, channels::kRgb,   channels::kRgb},
+    ViewTraits{View::texelDensity,      ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kValue},
+    ViewTraits{View::blendWeight,       ViewSource::data,    false, true,  true,  false, channels::kValue, channels::kValue},
+    ViewTraits{View::bias,              ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kValue},
+    ViewTraits{View::casterIds,         ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kId},
+    ViewTraits{View::lightContribution, ViewSource::picture, true,  true,  false, false, channels::kRgb,   channels::kRgb},
+    ViewTraits{View::reference,         ViewSource::rays,    false, true,  false, false, channels::kValue, channels::kValue},
+    ViewTraits{View::error,             ViewSource::rays,    false, true,  false, true,  channels::kRgb,   channels::kValue},
+    ViewTraits{View::edgeDistance,      ViewSource::rays,    false, true,  false, true,  channels::kRgb,   channels::kValue},
+};
+// clang-format on
+static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));
+
+constexpr const ViewTraits& traitsOf(View view) {
+  return kViewTraits[static_cast<std::size_t>(view)];
+}
+
+} // namespace gnomon

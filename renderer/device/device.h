@@ -1,0 +1,101 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/report/capabilities.h"
+#include "renderer/device/facts.h"
+#include "renderer/image/image.h"
+#include "renderer/prepare/lit_light.h"
+#include "renderer/reference/traced_scene.h"
+#include "renderer/resolve/resolve_frame.h"
+
+/// What draws frames. A device knows how to draw, and decides nothing: what is seen, planned and reported is told to it
+/// or asked of it in plain values. Calls come in the order in which they stand here, on the thread that made it.
+namespace gnomon {
+
+/// A frame to be drawn. What it refers to outlives the drawing.
+struct FrameWork {
+  std::shared_ptr<const Scene> scene;
+  const ResolvedFrame& frame;
+  std::vector<int> layered; ///< lights whose technique needs a visibility layer, in the layers' order
+  bool needsEdges = false;  ///< some light's technique needs the edges of meshes
+  std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
+};
+
+/// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
+enum class TileUse { kept, drawnAnew };
+
+/// A picture that a frame shows. Views of source `rays` are made from others, and are not asked of a device.
+struct ViewRequest {
+  View view = View::color;
+  bool encoded = true;       ///< 8 bits a channel, tone mapped; else linear numbers
+  bool opaque = true;        ///< a picture has no alpha channel
+  bool antialiased = true;   ///< pictures: as the spec asks; false = one sample a pixel
+  bool fullStrength = false; ///< lights as in atFullStrength
+};
+
+struct ShowInput {
+  const ShadowPlan& plan;
+  std::span<const LitLight> lights{};          ///< the frame's
+  std::span<const std::uint32_t> lightLists{}; ///< prepare/light_lists.h; empty = every light is tried at every pixel
+  int debugLight = -1;                         ///< what views of one light show; -1 = there is none
+  const PlannedLight* planned = nullptr;       ///< of the plan: the same; null where it has no map
+  const ShadowTile* tile = nullptr;            ///< of the plan: what view `tile` shows
+  std::span<const ViewRequest> views{};
+};
+
+/// A place on a surface, of which one light is asked.
+struct ProbePoint {
+  glm::dvec3 relative{0}; ///< to the eye, metres
+  glm::dvec3 normal{0};   ///< of the triangle, on the eye's side, unit length
+  std::uint8_t group = 0; ///< receiver group
+};
+
+/// What a light's map does to an edge of its shadow at a pixel's centre: see EdgeOnTexels. Pixels, y DOWN the picture.
+struct MapFootprint {
+  glm::vec2 texelU{0}; ///< 0 where no tile serves the pixel
+  glm::vec2 texelV{0};
+  glm::vec2 shift{0};
+  glm::vec3 normal{0}; ///< of the triangle; unit length
+  float viewDepth = 0; ///< metres; 0 = nothing that receives the light's shadow
+  int tile = 0;        ///< among the light's
+};
+
+/// One frame on its way.
+class FrameDrawing {
+ public:
+  virtual ~FrameDrawing() = default;
+
+  /// What the camera sees.
+  virtual Result<ReceiverDepths> survey() = 0;
+  /// The plan's tiles, drawn or taken over from an earlier frame.
+  virtual Status cast(const ShadowPlan& plan, TileUse tiles) = 0;
+  /// Lights the surfaces and makes every view of `input`.
+  virtual Status show(const ShowInput& input) = 0;
+  /// What the map of `input.debugLight`, which has one, does at each pixel; first row on top. After show.
+  virtual Result<std::vector<MapFootprint>> footprints(const ShowInput& input) = 0;
+  /// The share of `input.debugLight` that each point gets by the plan's tiles, 0..1: what view `shadow` shows where a
+  /// pixel's centre meets the point. After cast; of `input` the plan and the lights count.
+  virtual Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) = 0;
+  /// The picture of request `index` of what was shown, first row on top.
+  virtual Image picture(std::size_t index) = 0;
+
+  /// Ends a stage of the frame's timing; does not wait for what is still being drawn.
+  virtual void endStage(std::string name) = 0;
+  /// Waits until all is done; a problem where the device met one.
+  virtual Result<FrameFacts> finish() = 0;
+};
+
+class Device {
+ public:
+  virtual ~Device() = default;
+  virtual const RendererInfo& info() const = 0;
+  /// Begins a frame, and ends its stage `upload`.
+  virtual Result<std::unique_ptr<FrameDrawing>> begin(const FrameWork& work) = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,69 @@
+#include "renderer/frame/plan_frame.h"
+
+#include "renderer/frame/light_reports.h"
+#include "renderer/prepare/box_depths.h"
+#include "renderer/prepare/frame_geometry.h"
+#include "renderer/prepare/tile_casters.h"
+#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/plan_input.h"
+#include "renderer/resolve/resolve_debug.h"
+#include "renderer/resolve/resolve_frame.h"
+#include "renderer/scene/animation/posed_scene.h"
+
+namespace gnomon {
+namespace {
+
+void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene& scene, const FrameGeometry& geometry,
+                std::vector<LightReport>& lights) {
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
+  for (const PlannedLight& planned : plan.lights) {
+    LightReport& light = lights[static_cast<std::size_t>(planned.light)];
+    for (std::size_t i = 0; i < light.tiles.size(); ++i) {
+      const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(planned.firstTile) + i];
+      if (tile.rect.width == 0) continue;
+      const Light& caster = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
+      const TileCasters casters = castersInto(tile, caster, view, geometry, frame.nodes);
+      const DrawList draws = buildDrawList(scene, view, geometry, casters.use, casters.slots);
+      light.tiles[i].casterTriangles = draws.triangles;
+      light.tiles[i].culledTriangles = view.triangles - draws.triangles;
+      light.tiles[i].drawCalls = draws.ranges.size();
+    }
+    addSums(light);
+  }
+}
+
+} // namespace
+
+Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const RendererInfo& device) {
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const Scene& scene = **posed;
+  const auto frame = resolveFrame(scene, spec);
+  if (!frame) return frame.problems();
+  if (const Status able = checkDevice(spec, device); !able) return able.problems();
+  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
+  const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye);
+  std::vector<std::uint8_t> seen(geometry.slotCount(), 1);
+  keepNodes(
+      frame->nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, seen);
+  const ReceiverDepths receivers =
+      boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
+  const std::vector<int> layered = layeredLights(*frame);
+  const ShadowPlan plan =
+      planShadows(planInput(*frame, view, receivers, mappedLights(*frame, view, device), device.maxTextureSize));
+  if (const auto subject = debugSubject(frame->spec, plan, layered); !subject) return subject.problems();
+  if (const Status fits = checkAtlas(plan, frame->spec.atlas.samples); !fits) return fits.problems();
+  const PredictedErrors errors = predictErrors(frame->view, receivers, plan);
+
+  PlanReport report;
+  report.spec = frame->spec;
+  if (!receivers.range.empty()) report.depthRange = {receivers.range.nearest, receivers.range.farthest};
+  report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
+  report.lights = lightReports(frame->spec, plan, errors, frame->view.eye, layered);
+  addCasters(plan, *frame, scene, geometry, report.lights);
+  report.predictedError = errors.all;
+  report.warnings = frame->warnings;
+  return report;
+}
+
+} // namespace gnomon

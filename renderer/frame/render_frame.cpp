@@ -1,0 +1,93 @@
+#include "renderer/frame/render_frame.h"
+
+#include <algorithm>
+
+#include "protocol/spec/view_traits.h"
+#include "renderer/frame/frame_views.h"
+#include "renderer/frame/make_report.h"
+#include "renderer/frame/measured_shadow.h"
+#include "renderer/frame/predicted_displacement.h"
+#include "renderer/prepare/light_lists.h"
+#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/plan_input.h"
+#include "renderer/resolve/resolve_debug.h"
+#include "renderer/scene/animation/posed_scene.h"
+#include "renderer/shadow/predicted_error.h"
+
+namespace gnomon {
+
+Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const ScenePtr& loaded, const FrameSpec& spec,
+                          TileUse tiles) {
+  const auto posed = posedScene(loaded, spec.animation);
+  if (!posed) return posed.problems();
+  const ScenePtr& scene = *posed;
+  auto resolved = resolveFrame(*scene, spec);
+  if (!resolved) return resolved.problems();
+  if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
+  const FrameSpec& effective = resolved->spec;
+  const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
+  const std::vector<int> layered = layeredLights(*resolved);
+  const std::vector<int> mapped = mappedLights(*resolved, view, device.info());
+  const auto tracedScene = [&] { return traced.get(scene, resolved->scene); };
+
+  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene});
+  if (!begun) return begun.problems();
+  FrameDrawing& drawing = **begun;
+
+  const auto receivers = drawing.survey();
+  if (!receivers) return receivers.problems();
+  drawing.endStage("survey");
+
+  const ShadowPlan plan = planShadows(planInput(*resolved, view, *receivers, mapped, device.info().maxTextureSize));
+  if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
+  PredictedErrors errors = predictErrors(resolved->view, *receivers, plan);
+  const auto lights = litLights(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);
+  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, *receivers, lights)
+                                                         : std::vector<std::uint32_t>{};
+  const auto subject = debugSubject(effective, plan, layered);
+  if (!subject) return subject.problems();
+  drawing.endStage("plan");
+
+  if (const Status cast = drawing.cast(plan, tiles); !cast) return cast.problems();
+  drawing.endStage("shadow");
+
+  const FrameViews views(effective);
+  const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
+  if (const Status shown = drawing.show(show); !shown) return shown.problems();
+  drawing.endStage("shade");
+
+  std::optional<PredictedError>* predicted = subject->planned != nullptr ? &errors.lights[subject->index] : nullptr;
+  if (effective.debug.predictEdges && readsMap(lights, subject->light)) {
+    const auto footprints = drawing.footprints(show);
+    if (!footprints) return footprints.problems();
+    const auto displacement =
+        displacementOf(resolved->view, effective, plan, *subject->planned, *footprints, views.fullShadow(drawing));
+    if (displacement && *predicted) {
+      (*predicted)->edgeDisplacement = displacement->mean;
+      (*predicted)->edgeLength = displacement->length;
+    }
+    if (displacement) drawing.endStage("predict");
+  }
+
+  std::optional<MeasuredShadow> measured;
+  if (views.needReference()) {
+    const auto rays = tracedScene();
+    if (!rays) return rays.problems();
+    auto made = measureShadow(*resolved, **rays, subject->light, views.fullShadow(drawing));
+    if (!made) return made.problems();
+    measured = std::move(*made);
+    if (predicted != nullptr) measured->errors.predicted = *predicted;
+    drawing.endStage("reference");
+  }
+
+  auto images = views.images(drawing, measured ? &*measured : nullptr);
+  drawing.endStage("readback");
+  auto facts = drawing.finish();
+  if (!facts) return facts.problems();
+  const auto error = measured ? std::optional(measured->errors) : std::nullopt;
+  return Frame{
+      makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, *std::move(facts), error}),
+      std::move(images)};
+}
+
+} // namespace gnomon

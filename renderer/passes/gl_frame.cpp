@@ -1,0 +1,116 @@
+#include "renderer/passes/gl_frame.h"
+
+#include <utility>
+
+#include "protocol/spec/view_traits.h"
+#include "renderer/gl/debug_log.h"
+#include "renderer/passes/frame_data.h"
+#include "renderer/passes/gl_facts.h"
+#include "renderer/passes/views/displacement_pass.h"
+#include "renderer/passes/views/probe_pass.h"
+#include "renderer/passes/views/read_back.h"
+
+namespace gnomon {
+namespace {
+
+const SceneView& viewOf(const FrameWork& work) {
+  return work.scene->scenes[static_cast<std::size_t>(work.frame.scene)];
+}
+
+} // namespace
+
+GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
+    : shared_(shared),
+      work_(work),
+      gpu_(shared.scenes.get(work.scene)),
+      geometry_(frameGeometry(*work.scene, viewOf(work), work.frame.view.eye, work.frame.groups.ofInstance)),
+      instances_(gl::bytesOf(instanceData(geometry_)), "instances"),
+      vertices_(sceneVertices(gpu_, instances_)),
+      anchored_(sceneVertices(gpu_, gpu_.anchored[static_cast<std::size_t>(work.frame.scene)])),
+      data_(frameData(work.frame)),
+      frame_(sizeof data_, "frame"),
+      inputs_{.scene = *work.scene,
+              .view = viewOf(work),
+              .gpu = gpu_,
+              .geometry = geometry_,
+              .camera = work.frame.view,
+              .frame = frame_,
+              .instances = instances_,
+              .vertices = vertices_,
+              .anchored = anchored_,
+              .programs = shared.programs,
+              .width = work.frame.spec.width,
+              .height = work.frame.spec.height,
+              .nodes = work.frame.nodes,
+              .edges = work.needsEdges ? std::span(shared.scenes.edges(work.scene)) : std::span<const EdgeMesh>{},
+              .receiverGroups = work.frame.groups.matter()} {
+  frame_.update(0, gl::bytesOfValue(data_));
+  endStage("upload");
+}
+
+Result<ReceiverDepths> GlFrame::survey() {
+  auto survey = surveyScene(inputs_, work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1);
+  if (!survey) return survey.problems();
+  survey_ = std::move(*survey);
+  if (!survey_.receivers.range.empty()) {
+    data_.depthRange.x = survey_.receivers.range.nearest;
+    data_.depthRange.y = survey_.receivers.range.farthest;
+    frame_.update(0, gl::bytesOfValue(data_));
+  }
+  return survey_.receivers;
+}
+
+Status GlFrame::cast(const ShadowPlan& plan, TileUse tiles) {
+  TileCache none(0);
+  auto atlas = castShadows(inputs_, plan, work_.frame.spec, tiles == TileUse::kept ? shared_.tiles : none);
+  if (!atlas) return atlas.problems();
+  atlas_ = std::move(*atlas);
+  draws_ = true;
+  return Done{};
+}
+
+Shading GlFrame::shadingOf(const ShowInput& input, const LightBuffers& buffers) const {
+  return {work_.frame.spec, survey_, atlas_, input.lights, buffers, !input.lightLists.empty(), input.debugLight};
+}
+
+Status GlFrame::show(const ShowInput& input) {
+  shown_.emplace(input);
+  const LightBuffers buffers = uploadLights(input.lights, input.plan, input.lightLists);
+  auto drawn = drawViews(inputs_, shadingOf(input, buffers), work_, input);
+  if (!drawn) return drawn.problems();
+  drawn_ = std::move(*drawn);
+  draws_ = true;
+  return Done{};
+}
+
+Result<std::vector<MapFootprint>> GlFrame::footprints(const ShowInput& input) {
+  const LightBuffers buffers = uploadLights(input.lights, input.plan);
+  return mapFootprints(inputs_, shadingOf(input, buffers), drawn_.surfaces.at(1));
+}
+
+Result<std::vector<float>> GlFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {
+  const LightBuffers buffers = uploadLights(input.lights, input.plan);
+  return probeShadow(inputs_, shadingOf(input, buffers), points);
+}
+
+Image GlFrame::picture(std::size_t index) {
+  const ViewRequest& request = shown_->views[index];
+  const gl::Texture& depths = drawn_.flatAtlas.id() != 0 ? drawn_.flatAtlas : atlas_.textures->depth;
+  if (request.view == View::atlas) return readAtlas(depths, shown_->plan, request.encoded);
+  if (request.view == View::tile) return readTile(depths, *shown_->tile, request.encoded);
+  return readView(drawn_.views[index], request.view, request.encoded, request.opaque);
+}
+
+void GlFrame::endStage(std::string name) {
+  // A stage that only read back has waited for the device.
+  std::exchange(draws_, false) ? clock_.finishDrawing(std::move(name)) : clock_.finish(std::move(name));
+}
+
+Result<FrameFacts> GlFrame::finish() {
+  if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
+  FrameFacts facts = factsOf({survey_, atlas_, drawn_, gpu_, shown_ ? shown_->views : std::span<const ViewRequest>{}});
+  facts.stages = clock_.take();
+  return facts;
+}
+
+} // namespace gnomon

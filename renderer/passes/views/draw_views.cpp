@@ -1,0 +1,108 @@
+#include "renderer/passes/views/draw_views.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "protocol/spec/view_traits.h"
+#include "renderer/passes/tiles/atlas_depth_pass.h"
+
+namespace gnomon {
+namespace {
+
+/// The surveyed depth alone, for a view that shows nothing else.
+Surfaces depthOnly() {
+  Surfaces surfaces;
+  surfaces.samplePositions = {glm::vec2(0.5f)};
+  return surfaces;
+}
+
+/// Draws views one after the other; what several of them need is drawn for the first.
+class ViewDrawing {
+ public:
+  ViewDrawing(const PassInputs& inputs, const Shading& shading, const FrameWork& work, const ShowInput& show)
+      : inputs_(inputs), shading_(shading), work_(work), show_(show) {}
+
+  Status draw(const ViewRequest& request) {
+    const ViewTraits& traits = traitsOf(request.view);
+    if (traits.source == ViewSource::atlas) return flatten();
+    if (request.view == View::casterIds) {
+      auto casters = drawCasterNodes(inputs_, show_.plan, show_.planned, *shading_.spec.lights);
+      if (!casters) return casters.problems();
+      drawn_.casters = std::move(*casters);
+    }
+    const bool surveyed = request.view == View::depth && shading_.survey.samples == 1;
+    auto view = surveyed ? drawView(inputs_, shading_, {depthOnly(), VisibilityLayers{}, drawn_.casters}, request.view,
+                                    request.encoded)
+                         : shade(request, traits);
+    if (!view) return view.problems();
+    drawn_.views.push_back(std::move(*view));
+    return Done{};
+  }
+
+  DrawnViews take() { return std::move(drawn_); }
+
+ private:
+  Status flatten() {
+    drawn_.views.emplace_back();
+    if (drawn_.flatAtlas.id() != 0) return Done{};
+    auto flat = flattenAtlas(inputs_, shading_.atlas.textures->depth);
+    if (!flat) return flat.problems();
+    drawn_.flatAtlas = std::move(*flat);
+    return Done{};
+  }
+
+  Result<DrawnView> shade(const ViewRequest& request, const ViewTraits& traits) {
+    const bool averaged = traits.source == ViewSource::picture && request.antialiased;
+    const int samples = averaged ? shading_.survey.samples : 1;
+    if (const Status there = needSurfaces(samples); !there) return there.problems();
+    if (traits.shadowed) {
+      if (const Status there = needExactShadows(samples); !there) return there.problems();
+    }
+    const auto exact = drawn_.exactShadows.find(samples);
+    const VisibilityLayers noLayers;
+    const ViewSources sources{drawn_.surfaces.at(samples),
+                              exact == drawn_.exactShadows.end() ? noLayers : exact->second.layers, drawn_.casters};
+    if (!request.fullStrength) return drawView(inputs_, shading_, sources, request.view, request.encoded);
+
+    const std::vector<LitLight> lights = atFullStrength({shading_.lights.begin(), shading_.lights.end()});
+    const LightBuffers buffers = uploadLights(lights, show_.plan, show_.lightLists);
+    const Shading full{shading_.spec, shading_.survey,     shading_.atlas,     lights,
+                       buffers,       shading_.lightLists, shading_.debugLight};
+    return drawView(inputs_, full, sources, request.view, request.encoded);
+  }
+
+  Status needSurfaces(int samples) {
+    if (drawn_.surfaces.contains(samples)) return Done{};
+    auto surfaces = drawSurfaces(inputs_, shading_.survey, samples, needsRays(work_.layered, *shading_.spec.lights));
+    if (!surfaces) return surfaces.problems();
+    drawn_.surfaces.emplace(samples, std::move(*surfaces));
+    return Done{};
+  }
+
+  Status needExactShadows(int samples) {
+    if (work_.layered.empty() || drawn_.exactShadows.contains(samples)) return Done{};
+    auto shadows = exactShadows(inputs_, shading_, work_, drawn_.surfaces.at(samples));
+    if (!shadows) return shadows.problems();
+    drawn_.exactShadows.emplace(samples, std::move(*shadows));
+    return Done{};
+  }
+
+  const PassInputs& inputs_;
+  const Shading& shading_;
+  const FrameWork& work_;
+  const ShowInput& show_;
+  DrawnViews drawn_;
+};
+
+} // namespace
+
+Result<DrawnViews> drawViews(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
+                             const ShowInput& show) {
+  ViewDrawing drawing(inputs, shading, work, show);
+  for (const ViewRequest& request : show.views) {
+    if (const Status drawn = drawing.draw(request); !drawn) return drawn.problems();
+  }
+  return drawing.take();
+}
+
+} // namespace gnomon

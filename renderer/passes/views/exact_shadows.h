@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "renderer/device/device.h"
+#include "renderer/passes/views/view_pass.h"
+
+namespace gnomon {
+
+struct ExactShadows {
+  VisibilityLayers layers;
+  std::vector<LayerFacts> lights; ///< one a layer
+  gl::Timer timer;                ///< of all
+  std::uint64_t triangles = 0;    ///< of shadow volumes
+  std::size_t drawCalls = 0;      ///< of the same
+  std::size_t countBytes = 0;     ///< of the stencil that they were counted in
+};
+
+/// Some of the lights ask rays: surfaces have to be numbered (surface_pass.h). `layered`: as in FrameWork.
+bool needsRays(std::span<const int> layered, std::span<const Light> lights);
+
+/// The visibility of every light of `work.layered` at each sample of the surfaces.
+Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
+                                  const Surfaces& surfaces);
+
+} // namespace gnomon

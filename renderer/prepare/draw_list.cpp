@@ -1,0 +1,97 @@
+#include "renderer/prepare/draw_list.h"
+
+#include <algorithm>
+#include <compare>
+
+namespace gnomon {
+namespace {
+
+struct GroupKey {
+  int material = -1;
+  Facing facing = Facing::both;
+  bool tangents = false;
+
+  auto operator<=>(const GroupKey&) const = default;
+};
+
+struct Run {
+  GroupKey key;
+  std::uint32_t instance = 0;
+  std::uint32_t firstCluster = 0; ///< of the primitive
+  std::uint32_t clusterCount = 0;
+};
+
+/// True where only front faces are drawn.
+bool isCulled(const Primitive& primitive, const Material& material, DrawUse use) {
+  switch (use) {
+    case DrawUse::survey:
+    case DrawUse::surface:
+      return !material.doubleSided;
+    case DrawUse::cast:
+      return primitive.solid && material.alphaMode == AlphaMode::opaque;
+    case DrawUse::castFromPoint:
+      return false;
+  }
+  return false;
+}
+
+GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  const int materialIndex = materialOf(scene, instance);
+  const Material& material = scene.materials[static_cast<std::size_t>(materialIndex)];
+  GroupKey key;
+  if (use == DrawUse::surface || material.alphaMode != AlphaMode::opaque) key.material = materialIndex;
+  if (isCulled(primitive, material, use)) {
+    const bool mirrored = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0;
+    key.facing = mirrored ? Facing::clockwise : Facing::counterClockwise;
+  }
+  key.tangents = use == DrawUse::surface && primitive.hasTangents && material.normal;
+  return key;
+}
+
+void addRuns(const Scene& scene, const Instance& instance, std::uint32_t index, DrawUse use,
+             std::span<const std::uint8_t> keep, std::vector<Run>& runs) {
+  const auto count = static_cast<std::uint32_t>(keep.size());
+  std::uint32_t cluster = 0;
+  while (cluster < count) {
+    if (keep[cluster] == 0) {
+      ++cluster;
+      continue;
+    }
+    const std::uint32_t first = cluster;
+    while (cluster < count && keep[cluster] != 0) ++cluster;
+    runs.push_back({keyOf(scene, instance, use), index, first, cluster - first});
+  }
+}
+
+} // namespace
+
+DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeometry& geometry, DrawUse use,
+                       std::span<const std::uint8_t> keep) {
+  std::vector<Run> runs;
+  for (std::uint32_t i = 0; i < view.instances.size(); ++i) {
+    const std::uint32_t first = geometry.firstSlot[i];
+    addRuns(scene, view.instances[i], i, use, keep.subspan(first, geometry.firstSlot[i + 1] - first), runs);
+  }
+  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.key < b.key; });
+
+  DrawList list;
+  for (const Run& run : runs) {
+    const Instance& instance = view.instances[run.instance];
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+    const std::uint32_t firstIndex = run.firstCluster * kClusterTriangles * 3;
+    const std::uint32_t indexCount =
+        std::min(run.clusterCount * kClusterTriangles * 3, primitive.indexCount - firstIndex);
+    if (list.groups.empty() ||
+        run.key != GroupKey{list.groups.back().material, list.groups.back().facing, list.groups.back().tangents}) {
+      list.groups.push_back({run.key.material, run.key.facing, run.key.tangents, list.ranges.size(), 0});
+    }
+    ++list.groups.back().rangeCount;
+    list.ranges.push_back({indexCount, 1, primitive.firstIndex + firstIndex,
+                           static_cast<std::int32_t>(primitive.baseVertex), run.instance});
+    list.triangles += indexCount / 3;
+  }
+  return list;
+}
+
+} // namespace gnomon

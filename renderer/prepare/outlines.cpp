@@ -1,0 +1,136 @@
+#include "renderer/prepare/outlines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/light.h"
+#include "renderer/core/parallel.h"
+#include "renderer/core/vec3.h"
+#include "renderer/prepare/outline_stamps.h"
+
+namespace gnomon {
+namespace {
+
+/// Cosine of normal and light up to which a face counts as steep; rounded up. Faces on edge are among them, so that no
+/// rounding tells their side.
+const float kSteepCosine = 1.0f / std::sqrt(1.0f + kSteepest * kSteepest) + 1e-3f;
+
+enum class Facing : std::int8_t { away, steep, towards };
+
+/// How the triangles of one instance lie to the light.
+struct FacingTest {
+  glm::mat3 worldFromLocal;
+  glm::mat3 normalFromLocal; ///< its cofactors: turns normals, whatever the scale
+  glm::vec3 toLight{0};      ///< in the world; directional: unit length
+  glm::vec3 light{0};        ///< spot and point: relative to the instance's origin, in the world
+  bool directional = true;
+
+  float cosine(glm::vec3 normal, glm::vec3 corner) const {
+    const glm::vec3 turned = normalFromLocal * normal;
+    const glm::vec3 towardsLight = directional ? toLight : light - worldFromLocal * corner;
+    const float lengths = glm::length(turned) * glm::length(towardsLight);
+    return lengths > 0 ? glm::dot(turned, towardsLight) / lengths : 0.0f;
+  }
+};
+
+glm::dmat3 cofactors(const glm::dmat3& m) {
+  return glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+}
+
+FacingTest facingTest(const OutlineInput& input, const Instance& instance) {
+  FacingTest test;
+  const glm::dmat3 linear(instance.worldFromLocal);
+  const glm::dmat3 normals = cofactors(linear);
+  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
+  test.worldFromLocal = glm::mat3(linear);
+  test.normalFromLocal = glm::mat3(size > 0 ? normals / size : normals);
+  test.directional = input.light.type == LightType::directional;
+  if (test.directional) {
+    test.toLight = glm::vec3(-directionOf(input.light));
+  } else {
+    test.light = glm::vec3(toVector(*input.light.position) - glm::dvec3(instance.worldFromLocal[3]));
+  }
+  return test;
+}
+
+/// The edges of an instance that are outlines, as indices into its mesh.
+std::vector<std::uint32_t> outlineEdges(const OutlineInput& input, const Instance& instance) {
+  const Primitive& primitive = input.scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  const EdgeMesh& mesh = input.meshes[static_cast<std::size_t>(instance.primitive)];
+  const FacingTest test = facingTest(input, instance);
+  std::vector<Facing> facing(mesh.normals.size());
+  for (std::size_t i = 0; i < facing.size(); ++i) {
+    const std::uint32_t index = input.scene.indices[primitive.firstIndex + 3 * i];
+    const float cosine = test.cosine(mesh.normals[i], input.scene.positions[primitive.baseVertex + index]);
+    facing[i] = std::abs(cosine) <= kSteepCosine ? Facing::steep : cosine > 0 ? Facing::towards : Facing::away;
+  }
+  std::vector<std::uint32_t> edges;
+  for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
+    const MeshEdge& edge = mesh.edges[i];
+    const bool open = edge.right == kNoTriangle;
+    const Facing left = facing[edge.left];
+    if (open || left == Facing::steep || facing[edge.right] != left) edges.push_back(static_cast<std::uint32_t>(i));
+  }
+  return edges;
+}
+
+bool isDrawn(const OutlinedTile& tile, std::uint32_t firstSlot, std::uint32_t triangle) {
+  return triangle != kNoTriangle && tile.casters.slots[firstSlot + triangle / kClusterTriangles] != 0;
+}
+
+void stampInstance(const OutlineInput& input, std::size_t index, const std::vector<std::uint32_t>& edges,
+                   const OutlinedTile& tile, Stamps& stamps) {
+  const Instance& instance = input.view.instances[index];
+  const Primitive& primitive = input.scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  const std::uint32_t firstSlot = input.geometry.firstSlot[index];
+  glm::dmat4 anchored = instance.worldFromLocal;
+  anchored[3] -= glm::dvec4(input.anchor, 0.0);
+  const glm::dmat4 clipFromLocal = tile.tile.clipFromAnchored * anchored;
+  const auto clip = [&](std::uint32_t vertex) {
+    return clipFromLocal * glm::dvec4(glm::dvec3(input.scene.positions[primitive.baseVertex + vertex]), 1.0);
+  };
+  const Material& material = input.scene.materials[static_cast<std::size_t>(materialOf(input.scene, instance))];
+  if (material.alphaMode != AlphaMode::opaque) {
+    const std::uint32_t* indices = input.scene.indices.data() + primitive.firstIndex;
+    for (std::uint32_t i = 0; i < primitive.indexCount / 3; ++i) {
+      if (!isDrawn(tile, firstSlot, i)) continue;
+      stamps.stampTriangle(clip(indices[3 * i]), clip(indices[3 * i + 1]), clip(indices[3 * i + 2]));
+    }
+    return;
+  }
+  const EdgeMesh& mesh = input.meshes[static_cast<std::size_t>(instance.primitive)];
+  for (const std::uint32_t i : edges) {
+    const MeshEdge& edge = mesh.edges[i];
+    if (!isDrawn(tile, firstSlot, edge.left) && !isDrawn(tile, firstSlot, edge.right)) continue;
+    stamps.stampEdge(clip(edge.from), clip(edge.to));
+  }
+}
+
+bool isDrawn(const OutlineInput& input, std::size_t instance, const OutlinedTile& tile) {
+  const auto first = tile.casters.slots.begin() + input.geometry.firstSlot[instance];
+  const auto last = tile.casters.slots.begin() + input.geometry.firstSlot[instance + 1];
+  return std::any_of(first, last, [](std::uint8_t slot) { return slot != 0; });
+}
+
+} // namespace
+
+std::vector<TileOutlines> outlinesOf(const OutlineInput& input, const std::vector<OutlinedTile>& tiles) {
+  const std::size_t count = input.view.instances.size();
+  std::vector<std::vector<std::uint32_t>> edges(count);
+  forEach(count, [&](std::size_t i) {
+    const bool drawn =
+        std::any_of(tiles.begin(), tiles.end(), [&](const OutlinedTile& tile) { return isDrawn(input, i, tile); });
+    if (drawn) edges[i] = outlineEdges(input, input.view.instances[i]);
+  });
+  std::vector<TileOutlines> outlines(tiles.size());
+  forEach(tiles.size(), [&](std::size_t t) {
+    Stamps stamps(tiles[t].tile.rect.width, tiles[t].tile.rect.height);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (isDrawn(input, i, tiles[t])) stampInstance(input, i, edges[i], tiles[t], stamps);
+    }
+    outlines[t] = stamps.take();
+  });
+  return outlines;
+}
+
+} // namespace gnomon

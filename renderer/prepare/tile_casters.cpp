@@ -1,0 +1,55 @@
+#include "renderer/prepare/tile_casters.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+template <class T>
+void append(TileKey& key, const T& value) {
+  key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+} // namespace
+
+TileCasters castersInto(const ShadowTile& tile, const Light& light, const SceneView& view,
+                        const FrameGeometry& geometry, std::span<const NodeSwitches> nodes) {
+  TileCasters casters;
+  casters.use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
+  casters.slots.resize(geometry.slotCount());
+  std::transform(geometry.slotBounds.begin(), geometry.slotBounds.end(), casters.slots.begin(),
+                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayCastInto(tile, box)); });
+  keepNodes(
+      nodes, view, geometry, [&](const NodeSwitches& node) { return castsFrom(light, node); }, casters.slots);
+  return casters;
+}
+
+std::vector<const Light*> lightsOfTiles(const ShadowPlan& plan, std::span<const Light> lights) {
+  std::vector<const Light*> of(plan.tiles.size());
+  for (const PlannedLight& planned : plan.lights) {
+    std::fill_n(of.begin() + planned.firstTile, planned.tileCount, &lights[static_cast<std::size_t>(planned.light)]);
+  }
+  return of;
+}
+
+// The tile's place counts: rasterizing elsewhere may round otherwise.
+TileKey tileKey(std::uint64_t scene, int view, const ShadowTile& tile, const Light& light, const TileCasters& casters,
+                int samples) {
+  TileKey key;
+  append(key, scene);
+  append(key, view);
+  append(key, glm::mat4(tile.clipFromAnchored));
+  append(key, tile.rect);
+  append(key, samples);
+  append(key, casters.use);
+  append(key, light.shadow->blendedCasters);
+  append(key, light.shadow->technique);
+  append(key, tile.filter.kind);
+  append(key, tile.filter.size);
+  append(key, tile.space.fit.radius);
+  append(key, glm::vec2(tile.near, tile.far)); // moments are of depths between these
+  key.append(casters.slots.begin(), casters.slots.end());
+  return key;
+}
+
+} // namespace gnomon

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/spec/light.h"
+#include "renderer/prepare/draw_list.h"
+#include "renderer/scene/node_switches.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon {
+
+/// What is drawn into a tile.
+struct TileCasters {
+  DrawUse use = DrawUse::cast;
+  std::vector<std::uint8_t> slots; ///< one a slot of the geometry; 0 = left out
+};
+
+/// Everything that may throw a shadow of `light` onto what its tile serves. `nodes`: one a node of the file; empty =
+/// every node has the defaults. Pure.
+TileCasters castersInto(const ShadowTile& tile, const Light& light, const SceneView& view,
+                        const FrameGeometry& geometry, std::span<const NodeSwitches> nodes);
+
+/// Everything that a tile's texels depend on, in one text: equal keys stand for equal texels at the same place.
+using TileKey = std::string;
+
+/// The key of a tile as it is to be drawn, `samples` depths a texel. `scene`: a number that no other scene has; `view`:
+/// index into its scenes.
+TileKey tileKey(std::uint64_t scene, int view, const ShadowTile& tile, const Light& light, const TileCasters& casters,
+                int samples);
+
+/// The light that each tile of the plan is of. `lights`: those that were planned for; they outlive the result.
+std::vector<const Light*> lightsOfTiles(const ShadowPlan& plan, std::span<const Light> lights);
+
+} // namespace gnomon

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/core/camera_view.h"
+#include "renderer/prepare/frame_geometry.h"
+#include "renderer/scene/node_switches.h"
+#include "renderer/scene/scene.h"
+
+namespace gnomon {
+
+/// Which triangles of a caster throw its shadow.
+enum class VolumeCaps {
+  turnedAway, ///< of a solid, those that face away from the light: no lit surface touches the volume
+  turnedTo,   ///< of a solid, those that face the light: its inside is in shadow too
+  all         ///< of anything else
+};
+
+struct VolumeCaster {
+  std::uint32_t instance = 0; ///< index into SceneView::instances
+  VolumeCaps caps = VolumeCaps::all;
+};
+
+/// What throws a shadow of `light` into the view. The inside of a solid counts where the camera may see it: where the
+/// solid is not drawn, or the camera's near plane reaches into it. `nodes`: one a node of the file; empty = every node
+/// has the defaults. Pure.
+std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
+                                        const CameraView& camera, const Light& light,
+                                        std::span<const NodeSwitches> nodes);
+
+} // namespace gnomon
