@@ -32,7 +32,7 @@ const float kBend = 2.2 * GNOMON_STEEPEST;
 float verdictOf(Sample seen) {
   if (!seen.hit) return kLit;
 #ifdef RECEIVER_GROUPS
-  if ((lights[light].groups.x & lights[light].groups.y & (1u << receiverGroup(seen.bits))) == 0u) return kLit;
+  if ((lights[light].litGroups & lights[light].shadowedGroups & (1u << receiverGroup(seen.bits))) == 0u) return kLit;
 #endif
   Receiver receiver;
   receiver.relative = seen.relative;
@@ -46,22 +46,22 @@ float verdictOf(Sample seen) {
 
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return kUnsure;
-  TileData tile = tiles[lights[light].tiles.z + uint(choice.first)];
+  TileData tile = tiles[lights[light].firstTile + uint(choice.first)];
   vec4 p = vec4(receiver.relative, 1.0);
   vec3 at = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p), dot(tile.atlasFromRelative[2], p));
   // z that one length across is worth, along the light.
-  float perLength = dot(tile.atlasFromRelative[2].xyz, tile.axis.xyz);
-  float rounding = tile.bias.x;
+  float perLength = dot(tile.atlasFromRelative[2].xyz, tile.axis);
+  float rounding = tile.depthBias;
 #ifdef PUNCTUAL
   if (!isParallel(tile)) {
     float divisor = dot(tile.atlasFromRelative[3], p);
     if (divisor <= 0.0) return kUnsure;
     at /= divisor;
-    perLength = tile.interval.x * tile.interval.z / ((tile.interval.z - tile.interval.x) * divisor);
-    rounding += tile.bias.y / (divisor * divisor);
+    perLength = tile.near * tile.far / ((tile.far - tile.near) * divisor);
+    rounding += tile.depthBiasNear / (divisor * divisor);
   }
 #endif
-  if (any(lessThan(at.xy, tile.bounds.xy)) || any(greaterThan(at.xy, tile.bounds.zw))) return kUnsure;
+  if (any(lessThan(at.xy, tile.lowest)) || any(greaterThan(at.xy, tile.highest))) return kUnsure;
   vec2 size = vec2(textureSize(atlasDepths, 0));
   ivec2 cell = ivec2(floor(at.xy * size - 0.5));
   if (texelFetch(outlines, cell, 0).r > 0.0) return kUnsure;
@@ -73,14 +73,14 @@ float verdictOf(Sample seen) {
   if (!isParallel(tile)) bend += 2.0 * perLength; // depth is told along the tile's axis, slopes along the ray
 #endif
   float unevenness = 2e-4 * (1.0 + tangent * tangent) * perLength; // of a normal of 16 bits an axis
-  vec2 slope = receiverSlope(tile, receiver, lights[light].position.xyz);
+  vec2 slope = receiverSlope(tile, receiver, lights[light].position);
   bool lit = true;
   bool shadow = true;
   for (int y = 0; y <= 1; ++y) {
     for (int x = 0; x <= 1; ++x) {
       ivec2 texel = cell + ivec2(x, y);
       vec2 across = vec2(texel) + 0.5 - at.xy * size;
-      float apart = length(across / (tile.bias.zw * size));
+      float apart = length(across / (tile.atlasPerMetre * size));
       float plane = at.z + dot(slope, across);
       float depth = texelFetch(atlasDepths, texel, 0).r;
       float slack = rounding + unevenness * apart;

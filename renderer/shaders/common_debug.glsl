@@ -2,7 +2,7 @@
 layout(location = GNOMON_DEBUG_LIGHT) uniform int debugLight; // -1: the frame has none
 layout(location = GNOMON_ATLAS_SIZE) uniform vec2 atlasTexels;
 
-bool hasTiles() { return debugLight >= 0 && lights[debugLight].tiles.x > 0u; }
+bool hasTiles() { return debugLight >= 0 && lights[debugLight].tileCount > 0u; }
 
 vec3 towardsDebugLight(Receiver receiver) {
   vec3 toLight;
@@ -27,14 +27,14 @@ DebugTexel debugTexel(Receiver receiver) {
   TileChoice choice = chooseTile(debugLight, receiver, towardsDebugLight(receiver));
   texel.tile = choice.first;
   texel.blend = choice.blend;
-  texel.data = tiles[lights[debugLight].tiles.z + choice.first];
+  texel.data = tiles[lights[debugLight].firstTile + choice.first];
   vec4 p = vec4(receiver.relative, 1.0);
   texel.divisor = dot(texel.data.atlasFromRelative[3], p);
   texel.coordinate = vec3(dot(texel.data.atlasFromRelative[0], p), dot(texel.data.atlasFromRelative[1], p),
                           dot(texel.data.atlasFromRelative[2], p)) / texel.divisor;
   texel.found = choice.covered && texel.divisor > 0.0 &&
-                all(greaterThanEqual(texel.coordinate.xy, texel.data.bounds.xy)) &&
-                all(lessThanEqual(texel.coordinate.xy, texel.data.bounds.zw));
+                all(greaterThanEqual(texel.coordinate.xy, texel.data.lowest)) &&
+                all(lessThanEqual(texel.coordinate.xy, texel.data.highest));
   return texel;
 }
 

@@ -13,23 +13,23 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #ifdef FILTER_KIND
   const int kind = FILTER_KIND; // all lights have the same
 #else
-  int kind = int(light.sampling.x);
+  int kind = light.filterKind;
 #endif
   vec2 slope = comparedSlope(light, tile, receiver);
 #ifdef FILTER_MOMENTS
-  if (kind >= GNOMON_FILTER_VSM) return momentVisibility(at.coordinate.xy, momentDepth(tile, at), kind);
+  if (GNOMON_READS_MOMENTS(kind)) return momentVisibility(at.coordinate.xy, momentDepth(tile, at), kind);
 #endif
 #ifdef FILTER_DISC
   if (kind == GNOMON_FILTER_DISC) {
-    vec2 radius = light.sampling.y * tile.bias.zw * atlasTexelCount() / at.divisor;
+    vec2 radius = light.filterRadius * tile.atlasPerMetre * atlasTexelCount() / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + max(radius.x, radius.y));
-    return discVisibility(tile, at, slope, light.sampling.y);
+    return discVisibility(tile, at, slope, light.filterRadius);
   }
 #endif
 #ifdef FILTER_SIZE
   const int size = FILTER_SIZE; // all lights have the same
 #else
-  int size = int(light.tiles.y);
+  int size = light.filterSize;
 #endif
   at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5 * float(size + 1));
   return kernelVisibility(at.coordinate.xy * atlasTexelCount(), PlaneDepths(at.coordinate.z, slope), size);
@@ -44,7 +44,7 @@ layout(binding = GNOMON_VISIBILITY_UNIT) uniform sampler2DArray visibilityLayers
 
 // The mean over `samples` of the pixel, a bit each.
 float layerValue(int light, uint samples) {
-  vec4 seen = texelFetch(visibilityLayers, ivec3(gl_FragCoord.xy, int(lights[light].tiles.w) - 1), 0);
+  vec4 seen = texelFetch(visibilityLayers, ivec3(gl_FragCoord.xy, int(lights[light].visibilityLayer) - 1), 0);
 #if SAMPLES > 1
   uvec4 bits = (uvec4(samples) >> uvec4(0u, 1u, 2u, 3u)) & 1u;
   return dot(seen, vec4(bits)) / float(bitCount(samples));
@@ -55,35 +55,35 @@ float layerValue(int light, uint samples) {
 
 float layerVisibility(int light, Receiver receiver, vec3 toLight) {
 #ifdef RECEIVER_GROUPS
-  if ((lights[light].groups.y & receiver.groupBit) == 0u) return 1.0;
+  if ((lights[light].shadowedGroups & receiver.groupBit) == 0u) return 1.0;
 #endif
   float visibility = layerValue(light, receiver.samples);
   // Rays know which faces are turned away, shadow volumes don't.
-  if (lights[light].sampling.z > 0.0 && isTurnedAway(receiver, toLight)) visibility = 0.0;
-  return mix(1.0, visibility, lights[light].cone.z);
+  if (lights[light].layerOmitsTurnedFaces != 0u && isTurnedAway(receiver, toLight)) visibility = 0.0;
+  return mix(1.0, visibility, lights[light].strength);
 }
 #endif
 
 // `needed` false spares the lookups where no light arrives anyway.
 float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
 #ifdef VISIBILITY_LAYERS
-  if (lights[light].tiles.w > 0u) return layerVisibility(light, receiver, toLight);
+  if (lights[light].visibilityLayer > 0u) return layerVisibility(light, receiver, toLight);
 #endif
 #ifdef NO_SHADOWS
   return 1.0;
 #endif
-  if (lights[light].tiles.x == 0u) return 1.0;
+  if (lights[light].tileCount == 0u) return 1.0;
 #ifdef RECEIVER_GROUPS
-  if ((lights[light].groups.y & receiver.groupBit) == 0u) return 1.0;
+  if ((lights[light].shadowedGroups & receiver.groupBit) == 0u) return 1.0;
 #endif
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
-  float strength = lights[light].cone.z;
+  float strength = lights[light].strength;
   bool turnedAway = isTurnedAway(receiver, toLight);
   float visibility = 0.0;
   for (int i = choice.first; i <= choice.second && needed && !turnedAway; ++i) {
     float share = i == choice.first ? 1.0 - choice.blend : choice.blend;
-    visibility += share * tileVisibility(lights[light], tiles[lights[light].tiles.z + i], receiver, toLight);
+    visibility += share * tileVisibility(lights[light], tiles[lights[light].firstTile + i], receiver, toLight);
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, strength);

@@ -9,20 +9,23 @@ struct TileChoice {
 
 // The first cascade that reaches as far as the view depth; none before the first one begins.
 TileChoice chooseCascade(int light, float viewDepth) {
-  int last = int(lights[light].tiles.x) - 1;
+  int last = int(lights[light].tileCount) - 1;
   int index = 0;
-  vec3 interval = tiles[lights[light].tiles.z].interval.xyz;
-  bool begun = viewDepth >= interval.x;
+  uint tile = lights[light].firstTile;
+  bool begun = viewDepth >= tiles[tile].near;
+  float blendNear = tiles[tile].blendNear;
+  float far = tiles[tile].far;
   for (int i = 1; i < TILE_COUNT; ++i) {
-    if (i <= last && viewDepth > interval.z) {
+    if (i <= last && viewDepth > far) {
       index = i;
-      interval = tiles[lights[light].tiles.z + i].interval.xyz;
+      blendNear = tiles[tile + i].blendNear;
+      far = tiles[tile + i].far;
     }
   }
-  float zone = interval.z > interval.y ? smoothstep(interval.y, interval.z, viewDepth) : 0.0;
-  bool fades = lights[light].cone.w > 0.0;
+  float zone = far > blendNear ? smoothstep(blendNear, far, viewDepth) : 0.0;
+  bool fades = lights[light].fadesOut != 0u;
   if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, begun);
-  return TileChoice(index, index, 0.0, fades ? zone : 0.0, begun && (!fades || viewDepth <= interval.z));
+  return TileChoice(index, index, 0.0, fades ? zone : 0.0, begun && (!fades || viewDepth <= far));
 }
 
 #ifdef PUNCTUAL
@@ -31,8 +34,8 @@ TileChoice chooseFace(int light, vec3 toLight) {
   int best = 0;
   float most = -2.0;
   for (int i = 0; i < TILE_COUNT; ++i) {
-    float along = -dot(tiles[lights[light].tiles.z + i].axis.xyz, toLight);
-    if (i < int(lights[light].tiles.x) && along > most) {
+    float along = -dot(tiles[lights[light].firstTile + i].axis, toLight);
+    if (i < int(lights[light].tileCount) && along > most) {
       most = along;
       best = i;
     }
@@ -43,7 +46,7 @@ TileChoice chooseFace(int light, vec3 toLight) {
 
 TileChoice chooseTile(int light, Receiver receiver, vec3 toLight) {
 #ifdef PUNCTUAL
-  if (int(lights[light].direction.w) != GNOMON_DIRECTIONAL) return chooseFace(light, toLight);
+  if (lights[light].type != GNOMON_DIRECTIONAL) return chooseFace(light, toLight);
 #endif
   return chooseCascade(light, receiver.viewDepth);
 }

@@ -22,8 +22,8 @@ float discVisibility(TileData tile, Lookup at, vec2 slope, float radius) {
     // Vogel's spiral: equal areas.
     float angle = turn + float(i) * 2.39996323;
     vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(kDiscTaps)));
-    vec2 place = at.coordinate.xy + step * tile.bias.zw;
-    bool outside = any(lessThan(place, tile.bounds.xy)) || any(greaterThan(place, tile.bounds.zw));
+    vec2 place = at.coordinate.xy + step * tile.atlasPerMetre;
+    bool outside = any(lessThan(place, tile.lowest)) || any(greaterThan(place, tile.highest));
     float depth = at.coordinate.z + dot(slope, (place - at.coordinate.xy) * texels);
     sum += outside ? 1.0 : tapVisibility(place * texels, PlaneDepths(depth, slope));
   }

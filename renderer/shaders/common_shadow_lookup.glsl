@@ -25,14 +25,15 @@ struct Lookup {
 // reach * sin(angle) (see renderer/shadow/bias.h), or as the light's own bias says.
 vec3 movedReceiver(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
 #ifdef MANUAL_BIAS
-  if (light.bias.w > 0.0) {
+  if (light.hasManualBias != 0u) {
     float cosine = clamp(dot(receiver.normal, toLight), 1e-2, 1.0);
     float tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    return receiver.relative + receiver.normal * light.bias.z + toLight * (light.bias.x + light.bias.y * tangent);
+    return receiver.relative + receiver.normal * light.manualNormalOffset +
+           toLight * (light.manualDepthBias + light.manualSlopeBias * tangent);
   }
 #endif
-  float cosine = dot(receiver.normal, tile.axis.xyz);
-  float offset = tile.interval.w * sqrt(max(1.0 - cosine * cosine, 0.0));
+  float cosine = dot(receiver.normal, tile.axis);
+  float offset = tile.normalOffset * sqrt(max(1.0 - cosine * cosine, 0.0));
 #ifdef PUNCTUAL
   offset *= dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0));
 #endif
@@ -50,11 +51,11 @@ Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight)
   at.divisor = dot(tile.atlasFromRelative[3], p);
   if (at.divisor <= 0.0) return Lookup(vec3(0.0), 1.0, false);
   at.coordinate /= at.divisor;
-  at.coordinate.z -= tile.bias.x + tile.bias.y / (at.divisor * at.divisor);
+  at.coordinate.z -= tile.depthBias + tile.depthBiasNear / (at.divisor * at.divisor);
 #else
-  at.coordinate.z -= tile.bias.x;
+  at.coordinate.z -= tile.depthBias;
 #endif
-  if (any(lessThan(at.coordinate.xy, tile.bounds.xy)) || any(greaterThan(at.coordinate.xy, tile.bounds.zw))) {
+  if (any(lessThan(at.coordinate.xy, tile.lowest)) || any(greaterThan(at.coordinate.xy, tile.highest))) {
     at.inside = false;
   }
   return at;
@@ -62,7 +63,7 @@ Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight)
 
 bool isParallel(TileData tile) {
 #ifdef PUNCTUAL
-  return dot(tile.atlasFromRelative[3].xyz, tile.axis.xyz) == 0.0;
+  return dot(tile.atlasFromRelative[3].xyz, tile.axis) == 0.0;
 #else
   return true;
 #endif
@@ -70,8 +71,8 @@ bool isParallel(TileData tile) {
 
 // How the tile's depth changes on the receiver's plane with each texel.
 vec2 receiverSlope(TileData tile, Receiver receiver, vec3 lightPosition) {
-  vec2 across = vec2(dot(receiver.normal, tile.right.xyz), dot(receiver.normal, tile.up.xyz));
-  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis.xyz), -1e-4);
+  vec2 across = vec2(dot(receiver.normal, tile.right), dot(receiver.normal, tile.up));
+  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis), -1e-4);
   // z is a line in 1 / distance, and so is 1 / distance in the tangents of a plane.
   return across / min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6);
 }
@@ -79,9 +80,9 @@ vec2 receiverSlope(TileData tile, Receiver receiver, vec3 lightPosition) {
 // The slope that comparisons follow: none where the light's own bias says all.
 vec2 comparedSlope(LightData light, TileData tile, Receiver receiver) {
 #ifdef MANUAL_BIAS
-  if (light.bias.w > 0.0) return vec2(0.0);
+  if (light.hasManualBias != 0u) return vec2(0.0);
 #endif
-  return receiverSlope(tile, receiver, light.position.xyz);
+  return receiverSlope(tile, receiver, light.position);
 }
 
 // By how much a surface may rise over the receiver's plane within a texel and not shadow it, z: where it bends by up to
@@ -93,10 +94,10 @@ const float kNormalRounding = 2e-4;
 
 float bendRoom(LightData light, TileData tile, Lookup at, vec2 slope, float reach) {
 #ifdef MANUAL_BIAS
-  if (light.bias.w > 0.0) return 0.0;
+  if (light.hasManualBias != 0u) return 0.0;
 #endif
   // With the depth that a texel's width is worth: tan(a + bend) - tan(a) is about bend (1 + tan(a)^2).
-  float texel = tile.right.w / at.divisor;
+  float texel = tile.texelDepth / at.divisor;
   float bent = texel + dot(slope, slope) / max(texel, 1e-30);
   float most = kBendTexels * (texel + abs(slope.x) + abs(slope.y));
   return max(min(kBendAngle * bent, most), kNormalRounding * reach * bent);

@@ -31,7 +31,7 @@ void main() {
   receiver.viewDepth = seen.viewDepth;
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
-  if ((lights[debugLight].groups.x & lights[debugLight].groups.y & receiver.groupBit) == 0u) return;
+  if ((lights[debugLight].litGroups & lights[debugLight].shadowedGroups & receiver.groupBit) == 0u) return;
 #endif
   vec3 toLight;
   vec3 arriving = irradiance(lights[debugLight], receiver.relative, toLight);

@@ -14,7 +14,7 @@ layout(location = 0) out vec4 target;
 
 vec3 radianceFrom(int light, SurfacePoint s, Receiver receiver) {
 #ifdef RECEIVER_GROUPS
-  if ((lights[light].groups.x & receiver.groupBit) == 0u) return vec3(0.0);
+  if ((lights[light].litGroups & receiver.groupBit) == 0u) return vec3(0.0);
 #endif
   vec3 toLight;
   vec3 arriving = irradiance(lights[light], receiver.relative, toLight);
@@ -102,8 +102,9 @@ vec4 background() {
 #elif defined(VIEW_SHADOW)
 #ifdef VISIBILITY_LAYERS
   // At the rim of a surface a ray may meet what no pixel's centre shows.
-  bool traced = debugLight >= 0 && lights[debugLight].tiles.w > 0u && lights[debugLight].sampling.z == 0.0;
-  if (traced) return vec4(vec3(mix(1.0, layerValue(debugLight, 1u), lights[debugLight].cone.z)), 1.0);
+  bool traced = debugLight >= 0 && lights[debugLight].visibilityLayer > 0u &&
+                lights[debugLight].layerOmitsTurnedFaces == 0u;
+  if (traced) return vec4(vec3(mix(1.0, layerValue(debugLight, 1u), lights[debugLight].strength)), 1.0);
 #endif
   return vec4(1.0);
 #elif defined(VIEW_CASTER_IDS) && !defined(ENCODED)

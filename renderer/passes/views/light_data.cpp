@@ -10,15 +10,16 @@
 namespace gnomon {
 
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
-// As std140 and std430 lay them out: whole vec4s, one after the other.
-static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, groups) == 7 * 16);
+// As std140 and std430 lay them out: a vec3 and the scalar behind it share 16 bytes. Each offset is compared with the
+// driver's by a test (shared_structs_gl_test.cpp).
+static_assert(sizeof(shared::LightData) == 7 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
 
-float typeOf(LightType type) {
+int typeOf(LightType type) {
   switch (type) {
     case LightType::directional:
       return GNOMON_DIRECTIONAL;
@@ -58,26 +59,34 @@ int filterKind(const FilterKernel& filter) {
 
 namespace {
 
-/// Texels a side that the shader compares.
-unsigned comparedTexels(const FilterKernel& filter) {
-  return filter.kind == MapReadingKind::texels ? static_cast<unsigned>(filter.size) : 1u;
-}
-
 shared::LightData packed(const LitLight& light) {
   shared::LightData out{};
-  const bool directional = light.type == LightType::directional;
-  out.direction = glm::vec4(directional ? -light.direction : light.direction, typeOf(light.type));
-  out.position = glm::vec4(light.position, light.range);
-  out.radiance = glm::vec4(light.radiance, 0.0);
-  if (light.type == LightType::spot) out.cone = glm::vec4(coneFalloff(light), 0.0f, 0.0f);
-  out.cone.z = static_cast<float>(light.strength);
-  out.cone.w = light.fadesOut ? 1.0f : 0.0f;
-  out.groups = {light.groups.lit, light.groups.shadowed, 0, 0};
-  if (light.tileCount > 0) out.tiles = {light.tileCount, comparedTexels(light.filter), light.firstTile, 0};
-  out.tiles.w = static_cast<unsigned>(light.visibilityLayer + 1);
-  out.sampling = {filterKind(light.filter), light.filter.radius, light.layerOmitsTurnedFaces ? 1.0f : 0.0f, 0};
+  out.direction = glm::vec3(light.type == LightType::directional ? -light.direction : light.direction);
+  out.type = typeOf(light.type);
+  out.position = glm::vec3(light.position);
+  out.range = static_cast<float>(light.range);
+  out.radiance = glm::vec3(light.radiance);
+  out.strength = static_cast<float>(light.strength);
+  if (light.type == LightType::spot) {
+    const glm::vec2 falloff = coneFalloff(light);
+    out.coneScale = falloff.x;
+    out.coneOffset = falloff.y;
+  }
+  out.filterRadius = static_cast<float>(light.filter.radius);
+  out.fadesOut = light.fadesOut ? 1 : 0;
+  out.firstTile = static_cast<unsigned>(light.firstTile);
+  out.tileCount = static_cast<unsigned>(light.tileCount);
+  out.filterKind = filterKind(light.filter);
+  out.filterSize = light.filter.size;
+  out.visibilityLayer = static_cast<unsigned>(light.visibilityLayer + 1);
+  out.layerOmitsTurnedFaces = light.layerOmitsTurnedFaces ? 1 : 0;
+  out.litGroups = light.groups.lit;
+  out.shadowedGroups = light.groups.shadowed;
   if (light.manualBias) {
-    out.bias = {light.manualBias->depth, light.manualBias->slope, light.manualBias->normalOffset, 1.0};
+    out.manualDepthBias = static_cast<float>(light.manualBias->depth);
+    out.manualSlopeBias = static_cast<float>(light.manualBias->slope);
+    out.manualNormalOffset = static_cast<float>(light.manualBias->normalOffset);
+    out.hasManualBias = 1;
   }
   return out;
 }
@@ -99,16 +108,23 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   // A filter reaches no farther than the border's width less one texel. A tile without texels has lowest above highest:
   // every lookup falls outside and is lit.
   const double inset = std::max(tile.border - 1, 1);
-  out.bounds = glm::vec4((corner + inset) / atlas, (corner + size - inset) / atlas);
-  out.interval = glm::vec4(tile.near, tile.blendNear, tile.far, tile.space.fit.normalOffset);
-  const glm::dvec2 texel = tile.rect.width > 0 ? tile.space.fit.texelSize : glm::dvec2(1.0);
-  out.bias = glm::vec4(tile.depthBias, tile.depthBiasNear, 1.0 / (texel * atlas));
-  out.axis = glm::vec4(tile.space.basis.direction, 0.0);
+  out.lowest = glm::vec2((corner + inset) / atlas);
+  out.highest = glm::vec2((corner + size - inset) / atlas);
+  out.near = static_cast<float>(tile.near);
+  out.blendNear = static_cast<float>(tile.blendNear);
+  out.far = static_cast<float>(tile.far);
   const Fit& fit = tile.space.fit;
+  out.normalOffset = static_cast<float>(fit.normalOffset);
+  out.depthBias = static_cast<float>(tile.depthBias);
+  out.depthBiasNear = static_cast<float>(tile.depthBiasNear);
+  const glm::dvec2 texel = tile.rect.width > 0 ? fit.texelSize : glm::dvec2(1.0);
+  out.atlasPerMetre = glm::vec2(1.0 / (texel * atlas));
+  out.axis = glm::vec3(tile.space.basis.direction);
   const double depths = fit.perspective ? -tile.near * tile.far / (tile.far - tile.near) : 1.0 / fit.depthExtent;
   const glm::dvec2 step = tile.rect.width > 0 ? texel * depths : glm::dvec2(0.0);
-  out.right = glm::vec4(tile.space.basis.right * step.x, std::abs(step.x));
-  out.up = glm::vec4(tile.space.basis.up * step.y, std::abs(step.y));
+  out.texelDepth = static_cast<float>(std::abs(step.x));
+  out.right = glm::vec3(tile.space.basis.right * step.x);
+  out.up = glm::vec3(tile.space.basis.up * step.y);
   return out;
 }
 

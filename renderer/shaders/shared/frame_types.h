@@ -4,7 +4,9 @@
 #include <glm/glm.hpp>
 namespace gnomon::shared {
 using glm::mat4;
+using glm::uint;
 using glm::uvec4;
+using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 #else
@@ -96,12 +98,14 @@ using glm::vec4;
 #define GNOMON_SPOT 1
 #define GNOMON_POINT 2
 
-// LightData.sampling.x
+// LightData.filterKind
 #define GNOMON_FILTER_KERNEL 0 // comparisons over a square of texels
 #define GNOMON_FILTER_DISC 1   // comparisons over a disc of the world
-#define GNOMON_FILTER_VSM 2    // this and all that follow: moments of blurred depths
+#define GNOMON_FILTER_VSM 2    // moments of blurred depths
 #define GNOMON_FILTER_EVSM 3
 #define GNOMON_FILTER_MSM 4
+#define GNOMON_READS_MOMENTS(kind) \
+  ((kind) == GNOMON_FILTER_VSM || (kind) == GNOMON_FILTER_EVSM || (kind) == GNOMON_FILTER_MSM)
 
 struct FrameData {
   mat4 clipFromRelative;
@@ -131,26 +135,48 @@ struct MaterialData {
 };
 
 struct LightData {
-  vec4 direction; // xyz: towards the light (directional), axis along which it shines (spot); w: type
-  vec4 position;  // xyz: relative; w: range in metres, 0 = infinite
-  vec4 radiance;  // rgb: colour times intensity
-  vec4 cone;      // spot: scale and offset of the angular falloff; z: shadow strength; w: 1 = fades out at the far end
-  uvec4 tiles;    // tile count (cascades or faces), filter size in texels, first tile, visibility layer + 1 (0 = none)
-  vec4 sampling;  // x: kind; y: radius in metres (disc); z: 1 = its visibility layer leaves out which faces are turned
-                  // away
-  vec4 bias;      // manual, metres: x towards the light; y the same times the slope; z along the normal; w: 1 = manual
-  uvec4 groups;   // a bit a receiver group: x: those that it lights; y: of these, where it throws shadows
+  vec3 direction;  // unit length: towards the light (directional), along which it shines (spot)
+  int type;        // GNOMON_DIRECTIONAL ...
+  vec3 position;   // relative
+  float range;     // metres; 0 = infinite
+  vec3 radiance;   // colour times intensity
+  float strength;  // of its shadow; 0 = casts none
+  float coneScale; // spot: the falloff is the square of cosine * coneScale + coneOffset, within 0..1
+  float coneOffset;
+  float filterRadius; // metres; GNOMON_FILTER_DISC
+  uint fadesOut;      // 1 = its last tile fades to lit at the far end
+  uint firstTile;
+  uint tileCount;             // cascades or faces; 0 = no map
+  int filterKind;             // GNOMON_FILTER_...
+  int filterSize;             // texels along a side that are compared
+  uint visibilityLayer;       // its number plus 1; 0 = none
+  uint layerOmitsTurnedFaces; // 1 = its visibility layer is lit where a face is turned away
+  uint litGroups;             // a bit a receiver group: those that it lights
+  uint shadowedGroups;        // of these, where it throws shadows
+  float manualDepthBias;      // metres towards the light
+  float manualSlopeBias;      // the same, times the slope
+  float manualNormalOffset;   // metres along the normal
+  uint hasManualBias;         // 1 = the manual bias counts, not the tile's
 };
 
 struct TileData {
   vec4 atlasFromRelative[4]; // rows: to atlas u, v (0..1 over the atlas), depth, and what to divide them by
-  vec4 bounds;               // atlas u v of the lowest and highest point that may be looked up
-  vec4 interval; // near, blendNear, far (view depth, metres; cascades only); w: normal offset, times the divisor
-  vec4 bias;     // x: depth bias; y: depth bias times the square of the divisor; zw: atlas u v of a length across, 1
-  vec4 axis;     // xyz: where the light travels in the tile's middle
-  vec4 right; // xyz: along u, as long as the depth that one texel's width along the light is worth (parallel), or its
-              // tangent times the negative of what 1 / distance is multiplied by in depths; w: that length
-  vec4 up;    // xyz: the same along v
+  vec2 lowest;               // atlas u v of the lowest point that may be looked up
+  vec2 highest;
+  float near;      // view depth, metres (cascade); distance along the axis (face)
+  float blendNear; // cascade: where blending to the next begins
+  float far;
+  float normalOffset; // metres, times the divisor
+  float depthBias;
+  float depthBiasNear; // times the square of the divisor
+  vec2 atlasPerMetre;  // atlas u v of a length across the light, at a divisor of 1
+  vec3 axis;           // where the light travels in the tile's middle
+  float texelDepth;    // length of `right`
+  vec3 right; // along u, as long as the depth that one texel's width along the light is worth (parallel), or its
+              // tangent times the negative of what 1 / distance is multiplied by in depths
+  float padding0;
+  vec3 up; // the same along v
+  float padding1;
 };
 
 // A point of a surface, of which the light is asked.

@@ -36,17 +36,35 @@ const std::vector<Member> kMaterial{
     ARRAY(MaterialData, uvOffsets),
 };
 const std::vector<Member> kLight{
-    MEMBER(LightData, direction), MEMBER(LightData, position), MEMBER(LightData, radiance), MEMBER(LightData, cone),
-    MEMBER(LightData, tiles),     MEMBER(LightData, sampling), MEMBER(LightData, bias),     MEMBER(LightData, groups),
+    MEMBER(LightData, direction),          MEMBER(LightData, type),
+    MEMBER(LightData, position),           MEMBER(LightData, range),
+    MEMBER(LightData, radiance),           MEMBER(LightData, strength),
+    MEMBER(LightData, coneScale),          MEMBER(LightData, coneOffset),
+    MEMBER(LightData, filterRadius),       MEMBER(LightData, fadesOut),
+    MEMBER(LightData, firstTile),          MEMBER(LightData, tileCount),
+    MEMBER(LightData, filterKind),         MEMBER(LightData, filterSize),
+    MEMBER(LightData, visibilityLayer),    MEMBER(LightData, layerOmitsTurnedFaces),
+    MEMBER(LightData, litGroups),          MEMBER(LightData, shadowedGroups),
+    MEMBER(LightData, manualDepthBias),    MEMBER(LightData, manualSlopeBias),
+    MEMBER(LightData, manualNormalOffset), MEMBER(LightData, hasManualBias),
 };
 const std::vector<Member> kTile{
     ARRAY(TileData, atlasFromRelative),
-    MEMBER(TileData, bounds),
-    MEMBER(TileData, interval),
-    MEMBER(TileData, bias),
+    MEMBER(TileData, lowest),
+    MEMBER(TileData, highest),
+    MEMBER(TileData, near),
+    MEMBER(TileData, blendNear),
+    MEMBER(TileData, far),
+    MEMBER(TileData, normalOffset),
+    MEMBER(TileData, depthBias),
+    MEMBER(TileData, depthBiasNear),
+    MEMBER(TileData, atlasPerMetre),
     MEMBER(TileData, axis),
+    MEMBER(TileData, texelDepth),
     MEMBER(TileData, right),
+    MEMBER(TileData, padding0),
     MEMBER(TileData, up),
+    MEMBER(TileData, padding1),
 };
 const std::vector<Member> kProbe{MEMBER(ProbeData, relative), MEMBER(ProbeData, normal)};
 

@@ -21,13 +21,19 @@ TEST(LightData, ALightIsPackedByName) {
   const std::vector<LitLight> lights{lamp, sun};
   const auto data = lightData(lights);
   ASSERT_EQ(data.size(), 2u);
-  EXPECT_EQ(data[0].tiles, glm::uvec4(0, 0, 0, 2)) << "no tiles, second layer";
-  EXPECT_EQ(data[0].position, glm::vec4(0, 1, 2, 0)) << "no range is infinite";
-  EXPECT_EQ(glm::vec3(data[1].direction), glm::vec3(0, 1, 0)) << "towards the light";
-  EXPECT_EQ(data[1].tiles, glm::uvec4(3, 5, 2, 0));
-  EXPECT_EQ(data[1].cone.z, 0.5f);
-  EXPECT_EQ(data[1].cone.w, 1.0f);
-  EXPECT_EQ(data[1].groups, glm::uvec4(5, 4, 0, 0));
+  EXPECT_EQ(data[0].tileCount, 0u);
+  EXPECT_EQ(data[0].visibilityLayer, 2u) << "counted from 1";
+  EXPECT_EQ(data[0].position, glm::vec3(0, 1, 2));
+  EXPECT_EQ(data[0].range, 0.0f) << "no range is infinite";
+  EXPECT_EQ(data[1].direction, glm::vec3(0, 1, 0)) << "towards the light";
+  EXPECT_EQ(data[1].firstTile, 2u);
+  EXPECT_EQ(data[1].tileCount, 3u);
+  EXPECT_EQ(data[1].filterSize, 5);
+  EXPECT_EQ(data[1].visibilityLayer, 0u);
+  EXPECT_EQ(data[1].strength, 0.5f);
+  EXPECT_EQ(data[1].fadesOut, 1u);
+  EXPECT_EQ(data[1].litGroups, 5u);
+  EXPECT_EQ(data[1].shadowedGroups, 4u);
 }
 
 TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
@@ -47,7 +53,8 @@ TEST(LightData, M14_TheReceiverUsesTheMatrixThatTheMapWasDrawnWith) {
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[0], p), static_cast<float>((64 + (clip.x * 0.5 + 0.5) * 64) / 256));
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[1], p), static_cast<float>((32 + (clip.y * 0.5 + 0.5) * 32) / 128));
   EXPECT_FLOAT_EQ(glm::dot(data.atlasFromRelative[2], p), static_cast<float>(clip.z));
-  EXPECT_EQ(data.bounds, glm::vec4(67.0f / 256, 35.0f / 128, 125.0f / 256, 61.0f / 128)) << "room for the filter";
+  EXPECT_EQ(data.lowest, glm::vec2(67.0f / 256, 35.0f / 128)) << "room for the filter";
+  EXPECT_EQ(data.highest, glm::vec2(125.0f / 256, 61.0f / 128));
 }
 
 TEST(LightData, ATileWithoutTexelsHoldsNoLookup) {
@@ -56,7 +63,7 @@ TEST(LightData, ATileWithoutTexelsHoldsNoLookup) {
   plan.tiles.push_back({});
   plan.lights.push_back({.light = 0, .firstTile = 0, .tileCount = 1, .note = ""});
   const shared::TileData data = tileData(plan)[0];
-  EXPECT_GT(data.bounds.x, data.bounds.z);
+  EXPECT_GT(data.lowest.x, data.highest.x);
 }
 
 } // namespace

@@ -1,0 +1,210 @@
+// A frame from top to bottom over a device that draws nothing: no OpenGL is linked here.
+#include "renderer/frame/render_frame.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/prepare/box_depths.h"
+#include "renderer/prepare/frame_geometry.h"
+
+namespace gnomon {
+namespace {
+
+/// A square of ground, and a smaller one that floats a metre above it.
+ScenePtr squares() {
+  Scene scene;
+  scene.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
+  scene.attributes.resize(4);
+  scene.indices = {0, 1, 2, 0, 2, 3};
+  scene.welded = scene.indices;
+  scene.materials.resize(1);
+  scene.primitives.resize(1);
+  Primitive& primitive = scene.primitives[0];
+  primitive.vertexCount = 4;
+  primitive.indexCount = 6;
+  primitive.clusterCount = 1;
+  for (const glm::vec3& position : scene.positions) primitive.bounds.add(glm::dvec3(position));
+  scene.clusters.push_back({primitive.bounds});
+  scene.nodes.resize(2);
+  SceneView view;
+  for (int node = 0; node < 2; ++node) {
+    Instance instance;
+    instance.node = node;
+    if (node == 1) {
+      instance.worldFromLocal = glm::dmat4(0.1);
+      instance.worldFromLocal[3] = {0, 1, 0, 1};
+    }
+    instance.bounds = transformed(instance.worldFromLocal, primitive.bounds);
+    view.bounds.add(instance.bounds);
+    view.instances.push_back(instance);
+  }
+  view.triangles = 4;
+  scene.scenes = {view};
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+/// What was asked of the device, call by call.
+struct Asked {
+  std::vector<std::string> calls;
+  std::vector<ViewRequest> views;
+  std::size_t tiles = 0;
+};
+
+class FakeDrawing : public FrameDrawing {
+ public:
+  FakeDrawing(const FrameWork& work, Asked& asked, Status end) : work_(work), asked_(asked), end_(std::move(end)) {}
+
+  /// Boxes stand in for surfaces.
+  Result<ReceiverDepths> survey() override {
+    asked_.calls.emplace_back("survey");
+    const SceneView& view = work_.scene->scenes[0];
+    const FrameGeometry geometry = frameGeometry(*work_.scene, view, work_.frame.view.eye);
+    const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
+    return boxDepths(work_.frame.view, work_.frame.spec.width, work_.frame.spec.height, geometry.slotBounds, all);
+  }
+
+  Status cast(const ShadowPlan& plan, TileUse) override {
+    asked_.calls.emplace_back("cast");
+    asked_.tiles = plan.tiles.size();
+    facts_.tiles.resize(plan.tiles.size());
+    for (TileFacts& tile : facts_.tiles) tile.casterTriangles = 2;
+    return Done{};
+  }
+
+  Status show(const ShowInput& input) override {
+    asked_.calls.emplace_back("show");
+    asked_.views.assign(input.views.begin(), input.views.end());
+    return Done{};
+  }
+
+  Result<std::vector<MapFootprint>> footprints(const ShowInput&) override { return std::vector<MapFootprint>{}; }
+  Result<std::vector<float>> probe(const ShowInput&, std::span<const ProbePoint> points) override {
+    return std::vector<float>(points.size(), 1.0f);
+  }
+
+  /// Black, but for shadows, which are lit.
+  Image picture(std::size_t index) override {
+    const auto pixels = static_cast<std::size_t>(work_.frame.spec.width) * work_.frame.spec.height;
+    Image image{work_.frame.spec.width, work_.frame.spec.height, {"R", "G", "B"}, {}};
+    if (asked_.views[index].encoded) {
+      image.pixels = std::vector<std::uint8_t>(3 * pixels);
+    } else {
+      image.channels = {"Y"};
+      image.pixels = std::vector<float>(pixels, 1.0f);
+    }
+    return image;
+  }
+
+  void endStage(std::string name) override { facts_.stages.push_back({std::move(name), 1.0}); }
+
+  Result<FrameFacts> finish() override {
+    if (!end_) return end_.problems();
+    facts_.passes = {{.pass = "survey", .drawCalls = 3, .triangles = 4}};
+    facts_.surveyedTriangles = 4;
+    facts_.memory.scene = 77;
+    return facts_;
+  }
+
+ private:
+  const FrameWork work_;
+  Asked& asked_;
+  Status end_;
+  FrameFacts facts_;
+};
+
+class FakeDevice : public Device {
+ public:
+  explicit FakeDevice(Status end = Done{}) : end_(std::move(end)) {
+    info_.maxTextureSize = 4096;
+    info_.maxSamples = 4;
+  }
+
+  const RendererInfo& info() const override { return info_; }
+  Result<std::unique_ptr<FrameDrawing>> begin(const FrameWork& work) override {
+    asked.calls.emplace_back("begin");
+    return std::unique_ptr<FrameDrawing>(std::make_unique<FakeDrawing>(work, asked, end_));
+  }
+
+  Asked asked;
+
+ private:
+  RendererInfo info_;
+  Status end_;
+};
+
+FrameSpec sunlit() {
+  FrameSpec spec;
+  spec.width = 64;
+  spec.height = 48;
+  Light sun;
+  sun.direction = Vec3{0.3, -1, 0.2};
+  spec.lights = std::vector{sun};
+  spec.shadow.cascadeCount = 2;
+  return spec;
+}
+
+TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
+  FakeDevice device;
+  TracedSceneCache traced(0);
+  const auto frame = renderFrame(device, traced, squares(), sunlit());
+  ASSERT_TRUE(frame) << frame.problems().front().detail;
+  EXPECT_EQ(device.asked.calls, (std::vector<std::string>{"begin", "survey", "cast", "show"}));
+  EXPECT_EQ(device.asked.tiles, 2u);
+  ASSERT_EQ(frame->images.size(), 1u);
+  EXPECT_EQ(frame->images[0].image.width, 64);
+
+  const FrameReport& report = frame->report;
+  ASSERT_EQ(report.lights.size(), 1u);
+  ASSERT_EQ(report.lights[0].tiles.size(), 2u);
+  EXPECT_TRUE(report.lights[0].shadowed);
+  EXPECT_EQ(report.lights[0].casterTriangles, 4u) << "what the device says of each tile, summed";
+  EXPECT_GT(report.depthRange[1], report.depthRange[0]);
+  EXPECT_GT(report.atlasSize[0], 0);
+  EXPECT_TRUE(report.predictedError);
+  EXPECT_EQ(report.counts.sceneTriangles, 4u);
+  EXPECT_EQ(report.counts.surveyedTriangles, 4u);
+  EXPECT_EQ(report.counts.drawCalls, 3u);
+  EXPECT_EQ(report.memory.scene, 77u);
+  ASSERT_EQ(report.stages.size(), 5u);
+  EXPECT_EQ(report.stages[1].stage, "plan");
+}
+
+TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
+  FakeDevice device;
+  TracedSceneCache traced(1 << 20);
+  FrameSpec spec = sunlit();
+  spec.views = {View::error, View::depth};
+  const auto frame = renderFrame(device, traced, squares(), spec);
+  ASSERT_TRUE(frame) << frame.problems().front().detail;
+  ASSERT_EQ(device.asked.views.size(), 3u) << "the error itself is drawn by no device";
+  EXPECT_EQ(device.asked.views[0].view, View::depth);
+  EXPECT_EQ(device.asked.views[1].view, View::shadow);
+  EXPECT_TRUE(device.asked.views[1].fullStrength);
+  EXPECT_FALSE(device.asked.views[1].encoded);
+  EXPECT_EQ(device.asked.views[2].view, View::color);
+  ASSERT_EQ(frame->images.size(), 2u);
+  EXPECT_EQ(frame->images[0].view, View::error);
+  ASSERT_TRUE(frame->report.error);
+  EXPECT_GT(frame->report.error->falseLit, 0) << "the fake's shadow is lit everywhere, and the square throws one";
+}
+
+TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
+  FakeDevice device;
+  TracedSceneCache traced(0);
+  FrameSpec spec = sunlit();
+  spec.width = 5000;
+  const auto frame = renderFrame(device, traced, squares(), spec);
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.problems().front().pointer, "/width");
+  EXPECT_TRUE(device.asked.calls.empty());
+}
+
+TEST(RenderFrame, AProblemOfTheDeviceIsTheFrames) {
+  FakeDevice device(Problem{ProblemCode::backend, "", "The device is gone.", "", ""});
+  TracedSceneCache traced(0);
+  const auto frame = renderFrame(device, traced, squares(), sunlit());
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.problems().front().code, ProblemCode::backend);
+}
+
+} // namespace
+} // namespace gnomon
