@@ -65,7 +65,7 @@ Status GlFrame::cast(const ShadowPlan& plan, TileUse tiles) {
   auto atlas = castShadows(inputs_, plan, work_.frame.spec, tiles == TileUse::kept ? shared_.tiles : none);
   if (!atlas) return atlas.problems();
   atlas_ = std::move(*atlas);
-  draws_ = true;
+  draws_ = atlas_.drawCalls > 0; // none where every tile was kept
   return Done{};
 }
 
