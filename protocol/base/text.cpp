@@ -1,5 +1,6 @@
 #include "protocol/base/text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace gnomon {
@@ -49,12 +50,67 @@ std::string asUtf8(std::string_view text) {
   return result;
 }
 
+std::string_view beginningOf(std::string_view text, std::size_t maxBytes) {
+  if (text.size() <= maxBytes) return text;
+  while (maxBytes > 0 && (static_cast<std::uint8_t>(text[maxBytes]) & 0xC0) == 0x80) --maxBytes;
+  return text.substr(0, maxBytes);
+}
+
 std::string shortened(std::string_view text, std::size_t maxBytes) {
   if (text.size() <= maxBytes) return std::string(text);
   constexpr std::string_view kEllipsis = "\u2026";
-  std::size_t end = maxBytes > kEllipsis.size() ? maxBytes - kEllipsis.size() : 0;
-  while (end > 0 && (static_cast<std::uint8_t>(text[end]) & 0xC0) == 0x80) --end;
-  return std::string(text.substr(0, end)).append(kEllipsis);
+  const std::size_t room = maxBytes > kEllipsis.size() ? maxBytes - kEllipsis.size() : 0;
+  return std::string(beginningOf(text, room)).append(kEllipsis);
+}
+
+std::string asciiExcerpt(std::string_view text) {
+  constexpr std::size_t kMost = 64;
+  std::string quoted(text.substr(0, kMost));
+  std::replace_if(
+      quoted.begin(), quoted.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return text.size() > kMost ? quoted + "..." : quoted;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return lower;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.emplace_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+std::vector<std::string> splitTrimmed(std::string_view text, char separator) {
+  if (text.empty()) return {};
+  std::vector<std::string> parts = split(text, separator);
+  for (std::string& part : parts) part = std::string(trimmed(part));
+  return parts;
+}
+
+std::string oneOf(std::span<const std::string_view> names) {
+  constexpr std::size_t kMost = 20;
+  std::string text = "one of ";
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    if (i > 0) text += ", ";
+    text += names[i];
+  }
+  if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
+  return text;
 }
 
 } // namespace gnomon

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-/// Untrusted text made fit for a reply.
+/// Text taken apart, and untrusted text made fit for a reply.
 namespace gnomon {
 
 /// True where `text` is well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates, at most U+10FFFF).
@@ -13,7 +15,26 @@ bool isUtf8(std::string_view text);
 /// `text` with each byte that is not part of well-formed UTF-8 replaced by '?'.
 std::string asUtf8(std::string_view text);
 
-/// The beginning of well-formed UTF-8 `text`, at most `maxBytes` long, with an ellipsis where something was left off.
+/// The beginning of well-formed UTF-8 `text`, at most `maxBytes` long, ending between two characters.
+std::string_view beginningOf(std::string_view text, std::size_t maxBytes);
+
+/// The same, with an ellipsis, within `maxBytes`, where something was left off.
 std::string shortened(std::string_view text, std::size_t maxBytes);
+
+/// Bytes of unknown encoding, to be quoted in a problem: at most 64 of them and then "...", '?' for all but printable
+/// ASCII.
+std::string asciiExcerpt(std::string_view text);
+
+std::string lowerCase(std::string_view text);    ///< ASCII letters only
+std::string_view trimmed(std::string_view text); ///< without spaces and tabs at the ends
+
+/// The parts of `text` between separators: at least one; empty ones are kept.
+std::vector<std::string> split(std::string_view text, char separator);
+
+/// The same, each part trimmed; an empty text gives none.
+std::vector<std::string> splitTrimmed(std::string_view text, char separator);
+
+/// What may be chosen, for a problem: "one of a, b and 3 more", with at most 20 names. REQUIRES: a name.
+std::string oneOf(std::span<const std::string_view> names);
 
 } // namespace gnomon

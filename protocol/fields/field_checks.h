@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
 #include "protocol/base/problem_list.h"
 #include "protocol/fields/fields.h"
 #include "protocol/fields/spellings.h"

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
 #include "protocol/base/problem_list.h"
 #include "protocol/fields/field_checks.h"
 #include "protocol/fields/fields.h"

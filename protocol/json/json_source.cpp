@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
+#include "protocol/base/json_shape.h"
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 
@@ -11,29 +12,6 @@ namespace gnomon {
 namespace {
 
 constexpr std::size_t kMaxShownBytes = 60;
-
-/// Offset of the first bracket that opens more than `maxDepth` levels; npos = none. Bytes only: needs no valid JSON.
-std::size_t findTooDeep(std::string_view text, int maxDepth) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        inString = false;
-      }
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > maxDepth) return i;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return std::string_view::npos;
-}
 
 /// The parser's words without its tag and without the bytes that it read last.
 std::string plainMessage(const std::string& what) {
@@ -166,9 +144,9 @@ std::optional<JsonNode> readJson(std::string_view text, ProblemList& problems) {
                   .actual = std::to_string(text.size()) + " bytes"});
     return std::nullopt;
   }
-  if (const std::size_t offset = findTooDeep(text, kLimits.maxJsonDepth); offset != std::string_view::npos) {
+  if (const auto excess = findExcess(text, {kLimits.maxJsonDepth})) {
     problems.add({.code = ProblemCode::malformed,
-                  .pointer = pointerAtEnd(text.substr(0, offset)),
+                  .pointer = pointerAtEnd(text.substr(0, excess->offset)),
                   .detail = "Objects and arrays are nested too deeply.",
                   .limit = std::to_string(kLimits.maxJsonDepth) + " levels"});
     return std::nullopt;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
@@ -21,16 +21,6 @@ struct QueryField {
   std::string pointer; ///< of the JSON value that it gives
 };
 
-std::vector<std::string> splitAt(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(separator, begin);
-    parts.emplace_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
-}
-
 JsonNode objectOf(std::string key, JsonNode value) {
   JsonNode node{JsonNode::Object{}};
   std::get<JsonNode::Object>(node.value).push_back({std::move(key), std::move(value)});
@@ -49,7 +39,7 @@ std::optional<JsonNode> valueOf(const std::string& text, ProblemList& problems) 
 
 /// "AZIMUTH,ELEVATION" as the one light of the spec.
 std::optional<JsonNode> sunOf(const std::string& text, ProblemList& problems) {
-  const std::vector<std::string> angles = splitAt(text, ',');
+  const std::vector<std::string> angles = split(text, ',');
   if (angles.size() != 2) {
     problems.add({.code = ProblemCode::invalidValue,
                   .detail = "sun is two numbers with a comma between them.",
@@ -126,7 +116,7 @@ class QueryReader {
     } else if (key == "format") {
       path = {"output", "format"};
     } else {
-      path = splitAt(key, '.');
+      path = split(key, '.');
     }
     if (path.size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
       return add(key, ProblemCode::malformed, "This path has too many parts.");

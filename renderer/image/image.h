@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-namespace gnomon {
+#include "protocol/base/bytes.h"
 
-using Bytes = std::vector<std::uint8_t>;
+namespace gnomon {
 
 /// Pixels, interleaved, first row on top. Eight bits: 0..255, sRGB where it is a colour; float: linear.
 struct Image {

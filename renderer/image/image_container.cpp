@@ -52,9 +52,7 @@ std::uint32_t bigEndian(EncodedBytes bytes, std::size_t offset, std::size_t coun
 }
 
 std::uint32_t littleEndian(EncodedBytes bytes, std::size_t offset, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = count; i-- > 0;) value = value << 8 | bytes[offset + i];
-  return value;
+  return static_cast<std::uint32_t>(littleEndian(bytes.subspan(offset, count)));
 }
 
 Problem malformedImage(const std::string& detail) {

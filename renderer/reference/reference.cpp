@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 
+#include "protocol/base/elapsed.h"
 #include "renderer/reference/frame_nodes.h"
 
 namespace gnomon {
@@ -82,7 +83,7 @@ Result<Reference> traceReference(const TraceInput& input, std::span<const int> l
     reference.pixelWidth.insert(reference.pixelWidth.end(), widths.begin(), widths.end());
   }
   if (progress) progress(1);
-  reference.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  reference.milliseconds = millisecondsSince(start);
   return reference;
 }
 

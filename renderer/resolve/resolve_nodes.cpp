@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/base/problem_list.h"
+#include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon {
@@ -16,30 +17,19 @@ namespace {
 
 using NodesByName = std::unordered_multimap<std::string_view, std::size_t>;
 
-constexpr std::size_t kNamesTold = 20;
-
 NodesByName nodesByName(const Scene& scene) {
   NodesByName nodes;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.emplace(scene.nodes[i].name, i);
   return nodes;
 }
 
-/// The nodes' names, in the file's order; the first of them where there are many.
+/// The nodes' names, in the file's order.
 std::string namesOf(const Scene& scene) {
-  std::string names;
-  std::size_t told = 0;
-  std::size_t untold = 0;
+  std::vector<std::string_view> names;
   for (const SceneNode& node : scene.nodes) {
-    if (node.name.empty()) continue;
-    if (told == kNamesTold) {
-      ++untold;
-      continue;
-    }
-    names += (told == 0 ? "one of " : ", ") + node.name;
-    ++told;
+    if (!node.name.empty()) names.push_back(node.name);
   }
-  if (told == 0) return "no node has a name";
-  return untold == 0 ? names : names + " and " + std::to_string(untold) + " more";
+  return names.empty() ? "no node has a name" : oneOf(names);
 }
 
 std::string indicesOf(const Scene& scene) {

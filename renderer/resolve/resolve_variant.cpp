@@ -1,19 +1,16 @@
 #include "renderer/resolve/resolve_variant.h"
 
 #include <algorithm>
+#include <string_view>
+
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kVariantsNamed = 20;
-
 std::string namesOf(const std::vector<std::string>& variants) {
   if (variants.empty()) return "the file has no material variants";
-  std::string names = "one of ";
-  for (std::size_t i = 0; i < std::min(variants.size(), kVariantsNamed); ++i)
-    names += (i == 0 ? "" : ", ") + variants[i];
-  if (variants.size() > kVariantsNamed) names += " and " + std::to_string(variants.size() - kVariantsNamed) + " more";
-  return names;
+  return oneOf(std::vector<std::string_view>(variants.begin(), variants.end()));
 }
 
 } // namespace

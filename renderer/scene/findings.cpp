@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "protocol/base/json_pointer.h"
+#include "protocol/base/text.h"
+
 namespace gnomon {
 
 namespace {
@@ -10,12 +13,6 @@ constexpr std::size_t kMaxProblems = 32;
 constexpr std::size_t kMaxWarnings = 64;
 constexpr std::size_t kMaxQuotedBytes = 80;
 constexpr std::size_t kMaxNameBytes = 256;
-
-/// The first bytes of a longer text, ending between two characters of its UTF-8.
-std::string_view cut(std::string_view text, std::size_t bytes) {
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
-  return text.substr(0, bytes);
-}
 
 } // namespace
 
@@ -58,27 +55,17 @@ std::vector<std::string> Findings::takeWarnings() {
 
 std::string inQuotes(std::string_view text) {
   if (text.size() <= kMaxQuotedBytes) return '"' + std::string(text) + '"';
-  return '"' + std::string(cut(text, kMaxQuotedBytes)) + "...\"";
+  return '"' + std::string(beginningOf(text, kMaxQuotedBytes)) + "...\"";
 }
 
 std::string keptName(std::string_view name, Findings& findings) {
   if (name.size() <= kMaxNameBytes) return std::string(name);
   findings.warn("The name " + inQuotes(name) + " is cut to " + std::to_string(kMaxNameBytes) + " bytes.");
-  return std::string(cut(name, kMaxNameBytes));
+  return std::string(beginningOf(name, kMaxNameBytes));
 }
 
 std::string pointerTo(const std::string& parent, std::string_view key) {
-  std::string pointer = parent + '/';
-  for (const char c : key) {
-    if (c == '~') {
-      pointer += "~0";
-    } else if (c == '/') {
-      pointer += "~1";
-    } else {
-      pointer += c;
-    }
-  }
-  return pointer;
+  return parent + '/' + escapedToken(key);
 }
 
 std::string pointerTo(const std::string& parent, std::size_t index) {

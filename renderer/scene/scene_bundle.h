@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "renderer/image/image.h"
+#include "protocol/base/bytes.h"
 
 namespace gnomon {
 

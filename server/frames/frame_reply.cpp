@@ -8,10 +8,10 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/view_traits.h"
-#include "server/http/ascii.h"
+#include "protocol/base/encoding.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
-#include "server/scenes/sha256.h"
+#include "protocol/base/sha256.h"
 
 namespace gnomon {
 namespace {
@@ -32,7 +32,7 @@ std::string multipartBody(const Frame& frame, const std::vector<EncodedPicture>&
   part("application/json", "report.json", jsonText(toJson(frame.report)));
   const std::string ending = format == ImageFormat::png ? ".png" : ".exr";
   for (const EncodedPicture& picture : pictures) {
-    part(mediaTypeOf(format), (format == ImageFormat::png ? picture.view : "frame") + ending, textOf(picture.file));
+    part(mediaTypeOf(format), (format == ImageFormat::png ? picture.view : "frame") + ending, asText(picture.file));
   }
   return body.append("--").append(boundary).append("--\r\n");
 }
@@ -41,7 +41,7 @@ std::string jsonBody(Frame frame, const std::vector<EncodedPicture>& pictures, I
   FrameReply reply;
   reply.report = std::move(frame.report);
   for (const EncodedPicture& picture : pictures) {
-    reply.images.push_back({picture.view, std::string(mediaTypeOf(format)), base64Text(textOf(picture.file))});
+    reply.images.push_back({picture.view, std::string(mediaTypeOf(format)), base64Text(picture.file)});
   }
   return jsonText(toJson(reply));
 }
@@ -101,7 +101,7 @@ Result<HttpReply> frameReply(Frame frame, FrameForm form, std::string_view bound
   reply.contentType = mediaTypeOf(form);
   switch (form.form) {
     case ReplyForm::image:
-      reply.body = textOf(pictures->front().file);
+      reply.body = asText(pictures->front().file);
       break;
     case ReplyForm::multipart:
       reply.contentType += "; boundary=" + std::string(boundary);

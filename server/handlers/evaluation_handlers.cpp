@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "protocol/base/text.h"
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/problem_json.h"
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "server/evaluations/evaluation_run.h"
-#include "server/http/ascii.h"
 #include "server/http/event_stream.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
@@ -97,7 +97,7 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   if (!services.store.contains(id)) {
     return problemReply({unknownScene(id)}, requestId);
   }
-  auto evaluation = decodeEvaluation(textOf(call.request.body));
+  auto evaluation = decodeEvaluation(asText(call.request.body));
   if (!evaluation) {
     return problemReply(evaluation.problems(), requestId);
   }

@@ -5,7 +5,7 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "server/frames/frame_reply.h"
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"
@@ -157,7 +157,7 @@ class PlanPermit {
 } // namespace
 
 HttpReply postFrame(Services& services, RouteCall call) {
-  const std::string_view body = textOf(call.request.body);
+  const std::string_view body = asText(call.request.body);
   auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
   return answerStored(services, call, std::move(spec), kPrivate);
 }
@@ -174,7 +174,7 @@ HttpReply postPlan(Services& services, RouteCall call) {
   if (!services.store.contains(id)) {
     return problemReply({unknownScene(id)}, requestId);
   }
-  const std::string_view body = textOf(call.request.body);
+  const std::string_view body = asText(call.request.body);
   const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
   if (!spec) {
     return problemReply(spec.problems(), requestId);

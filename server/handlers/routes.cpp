@@ -9,10 +9,10 @@
 #include "server/handlers/evaluation_handlers.h"
 #include "server/handlers/frame_handlers.h"
 #include "server/handlers/scene_handlers.h"
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
-#include "server/scenes/sha256.h"
+#include "protocol/base/sha256.h"
 
 namespace gnomon {
 namespace {

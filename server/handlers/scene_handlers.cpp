@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"
 

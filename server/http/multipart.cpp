@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {
@@ -26,8 +26,8 @@ int qualityOf(std::string_view text) {
 
 std::vector<MediaRange> rangesOf(std::string_view accept) {
   std::vector<MediaRange> ranges;
-  for (const std::string& entry : split(accept, ',')) {
-    const std::vector<std::string> parts = split(entry, ';');
+  for (const std::string& entry : splitTrimmed(accept, ',')) {
+    const std::vector<std::string> parts = splitTrimmed(entry, ';');
     if (parts.empty() || parts.front().empty()) {
       continue;
     }
@@ -128,7 +128,7 @@ bool etagMatches(std::string_view ifNoneMatch, std::string_view etag) {
   if (trimmed(ifNoneMatch) == "*") {
     return true;
   }
-  for (const std::string& listed : split(ifNoneMatch, ',')) { // our tags hold no comma
+  for (const std::string& listed : splitTrimmed(ifNoneMatch, ',')) { // our tags hold no comma
     if (withoutWeakness(listed) == withoutWeakness(etag)) {
       return true;
     }

@@ -6,7 +6,8 @@
 #include <charconv>
 #include <random>
 
-#include "server/http/ascii.h"
+#include "protocol/base/encoding.h"
+#include "protocol/base/text.h"
 #include "server/http/url.h"
 
 namespace gnomon {
@@ -117,11 +118,11 @@ std::string newRequestId() {
   static const std::uint64_t start = (std::uint64_t{std::random_device{}()} << 32) | std::random_device{}();
   static std::atomic<std::uint64_t> count{0};
   const std::uint64_t value = start + ++count;
-  std::array<char, 8> bytes;
+  std::array<std::uint8_t, 8> bytes;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
-    bytes[i] = static_cast<char>(value >> (56 - 8 * i));
+    bytes[i] = static_cast<std::uint8_t>(value >> (56 - 8 * i));
   }
-  return hexText({bytes.data(), bytes.size()});
+  return hexText(bytes);
 }
 
 } // namespace
@@ -176,7 +177,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
   if (countOf(head.headers, "host") != 1 && (http11 || countOf(head.headers, "host") > 1)) {
     return malformedHead("The request must have exactly one Host header.");
   }
-  for (const std::string& option : split(lowerCase(headerValue(head.headers, "connection").value_or("")), ',')) {
+  for (const std::string& option : splitTrimmed(lowerCase(headerValue(head.headers, "connection").value_or("")), ',')) {
     head.keepAlive = option == "close" ? false : option == "keep-alive" ? true : head.keepAlive;
   }
   head.expectsContinue = lowerCase(headerValue(head.headers, "expect").value_or("")) == "100-continue";

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "renderer/image/image.h"
+#include "protocol/base/bytes.h"
 
 namespace gnomon {
 
@@ -60,9 +60,5 @@ Result<HttpRequest> requestFromHead(const RequestHead& head);
 
 /// The client's id where it is 1..128 letters, digits or -._: (nothing that could forge a log line); else a new one.
 std::string requestId(const std::optional<std::string>& offered);
-
-inline std::string_view textOf(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 } // namespace gnomon

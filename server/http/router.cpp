@@ -3,13 +3,13 @@
 #include <optional>
 #include <set>
 
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {
 
 std::vector<std::string> segmentsOf(std::string_view pattern) {
-  return split(pattern.substr(1), '/'); // "/" has none
+  return splitTrimmed(pattern.substr(1), '/'); // "/" has none
 }
 
 bool isName(std::string_view segment) {

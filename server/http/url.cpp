@@ -1,5 +1,9 @@
 #include "server/http/url.h"
 
+#include <algorithm>
+
+#include "protocol/base/encoding.h"
+
 namespace gnomon {
 namespace {
 
@@ -7,43 +11,21 @@ Problem malformedUrl(std::string detail) {
   return {ProblemCode::malformed, "", std::move(detail), "", ""};
 }
 
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') {
-    return c - '0';
-  }
-  if (c >= 'a' && c <= 'f') {
-    return c - 'a' + 10;
-  }
-  if (c >= 'A' && c <= 'F') {
-    return c - 'A' + 10;
-  }
-  return -1;
-}
-
 } // namespace
 
-Result<std::string> percentDecode(std::string_view text, bool plusIsSpace) {
-  std::string decoded;
-  decoded.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    char c = text[i];
-    if (c == '+' && plusIsSpace) {
-      c = ' ';
-    } else if (c == '%') {
-      const int high = i + 2 < text.size() ? hexDigit(text[i + 1]) : -1;
-      const int low = high >= 0 ? hexDigit(text[i + 2]) : -1;
-      if (low < 0) {
-        return malformedUrl("The address holds a '%' that two hexadecimal digits do not follow.");
-      }
-      c = static_cast<char>(high * 16 + low);
-      i += 2;
-    }
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      return malformedUrl("The address holds a control character.");
-    }
-    decoded.push_back(c);
+Result<std::string> decodeUrlText(std::string_view text, bool plusIsSpace) {
+  std::string escaped(text);
+  if (plusIsSpace) {
+    std::replace(escaped.begin(), escaped.end(), '+', ' ');
   }
-  return decoded;
+  std::optional<std::string> decoded = percentDecoded(escaped);
+  if (!decoded) {
+    return malformedUrl("The address holds a '%' that two hexadecimal digits do not follow.");
+  }
+  if (std::any_of(decoded->begin(), decoded->end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
+    return malformedUrl("The address holds a control character.");
+  }
+  return *std::move(decoded);
 }
 
 Result<Url> parseTarget(std::string_view target) {
@@ -55,7 +37,7 @@ Result<Url> parseTarget(std::string_view target) {
   Url url;
   while (!path.empty()) {
     const std::size_t slash = path.find('/');
-    auto segment = percentDecode(path.substr(0, slash), false);
+    auto segment = decodeUrlText(path.substr(0, slash), false);
     if (!segment) {
       return std::move(segment).problems();
     }
@@ -83,9 +65,9 @@ Result<Url> parseTarget(std::string_view target) {
       continue;
     }
     const std::size_t equals = pair.find('=');
-    auto key = percentDecode(pair.substr(0, equals), true);
+    auto key = decodeUrlText(pair.substr(0, equals), true);
     auto value = equals == std::string_view::npos ? Result<std::string>(std::string())
-                                                  : percentDecode(pair.substr(equals + 1), true);
+                                                  : decodeUrlText(pair.substr(equals + 1), true);
     if (!key) {
       return std::move(key).problems();
     }

@@ -18,6 +18,6 @@ struct Url {
 Result<Url> parseTarget(std::string_view target);
 
 /// Percent-decoding; with `plusIsSpace` as in a query string. A broken or control-character escape is malformed.
-Result<std::string> percentDecode(std::string_view text, bool plusIsSpace);
+Result<std::string> decodeUrlText(std::string_view text, bool plusIsSpace);
 
 } // namespace gnomon

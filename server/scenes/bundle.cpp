@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "server/http/ascii.h"
-#include "server/scenes/sha256.h"
+#include "protocol/base/bytes.h"
+#include "protocol/base/sha256.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {
@@ -13,25 +14,13 @@ constexpr std::string_view kMagic = "gnomon bundle 1\n";
 constexpr std::size_t kNameLength = 4;
 constexpr std::size_t kContentLength = 8;
 
-std::span<const std::uint8_t> bytesOf(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 template <std::size_t N>
-std::array<std::uint8_t, N> littleEndian(std::uint64_t value) {
+std::array<std::uint8_t, N> littleEndianBytes(std::uint64_t value) {
   std::array<std::uint8_t, N> bytes;
   for (std::size_t i = 0; i < N; ++i) {
     bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
   }
   return bytes;
-}
-
-std::uint64_t numberOf(std::span<const std::uint8_t> littleEndianBytes) {
-  std::uint64_t value = 0;
-  for (std::size_t i = littleEndianBytes.size(); i-- > 0;) {
-    value = value << 8 | littleEndianBytes[i];
-  }
-  return value;
 }
 
 Problem brokenBundle() {
@@ -46,12 +35,12 @@ void writeBundle(const SceneBundle& bundle, const std::function<void(std::span<c
     return;
   }
   const auto entry = [&](std::string_view name, const Bytes& content) {
-    sink(littleEndian<kNameLength>(name.size()));
-    sink(littleEndian<kContentLength>(content.size()));
-    sink(bytesOf(name));
+    sink(littleEndianBytes<kNameLength>(name.size()));
+    sink(littleEndianBytes<kContentLength>(content.size()));
+    sink(asBytes(name));
     sink(content);
   };
-  sink(bytesOf(kMagic));
+  sink(asBytes(kMagic));
   entry("", bundle.model);
   for (const auto& [name, content] : bundle.files) {
     entry(name, content);
@@ -70,8 +59,8 @@ Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits) {
     if (rest.size() < kNameLength + kContentLength || entries > limits.maxBundleFiles) {
       return brokenBundle();
     }
-    const std::uint64_t nameLength = numberOf(rest.first(kNameLength));
-    const std::uint64_t contentLength = numberOf(rest.subspan(kNameLength, kContentLength));
+    const std::uint64_t nameLength = littleEndian(rest.first(kNameLength));
+    const std::uint64_t contentLength = littleEndian(rest.subspan(kNameLength, kContentLength));
     rest = rest.subspan(kNameLength + kContentLength);
     if (nameLength > rest.size() || contentLength > rest.size() - nameLength) {
       return brokenBundle();
@@ -120,7 +109,7 @@ bool isBundleFileName(std::string_view name) {
       std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) {
     return false;
   }
-  const std::vector<std::string> segments = split(name, '/');
+  const std::vector<std::string> segments = splitTrimmed(name, '/');
   return std::none_of(segments.begin(), segments.end(),
                       [](const std::string& segment) { return segment.empty() || segment == "." || segment == ".."; });
 }
@@ -131,7 +120,7 @@ Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& 
     return Problem{ProblemCode::malformed, "", "The Content-Type of the form names no boundary.", "", ""};
   }
   constexpr std::size_t kModelAndSpec = 2;
-  return parseMultipart(textOf(request.body), *boundary, limits.maxBundleFiles + kModelAndSpec);
+  return parseMultipart(asText(request.body), *boundary, limits.maxBundleFiles + kModelAndSpec);
 }
 
 Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others) {

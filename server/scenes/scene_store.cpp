@@ -3,7 +3,7 @@
 #include <malloc.h>
 #include <nlohmann/json.hpp>
 
-#include "server/http/ascii.h"
+#include "protocol/base/text.h"
 #include "server/http/request_log.h"
 #include "server/scenes/bundle.h"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
-#include "renderer/image/image.h"
 
 namespace gnomon::cli {
 

@@ -1,29 +1,25 @@
 #include "clients/cli/files/gltf_uris.h"
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
+#include "protocol/base/bytes.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {
 namespace {
 
-std::uint32_t littleEndian32(const std::uint8_t* bytes) {
-  return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 | std::uint32_t{bytes[3]} << 24;
-}
-
 /// The JSON text: of a GLB its first chunk, else the bytes themselves.
 std::string_view jsonText(std::span<const std::uint8_t> model) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  const auto* text = reinterpret_cast<const char*>(model.data());
-  if (model.size() < 4 || std::memcmp(text, "glTF", 4) != 0) return {text, model.size()};
+  const std::string_view text = asText(model);
+  if (!text.starts_with("glTF")) return text;
   if (model.size() < kHeader + kChunkHeader) return {};
-  const std::size_t length = littleEndian32(model.data() + kHeader);
+  const std::uint64_t length = littleEndian(model.subspan(kHeader, 4));
   if (length > model.size() - kHeader - kChunkHeader) return {};
-  return {text + kHeader + kChunkHeader, length};
+  return text.substr(kHeader + kChunkHeader, length);
 }
 
 /// Follows the JSON event by event and keeps the strings at /buffers/N/uri and /images/N/uri.

@@ -6,33 +6,10 @@
 
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/gltf_uris.h"
+#include "protocol/base/encoding.h"
 
 namespace gnomon::cli {
 namespace {
-
-int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-/// RFC 3986 percent-decoding; nothing when an escape is broken.
-std::optional<std::string> percentDecoded(std::string_view uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] != '%') {
-      text += uri[i];
-      continue;
-    }
-    if (i + 2 >= uri.size()) return std::nullopt;
-    const int high = hexValue(uri[i + 1]), low = hexValue(uri[i + 2]);
-    if (high < 0 || low < 0) return std::nullopt;
-    text += static_cast<char>(high * 16 + low);
-    i += 2;
-  }
-  return text;
-}
 
 /// A relative path of plain names: no scheme, root, drive, backslash, NUL or "..".
 bool isPlainRelative(const std::string& name) {

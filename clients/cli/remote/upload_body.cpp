@@ -1,19 +1,16 @@
 #include "clients/cli/remote/upload_body.h"
 
 #include <algorithm>
-#include <array>
-#include <openssl/evp.h>
 #include <string_view>
+
+#include "protocol/base/bytes.h"
+#include "protocol/base/sha256.h"
 
 namespace gnomon::cli {
 namespace {
 
-std::string_view textOf(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 bool occursIn(const SceneBundle& bundle, const std::string& text) {
-  const auto holds = [&](const Bytes& bytes) { return textOf(bytes).find(text) != std::string_view::npos; };
+  const auto holds = [&](const Bytes& bytes) { return asText(bytes).find(text) != std::string_view::npos; };
   return holds(bundle.model) ||
          std::any_of(bundle.files.begin(), bundle.files.end(), [&](const auto& file) { return holds(file.second); });
 }
@@ -38,7 +35,7 @@ std::string quoted(const std::string& name) {
 
 void addPart(std::string& body, const std::string& boundary, const std::string& disposition, const Bytes& content) {
   body += "--" + boundary + "\r\nContent-Disposition: form-data; " + disposition + "\r\n\r\n";
-  body += textOf(content);
+  body += asText(content);
   body += "\r\n";
 }
 
@@ -46,8 +43,8 @@ void addPart(std::string& body, const std::string& boundary, const std::string& 
 
 UploadBody uploadBody(const SceneBundle& bundle) {
   if (bundle.files.empty()) {
-    const bool isGlb = textOf(bundle.model).starts_with("glTF");
-    return {isGlb ? "model/gltf-binary" : "model/gltf+json", std::string(textOf(bundle.model))};
+    const bool isGlb = asText(bundle.model).starts_with("glTF");
+    return {isGlb ? "model/gltf-binary" : "model/gltf+json", std::string(asText(bundle.model))};
   }
   const std::string boundary = boundaryFor(bundle);
   UploadBody upload{"multipart/form-data; boundary=" + boundary, ""};
@@ -60,15 +57,9 @@ UploadBody uploadBody(const SceneBundle& bundle) {
 }
 
 std::string modelId(const Bytes& model) {
-  std::array<unsigned char, 32> digest{};
-  EVP_Digest(model.data(), model.size(), digest.data(), nullptr, EVP_sha256(), nullptr);
-  std::string id;
-  for (const unsigned char byte : digest) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    id += kDigits[byte >> 4];
-    id += kDigits[byte & 15];
-  }
-  return id;
+  Sha256 hash;
+  hash.add(model);
+  return hash.hex();
 }
 
 } // namespace gnomon::cli

@@ -4,21 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 
 namespace gnomon::cli {
 namespace {
-
-class StopWatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A spec without a target, and how its target was met.
 struct Settled {
@@ -46,10 +37,10 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   const std::jthread warming(warmEncoders);
 
   progress.stage("loading the scene");
-  const StopWatch load;
+  const auto loadStart = std::chrono::steady_clock::now();
   auto scene = loadScene(bundle);
   if (!scene) return scene.problems();
-  const double loadMs = load.milliseconds();
+  const double loadMs = millisecondsSince(loadStart);
 
   progress.stage("starting the renderer");
   RendererOptions options;
@@ -65,12 +56,12 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   frame->report.quality = std::move(settled->quality);
 
   progress.stage("encoding");
-  const StopWatch encoding;
+  const auto encodeStart = std::chrono::steady_clock::now();
   auto pictures = encodePictures(*frame, frame->images.size());
   if (!pictures) return pictures.problems();
   auto& stages = frame->report.stages;
   stages.insert(stages.begin(), {"load", loadMs});
-  stages.push_back({"encode", encoding.milliseconds()});
+  stages.push_back({"encode", millisecondsSince(encodeStart)});
   std::vector<Picture> files;
   for (EncodedPicture& picture : *pictures) files.push_back({std::move(picture.view), std::move(picture.file)});
   return Rendered{std::move(files), toJson(frame->report).dump(2) + "\n"};

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/remote/base64.h"
 #include "clients/cli/remote/remote_scene.h"
+#include "protocol/base/encoding.h"
 #include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
@@ -17,7 +17,7 @@ std::optional<Rendered> renderedOf(const std::string& text) {
   rendered.reportJson = body["report"].dump(2) + "\n";
   for (const Json& image : body["images"]) {
     if (!image.is_object()) return std::nullopt;
-    auto file = base64Decoded(textAt(image, "data"));
+    auto file = base64Bytes(textAt(image, "data"));
     if (!file) return std::nullopt;
     rendered.pictures.push_back({textAt(image, "view"), std::move(*file)});
   }

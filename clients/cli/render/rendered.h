@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/image.h"
+#include "protocol/base/bytes.h"
 
 namespace gnomon::cli {
 

@@ -6,21 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/base/text.h"
 #include "protocol/json/json_source.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {
 namespace {
-
-std::vector<std::string> steps(std::string_view dottedPath) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0;;) {
-    const auto dot = dottedPath.find('.', begin);
-    parts.emplace_back(dottedPath.substr(begin, dot - begin));
-    if (dot == std::string_view::npos) return parts;
-    begin = dot + 1;
-  }
-}
 
 std::optional<std::size_t> indexOf(const std::string& step) {
   std::size_t index = 0;
@@ -48,7 +39,7 @@ std::string pointerOf(std::string_view dottedPath) {
 }
 
 Status setAtPath(Json& root, std::string_view dottedPath, Json value) {
-  const auto parts = steps(dottedPath);
+  const auto parts = split(dottedPath, '.');
   if (parts.size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
     return Problem{ProblemCode::invalidValue, "", "The path is too deep.",
                    std::to_string(kLimits.maxJsonDepth) + " steps", std::to_string(parts.size())};

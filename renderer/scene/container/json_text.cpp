@@ -3,50 +3,27 @@
 #include <optional>
 #include <string>
 
+#include "protocol/base/json_shape.h"
+
 namespace gnomon {
 
 namespace {
 
-/// Counts brackets and commas outside strings. Says nothing about whether the text is JSON.
 std::optional<Problem> checkShape(std::string_view text, const Limits& limits) {
-  int depth = 0;
-  std::size_t values = 1;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        inString = false;
-      }
-      continue;
-    }
-    if (c == '"') {
-      inString = true;
-    } else if (c == '[' || c == '{') {
-      ++values;
-      if (++depth > limits.maxJsonDepth) {
-        return Problem{ProblemCode::tooLarge,
-                       {},
-                       "The glTF's JSON is nested too deeply.",
-                       std::to_string(limits.maxJsonDepth),
-                       "more"};
-      }
-    } else if (c == ']' || c == '}') {
-      --depth;
-    } else if (c == ',') {
-      ++values;
-    }
-    if (values > limits.maxJsonValues) {
-      return Problem{ProblemCode::tooLarge,
-                     {},
-                     "The glTF's JSON holds too many values.",
-                     std::to_string(limits.maxJsonValues),
-                     "more"};
-    }
+  const auto excess = findExcess(text, {limits.maxJsonDepth, limits.maxJsonValues});
+  if (!excess) return std::nullopt;
+  if (excess->of == JsonExcess::Of::depth) {
+    return Problem{ProblemCode::tooLarge,
+                   {},
+                   "The glTF's JSON is nested too deeply.",
+                   std::to_string(limits.maxJsonDepth),
+                   "more"};
   }
-  return std::nullopt;
+  return Problem{ProblemCode::tooLarge,
+                 {},
+                 "The glTF's JSON holds too many values.",
+                 std::to_string(limits.maxJsonValues),
+                 "more"};
 }
 
 } // namespace

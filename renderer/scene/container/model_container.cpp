@@ -15,23 +15,18 @@ Problem malformed(std::string detail, std::string limit = {}, std::string actual
   return {ProblemCode::malformed, {}, std::move(detail), std::move(limit), std::move(actual)};
 }
 
-std::uint32_t littleEndian32(std::span<const std::uint8_t> bytes, std::size_t offset) {
-  return std::uint32_t{bytes[offset]} | std::uint32_t{bytes[offset + 1]} << 8 | std::uint32_t{bytes[offset + 2]} << 16 |
-         std::uint32_t{bytes[offset + 3]} << 24;
-}
-
-std::string_view asText(std::span<const std::uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+std::uint32_t numberAt(std::span<const std::uint8_t> bytes, std::size_t offset) {
+  return static_cast<std::uint32_t>(littleEndian(bytes.subspan(offset, 4)));
 }
 
 Result<ModelContainer> openGlb(std::span<const std::uint8_t> file) {
   if (file.size() < kHeaderBytes) return malformed("The GLB ends inside its header.");
-  const std::uint32_t version = littleEndian32(file, 4);
+  const std::uint32_t version = numberAt(file, 4);
   if (version != 2) {
     return Problem{
         ProblemCode::unsupportedFeature, {}, "The GLB container is not of version 2.", "2", std::to_string(version)};
   }
-  const std::uint32_t length = littleEndian32(file, 8);
+  const std::uint32_t length = numberAt(file, 8);
   if (length != file.size()) {
     return malformed("The length in the GLB's header is not the length of the file.", std::to_string(file.size()),
                      std::to_string(length));
@@ -42,8 +37,8 @@ Result<ModelContainer> openGlb(std::span<const std::uint8_t> file) {
   for (int chunk = 0; offset < file.size(); ++chunk) {
     const std::string name = "Chunk " + std::to_string(chunk) + " of the GLB";
     if (file.size() - offset < kChunkHeaderBytes) return malformed(name + " ends inside its header.");
-    const std::uint32_t bytes = littleEndian32(file, offset);
-    const std::uint32_t type = littleEndian32(file, offset + 4);
+    const std::uint32_t bytes = numberAt(file, offset);
+    const std::uint32_t type = numberAt(file, offset + 4);
     offset += kChunkHeaderBytes;
     if (bytes > file.size() - offset) {
       return malformed(name + " claims more bytes than the file holds.", std::to_string(file.size() - offset),

@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
-#include "renderer/image/image.h"
 
 namespace gnomon {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "renderer/scene/container/uri_text.h"
+#include "protocol/base/encoding.h"
 #include "renderer/scene/findings.h"
 
 namespace gnomon {
@@ -31,10 +31,10 @@ Result<ResourceBytes> resolveDataUri(std::string_view uri, const std::string& po
   const std::string_view header = uri.substr(0, comma);
   const std::string_view payload = uri.substr(comma + 1);
   if (header.ends_with(";base64")) {
-    if (auto bytes = decodeBase64(payload)) return ResourceBytes(*std::move(bytes));
+    if (auto bytes = base64Bytes(payload, Base64Padding::optional)) return ResourceBytes(*std::move(bytes));
     return refused(ProblemCode::invalidScene, pointer, "The data: URI is not valid base64.", uri);
   }
-  if (const auto text = decodePercent(payload)) return ResourceBytes(Bytes(text->begin(), text->end()));
+  if (const auto text = percentDecoded(payload)) return ResourceBytes(Bytes(text->begin(), text->end()));
   return refused(ProblemCode::invalidScene, pointer, "The data: URI has an invalid percent escape.", uri);
 }
 
@@ -51,7 +51,7 @@ Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle
   if (!scheme.empty()) {
     return refused(ProblemCode::unsupportedFeature, pointer, "Nothing outside the upload is opened.", uri);
   }
-  const auto name = decodePercent(uri);
+  const auto name = percentDecoded(uri);
   if (!name) return refused(ProblemCode::invalidScene, pointer, "The URI has an invalid percent escape.", uri);
   const bool control = std::any_of(name->begin(), name->end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
   if (name->empty() || control) {

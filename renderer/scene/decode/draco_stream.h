@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/bytes.h"
 #include "protocol/spec/limits.h"
-#include "renderer/image/image.h"
 #include "renderer/scene/decode/decode_budget.h"
 #include "renderer/scene/geometry/accessor_view.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "renderer/image/image.h"
+#include "protocol/base/bytes.h"
 #include "renderer/scene/decode/decode_budget.h"
 #include "renderer/scene/decode/meshopt_view.h"
 

@@ -3,27 +3,11 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
-#include "clients/cli/remote/base64.h"
-
 namespace gnomon::cli {
 namespace {
 
 Bytes bytesOf(std::string_view text) {
   return {text.begin(), text.end()};
-}
-
-TEST(Base64, KnownVectors) { // RFC 4648, section 10
-  EXPECT_EQ(base64Decoded(""), bytesOf(""));
-  EXPECT_EQ(base64Decoded("Zg=="), bytesOf("f"));
-  EXPECT_EQ(base64Decoded("Zm8="), bytesOf("fo"));
-  EXPECT_EQ(base64Decoded("Zm9vYmFy"), bytesOf("foobar"));
-  EXPECT_EQ(base64Decoded("//79"), (Bytes{0xff, 0xfe, 0xfd}));
-}
-
-TEST(Base64, RefusesWhatIsNot) {
-  for (const char* text : {"Z", "Zg", "Zg=", "Z===", "Zg==Zg==", "Zm9v\n", "Zm9*", "Z=9v", "===="}) {
-    EXPECT_FALSE(base64Decoded(text)) << text;
-  }
 }
 
 TEST(UploadBody, AModelAloneIsItsBytesAndItsIdIsTheirHash) {

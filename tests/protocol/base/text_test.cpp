@@ -6,6 +6,8 @@
 namespace gnomon {
 namespace {
 
+using Strings = std::vector<std::string>;
+
 TEST(Text, AcceptsWellFormedUtf8) {
   EXPECT_TRUE(isUtf8(""));
   EXPECT_TRUE(isUtf8("plain"));
@@ -41,6 +43,45 @@ TEST(Text, ShortensAtACharacter) {
     RC_ASSERT(text.size() <= most);
     RC_ASSERT(isUtf8(text));
   }));
+}
+
+TEST(Text, BeginsAtACharacter) {
+  EXPECT_EQ(beginningOf("ab\u00e9", 4), "ab\u00e9");
+  EXPECT_EQ(beginningOf("ab\u00e9", 3), "ab");
+  EXPECT_EQ(beginningOf("\u00e9", 1), "");
+}
+
+TEST(Text, NamesAtMostTwenty) {
+  std::vector<std::string_view> names{"a"};
+  EXPECT_EQ(oneOf(names), "one of a");
+  names.push_back("b");
+  EXPECT_EQ(oneOf(names), "one of a, b");
+  names.assign(20, "n");
+  EXPECT_TRUE(oneOf(names).ends_with("n, n")) << oneOf(names);
+  names.resize(23, "left out");
+  EXPECT_TRUE(oneOf(names).ends_with("n, n and 3 more")) << oneOf(names);
+}
+
+TEST(Ascii, Splits) {
+  EXPECT_EQ(splitTrimmed("", ','), Strings{});
+  EXPECT_EQ(splitTrimmed("a", ','), Strings{"a"});
+  EXPECT_EQ(splitTrimmed(" a ,, b,", ','), (Strings{"a", "", "b", ""}));
+  EXPECT_EQ(split("", ','), Strings{""});
+  EXPECT_EQ(split(" a ,, b,", ','), (Strings{" a ", "", " b", ""}));
+}
+
+TEST(Ascii, Trims) {
+  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+  EXPECT_EQ(trimmed(" \t"), "");
+}
+
+TEST(Ascii, LowersAsciiOnly) {
+  EXPECT_EQ(lowerCase("AZaz\xc3\x84"), "azaz\xc3\x84");
+}
+
+TEST(Ascii, QuotesShortAndPrintable) {
+  EXPECT_EQ(asciiExcerpt("a\r\nb\xff"), "a??b?");
+  EXPECT_EQ(asciiExcerpt(std::string(65, 'a')), std::string(64, 'a') + "...");
 }
 
 } // namespace

@@ -30,7 +30,7 @@ HttpReply echo(const HttpRequest& request) {
     };
     return reply;
   }
-  reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(textOf(request.body));
+  reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(asText(request.body));
   return reply;
 }
 

@@ -50,7 +50,7 @@ TEST(Url, DecodesWhatWasEncoded) {
       constexpr std::string_view kDigits = "0123456789ABCDEF";
       encoded += {'%', kDigits[static_cast<unsigned char>(c) >> 4], kDigits[c & 15]};
     }
-    const auto decoded = percentDecode(encoded, true);
+    const auto decoded = decodeUrlText(encoded, true);
     RC_ASSERT(static_cast<bool>(decoded));
     RC_ASSERT(*decoded == text);
   }));

@@ -114,7 +114,7 @@ TEST(Multipart, MakesABundle) {
       bundled(formPart("name=scene; filename=a.gltf", "model") + formPart("name=file; filename=\"t/b.png\"", "1") +
               formPart("name=\"c d.bin\"; filename=other", "2") + formPart("name=spec", "{}"));
   ASSERT_TRUE(bundle);
-  EXPECT_EQ(textOf(bundle->model), "model");
+  EXPECT_EQ(asText(bundle->model), "model");
   EXPECT_EQ(bundle->files, (std::map<std::string, Bytes>{{"t/b.png", {'1'}}, {"c d.bin", {'2'}}}));
 }
 

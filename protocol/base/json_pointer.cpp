@@ -1,22 +1,27 @@
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
 
 #include "protocol/base/text.h"
 
 namespace gnomon {
 
-std::string pointerSegment(std::string_view key) {
-  constexpr std::size_t kMaxKeyBytes = 100;
-  std::string segment = "/";
-  for (const char c : shortened(key, kMaxKeyBytes)) {
+std::string escapedToken(std::string_view key) {
+  std::string token;
+  token.reserve(key.size());
+  for (const char c : key) {
     if (c == '~') {
-      segment += "~0";
+      token += "~0";
     } else if (c == '/') {
-      segment += "~1";
+      token += "~1";
     } else {
-      segment += c;
+      token += c;
     }
   }
-  return segment;
+  return token;
+}
+
+std::string pointerSegment(std::string_view key) {
+  constexpr std::size_t kMaxKeyBytes = 100;
+  return "/" + escapedToken(shortened(key, kMaxKeyBytes));
 }
 
 std::string Place::pointer() const {

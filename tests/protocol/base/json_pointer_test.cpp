@@ -1,4 +1,4 @@
-#include "protocol/base/place.h"
+#include "protocol/base/json_pointer.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,11 @@ TEST(Place, WritesAPointer) {
 TEST(Place, EscapesAsRfc6901Has) {
   EXPECT_EQ(Place(Place(), "a/b~c").pointer(), "/a~1b~0c");
   EXPECT_EQ(Place(Place(), "").pointer(), "/");
+}
+
+TEST(Place, ATokenIsEscapedAndWhole) {
+  EXPECT_EQ(escapedToken("~/plain~1"), "~0~1plain~01");
+  EXPECT_EQ(escapedToken(std::string(1000, 'k')).size(), 1000u);
 }
 
 TEST(Place, ShortensAVeryLongKey) {

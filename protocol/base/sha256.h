@@ -1,11 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "renderer/image/image.h"
 
 struct evp_md_ctx_st;
 

@@ -1,10 +1,10 @@
-#include "server/scenes/sha256.h"
+#include "protocol/base/sha256.h"
 
 #include <array>
 #include <new>
 #include <openssl/evp.h>
 
-#include "server/http/ascii.h"
+#include "protocol/base/encoding.h"
 
 namespace gnomon {
 
@@ -26,7 +26,7 @@ std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
   EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
-  return hexText({reinterpret_cast<const char*>(digest.data()), length});
+  return hexText(std::span(digest).first(length));
 }
 
 } // namespace gnomon

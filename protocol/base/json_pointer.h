@@ -23,6 +23,9 @@ class Place {
   bool isIndex_ = false;
 };
 
+/// `key` as a token of a JSON pointer: '~' and '/' are escaped.
+std::string escapedToken(std::string_view key);
+
 /// One "/key" of a JSON pointer, escaped, and shortened where it is very long.
 std::string pointerSegment(std::string_view key);
 

@@ -1,0 +1,81 @@
+#include "protocol/base/encoding.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+namespace gnomon {
+namespace {
+
+Bytes bytesOf(std::string_view text) {
+  return {text.begin(), text.end()};
+}
+
+TEST(Ascii, WritesHexAndBase64) {
+  EXPECT_EQ(hexText(Bytes{0x00, 0xff}), "00ff");
+  // RFC 4648 section 10
+  EXPECT_EQ(base64Text(bytesOf("")), "");
+  EXPECT_EQ(base64Text(bytesOf("f")), "Zg==");
+  EXPECT_EQ(base64Text(bytesOf("fo")), "Zm8=");
+  EXPECT_EQ(base64Text(bytesOf("foo")), "Zm9v");
+  EXPECT_EQ(base64Text(bytesOf("foob")), "Zm9vYg==");
+  EXPECT_EQ(base64Text(bytesOf("fooba")), "Zm9vYmE=");
+  EXPECT_EQ(base64Text(bytesOf("foobar")), "Zm9vYmFy");
+  EXPECT_EQ(base64Text(Bytes{0xff, 0xfe, 0xfd}), "//79");
+}
+
+TEST(Base64, KnownVectors) { // RFC 4648, section 10
+  EXPECT_EQ(base64Bytes(""), bytesOf(""));
+  EXPECT_EQ(base64Bytes("Zg=="), bytesOf("f"));
+  EXPECT_EQ(base64Bytes("Zm8="), bytesOf("fo"));
+  EXPECT_EQ(base64Bytes("Zm9vYmFy"), bytesOf("foobar"));
+  EXPECT_EQ(base64Bytes("//79"), (Bytes{0xff, 0xfe, 0xfd}));
+}
+
+TEST(Base64, RefusesWhatIsNot) {
+  for (const char* text : {"Z", "Zg", "Zg=", "Z===", "Zg==Zg==", "Zm9v\n", "Zm9*", "Z=9v", "===="}) {
+    EXPECT_FALSE(base64Bytes(text)) << text;
+  }
+}
+
+TEST(UriText, Base64ComesBack) {
+  EXPECT_TRUE(rc::check([](const Bytes& bytes) {
+    const std::string text = base64Text(bytes);
+    RC_ASSERT(base64Bytes(text) == bytes);
+    RC_ASSERT(base64Bytes(text, Base64Padding::optional) == bytes);
+    RC_ASSERT(base64Bytes(text.substr(0, text.find('=')), Base64Padding::optional) == bytes);
+  }));
+}
+
+TEST(UriText, RefusesForeignBase64) {
+  for (const char* text : {"A", "AAAAA", "AA-A", "AA A", "=", "A===", "AA=A", "AAAA\n"}) {
+    EXPECT_FALSE(base64Bytes(text, Base64Padding::optional)) << text;
+  }
+  EXPECT_EQ(base64Bytes("", Base64Padding::optional), Bytes{});
+}
+
+TEST(UriText, DecodesPercent) {
+  EXPECT_EQ(percentDecoded("Box%20With%20Spaces.bin"), "Box With Spaces.bin");
+  EXPECT_EQ(percentDecoded("%E2%9d%a4"), "\xE2\x9D\xA4");
+  EXPECT_EQ(percentDecoded("a+b"), "a+b");
+  for (const char* text : {"%", "%4", "a%4", "%GG", "%4g", "100%.png"}) EXPECT_FALSE(percentDecoded(text)) << text;
+}
+
+TEST(UriText, FindsSchemes) {
+  EXPECT_EQ(schemeOf("HTTP://a"), "http");
+  EXPECT_EQ(schemeOf("data:,x"), "data");
+  EXPECT_EQ(schemeOf("c:\\windows"), "c");
+  EXPECT_EQ(schemeOf("a/b:c"), "");
+  EXPECT_EQ(schemeOf("1:2"), "");
+  EXPECT_EQ(schemeOf(":a"), "");
+  EXPECT_EQ(schemeOf("plain.bin"), "");
+  EXPECT_EQ(schemeOf(""), "");
+}
+
+TEST(Bytes, LeastSignificantFirst) {
+  EXPECT_EQ(littleEndian({}), 0u);
+  EXPECT_EQ(littleEndian(Bytes{0x12, 0x34, 0x56, 0x87}), 0x87563412u);
+  EXPECT_EQ(littleEndian(Bytes(8, 0xff)), ~std::uint64_t{0});
+}
+
+} // namespace
+} // namespace gnomon
