@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "protocol/evaluation/evaluation_codec.h"
-#include "protocol/evaluation/evaluation_rows.h"
 #include "protocol/evaluation/sweeps.h"
+#include "protocol/fields/field_decode.h"
+#include "protocol/fields/field_encode.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/spec/validate.h"
 #include "protocol/spec/view_rules.h"
@@ -139,6 +139,23 @@ std::vector<Variant> readVariants(const EvaluationRequest& request, const Json& 
 }
 
 } // namespace
+
+bool decodePatch(const JsonNode& node, const Place& place, ProblemList& problems, void* out) {
+  if (!std::holds_alternative<JsonNode::Object>(node.value)) {
+    addWrongType(node, "an object", place, problems);
+    return false;
+  }
+  valueAs<SpecPatch>(out).json = jsonOf(node).dump();
+  return true;
+}
+
+Json encodePatch(const void* patch) {
+  return Json::parse(valueAs<SpecPatch>(patch).json);
+}
+
+Json patchSchema() {
+  return {{"type", "object"}, {"description", "A JSON merge patch (RFC 7396) over a FrameSpec."}};
+}
 
 Result<Evaluation> decodeEvaluation(std::string_view json) {
   ProblemList problems;

@@ -1,12 +1,20 @@
 #pragma once
 
 #include "protocol/evaluation/evaluation.h"
-#include "protocol/fields/fields.h"
+#include "protocol/fields/value_type.h"
 #include "protocol/report/reply_rows.h"
 #include "protocol/spec/field_rows.h"
 
 /// The rows of an evaluation, asked for and answered; see field_rows.h.
 namespace gnomon {
+
+/// A patch keeps the JSON that it is. Defined in evaluation_json.cpp.
+bool decodePatch(const JsonNode& node, const Place& place, ProblemList& problems, void* out);
+Json encodePatch(const void* patch);
+Json patchSchema();
+
+template <>
+inline constexpr CustomType kCustomType<SpecPatch>{decodePatch, encodePatch, patchSchema};
 
 template <>
 inline constexpr std::array kSpellings<Sweep>{

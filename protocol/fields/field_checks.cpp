@@ -1,5 +1,6 @@
 #include "protocol/fields/field_checks.h"
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 
@@ -22,6 +23,18 @@ std::string countText(const Notes& notes) {
   if (!bounded) return "at least " + std::to_string(notes.minCount);
   if (notes.minCount == 0) return "at most " + std::to_string(notes.maxCount);
   return std::to_string(notes.minCount) + ".." + std::to_string(notes.maxCount);
+}
+
+bool checkEnumerator(int value, std::size_t count, const Place& place, ProblemList& problems) {
+  if (value >= 0 && static_cast<std::size_t>(value) < count) return true;
+  return add(problems, place, "This is not one of the possible values.", "", std::to_string(value));
+}
+
+void checkElements(const ValueType& type, const void* container, const Notes& notes, const Place& place,
+                   ProblemList& problems) {
+  for (std::size_t i = 0; i < type.size(container); ++i) {
+    checkAll(*type.element, type.at(container, i), notes, Place(place, i), problems);
+  }
 }
 
 } // namespace
@@ -88,9 +101,72 @@ bool checkCount(std::size_t count, const Notes& notes, const Place& place, Probl
              countText(notes) + " elements", std::to_string(count));
 }
 
-bool checkEnumerator(int value, std::size_t count, const Place& place, ProblemList& problems) {
-  if (value >= 0 && static_cast<std::size_t>(value) < count) return true;
-  return add(problems, place, "This is not one of the possible values.", "", std::to_string(value));
+bool checkDistinct(const ValueType& type, const void* list, const Notes& notes, const Place& place,
+                   ProblemList& problems) {
+  if (!notes.distinct) return true;
+  assert(type.equal);
+  bool good = true;
+  for (std::size_t i = 0; i < type.size(list); ++i) {
+    bool isFirst = true;
+    for (std::size_t j = 0; j < i && isFirst; ++j) isFirst = !type.equal(type.at(list, j), type.at(list, i));
+    if (isFirst) continue;
+    problems.add({.code = ProblemCode::invalidValue,
+                  .pointer = Place(place, i).pointer(),
+                  .detail = "This stands in its list more than once."});
+    good = false;
+  }
+  return good;
+}
+
+void checkAll(const ValueType& type, const void* value, const Notes& notes, const Place& place, ProblemList& problems) {
+  using Kind = ValueType::Kind;
+  switch (type.kind) {
+    case Kind::boolean:
+      checkSwitch(valueAs<bool>(value), notes, place, problems);
+      return;
+    case Kind::integer:
+      checkNumber(valueAs<int>(value), notes, place, problems);
+      return;
+    case Kind::number:
+      checkNumber(valueAs<double>(value), notes, place, problems);
+      return;
+    case Kind::text:
+      checkText(valueAs<std::string>(value), notes, place, problems);
+      return;
+    case Kind::indexOrName: {
+      const auto& either = valueAs<std::variant<int, std::string>>(value);
+      if (const int* index = std::get_if<int>(&either)) {
+        checkNumber(*index, notes, place, problems);
+      } else {
+        checkText(std::get<std::string>(either), notes, place, problems);
+      }
+      return;
+    }
+    case Kind::word:
+      checkEnumerator(type.wordIndex(value), type.spellings.size(), place, problems);
+      return;
+    case Kind::optional:
+      if (type.size(value) > 0) checkAll(*type.element, type.at(value, 0), notes, place, problems);
+      return;
+    case Kind::array:
+      checkElements(type, value, notes, place, problems);
+      return;
+    case Kind::list:
+      if (!checkCount(type.size(value), notes, place, problems)) return;
+      checkElements(type, value, notes, place, problems);
+      checkDistinct(type, value, notes, place, problems);
+      return;
+    case Kind::object:
+      for (const FieldType& field : type.object->fields) {
+        const Place inner = field.inlined ? place : Place(place, field.name);
+        checkAll(*field.type, field.member(value), *field.notes, inner, problems);
+      }
+      return;
+    case Kind::integer64: // what only replies hold has no bounds
+    case Kind::unsigned64:
+    case Kind::custom:
+      return;
+  }
 }
 
 } // namespace gnomon

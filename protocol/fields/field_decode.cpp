@@ -1,7 +1,10 @@
 #include "protocol/fields/field_decode.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "protocol/fields/field_checks.h"
 
 namespace gnomon {
 namespace {
@@ -12,18 +15,6 @@ std::optional<double> numberOf(const JsonNode& node) {
   if (const auto* value = std::get_if<std::uint64_t>(&node.value)) return static_cast<double>(*value);
   if (const auto* real = std::get_if<JsonReal>(&node.value)) return real->value;
   return std::nullopt;
-}
-
-} // namespace
-
-void addWrongType(const JsonNode& node, std::string_view expected, const Place& place, ProblemList& problems) {
-  const bool isNull = std::holds_alternative<std::nullptr_t>(node.value);
-  problems.add({.code = ProblemCode::invalidValue,
-                .pointer = place.pointer(),
-                .detail = isNull ? "null is no value here; to leave a field out, leave out its key."
-                                 : "This is not " + std::string(expected) + ".",
-                .limit = std::string(expected),
-                .actual = shownNode(node)});
 }
 
 void addUnknownKey(const std::vector<std::string_view>& known, const Place& place, ProblemList& problems) {
@@ -38,7 +29,7 @@ void addUnknownKey(const std::vector<std::string_view>& known, const Place& plac
                 .limit = names});
 }
 
-bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, bool& out) {
+bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, bool& out) {
   const auto* value = std::get_if<bool>(&node.value);
   if (!value) {
     addWrongType(node, "true or false", place, problems);
@@ -49,7 +40,7 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
   return true;
 }
 
-bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, int& out) {
+bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, int& out) {
   const std::optional<double> value = numberOf(node);
   if (!value || *value != std::trunc(*value)) {
     addWrongType(node, "a whole number", place, problems);
@@ -66,7 +57,29 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
   return true;
 }
 
-bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, double& out) {
+bool decode(const JsonNode& node, const Place& place, ProblemList& problems, std::uint64_t& out) {
+  const auto* value = std::get_if<std::uint64_t>(&node.value);
+  if (!value) {
+    addWrongType(node, "a whole number of at least 0", place, problems);
+    return false;
+  }
+  out = *value;
+  return true;
+}
+
+bool decode(const JsonNode& node, const Place& place, ProblemList& problems, std::int64_t& out) {
+  const auto* positive = std::get_if<std::uint64_t>(&node.value);
+  const auto* negative = std::get_if<std::int64_t>(&node.value);
+  const bool fits = negative || (positive && *positive <= std::uint64_t{std::numeric_limits<std::int64_t>::max()});
+  if (!fits) {
+    addWrongType(node, "a whole number of 64 bits", place, problems);
+    return false;
+  }
+  out = negative ? *negative : static_cast<std::int64_t>(*positive);
+  return true;
+}
+
+bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, double& out) {
   const std::optional<double> value = numberOf(node);
   if (!value) {
     addWrongType(node, "a number", place, problems);
@@ -77,8 +90,7 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
   return true;
 }
 
-bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
-                 std::string& out) {
+bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, std::string& out) {
   const auto* text = std::get_if<std::string>(&node.value);
   if (!text) {
     addWrongType(node, "a string", place, problems);
@@ -89,10 +101,10 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
   return true;
 }
 
-bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
-                 std::variant<int, std::string>& out) {
+bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
+            std::variant<int, std::string>& out) {
   const auto take = [&](auto value) {
-    const bool taken = decodeValue(node, notes, place, problems, value);
+    const bool taken = decode(node, notes, place, problems, value);
     if (taken) out = std::move(value);
     return taken;
   };
@@ -102,6 +114,7 @@ bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, P
   return false;
 }
 
+/// The index of the spelling that `node` holds.
 std::optional<std::size_t> decodeSpelling(const JsonNode& node, std::span<const Spelling> spellings, const Place& place,
                                           ProblemList& problems) {
   const auto* text = std::get_if<std::string>(&node.value);
@@ -121,6 +134,147 @@ std::optional<std::size_t> decodeSpelling(const JsonNode& node, std::span<const 
                   .actual = shownNode(node)});
   }
   return std::nullopt;
+}
+
+bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
+  const auto index = decodeSpelling(node, type.spellings, place, problems);
+  if (index) type.setWord(out, static_cast<int>(*index));
+  return index.has_value();
+}
+
+/// A place within a container that is being filled.
+void* elementOf(const ValueType& type, void* container, std::size_t index) {
+  return const_cast<void*>(type.at(container, index));
+}
+
+bool decodeElements(const JsonNode::Array& array, const Notes& notes, const Place& place, ProblemList& problems,
+                    const ValueType& type, void* container) {
+  bool taken = true;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    taken &= decodeValue(array[i], notes, Place(place, i), problems, *type.element, elementOf(type, container, i));
+  }
+  return taken;
+}
+
+bool decodeArray(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
+                 const ValueType& type, void* out) {
+  const auto* array = std::get_if<JsonNode::Array>(&node.value);
+  if (!array || array->size() != type.arraySize) {
+    addWrongType(node, "an array of " + std::to_string(type.arraySize) + " numbers", place, problems);
+    return false;
+  }
+  return type.make(out, array->size(),
+                   [&](void* container) { return decodeElements(*array, notes, place, problems, type, container); });
+}
+
+bool decodeList(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
+                const ValueType& type, void* out) {
+  const auto* array = std::get_if<JsonNode::Array>(&node.value);
+  if (!array) {
+    addWrongType(node, "an array", place, problems);
+    return false;
+  }
+  if (!checkCount(array->size(), notes, place, problems)) return false;
+  return type.make(out, array->size(), [&](void* list) {
+    return decodeElements(*array, notes, place, problems, type, list) &&
+           checkDistinct(type, list, notes, place, problems);
+  });
+}
+
+bool hasKey(const StructType& type, std::string_view key) {
+  std::vector<std::string_view> keys;
+  appendKeys(type, keys);
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Reads the member `key` of a struct's JSON object. False = the struct has none of that name.
+bool decodeMember(std::string_view key, const JsonNode& node, const Place& place, ProblemList& problems,
+                  const StructType& type, void* owner) {
+  for (const FieldType& field : type.fields) {
+    void* member = const_cast<void*>(field.member(owner));
+    if (field.inlined) {
+      const StructType& inner = *field.type->element->object;
+      if (hasKey(inner, key)) return decodeMember(key, node, place, problems, inner, field.type->orMake(member));
+    } else if (field.name == key) {
+      decodeValue(node, *field.notes, place, problems, *field.type, member);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool decodeObject(const JsonNode& node, const Place& place, ProblemList& problems, const StructType& type, void* out) {
+  const auto* object = std::get_if<JsonNode::Object>(&node.value);
+  if (!object) {
+    addWrongType(node, "an object", place, problems);
+    return false;
+  }
+  for (const JsonMember& member : *object) {
+    const Place inner(place, member.key);
+    if (decodeMember(member.key, member.value, inner, problems, type, out)) continue;
+    std::vector<std::string_view> known;
+    appendKeys(type, known);
+    addUnknownKey(known, inner, problems);
+  }
+  return true;
+}
+
+} // namespace
+
+void addWrongType(const JsonNode& node, std::string_view expected, const Place& place, ProblemList& problems) {
+  const bool isNull = std::holds_alternative<std::nullptr_t>(node.value);
+  problems.add({.code = ProblemCode::invalidValue,
+                .pointer = place.pointer(),
+                .detail = isNull ? "null is no value here; to leave a field out, leave out its key."
+                                 : "This is not " + std::string(expected) + ".",
+                .limit = std::string(expected),
+                .actual = shownNode(node)});
+}
+
+void appendKeys(const StructType& type, std::vector<std::string_view>& keys) {
+  for (const FieldType& field : type.fields) {
+    if (field.inlined) {
+      appendKeys(*field.type->element->object, keys);
+    } else {
+      keys.push_back(field.name);
+    }
+  }
+}
+
+bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
+                 const ValueType& type, void* out) {
+  using Kind = ValueType::Kind;
+  switch (type.kind) {
+    case Kind::boolean:
+      return decode(node, notes, place, problems, valueAs<bool>(out));
+    case Kind::integer:
+      return decode(node, notes, place, problems, valueAs<int>(out));
+    case Kind::integer64:
+      return decode(node, place, problems, valueAs<std::int64_t>(out));
+    case Kind::unsigned64:
+      return decode(node, place, problems, valueAs<std::uint64_t>(out));
+    case Kind::number:
+      return decode(node, notes, place, problems, valueAs<double>(out));
+    case Kind::text:
+      return decode(node, notes, place, problems, valueAs<std::string>(out));
+    case Kind::indexOrName:
+      return decode(node, notes, place, problems, valueAs<std::variant<int, std::string>>(out));
+    case Kind::word:
+      return decodeWord(node, place, problems, type, out);
+    case Kind::optional:
+      return type.make(out, 1, [&](void* optional) {
+        return decodeValue(node, notes, place, problems, *type.element, elementOf(type, optional, 0));
+      });
+    case Kind::array:
+      return decodeArray(node, notes, place, problems, type, out);
+    case Kind::list:
+      return decodeList(node, notes, place, problems, type, out);
+    case Kind::object:
+      return decodeObject(node, place, problems, *type.object, out);
+    case Kind::custom:
+      return type.custom->decode(node, place, problems, out);
+  }
+  return false;
 }
 
 } // namespace gnomon

@@ -1,11 +1,13 @@
 #include "protocol/fields/field_list.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "protocol/fields/field_checks.h"
+#include "protocol/fields/field_encode.h"
 #include "protocol/fields/json_schema.h"
-#include "protocol/spec/field_rows.h"
+#include "protocol/spec/frame_spec.h"
 
 namespace gnomon {
 namespace {
@@ -19,52 +21,56 @@ std::string joined(std::span<const Spelling> spellings) {
   return text;
 }
 
-/// The words for a member's type.
-template <class T>
-struct TypeText {
-  static std::string make() {
-    if constexpr (std::is_same_v<T, bool>) return "true | false";
-    if constexpr (std::is_same_v<T, int>) return "whole number";
-    if constexpr (std::is_same_v<T, double>) return "number";
-    if constexpr (std::is_same_v<T, std::string>) return "string";
-    if constexpr (Spelled<T>) return joined(kSpellings<T>);
-    if constexpr (Described<T>) return std::string(kRows<T>.name);
+/// The words for a value's type.
+std::string typeText(const ValueType& type) {
+  using Kind = ValueType::Kind;
+  switch (type.kind) {
+    case Kind::boolean:
+      return "true | false";
+    case Kind::integer:
+    case Kind::integer64:
+    case Kind::unsigned64:
+      return "whole number";
+    case Kind::number:
+      return "number";
+    case Kind::text:
+      return "string";
+    case Kind::indexOrName:
+      return "whole number or string";
+    case Kind::word:
+      return joined(type.spellings);
+    case Kind::optional:
+      return typeText(*type.element);
+    case Kind::array:
+      return std::to_string(type.arraySize) + " numbers";
+    case Kind::list:
+      return "list of " + typeText(*type.element);
+    case Kind::object:
+      return std::string(type.object->name);
+    case Kind::custom:
+      return "object";
   }
-};
-template <class T>
-struct TypeText<std::optional<T>> : TypeText<T> {};
-template <>
-struct TypeText<std::variant<int, std::string>> {
-  static std::string make() { return "whole number or string"; }
-};
-template <std::size_t kSize>
-struct TypeText<std::array<double, kSize>> {
-  static std::string make() { return std::to_string(kSize) + " numbers"; }
-};
-template <class T>
-struct TypeText<std::vector<T>> {
-  static std::string make() { return "list of " + TypeText<T>::make(); }
-};
+  return {};
+}
 
-template <class T>
-struct IsList : std::false_type {};
-template <class T>
-struct IsList<std::vector<T>> : std::true_type {};
-template <class T>
-struct IsList<std::optional<T>> : IsList<T> {};
+bool isList(const ValueType& type) {
+  if (type.kind == ValueType::Kind::optional) return isList(*type.element);
+  return type.kind == ValueType::Kind::list;
+}
 
-/// The struct that a member leads to, through optionals and lists; void = it holds a value.
-template <class T>
-using Inner = std::conditional_t<Described<typename Unwrapped<T>::Type>, typename Unwrapped<T>::Type, void>;
+/// The struct that a member leads to, through optionals and lists; null = it holds a value.
+const StructType* structIn(const ValueType& type) {
+  const bool holds = type.kind == ValueType::Kind::optional || type.kind == ValueType::Kind::list;
+  return holds ? structIn(*type.element) : type.object;
+}
 
-/// The names of the structs that are reached from T without passing through a list.
-template <Described T>
-void collectOutsideLists(std::set<std::string_view>& names) {
-  names.insert(kRows<T>.name);
-  forEachField<T>([&]<class F>(const F&) {
-    using Member = typename F::Member;
-    if constexpr (!std::is_void_v<Inner<Member>> && !IsList<Member>::value) collectOutsideLists<Inner<Member>>(names);
-  });
+/// The names of the structs that are reached without passing through a list.
+void collectOutsideLists(const StructType& type, std::set<std::string_view>& names) {
+  names.insert(type.name);
+  for (const FieldType& field : type.fields) {
+    const StructType* inner = structIn(*field.type);
+    if (inner && !isList(*field.type)) collectOutsideLists(*inner, names);
+  }
 }
 
 Notes withoutUnit(Notes notes) {
@@ -74,38 +80,41 @@ Notes withoutUnit(Notes notes) {
 
 class FieldWalk {
  public:
-  FieldWalk() { collectOutsideLists<FrameSpec>(outsideLists_); }
+  explicit FieldWalk(const StructType& root) { collectOutsideLists(root, outsideLists_); }
 
-  template <Described T>
-  void walk(const std::string& prefix, bool inList, bool absent) {
-    forEachField<T>([&]<class F>(const F& field) {
-      using Member = typename F::Member;
+  void walk(const StructType& type, const std::string& prefix, bool inList, bool absent) {
+    for (const FieldType& field : type.fields) {
       const std::string path = prefix + std::string(field.name);
-      if constexpr (kIsOptionalStruct<Member>) {
-        if (field.inlined) return walk<Inner<Member>>(prefix, inList, true);
+      const StructType* inner = structIn(*field.type);
+      if (field.inlined) {
+        walk(*inner, prefix, inList, true);
+      } else if (inner && (!inList || !outsideLists_.contains(inner->name))) {
+        const bool list = isList(*field.type);
+        walk(*inner, path + (list ? "[]." : "."), inList || list, false);
+      } else {
+        add(type, field, path, absent);
       }
-      if constexpr (!std::is_void_v<Inner<Member>>) {
-        if (!inList || !outsideLists_.contains(kRows<Inner<Member>>.name)) {
-          const bool list = IsList<Member>::value;
-          return walk<Inner<Member>>(path + (list ? "[]." : "."), inList || list, false);
-        }
-      }
-      std::string preset;
-      if constexpr (!kIsOptional<Member>) {
-        if (!absent) preset = encodeValue(T{}.*field.member).dump();
-      }
-      Json components = Json::object();
-      Json schema = schemaOf<Member>(field.notes, components);
-      if (!preset.empty()) schema["default"] = Json::parse(preset);
-      if (!schema.contains("$ref")) schema["description"] = describe(field.notes, spellingsIn<Member>());
-      entries_.push_back({path, TypeText<Member>::make(), rangeText(field.notes), std::string(field.notes.unit), preset,
-                          describe(withoutUnit(field.notes), spellingsIn<Member>()), std::move(schema)});
-    });
+    }
   }
 
   std::vector<FieldEntry> take() && { return std::move(entries_); }
 
  private:
+  void add(const StructType& owner, const FieldType& field, const std::string& path, bool absent) {
+    const Notes& notes = *field.notes;
+    Json components = Json::object();
+    Json schema = schemaOf(*field.type, notes, components);
+    std::string preset;
+    if (field.type->kind != ValueType::Kind::optional && !absent) {
+      const Json value = encodeValue(*field.type, field.member(owner.initial()));
+      preset = value.dump();
+      schema["default"] = value;
+    }
+    if (!schema.contains("$ref")) schema["description"] = describe(notes, *field.type);
+    entries_.push_back({path, typeText(*field.type), rangeText(notes), std::string(notes.unit), preset,
+                        describe(withoutUnit(notes), *field.type), std::move(schema)});
+  }
+
   std::set<std::string_view> outsideLists_;
   std::vector<FieldEntry> entries_;
 };
@@ -124,8 +133,9 @@ std::string bounds(const FieldEntry& entry) {
 } // namespace
 
 std::vector<FieldEntry> frameFields() {
-  FieldWalk walk;
-  walk.walk<FrameSpec>("", false, false);
+  const StructType& root = *typeOf<FrameSpec>().object;
+  FieldWalk walk(root);
+  walk.walk(root, "", false, false);
   return std::move(walk).take();
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/json/json_codec.h"
+#include "protocol/json/json_source.h"
 
 /// The fields of a frame's specification one by one, for documentation and query strings.
 namespace gnomon {

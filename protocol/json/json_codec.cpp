@@ -1,12 +1,42 @@
 #include "protocol/json/json_codec.h"
 
+#include <nlohmann/json.hpp>
+
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
 #include "protocol/json/spec_decode.h"
-#include "protocol/report/reply_rows.h"
+#include "protocol/report/frame_report.h"
 #include "protocol/spec/validate.h"
 
 namespace gnomon {
+
+bool decodeStages(const JsonNode& node, const Place& place, ProblemList& problems, void* out) {
+  const auto* object = std::get_if<JsonNode::Object>(&node.value);
+  if (!object) {
+    addWrongType(node, "an object", place, problems);
+    return false;
+  }
+  auto& stages = valueAs<std::vector<StageTime>>(out);
+  for (const JsonMember& member : *object) {
+    StageTime stage{member.key};
+    if (decodeValue(member.value, Notes{}, Place(place, member.key), problems, stage.milliseconds)) {
+      stages.push_back(stage);
+    }
+  }
+  return true;
+}
+
+Json encodeStages(const void* stages) {
+  Json object = Json::object();
+  for (const StageTime& stage : valueAs<std::vector<StageTime>>(stages)) {
+    object[stage.stage] = stage.milliseconds;
+  }
+  return object;
+}
+
+Json stagesSchema() {
+  return {{"type", "object"}, {"additionalProperties", {{"type", "number"}, {"minimum", 0}}}};
+}
 
 Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems) {
   FrameSpec spec;

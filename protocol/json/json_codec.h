@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/json/json_source.h"
 #include "protocol/report/capabilities.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
@@ -14,8 +14,6 @@
 #include "protocol/spec/frame_spec.h"
 
 namespace gnomon {
-
-using Json = nlohmann::ordered_json;
 
 /// A FrameSpec from untrusted JSON. Depth is bounded before parsing; unknown and duplicate keys, wrong types,
 /// NaN and values out of range are all reported, each with its JSON pointer. Cross-field rules included (validate.h).

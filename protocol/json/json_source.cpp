@@ -163,6 +163,45 @@ std::optional<JsonNode> readJson(std::string_view text, ProblemList& problems) {
   return std::move(builder).takeRoot();
 }
 
+Json jsonOf(const JsonNode& node) {
+  struct Converted {
+    Json operator()(std::nullptr_t) const { return nullptr; }
+    Json operator()(bool value) const { return value; }
+    Json operator()(std::int64_t value) const { return value; }
+    Json operator()(std::uint64_t value) const { return value; }
+    Json operator()(const JsonReal& real) const { return real.value; }
+    Json operator()(const std::string& text) const { return text; }
+    Json operator()(const JsonNode::Array& array) const {
+      Json json = Json::array();
+      for (const JsonNode& element : array) json.push_back(jsonOf(element));
+      return json;
+    }
+    Json operator()(const JsonNode::Object& object) const {
+      Json json = Json::object();
+      for (const JsonMember& member : object) json[member.key] = jsonOf(member.value);
+      return json;
+    }
+  };
+  return std::visit(Converted{}, node.value);
+}
+
+JsonNode nodeOf(const Json& json) {
+  if (json.is_boolean()) return {json.get<bool>()};
+  if (json.is_number_unsigned()) return {json.get<std::uint64_t>()};
+  if (json.is_number_integer()) return {json.get<std::int64_t>()};
+  if (json.is_number()) return {JsonReal{json.get<double>(), json.dump()}};
+  if (json.is_string()) return {json.get<std::string>()};
+  if (json.is_array()) {
+    JsonNode::Array array;
+    for (const Json& element : json) array.push_back(nodeOf(element));
+    return {std::move(array)};
+  }
+  if (!json.is_object()) return {nullptr};
+  JsonNode::Object object;
+  for (const auto& [key, value] : json.items()) object.push_back({key, nodeOf(value)});
+  return {std::move(object)};
+}
+
 std::string shownNode(const JsonNode& node) {
   struct Shown {
     std::string operator()(std::nullptr_t) const { return "null"; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include "protocol/base/problem_list.h"
 
 namespace gnomon {
+
+using Json = nlohmann::ordered_json;
 
 struct JsonNode;
 struct JsonMember;
@@ -35,6 +38,10 @@ struct JsonMember {
 /// Reads untrusted JSON (RFC 8259). Refuses, before anything is parsed, text over kLimits.maxSpecBytes and nesting over
 /// kLimits.maxJsonDepth. Adds a problem for each key that comes twice. Nothing = not JSON; the problem says where.
 std::optional<JsonNode> readJson(std::string_view text, ProblemList& problems);
+
+/// The same value; of a key that comes twice the last.
+Json jsonOf(const JsonNode& node);
+JsonNode nodeOf(const Json& json);
 
 /// What a node is, for people: "the number 3.7", shortened.
 std::string shownNode(const JsonNode& node);

@@ -1,7 +1,9 @@
+#include <nlohmann/json.hpp>
+
 #include "protocol/fields/json_schema.h"
 #include "protocol/json/problem_json.h"
 #include "protocol/openapi/openapi.h"
-#include "protocol/report/reply_rows.h"
+#include "protocol/report/replies.h"
 
 namespace gnomon {
 namespace {

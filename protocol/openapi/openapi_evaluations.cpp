@@ -1,17 +1,11 @@
-#include "protocol/evaluation/evaluation_codec.h"
-#include "protocol/evaluation/evaluation_rows.h"
+#include <nlohmann/json.hpp>
+
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
 #include "protocol/openapi/openapi.h"
 #include "protocol/openapi/openapi_parts.h"
 
 namespace gnomon {
-
-template <>
-struct SchemaOf<SpecPatch> {
-  static Json make(const Notes&, Json&) {
-    return {{"type", "object"}, {"description", "A JSON merge patch (RFC 7396) over a FrameSpec."}};
-  }
-};
 
 Json evaluationsRoute() {
   using namespace openapi;

@@ -1,12 +1,20 @@
 #pragma once
 
-#include "protocol/fields/fields.h"
+#include "protocol/fields/value_type.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/metric_rows.h"
 #include "protocol/spec/field_rows.h"
 
 /// The rows of a frame's and a plan's report; see field_rows.h. StageTime has none: the stages are one JSON object.
 namespace gnomon {
+
+/// One object, so that a client can name the stage that it wants. Defined in json_codec.cpp.
+bool decodeStages(const JsonNode& node, const Place& place, ProblemList& problems, void* out);
+Json encodeStages(const void* stages);
+Json stagesSchema();
+
+template <>
+inline constexpr CustomType kCustomType<std::vector<StageTime>>{decodeStages, encodeStages, stagesSchema};
 
 template <>
 inline constexpr auto kRows<TileReport> = replyRows(

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/field_rows.h"
+#include "protocol/spec/limits.h"
 #include "protocol/spec/shadow_rules.h"
 #include "protocol/spec/view_rules.h"
 

@@ -1,11 +1,12 @@
 #include "protocol/spec/view_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/field_rows.h"
+#include "protocol/spec/enum_rows.h"
 
 namespace gnomon {
 namespace {
@@ -39,21 +40,18 @@ Problem invalid(std::string pointer, std::string detail, std::string limit = "",
 }
 
 /// Of each group of alternatives at most one is given.
-template <Described T>
+template <class T>
 void appendAlternatives(const T& value, const std::string& pointer, std::vector<BrokenRule>& broken) {
-  for (const Alternatives& group : kRows<T>.alternatives) {
+  const StructType& type = *typeOf<T>().object;
+  for (const Alternatives& group : type.alternatives) {
     std::string names;
     std::vector<std::string> given;
-    forEachField<T>([&]<class F>(const F& field) {
-      if constexpr (requires { (value.*field.member).has_value(); }) {
-        for (const std::string_view name : group) {
-          if (name != field.name) continue;
-          const std::string shown = field.inlined ? "eye, target and up" : std::string(name);
-          names += names.empty() ? shown : " | " + shown;
-          if ((value.*field.member).has_value()) given.emplace_back(field.inlined ? "" : name);
-        }
-      }
-    });
+    for (const FieldType& field : type.fields) {
+      if (std::find(group.begin(), group.end(), field.name) == group.end()) continue;
+      const std::string shown = field.inlined ? "eye, target and up" : std::string(field.name);
+      names += names.empty() ? shown : " | " + shown;
+      if (field.type->size(field.member(&value)) > 0) given.emplace_back(field.inlined ? "" : field.name);
+    }
     for (std::size_t i = 1; i < given.size(); ++i) {
       broken.push_back({invalid(pointer + "/" + given[i], "Only one of these may be given.", names), {}});
     }

@@ -5,7 +5,7 @@
 
 #include "protocol/fields/field_checks.h"
 #include "protocol/fields/field_encode.h"
-#include "protocol/report/metric_rows.h"
+#include "protocol/report/error_metrics.h"
 
 namespace gnomon {
 namespace {

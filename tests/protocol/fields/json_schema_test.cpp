@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/problem_list.h"
+#include "protocol/fields/field_decode.h"
 #include "protocol/openapi/openapi.h"
 #include "protocol/report/reply_rows.h"
 #include "protocol/spec/validate.h"
@@ -26,13 +27,22 @@ std::string checkSpec(const Json& json) {
   return checkAgainstSchema(json, schemaNamed("FrameSpec"), document());
 }
 
+template <class T>
+struct Unwrapped {
+  using Type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> : Unwrapped<T> {};
+template <class T>
+struct Unwrapped<std::vector<T>> : Unwrapped<T> {};
+
 /// Every row of T, and of what T leads to, is a property with its description, unit and range.
 template <Described T>
 void expectRows(const Json& schema) {
   forEachField<T>([&]<class F>(const F& field) {
     using Member = typename F::Member;
     using Inner = typename Unwrapped<Member>::Type;
-    if constexpr (kIsOptionalStruct<Member>) {
+    if constexpr (Described<Inner>) {
       if (field.inlined) return expectRows<Inner>(schema);
     }
     const std::string name(field.name);

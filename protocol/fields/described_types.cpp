@@ -1,0 +1,28 @@
+#include "protocol/evaluation/evaluation_rows.h"
+#include "protocol/fields/type_tables.h"
+#include "protocol/report/reply_rows.h"
+
+namespace gnomon {
+
+template const ValueType& typeOf<double>();
+
+template const ValueType& typeOf<AnimationMoment>();
+template const ValueType& typeOf<Camera>();
+template const ValueType& typeOf<FrameSpec>();
+template const ValueType& typeOf<Light>();
+
+template const ValueType& typeOf<Capabilities>();
+template const ValueType& typeOf<ErrorMetrics>();
+template const ValueType& typeOf<FrameReply>();
+template const ValueType& typeOf<FrameReport>();
+template const ValueType& typeOf<PlanReport>();
+template const ValueType& typeOf<RendererInfo>();
+template const ValueType& typeOf<SceneList>();
+template const ValueType& typeOf<SceneSummary>();
+
+template const ValueType& typeOf<EvaluationReport>();
+template const ValueType& typeOf<EvaluationRequest>();
+template const ValueType& typeOf<EvaluationRow>();
+template const ValueType& typeOf<EvaluationStep>();
+
+} // namespace gnomon
