@@ -57,6 +57,14 @@ class Usage(CommandLine):
             self.assert_ends(run, OK)
             self.assertTrue(run.stdout)
 
+    def test_fields_are_listed_with_their_range_and_default(self):
+        for command in ("render", "plan", "evaluate"):
+            run = gnomon(command, "--fields")
+            self.assert_ends(run, OK)
+            [line] = [line for line in run.stdout.decode().splitlines() if line.startswith("  shadow.cascadeCount ")]
+            self.assertIn("whole number, 1..8", line)
+            self.assertIn("default 4", line)
+
     def test_a_wrong_command_line_is_two(self):
         for arguments in (
             [],

@@ -7,9 +7,9 @@
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/scene_file.h"
-#include "clients/cli/render/evaluation_here.h"
-#include "clients/cli/render/evaluation_there.h"
-#include "clients/cli/spec/json_path.h"
+#include "clients/cli/render/local_render.h"
+#include "clients/cli/render/remote_render.h"
+#include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/spec/spec_flags.h"
 #include "clients/cli/terminal/evaluation_table.h"
 #include "protocol/evaluation/evaluation_json.h"
@@ -38,13 +38,7 @@ struct Request {
 };
 
 Request requestOf(const EvaluateOptions& options) {
-  std::string specJson = "{}";
-  if (!options.spec.empty()) {
-    auto text = readText(options.spec, kLimits.maxSpecBytes);
-    if (!text) return {text.problems(), {}};
-    specJson = std::move(*text);
-  }
-  const ResolvedSpec spec = resolveSpec(specJson, options.arguments);
+  const ResolvedSpec spec = resolveSpecFile(options.spec, options.arguments);
   if (!spec.spec) return {spec.spec.problems(), spec.origins};
   FlagOrigins origins{{"/sweep", "--sweep"}, {"/repeats", "--repeats"}, {"/referenceSamples", "--reference-samples"}};
   for (const auto& [pointer, flag] : spec.origins) origins["/spec" + pointer] = flag;
@@ -76,7 +70,7 @@ Request requestOf(const EvaluateOptions& options) {
   return {request.dump(), origins};
 }
 
-Result<EvaluationReport> measure(const EvaluateOptions& options, const std::string& request, Progress& progress) {
+Result<EvaluationReport> measure(const EvaluateOptions& options, const std::string& request, ProgressLine& progress) {
   const auto evaluation = decodeEvaluation(request);
   if (!evaluation) return evaluation.problems();
   progress.stage("reading " + options.scene);
@@ -88,7 +82,7 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
 
 Status writeText(const std::string& path, const std::string& text) {
   if (path.empty()) return Done{};
-  return writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return writeFile(path, asBytes(text));
 }
 
 Status writeAll(const EvaluateOptions& options, const EvaluationReport& report) {
@@ -103,7 +97,7 @@ Status writeAll(const EvaluateOptions& options, const EvaluationReport& report) 
 int runEvaluate(const EvaluateOptions& options) {
   const auto [request, origins] = requestOf(options);
   if (!request) return printProblems(request.problems(), origins);
-  auto progress = Progress::onTerminal();
+  auto progress = ProgressLine::onTerminal();
   const auto report = measure(options, *request, progress);
   progress.finish();
   if (!report) return printProblems(report.problems(), origins);

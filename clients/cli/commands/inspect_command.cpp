@@ -6,7 +6,7 @@
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/terminal/problem_text.h"
-#include "clients/cli/terminal/progress.h"
+#include "clients/cli/terminal/progress_line.h"
 #include "clients/cli/terminal/summary_text.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
@@ -20,7 +20,7 @@ struct InspectOptions {
 };
 
 Result<SceneSummary> inspect(const std::string& path) {
-  auto progress = Progress::onTerminal();
+  auto progress = ProgressLine::onTerminal();
   progress.stage("reading " + path);
   const auto bundle = readSceneFile(path);
   if (!bundle) return bundle.problems();

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "clients/cli/render/rendered.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 
@@ -17,5 +20,14 @@ Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 
 /// Puts the file in place in one step: whoever looks sees the old file or the whole new one. "-" is standard output.
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
+
+/// "png" or "exr" by the name's suffix; nothing for any other, and for "-" (standard output).
+std::optional<std::string> formatOf(const std::string& output);
+
+/// Where a picture goes: the output itself, or, one of several, "frame.depth.png" for view depth of "frame.png".
+std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);
+
+/// Writes every picture, each file in one step; gives their names. Standard output takes one picture only.
+Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output);
 
 } // namespace gnomon::cli

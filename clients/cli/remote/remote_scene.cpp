@@ -2,11 +2,68 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <thread>
 
-#include "clients/cli/remote/upload_body.h"
+#include "protocol/base/bytes.h"
+#include "protocol/base/sha256.h"
 
 namespace gnomon::cli {
+namespace {
+
+bool occursIn(const SceneBundle& bundle, const std::string& text) {
+  const auto holds = [&](const Bytes& bytes) { return asText(bytes).find(text) != std::string_view::npos; };
+  return holds(bundle.model) ||
+         std::any_of(bundle.files.begin(), bundle.files.end(), [&](const auto& file) { return holds(file.second); });
+}
+
+std::string boundaryFor(const SceneBundle& bundle) {
+  std::string boundary = "gnomon-part-boundary";
+  for (int i = 0; occursIn(bundle, boundary); ++i) boundary = "gnomon-part-boundary-" + std::to_string(i);
+  return boundary;
+}
+
+/// As browsers write it (WHATWG, multipart/form-data).
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"')
+      text += "%22";
+    else
+      text += c;
+  }
+  return text + "\"";
+}
+
+void addPart(std::string& body, const std::string& boundary, const std::string& disposition, const Bytes& content) {
+  body += "--" + boundary + "\r\nContent-Disposition: form-data; " + disposition + "\r\n\r\n";
+  body += asText(content);
+  body += "\r\n";
+}
+
+} // namespace
+
+UploadBody uploadBody(const SceneBundle& bundle) {
+  if (bundle.files.empty()) {
+    const bool isGlb = asText(bundle.model).starts_with("glTF");
+    return {isGlb ? "model/gltf-binary" : "model/gltf+json", std::string(asText(bundle.model))};
+  }
+  const std::string boundary = boundaryFor(bundle);
+  UploadBody upload{"multipart/form-data; boundary=" + boundary, ""};
+  addPart(upload.bytes, boundary, "name=\"scene\"; filename=\"scene\"", bundle.model);
+  for (const auto& [name, content] : bundle.files) {
+    addPart(upload.bytes, boundary, "name=\"file\"; filename=" + quoted(name), content);
+  }
+  upload.bytes += "--" + boundary + "--\r\n";
+  return upload;
+}
+
+std::string modelId(const Bytes& model) {
+  Sha256 hash;
+  hash.add(model);
+  return hash.hex();
+}
+
 namespace {
 
 constexpr int kMostWaits = 20; // for a busy server
@@ -36,7 +93,7 @@ Problems problemsOf(const std::string& server, const HttpReply& reply) {
   return problems;
 }
 
-Result<HttpReply> callPatiently(const std::string& server, const HttpCall& call, Progress& progress) {
+Result<HttpReply> callPatiently(const std::string& server, const HttpCall& call, ProgressLine& progress) {
   for (int waits = 0;; ++waits) {
     auto reply = callServer(server, call);
     if (!reply || reply->status != 429 || waits == kMostWaits) return reply;
@@ -45,7 +102,7 @@ Result<HttpReply> callPatiently(const std::string& server, const HttpCall& call,
   }
 }
 
-Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle, Progress& progress) {
+Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle, ProgressLine& progress) {
   if (bundle.files.empty()) {
     progress.stage("asking for the scene");
     const std::string id = modelId(bundle.model);

@@ -17,7 +17,7 @@ struct Settled {
   std::optional<QualityReport> quality;
 };
 
-Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Renderer& renderer, Progress& progress) {
+Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Renderer& renderer, ProgressLine& progress) {
   if (!spec.quality) return Settled{spec, std::nullopt};
   progress.stage("finding settings");
   const auto draw = [&](const FrameSpec& variant) { return renderer.render(scene, variant, TileUse::drawnAnew); };
@@ -32,7 +32,7 @@ Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Rende
 } // namespace
 
 Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
-                            Progress& progress) {
+                            ProgressLine& progress) {
   // The encoder's libraries load while the scene and the graphics context do.
   const std::jthread warming(warmEncoders);
 
@@ -65,6 +65,47 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   std::vector<Picture> files;
   for (EncodedPicture& picture : *pictures) files.push_back({std::move(picture.view), std::move(picture.file)});
   return Rendered{std::move(files), toJson(frame->report).dump(2) + "\n"};
+}
+
+Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
+                                      const BackendOptions& backend, ProgressLine& progress) {
+  progress.stage("loading the scene");
+  const auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  progress.stage("starting the renderer");
+  RendererOptions options;
+  options.backend = backend;
+  auto renderer = Renderer::create(options);
+  if (!renderer) return renderer.problems();
+  progress.stage("measuring");
+  EvaluationListener listener;
+  listener.step = [&](const EvaluationStep& step) {
+    progress.share(step.of > 0 ? static_cast<double>(step.done) / step.of : 0);
+    return true;
+  };
+  EvaluationTools tools;
+  tools.draw = [&](const FrameSpec& spec) { return renderer->render(*scene, spec, TileUse::drawnAnew); };
+  tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
+    const auto shimmer = renderer->shimmer(*scene, spec, path, goOn);
+    if (!shimmer) return shimmer.problems();
+    return shimmer->perThousand();
+  };
+  return evaluate(*scene, evaluation, renderer->info(), tools, listener);
+}
+
+Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
+                             ProgressLine& progress) {
+  progress.stage("loading the scene");
+  const auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  RendererOptions options;
+  options.backend = backend;
+  const auto renderer = Renderer::create(options);
+  if (!renderer) return renderer.problems();
+  progress.stage("planning");
+  const auto plan = planFrame(**scene, spec, renderer->info());
+  if (!plan) return plan.problems();
+  return toJson(*plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace gnomon::cli

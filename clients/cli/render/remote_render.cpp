@@ -1,9 +1,13 @@
 #include "clients/cli/render/remote_render.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "clients/cli/remote/event_reader.h"
 #include "clients/cli/remote/remote_scene.h"
+#include "clients/cli/render/local_render.h"
 #include "protocol/base/encoding.h"
+#include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
@@ -27,7 +31,7 @@ std::optional<Rendered> renderedOf(const std::string& text) {
 
 /// What the server says to a spec sent to `route` of the scene, which is uploaded unless it is there.
 Result<std::string> askAbout(const std::string& server, const SceneBundle& bundle, const std::string& route,
-                             const FrameSpec& spec, Progress& progress) {
+                             const FrameSpec& spec, ProgressLine& progress) {
   const auto id = sceneId(server, bundle, progress);
   if (!id) return id.problems();
 
@@ -48,7 +52,7 @@ Result<std::string> askAbout(const std::string& server, const SceneBundle& bundl
 } // namespace
 
 Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
-                             Progress& progress) {
+                             ProgressLine& progress) {
   const auto reply = askAbout(server, bundle, "/frames", spec, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
@@ -57,12 +61,52 @@ Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundl
 }
 
 Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
-                              Progress& progress) {
+                              ProgressLine& progress) {
   const auto reply = askAbout(server, bundle, "/plan", spec, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
   if (!plan.is_object()) return Problem{ProblemCode::internal, server, "The reply is not a plan.", "", ""};
   return plan.dump(2) + "\n";
+}
+
+namespace {
+
+void showStep(const std::string& data, ProgressLine& progress) {
+  const Json json = Json::parse(data, nullptr, false);
+  if (!json.is_object() || !json.contains("done") || !json.contains("of")) return;
+  const Json &done = json["done"], &of = json["of"];
+  if (done.is_number() && of.is_number()) progress.share(of > 0 ? done.get<double>() / of.get<double>() : 0);
+}
+
+} // namespace
+
+Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBundle& bundle,
+                                       const std::string& requestJson, ProgressLine& progress) {
+  const auto id = sceneId(server, bundle, progress);
+  if (!id) return id.problems();
+  progress.stage("measuring on the server");
+  EventReader reader;
+  std::optional<ServerEvent> last;
+  HttpCall call;
+  call.method = "POST";
+  call.path = "/v1/scenes/" + *id + "/evaluations";
+  call.headers = {{"Accept", "text/event-stream"}};
+  call.contentType = "application/json";
+  call.body = requestJson;
+  call.onReceived = [&](std::string_view bytes) {
+    for (ServerEvent& event : reader.read(bytes)) {
+      if (event.name == "progress") showStep(event.data, progress);
+      if (event.name == "result" || event.name == "problem") last = std::move(event);
+    }
+  };
+  const auto reply = callPatiently(server, call, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(server, *reply);
+  if (!last) return Problem{ProblemCode::unavailable, server, "The reply ended before the evaluation did.", "", ""};
+  if (last->name == "problem") return problemsOf(server, {reply->status, "", last->data, 0});
+  auto report = readEvaluationReport(last->data);
+  if (!report) return Problem{ProblemCode::internal, server, "The reply is not an evaluation.", "", ""};
+  return *std::move(report);
 }
 
 } // namespace gnomon::cli

@@ -3,14 +3,27 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clients/cli/terminal/problem_text.h"
 #include "protocol/base/result.h"
+#include "protocol/json/json_codec.h"
 #include "protocol/spec/frame_spec.h"
 
 namespace gnomon::cli {
+
+/// "camera.orbit.azimuthDegrees" -> "/camera/orbit/azimuthDegrees".
+std::string pointerOf(std::string_view dottedPath);
+
+/// Puts `value` at a dotted path, making the objects on the way; a number steps into a list, where the next free
+/// place may be named too. Problems carry the pointer of the step that can't be taken.
+Status setAtPath(Json& root, std::string_view dottedPath, Json value);
+
+/// As in a query string: JSON where the text begins like JSON or is one of its words, else a bare word: 3, true,
+/// [1,2,3], Large. JSON that is broken, too deep or has a key twice is a problem.
+Result<Json> valueOf(std::string_view text);
 
 /// What the flags of `render` say about the picture.
 struct SpecArguments {
@@ -35,6 +48,9 @@ struct ResolvedSpec {
 /// server checks a request. --camera and --orbit replace the placement and keep the lens; --sun turns the first
 /// directional light, or adds one.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments);
+
+/// The same with the spec in a file; "-" is standard input, an empty name is "{}".
+ResolvedSpec resolveSpecFile(const std::string& file, const SpecArguments& arguments);
 
 /// "135,40" -> {135, 40}. Nothing unless there are `least` to `most` finite numbers and nothing else.
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t least, std::size_t most);

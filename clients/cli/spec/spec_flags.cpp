@@ -1,8 +1,21 @@
 #include "clients/cli/spec/spec_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "protocol/fields/field_list.h"
+#include "protocol/spec/enum_rows.h"
 
 namespace gnomon::cli {
+namespace {
+
+std::string viewNames() {
+  std::string names;
+  for (const Spelling& view : kSpellings<View>) (names += names.empty() ? "" : ", ") += view.name;
+  return names;
+}
+
+} // namespace
 
 void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
   const auto refuse = [](const char* flag, const char* need) { throw CLI::ValidationError(flag, need); };
@@ -50,10 +63,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
       ->type_name("AZ,EL[,DIST]")
       ->excludes(camera)
       ->group("Picture");
-  command
-      .add_option("--view", arguments.views,
-                  "What to show: color, depth, normal, cascades, shadow, atlas, tile, texelGrid, texelDensity, "
-                  "blendWeight, bias, casterIds, lightContribution, reference, error, edgeDistance. Repeatable")
+  command.add_option("--view", arguments.views, "What to show: " + viewNames() + ". Repeatable")
       ->type_name("NAME")
       ->take_all()
       ->group("Picture");
@@ -71,6 +81,15 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
           "Set any field of the request by its dotted path. Repeatable")
       ->type_name("PATH=VALUE")
       ->take_all()
+      ->group("Picture");
+  command
+      .add_flag_callback(
+          "--fields",
+          [] {
+            std::cout << fieldHelp();
+            throw CLI::Success();
+          },
+          "List every field of the spec with its meaning, range and default, and exit")
       ->group("Picture");
 }
 

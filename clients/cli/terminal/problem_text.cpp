@@ -1,9 +1,9 @@
 #include "clients/cli/terminal/problem_text.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "clients/cli/commands/commands.h"
-#include "clients/cli/terminal/terminal_text.h"
 
 namespace gnomon::cli {
 namespace {
@@ -35,6 +35,12 @@ std::string problemLine(const Problem& problem, const FlagOrigins& origins) {
 int printProblems(const Problems& problems, const FlagOrigins& origins) {
   for (const Problem& problem : problems) std::cerr << "gnomon: " << problemLine(problem, origins) << '\n';
   return kExitProblem;
+}
+
+std::string printable(std::string text) {
+  const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), isControl, '?');
+  return text;
 }
 
 } // namespace gnomon::cli

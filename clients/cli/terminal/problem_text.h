@@ -17,4 +17,7 @@ std::string problemLine(const Problem& problem, const FlagOrigins& origins = {})
 /// Every problem on its line on stderr, each after "gnomon: ". Gives kExitProblem.
 int printProblems(const Problems& problems, const FlagOrigins& origins = {});
 
+/// The text with every control character replaced, so that what a file or a server says can't steer the terminal.
+std::string printable(std::string text);
+
 } // namespace gnomon::cli

@@ -1,4 +1,4 @@
-#include "clients/cli/terminal/progress.h"
+#include "clients/cli/terminal/progress_line.h"
 
 #include <algorithm>
 #include <array>
@@ -22,15 +22,15 @@ std::string bar(double share) {
 
 } // namespace
 
-Progress::Progress(bool shown) {
+ProgressLine::ProgressLine(bool shown) {
   if (shown) thread_ = std::thread([this] { run(); });
 }
 
-Progress Progress::onTerminal() {
-  return Progress(::isatty(STDERR_FILENO) == 1);
+ProgressLine ProgressLine::onTerminal() {
+  return ProgressLine(::isatty(STDERR_FILENO) == 1);
 }
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   finish();
   {
     const std::lock_guard lock(mutex_);
@@ -40,7 +40,7 @@ Progress::~Progress() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Progress::stage(const std::string& name) {
+void ProgressLine::stage(const std::string& name) {
   const std::lock_guard lock(mutex_);
   stage_ = name;
   share_ = -1;
@@ -48,19 +48,19 @@ void Progress::stage(const std::string& name) {
   draw();
 }
 
-void Progress::share(double done) {
+void ProgressLine::share(double done) {
   const std::lock_guard lock(mutex_);
   share_ = done;
 }
 
-void Progress::finish() {
+void ProgressLine::finish() {
   const std::lock_guard lock(mutex_);
   if (!stage_.empty() && thread_.joinable()) std::fputs(kClearLine, stderr);
   stage_.clear();
 }
 
 /// With the mutex held.
-void Progress::draw() {
+void ProgressLine::draw() {
   if (stage_.empty() || !thread_.joinable()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
   std::fprintf(stderr, "%s%s %s%s  %.1f s", kClearLine, kSpinner[frame_ % kSpinner.size()], stage_.c_str(),
@@ -68,7 +68,7 @@ void Progress::draw() {
   std::fflush(stderr);
 }
 
-void Progress::run() {
+void ProgressLine::run() {
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, kTick, [this] { return stopping_; })) {
     ++frame_;

@@ -4,14 +4,13 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/files/output_files.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/local_render.h"
 #include "clients/cli/render/remote_render.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/spec/spec_flags.h"
 #include "clients/cli/terminal/problem_text.h"
-#include "clients/cli/terminal/progress.h"
+#include "clients/cli/terminal/progress_line.h"
 
 namespace gnomon::cli {
 namespace {
@@ -25,7 +24,7 @@ struct RenderOptions {
   WhereOptions where;
 };
 
-Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec, Progress& progress) {
+Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
   const auto bundle = readSceneFile(options.scene);
   if (!bundle) return bundle.problems();
@@ -33,13 +32,12 @@ Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec
   return renderThere(options.where.server, *bundle, spec, progress);
 }
 
-Status writeAll(const RenderOptions& options, const Rendered& rendered, Progress& progress) {
+Status writeAll(const RenderOptions& options, const Rendered& rendered, ProgressLine& progress) {
   progress.stage("writing");
   const auto names = writePictures(rendered.pictures, options.output);
   if (!names) return names.problems();
   if (!options.report.empty()) {
-    const auto* text = reinterpret_cast<const std::uint8_t*>(rendered.reportJson.data());
-    if (auto done = writeFile(options.report, {text, rendered.reportJson.size()}); !done) return done;
+    if (auto done = writeFile(options.report, asBytes(rendered.reportJson)); !done) return done;
   }
   progress.finish();
   if (names->size() > 1) {
@@ -49,17 +47,11 @@ Status writeAll(const RenderOptions& options, const Rendered& rendered, Progress
 }
 
 int runRender(RenderOptions options) {
-  std::string specJson = "{}";
-  if (!options.spec.empty()) {
-    auto text = readText(options.spec, kLimits.maxSpecBytes);
-    if (!text) return printProblems(text.problems());
-    specJson = std::move(*text);
-  }
   if (options.output != "-") options.arguments.format = formatOf(options.output);
-  const auto [spec, origins, json] = resolveSpec(specJson, options.arguments);
+  const auto [spec, origins, json] = resolveSpecFile(options.spec, options.arguments);
   if (!spec) return printProblems(spec.problems(), origins);
 
-  auto progress = Progress::onTerminal();
+  auto progress = ProgressLine::onTerminal();
   const auto rendered = renderScene(options, *spec, progress);
   progress.finish();
   if (!rendered) return printProblems(rendered.problems(), origins);
@@ -71,6 +63,32 @@ int runRender(RenderOptions options) {
 
 std::string checkOutput(const std::string& output) {
   return output == "-" || formatOf(output) ? "" : "needs a name that ends in .png or .exr, or - for standard output";
+}
+
+struct PlanOptions {
+  std::string scene;
+  std::string spec; // a file, "-" = standard input, empty = none
+  SpecArguments arguments;
+  WhereOptions where;
+};
+
+Result<std::string> planScene(const PlanOptions& options, const FrameSpec& spec, ProgressLine& progress) {
+  progress.stage("reading " + options.scene);
+  const auto bundle = readSceneFile(options.scene);
+  if (!bundle) return bundle.problems();
+  if (options.where.server.empty()) return planHere(*bundle, spec, options.where.backend, progress);
+  return planThere(options.where.server, *bundle, spec, progress);
+}
+
+int runPlan(const PlanOptions& options) {
+  const auto [spec, origins, json] = resolveSpecFile(options.spec, options.arguments);
+  if (!spec) return printProblems(spec.problems(), origins);
+  auto progress = ProgressLine::onTerminal();
+  const auto plan = planScene(options, *spec, progress);
+  progress.finish();
+  if (!plan) return printProblems(plan.problems(), origins);
+  std::cout << *plan;
+  return kExitOk;
 }
 
 } // namespace
@@ -91,6 +109,16 @@ Subcommand addRenderCommand(CLI::App& app) {
   addPictureFlags(*command, options->arguments);
   addWhereFlags(*command, options->where);
   return {[command] { return command->parsed(); }, [options] { return runRender(*options); }};
+}
+
+Subcommand addPlanCommand(CLI::App& app) {
+  auto options = std::make_shared<PlanOptions>();
+  auto* command = app.add_subcommand("plan", "Print what a frame's shadows would be, without rendering it");
+  command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  command->add_option("spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addPictureFlags(*command, options->arguments);
+  addWhereFlags(*command, options->where);
+  return {[command] { return command->parsed(); }, [options] { return runPlan(*options); }};
 }
 
 } // namespace gnomon::cli

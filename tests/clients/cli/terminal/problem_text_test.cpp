@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/cli/files/output_files.h"
+#include "clients/cli/files/file_io.h"
 #include "clients/cli/terminal/summary_text.h"
 
 namespace gnomon::cli {

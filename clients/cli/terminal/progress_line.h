@@ -10,13 +10,13 @@ namespace gnomon::cli {
 
 /// What is being done, told on stderr while it lasts: a spinner, the stage, a bar where the share is known, the
 /// seconds so far. Only on a terminal; anywhere else it writes nothing and starts no thread.
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(bool shown);
-  static Progress onTerminal(); ///< shown when stderr is a terminal
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressLine(bool shown);
+  static ProgressLine onTerminal(); ///< shown when stderr is a terminal
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   void stage(const std::string& name); ///< the stage that begins now; the one before is done
   void share(double done);             ///< of the stage, 0..1

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/files/gltf_uris.h"
 
 namespace gnomon::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "clients/cli/remote/upload_body.h"
+#include "clients/cli/remote/remote_scene.h"
 
 #include <gtest/gtest.h>
 #include <string_view>
