@@ -70,6 +70,7 @@ ASSEMBLED = ["clients/cli", "clients/web"]
 # Third-party header (the first characters of its path) -> the only files or folders that may include it.
 KEPT_IN = {
     "httplib.h": ["server/http/http_server.cpp", "clients/cli/remote/http_client.cpp"],
+    "openssl/": ["protocol/base"],
     "nlohmann/": ["protocol", "server", "clients/cli", "renderer/scene", "renderer/charts"],
     "tiny_gltf.h": ["renderer/scene"],
     "draco/": ["renderer/scene/decode"],

@@ -114,15 +114,17 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
   return false;
 }
 
-/// The index of the spelling that `node` holds.
-std::optional<std::size_t> decodeSpelling(const JsonNode& node, std::span<const Spelling> spellings, const Place& place,
-                                          ProblemList& problems) {
+bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
   const auto* text = std::get_if<std::string>(&node.value);
   std::string names;
-  for (std::size_t i = 0; i < spellings.size(); ++i) {
-    if (text && *text == spellings[i].name) return i;
-    if (i > 0) names += i + 1 == spellings.size() ? " or " : ", ";
-    names += spellings[i].name;
+  for (std::size_t i = 0; i < type.spellings.size(); ++i) {
+    const std::string_view name = type.spellings[i].name;
+    if (text && *text == name) {
+      type.setWord(out, static_cast<int>(i));
+      return true;
+    }
+    if (i > 0) names += i + 1 == type.spellings.size() ? " or " : ", ";
+    names += name;
   }
   if (!text) {
     addWrongType(node, names, place, problems);
@@ -133,13 +135,7 @@ std::optional<std::size_t> decodeSpelling(const JsonNode& node, std::span<const 
                   .limit = names,
                   .actual = shownNode(node)});
   }
-  return std::nullopt;
-}
-
-bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
-  const auto index = decodeSpelling(node, type.spellings, place, problems);
-  if (index) type.setWord(out, static_cast<int>(*index));
-  return index.has_value();
+  return false;
 }
 
 /// A place within a container that is being filled.

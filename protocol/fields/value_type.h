@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "protocol/base/json_pointer.h"
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/fields/fields.h"
 #include "protocol/fields/spellings.h"
 #include "protocol/json/json_source.h"

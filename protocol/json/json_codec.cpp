@@ -4,7 +4,6 @@
 
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
-#include "protocol/json/spec_decode.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/spec/validate.h"
 

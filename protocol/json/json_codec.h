@@ -2,8 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "protocol/base/result.h"
 #include "protocol/json/json_source.h"
@@ -19,9 +17,8 @@ namespace gnomon {
 /// NaN and values out of range are all reported, each with its JSON pointer. Cross-field rules included (validate.h).
 Result<FrameSpec> decodeFrameSpec(std::string_view json);
 
-/// The same from a decoded query string: keys are dotted paths ("camera.orbit.azimuthDegrees"), values are JSON or
-/// bare words; short forms: sun=AZIMUTH,ELEVATION; view=NAME; format=png|exr. Pointers name the query key.
-Result<FrameSpec> decodeFrameQuery(const std::vector<std::pair<std::string, std::string>>& query);
+/// The same from a tree, however that was read; `problems` are those of the reading.
+Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems);
 
 Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives the same spec
 Json toJson(const FrameReport& report);

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 
 namespace gnomon {
 

@@ -1,3 +1,5 @@
+#include "protocol/json/query_codec.h"
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -5,7 +7,6 @@
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
-#include "protocol/json/spec_decode.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon {

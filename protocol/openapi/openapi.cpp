@@ -149,6 +149,24 @@ Json frameRoute() {
   return {{"get", std::move(get)}};
 }
 
+Json evaluationsRoute() {
+  const char* description =
+      "One row a variant: its speed and its error. text/csv = the rows as a table; image/svg+xml = a chart with the "
+      "Pareto front; text/event-stream = events while it lasts: `progress` (EvaluationStep), `row` (an EvaluationRow "
+      "whose errors are known and whose times are not), and at last `result` (EvaluationReport) or `problem` "
+      "(Problem). "
+      "Whoever closes the connection ends the evaluation.";
+  const Json content = {{"application/json", schemaContent("EvaluationReport")},
+                        {"text/csv", bytesContent()},
+                        {"image/svg+xml", bytesContent()},
+                        {"text/event-stream", {{"schema", {{"anyOf", {reference("schemas/EvaluationStep")}}}}}}};
+  Json post = operation("evaluate", "Measure speed against error",
+                        replies({{"200", success(description, content)}},
+                                {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  const Json body = {{"required", true}, {"content", {{"application/json", schemaContent("EvaluationRequest")}}}};
+  return {{"post", withBody(withScene(std::move(post)), body)}};
+}
+
 Json renderRoute() {
   Json post =
       operation("render", "Upload a scene and render a frame of it in one go",
@@ -195,7 +213,7 @@ Json openApi() {
              "type or out of range is refused with its place, never changed or passed over."},
             {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}}},
           {"paths", paths()},
-          {"components", openApiComponents()}};
+          {"components", components()}};
 }
 
 } // namespace gnomon

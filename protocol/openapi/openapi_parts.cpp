@@ -1,8 +1,97 @@
 #include "protocol/openapi/openapi_parts.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "protocol/evaluation/evaluation.h"
+#include "protocol/fields/json_schema.h"
+#include "protocol/json/problem_json.h"
+#include "protocol/report/replies.h"
 
 namespace gnomon::openapi {
+namespace {
+
+struct Refusal {
+  const char* status;
+  const char* description;
+};
+
+/// What a status means wherever it is given.
+constexpr std::array kRefusals{
+    Refusal{"400", "The request is malformed, or one of its values is invalid."},
+    Refusal{"404", "No such scene or route exists."},
+    Refusal{"406", "The resource has none of the media types that Accept lists."},
+    Refusal{"408", "The request arrived too slowly."},
+    Refusal{"411", "The request needs a body with a Content-Length."},
+    Refusal{"413", "A limit on bytes, pixels, triangles or nodes is exceeded."},
+    Refusal{"415", "The route does not accept this Content-Type."},
+    Refusal{"422", "The scene is not valid glTF, needs a feature that Gnomon does not have, or does not match the id."},
+    Refusal{"429", "The server is busy; Retry-After says when to try again."},
+    Refusal{"500", "An internal error, or a failure of the graphics context."},
+    Refusal{"503", "The server is starting or shutting down."},
+    Refusal{"504", "The request's deadline passed before its work was done."},
+};
+
+Json header(const char* description) {
+  return {{"description", description}, {"schema", {{"type", "string"}}}};
+}
+
+Json headers() {
+  return {{"ETag", header("Changes whenever the picture could; If-None-Match with it is answered by 304.")},
+          {"Server-Timing", header("Milliseconds of each stage: queue, load, upload, survey, plan, shadow, shade, "
+                                   "readback, encode.")},
+          {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},
+          {"Retry-After", header("Seconds.")},
+          {"Location", header("Where the scene is.")}};
+}
+
+Json parameters() {
+  return {{"sceneId",
+           {{"name", "id"},
+            {"in", "path"},
+            {"required", true},
+            {"description", "SHA-256 of the upload, as 64 lower-case hexadecimal digits."},
+            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
+          {"ifNoneMatch",
+           {{"name", "If-None-Match"},
+            {"in", "header"},
+            {"description", "The ETag of a picture that the client has."},
+            {"schema", {{"type", "string"}}}}}};
+}
+
+Json responses() {
+  Json result = Json::object();
+  for (const Refusal& refusal : kRefusals) {
+    Json response = {
+        {"description", refusal.description},
+        {"headers", {{"X-Request-ID", {{"$ref", "#/components/headers/X-Request-ID"}}}}},
+        {"content", {{"application/problem+json", {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+    if (std::string_view(refusal.status) == "429") {
+      response["headers"]["Retry-After"] = {{"$ref", "#/components/headers/Retry-After"}};
+    }
+    result[refusal.status] = std::move(response);
+  }
+  result["304"] = {{"description", "The client has this picture already."},
+                   {"headers", {{"ETag", {{"$ref", "#/components/headers/ETag"}}}}}};
+  return result;
+}
+
+Json schemas() {
+  Json components = Json::object();
+  schemaOf<FrameSpec>(Notes{}, components);
+  schemaOf<FrameReply>(Notes{}, components);
+  schemaOf<PlanReport>(Notes{}, components);
+  schemaOf<SceneList>(Notes{}, components);
+  schemaOf<Capabilities>(Notes{}, components);
+  schemaOf<EvaluationRequest>(Notes{}, components);
+  schemaOf<EvaluationReport>(Notes{}, components);
+  schemaOf<EvaluationStep>(Notes{}, components);
+  components["Problem"] = problemSchema();
+  return components;
+}
+
+} // namespace
 
 Json reference(const std::string& place) {
   return {{"$ref", "#/components/" + place}};
@@ -41,6 +130,10 @@ Json withScene(Json operation) {
 Json withBody(Json operation, Json body) {
   operation["requestBody"] = std::move(body);
   return operation;
+}
+
+Json components() {
+  return {{"schemas", schemas()}, {"responses", responses()}, {"headers", headers()}, {"parameters", parameters()}};
 }
 
 } // namespace gnomon::openapi

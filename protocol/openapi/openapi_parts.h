@@ -21,4 +21,7 @@ Json operation(const char* id, const char* summary, Json responses);
 Json withScene(Json operation); ///< of a route with {id}
 Json withBody(Json operation, Json body);
 
+/// The schemas, responses, headers and parameters that the routes refer to.
+Json components();
+
 } // namespace gnomon::openapi

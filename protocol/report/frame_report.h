@@ -8,7 +8,6 @@
 
 #include "protocol/report/error_metrics.h"
 #include "protocol/spec/frame_spec.h"
-#include "protocol/spec/quality.h"
 
 namespace gnomon {
 
@@ -89,6 +88,23 @@ struct FrameCounts {
   std::uint64_t shadedTriangles = 0;   ///< drawn for the surfaces to light: in clusters that the survey saw
   std::uint64_t casterTriangles = 0;   ///< drawn into all tiles
   std::uint64_t drawCalls = 0;
+};
+
+/// Settings that were tried, and what they reached on this view.
+struct QualityTrial {
+  std::string settings{}; ///< a short name, e.g. "shadowMap hard 4 x 1024"
+  Shadow shadow{};        ///< what every light that casts is given
+  Atlas atlas{};
+  double milliseconds = 0; ///< of a whole warm frame, median, without encoding
+  double error = 0;        ///< share of misclassified receivers
+};
+
+/// How a target was met.
+struct QualityReport {
+  bool met = false;     ///< false = nothing reaches the target, and `chosen` is the best there is
+  bool cached = false;  ///< chosen for an earlier frame of this scene and kind of view; nothing was tried
+  std::size_t chosen{}; ///< index into `tried`
+  std::vector<QualityTrial> tried{};
 };
 
 /// What a frame's rendering decided and took.

@@ -2,8 +2,8 @@
 
 #include "protocol/fields/fields.h"
 #include "protocol/report/error_metrics.h"
+#include "protocol/report/frame_report.h"
 #include "protocol/spec/field_rows.h"
-#include "protocol/spec/quality.h"
 
 /// The rows of error metrics and of what a target led to; see field_rows.h.
 namespace gnomon {

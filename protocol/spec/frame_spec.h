@@ -7,7 +7,6 @@
 #include "protocol/spec/camera.h"
 #include "protocol/spec/light.h"
 #include "protocol/spec/output_options.h"
-#include "protocol/spec/quality.h"
 #include "protocol/spec/shadow_options.h"
 
 namespace gnomon {
@@ -44,6 +43,14 @@ struct Debug {
   bool predictEdges = false;  ///< the report says how far the edges of its shadow are expected to be off
 
   bool operator==(const Debug&) const = default;
+};
+
+/// What the shadows of a frame shall be, instead of how: exactly one of the two.
+struct Quality {
+  std::optional<double> maxError{}; ///< share of misclassified receivers, 0..1: the cheapest settings that hold it
+  std::optional<double> maxMilliseconds{}; ///< of a whole warm frame: the most exact settings that fit into it
+
+  bool operator==(const Quality&) const = default;
 };
 
 /// Everything that a frame depends on besides the scene. JSON keys are the members' names.

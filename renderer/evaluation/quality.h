@@ -6,7 +6,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/evaluation/evaluation.h"
-#include "protocol/spec/quality.h"
+#include "protocol/report/frame_report.h"
 
 /// Settings that meet a target. Part of the door: see render.h. Pure.
 namespace gnomon {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon {

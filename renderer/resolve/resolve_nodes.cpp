@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 

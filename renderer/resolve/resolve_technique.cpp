@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/spec/technique_traits.h"
 #include "renderer/resolve/plan_input.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/spec/quality.h"
+#include "protocol/report/frame_report.h"
 #include "server/evaluations/evaluation_run.h"
 
 namespace gnomon {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/base/encoding.h"
+#include "protocol/base/sha256.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/view_traits.h"
-#include "protocol/base/encoding.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
-#include "protocol/base/sha256.h"
 
 namespace gnomon {
 namespace {

@@ -3,9 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/json/json_codec.h"
-#include "server/frames/frame_reply.h"
 #include "protocol/base/text.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/json/query_codec.h"
+#include "server/frames/frame_reply.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"

@@ -4,15 +4,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/sha256.h"
+#include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/openapi/openapi.h"
 #include "server/handlers/evaluation_handlers.h"
 #include "server/handlers/frame_handlers.h"
 #include "server/handlers/scene_handlers.h"
-#include "protocol/base/text.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
-#include "protocol/base/sha256.h"
 
 namespace gnomon {
 namespace {

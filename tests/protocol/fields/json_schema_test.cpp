@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/fields/field_decode.h"
 #include "protocol/openapi/openapi.h"
 #include "protocol/report/reply_rows.h"

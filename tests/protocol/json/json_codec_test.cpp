@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/problem_list.h"
+#include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
 #include "tests/protocol/found_problems.h"
 #include "tests/protocol/spec_generator.h"

@@ -1,3 +1,5 @@
+#include "protocol/json/query_codec.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

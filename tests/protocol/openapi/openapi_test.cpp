@@ -6,6 +6,7 @@
 #include <set>
 
 #include "protocol/json/json_codec.h"
+#include "protocol/json/query_codec.h"
 
 namespace gnomon {
 namespace {
