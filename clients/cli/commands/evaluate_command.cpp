@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/local_render.h"
 #include "clients/cli/render/remote_render.h"
 #include "clients/cli/spec/spec_arguments.h"
-#include "clients/cli/spec/spec_flags.h"
 #include "clients/cli/terminal/evaluation_table.h"
 #include "protocol/evaluation/evaluation_json.h"
 #include "renderer/charts/evaluation_chart.h"

@@ -1,4 +1,4 @@
-#include "clients/cli/spec/spec_flags.h"
+#include "clients/cli/commands/spec_flags.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
