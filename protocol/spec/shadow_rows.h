@@ -61,8 +61,8 @@ template <>
 inline constexpr auto kRows<Filter> =
     rows("Filter", "How the shadow map is sampled.",
          field("type", &Filter::type,
-               {.says = "How the texels of the map are combined. hard is fastest; pcf costs time when shading, vsm, "
-                        "evsm and msm a blur of every tile."}),
+               {.says = "How the texels of the map are combined. `hard` is fastest; `pcf` costs time when shading; the "
+                        "others blur every tile first."}),
          field("size", &Filter::size,
                {.says = "Width of the kernel. Wider is softer and slower, and darkens concave corners farther out. "
                         "Ignored by `hard` and when `radius` is set.",
@@ -103,11 +103,12 @@ inline constexpr auto kRows<Shadow> = rows(
           {.says = "How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
-    field("size", &Shadow::size,
-          {.says =
-               "Side of one shadow tile (a cascade, or a face of a spot or point light), in steps of two. Each step up "
-               "halves the texels, makes shadows sharper, and takes four times the space and fill time. Absent = Large "
-               "for directional lights, Medium for spots, Small for point lights, which have up to six tiles."}),
+    field(
+        "size", &Shadow::size,
+        {.says =
+             "Side of one shadow tile (a cascade, or a face of a spot or point light), in steps of two. Each step up "
+             "halves the size of a texel, so shadows are sharper, and takes four times the space and fill time. Absent "
+             "= Large for directional lights, Medium for spots, Small for point lights, which have up to six tiles."}),
     field("importance", &Shadow::importance,
           {.says = "Each step below high halves the tile's side. Tiles of less important lights are also the first to "
                    "shrink when the atlas is full."}),
@@ -145,8 +146,8 @@ inline constexpr auto kRows<Atlas> =
                 .range = {128, kLimits.maxAtlasSide},
                 .choices = kTexelSides}),
          field("baseSize", &Atlas::baseSize,
-               {.says = "Side of a tile of size Large, at most `size`. Doubling it halves the texels of every shadow, "
-                        "at four times the memory and fill time.",
+               {.says = "Side of a tile of size Large, at most `size`. Doubling it halves the size of every shadow "
+                        "texel, at four times the memory and fill time.",
                 .unit = "texels",
                 .range = {128, kLimits.maxAtlasSide},
                 .choices = kTexelSides}),

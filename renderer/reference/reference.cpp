@@ -11,7 +11,7 @@
 namespace gnomon {
 namespace {
 
-/// Pixels that are traced between two words with whoever listens.
+/// Progress is reported every this many pixels.
 std::size_t pixelsAtOnce(std::size_t lights, int samples) {
   constexpr std::size_t kRays = std::size_t{1} << 20; // some tens of milliseconds
   return std::clamp<std::size_t>(kRays / (1 + lights * static_cast<std::size_t>(std::max(samples, 1))), 2048, 65536);

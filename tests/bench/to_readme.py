@@ -5,7 +5,8 @@ usage: to_readme.py NAME RESULT [PAGE...]      exit status 1 and one line where 
 
 RESULT is the Markdown that a benchmark wrote. What stands there between <!-- readme --> and <!-- /readme --> goes
 between <!-- NAME --> and <!-- /NAME --> of each PAGE (default: README.md and renderer/ACCURACY.md), its links changed
-so that they work from there. Between <!-- NAME: A | B --> and <!-- /NAME --> goes the table alone, with columns A and B.
+so that they work from there. Between <!-- NAME: A | B --> and <!-- /NAME --> goes the table alone, with columns
+A and B.
 """
 
 import os
