@@ -149,7 +149,7 @@ def stages(tree):
     names = set()
     for pattern in ("renderer/*.cpp", "server/*.cpp", "clients/cli/*.cpp"):
         for text in texts(tree, pattern):
-            names.update(re.findall(r"\.finish\(\"(\w+)\"\)", text))
+            names.update(re.findall(r"\b(?:finish|endStage)\(\"(\w+)\"\)", text))
             names.update(re.findall(r"StageTime\{\"(\w+)\"", text))
             names.update(re.findall(r"stages\.push_back\(\{\"(\w+)\"", text))
     return names

@@ -31,7 +31,7 @@ SOUND = {
     "protocol/spec/field_rows.h": 'field("width", &A::width)\nfield(\n  "lights", &A::lights)\n'
                                   'field("color", &B::color)\n',
     "renderer/SHADOWS.md": "## Techniques\n\n| technique | is |\n|---|---|\n| `maps` | a map |\n",
-    "renderer/render.cpp": 'clock.finish("plan");\n',
+    "renderer/render.cpp": 'drawing.endStage("plan");\n',
     "renderer/shaders/README.md": "| shader | draws |\n|---|---|\n| `view.frag` | a view |\n",
     "renderer/shaders/view.frag": "",
 }
