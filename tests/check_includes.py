@@ -71,8 +71,16 @@ ASSEMBLED = ["clients/cli", "clients/web"]
 KEPT_IN = {
     "httplib.h": ["server/http/http_server.cpp", "clients/cli/remote/http_client.cpp"],
     "openssl/": ["protocol/base"],
-    "nlohmann/": ["protocol", "server", "clients/cli", "renderer/scene", "renderer/charts"],
-    "tiny_gltf.h": ["renderer/scene"],
+    "nlohmann/": [
+        "protocol",
+        "server",
+        "clients/cli",
+        "renderer/charts",
+        "renderer/scene/checks",
+        "renderer/scene/container/json_text.h",
+        "renderer/scene/document",
+    ],
+    "tiny_gltf.h": ["tests"],
     "draco/": ["renderer/scene/decode"],
     "meshoptimizer.h": ["renderer/scene"],
     "OpenImageIO/": ["renderer/image"],

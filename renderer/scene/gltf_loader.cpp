@@ -5,21 +5,19 @@
 #include <new>
 
 #include "renderer/scene/animation/animations.h"
-#include "renderer/scene/animation/moved_properties.h"
 #include "renderer/scene/animation/pose_cache.h"
 #include "renderer/scene/decode/draco_primitives.h"
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/geometry/accessor_view.h"
+#include "renderer/scene/geometry/accessor_checks.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
-#include "renderer/scene/gltf_document.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/materials/uv_sets.h"
 #include "renderer/scene/materials/variants.h"
-#include "renderer/scene/posing/joint_checks.h"
 #include "renderer/scene/posing/posed_nodes.h"
 #include "renderer/scene/posing/skins.h"
 #include "renderer/scene/summary.h"
@@ -33,31 +31,32 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   auto document = readGltf(bundle, limits, findings);
   if (!document) return std::move(document).problems();
 
+  const gltf::Model& model = document->model;
   const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
+  const LoadContext context{*document, views, limits, findings};
   auto motion = std::make_shared<Motion>();
-  motion->animations = readAnimations(*document, views, limits, findings);
+  motion->animations = readAnimations(context);
   auto deformation = std::make_shared<Deformation>();
-  deformation->skins = readSkins(*document, views, limits, findings);
-  checkJoints(*document, views, limits, findings);
-  checkVariantCount(*document, limits, findings);
-  const DracoPrimitives draco = decodeDracoPrimitives(*document, limits, findings);
+  deformation->skins = readSkins(context);
+  checkJoints(context);
+  checkVariantCount(model, limits, findings);
+  const DracoPrimitives draco = decodeDracoPrimitives(context);
   if (findings.refused()) return findings.takeProblems();
 
   auto scene = std::make_shared<Scene>();
-  scene->materials = readMaterials(*document, findings);
-  const std::vector<UvSets> uvSets = placeUvSets(*document, scene->materials, findings);
-  const auto sources = gatherMeshes(*document, views, draco, uvSets, limits, findings);
+  scene->materials = readMaterials(model, findings);
+  const std::vector<UvSets> uvSets = placeUvSets(model, scene->materials, findings);
+  const auto sources = gatherMeshes(context, draco, uvSets);
   if (findings.refused()) return findings.takeProblems();
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
   const std::vector<BuiltMesh> meshes =
       buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings);
-  const NodeTree tree = buildNodeTree(*document, findings);
+  const NodeTree tree = buildNodeTree(model, findings);
   if (findings.refused()) return findings.takeProblems();
-  const std::vector<PosedMesh> posed = poseNodes(*document, tree, meshes, *deformation, limits, *scene, findings);
+  const std::vector<PosedMesh> posed = poseNodes(context, tree, meshes, *deformation, *scene);
   if (findings.refused()) return findings.takeProblems();
-  FlatScenes flat = flattenScenes(*document, views, tree, meshes, posed, scene->primitives, !motion->animations.empty(),
-                                  limits, findings);
+  FlatScenes flat = flattenScenes(context, {tree, meshes, posed, scene->primitives}, !motion->animations.empty());
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = std::move(flat.views);
   if (!motion->animations.empty()) {
@@ -66,22 +65,22 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
     motion->locals = tree.locals;
     motion->visible = tree.visible;
     if (std::ranges::any_of(motion->animations, [](const Animation& each) { return !each.properties.empty(); })) {
-      motion->properties = std::make_shared<const nlohmann::json>(propertiesOf(document->json));
+      motion->properties = Properties{model.materials, model.cameras, model.lights};
     }
     motion->views = std::move(flat.moving);
     scene->motion = std::move(motion);
     scene->poses = std::make_shared<PoseCache>();
   }
-  scene->variants = variantNames(*document);
+  scene->variants = model.variants;
   addVariantScenes(limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
   if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
-  scene->nodes = namedNodes(document->model);
+  scene->nodes = namedNodes(model);
   scene->images = loadImages(*document, limits, scene->materials, findings);
   if (findings.refused()) return findings.takeProblems();
 
-  scene->defaultScene = document->model.defaultScene < 0 ? 0 : document->model.defaultScene;
-  scene->summary = summarize(*document, bundle, *scene);
+  scene->defaultScene = std::max(model.scene, 0);
+  scene->summary = summarize(model, bundle, *scene);
   scene->summary.warnings = findings.takeWarnings();
   return std::shared_ptr<const Scene>(std::move(scene));
 }

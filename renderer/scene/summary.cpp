@@ -45,7 +45,9 @@ std::uint64_t bytesIn(const Motion& motion) {
   for (const MovingView& view : motion.views) {
     bytes += bytesIn(view.placements) + bytesIn(view.cameras) + bytesIn(view.lights);
   }
-  if (motion.properties) bytes += motion.properties->dump().size();
+  if (const auto& properties = motion.properties) {
+    bytes += bytesIn(properties->materials) + bytesIn(properties->cameras) + bytesIn(properties->lights);
+  }
   return bytes;
 }
 
@@ -75,7 +77,7 @@ MemorySummary memoryOf(const Scene& scene) {
 }
 
 /// Nodes reachable from the scene's roots; the nodes are trees by now.
-std::uint64_t nodesOf(const tinygltf::Model& model, int scene) {
+std::uint64_t nodesOf(const gltf::Model& model, int scene) {
   if (model.scenes.empty()) return model.nodes.size();
   std::vector<int> nodes = model.scenes[static_cast<std::size_t>(scene)].nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -98,14 +100,14 @@ const char* nameOf(LightType type) {
 }
 
 /// Of what deforms in the scene: skins, their joints, and each mesh's morph targets, which all its primitives share.
-void countDeformation(const GltfDocument& document, const Deformation& deformation, const std::set<int>& primitives,
+void countDeformation(const gltf::Model& model, const Deformation& deformation, const std::set<int>& primitives,
                       SceneSummary& summary) {
   std::set<int> skins;
   std::map<int, std::uint64_t> targetsOfMesh;
   for (const PosedPrimitive& posed : deformation.posed) {
     if (!primitives.contains(posed.primitive)) continue;
     if (posed.skin >= 0) skins.insert(posed.skin);
-    targetsOfMesh[document.model.nodes[static_cast<std::size_t>(posed.node)].mesh] =
+    targetsOfMesh[model.nodes[static_cast<std::size_t>(posed.node)].mesh] =
         deformation.deformables[static_cast<std::size_t>(posed.deformable)].targets.size();
   }
   summary.skins = skins.size();
@@ -114,12 +116,12 @@ void countDeformation(const GltfDocument& document, const Deformation& deformati
 }
 
 /// Counts what the scene places, each once.
-void countContents(const GltfDocument& document, const Scene& scene, const SceneView& view, SceneSummary& summary) {
+void countContents(const gltf::Model& model, const Scene& scene, const SceneView& view, SceneSummary& summary) {
   std::set<int> primitives;
   std::set<int> meshes;
   for (const Instance& instance : view.instances) {
     primitives.insert(instance.primitive);
-    meshes.insert(document.model.nodes[static_cast<std::size_t>(instance.node)].mesh);
+    meshes.insert(model.nodes[static_cast<std::size_t>(instance.node)].mesh);
   }
   std::set<int> materials;
   std::set<int> images;
@@ -144,12 +146,12 @@ void countContents(const GltfDocument& document, const Scene& scene, const Scene
   summary.materials = materials.size();
   summary.textures = textures.size();
   summary.images = images.size();
-  if (scene.deformation) countDeformation(document, *scene.deformation, primitives, summary);
+  if (scene.deformation) countDeformation(model, *scene.deformation, primitives, summary);
 }
 
 } // namespace
 
-SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, const Scene& scene) {
+SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, const Scene& scene) {
   const SceneView& view = scene.scenes[static_cast<std::size_t>(scene.defaultScene)];
   SceneSummary summary;
   summary.bytes = bundleBytes(bundle);
@@ -158,9 +160,9 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
                         summary.memory.deformation + summary.memory.animations + summary.memory.structure;
   summary.scenes = fileScenes(scene);
   summary.defaultScene = scene.defaultScene;
-  summary.nodes = nodesOf(document.model, scene.defaultScene);
+  summary.nodes = nodesOf(model, scene.defaultScene);
   summary.triangles = view.triangles;
-  countContents(document, scene, view, summary);
+  countContents(model, scene, view, summary);
   if (scene.motion) {
     for (const Animation& animation : scene.motion->animations) {
       summary.animations.push_back({animation.name, animation.durationSeconds});
@@ -176,10 +178,8 @@ SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, 
   for (const SceneLight& light : view.lights) {
     summary.lights.push_back({light.node, light.name, nameOf(light.light.type)});
   }
-  if (const auto used = document.json.find("extensionsUsed"); used != document.json.end()) {
-    summary.extensionsUsed = used->get<std::vector<std::string>>();
-    summary.extensionsIgnored = unsupportedOf(summary.extensionsUsed);
-  }
+  summary.extensionsUsed = model.extensionsUsed;
+  summary.extensionsIgnored = unsupportedOf(model.extensionsUsed);
   return summary;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {
 
 /// Everything that an upload is told about its scene, but for the id and the warnings.
-SceneSummary summarize(const GltfDocument& document, const SceneBundle& bundle, const Scene& scene);
+SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, const Scene& scene);
 
 } // namespace gnomon

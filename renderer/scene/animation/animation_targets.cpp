@@ -4,13 +4,9 @@
 #include <string_view>
 #include <utility>
 
-#include "renderer/scene/gltf_json.h"
-
 namespace gnomon {
 
 namespace {
-
-using nlohmann::json;
 
 std::optional<ChannelPath> pathOf(std::string_view name) {
   for (const auto& [path, spelling] :
@@ -19,11 +15,6 @@ std::optional<ChannelPath> pathOf(std::string_view name) {
     if (name == spelling) return path;
   }
   return std::nullopt;
-}
-
-const std::string* pointerOf(const json& target) {
-  const json* extension = extensionOf(target, "KHR_animation_pointer");
-  return extension == nullptr ? nullptr : (*extension)["pointer"].get_ptr<const std::string*>();
 }
 
 /// "/nodes/3/scale".
@@ -42,33 +33,26 @@ std::optional<NodeTarget> nodeAt(std::string_view pointer, std::size_t nodes) {
 
 } // namespace
 
-std::optional<AnimationTarget> targetOf(const json& document, const json& channel) {
-  const json& target = channel["target"];
-  const auto nodes = document.find("nodes");
-  if (target["path"] == "pointer") {
-    const std::string* pointer = pointerOf(target);
-    if (!pointer) return std::nullopt;
-    if (const auto node = nodeAt(*pointer, nodes == document.end() ? 0 : nodes->size())) return node;
-    return propertyAt(document, *pointer);
+std::optional<AnimationTarget> targetOf(const gltf::Model& model, const gltf::AnimationChannel& channel) {
+  if (channel.path == "pointer") {
+    if (!channel.pointer) return std::nullopt;
+    if (const auto node = nodeAt(*channel.pointer, model.nodes.size())) return node;
+    return propertyAt(model, *channel.pointer);
   }
-  const auto path = pathOf(target["path"].get_ref<const std::string&>());
-  if (!path || !target.contains("node")) return std::nullopt;
-  return NodeTarget{target["node"].get<std::size_t>(), *path};
+  const auto path = pathOf(channel.path);
+  if (!path || channel.node < 0) return std::nullopt;
+  return NodeTarget{static_cast<std::size_t>(channel.node), *path};
 }
 
-std::string targetName(const json& channel) {
-  const json& target = channel["target"];
-  const std::string* pointer = pointerOf(target);
-  return pointer ? *pointer : target["path"].get<std::string>();
+const std::string& targetName(const gltf::AnimationChannel& channel) {
+  return channel.pointer ? *channel.pointer : channel.path;
 }
 
-std::set<std::size_t> nodesWithMovingWeights(const json& document) {
+std::set<std::size_t> nodesWithMovingWeights(const gltf::Model& model) {
   std::set<std::size_t> nodes;
-  const auto animations = document.find("animations");
-  if (animations == document.end()) return nodes;
-  for (const json& animation : *animations) {
-    for (const json& channel : animation["channels"]) {
-      const auto target = targetOf(document, channel);
+  for (const gltf::Animation& animation : model.animations) {
+    for (const gltf::AnimationChannel& channel : animation.channels) {
+      const auto target = targetOf(model, channel);
       const auto* node = target ? std::get_if<NodeTarget>(&*target) : nullptr;
       if (node && node->path == ChannelPath::weights) nodes.insert(node->node);
     }

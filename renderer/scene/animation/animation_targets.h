@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,14 +18,13 @@ struct NodeTarget {
 /// What a channel moves.
 using AnimationTarget = std::variant<NodeTarget, PropertyTarget>;
 
-/// By node and path, or by the pointer of KHR_animation_pointer. Nothing for what is not animated here; `channel` has
-/// passed the schema.
-std::optional<AnimationTarget> targetOf(const nlohmann::json& document, const nlohmann::json& channel);
+/// By node and path, or by the pointer of KHR_animation_pointer. Nothing for what is not animated here.
+std::optional<AnimationTarget> targetOf(const gltf::Model& model, const gltf::AnimationChannel& channel);
 
 /// What a channel without a target here would move, for a sentence; empty where it says nothing.
-std::string targetName(const nlohmann::json& channel);
+const std::string& targetName(const gltf::AnimationChannel& channel);
 
 /// Nodes whose weights an animation changes.
-std::set<std::size_t> nodesWithMovingWeights(const nlohmann::json& document);
+std::set<std::size_t> nodesWithMovingWeights(const gltf::Model& model);
 
 } // namespace gnomon

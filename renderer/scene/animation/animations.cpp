@@ -14,33 +14,27 @@ namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
-
 /// Morph targets of a node's mesh; 0 where it has no mesh.
-std::size_t morphTargetsOf(const json& document, const json& node) {
-  const auto mesh = node.find("mesh");
-  if (mesh == node.end()) return 0;
-  const json& primitives = document["meshes"][mesh->get<std::size_t>()]["primitives"];
-  if (primitives.empty() || !primitives[0].contains("targets")) return 0;
-  return primitives[0]["targets"].size();
+std::size_t morphTargetsOf(const gltf::Model& model, const gltf::Node& node) {
+  if (node.mesh < 0) return 0;
+  const auto& primitives = model.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+  return primitives.empty() ? 0 : primitives[0].targets.size();
 }
 
 class Reading {
  public:
-  Reading(const GltfDocument& document, const std::vector<AccessorView>& accessors, const Limits& limits,
-          Findings& findings)
-      : document_(document.json), accessors_(accessors), limits_(limits), findings_(findings) {}
+  explicit Reading(const LoadContext& load)
+      : model_(load.document.model), accessors_(load.accessors), limits_(load.limits), findings_(load.findings) {}
 
-  Animation read(const json& source, const std::string& pointer) {
+  Animation read(const gltf::Animation& source, const std::string& pointer) {
     Animation animation;
-    const auto name = source.find("name");
-    if (name != source.end()) animation.name = keptName(name->get_ref<const std::string&>(), findings_);
+    animation.name = keptName(source.name, findings_);
     std::set<std::string> moved;
     std::map<std::pair<std::size_t, SamplerUse>, std::size_t> built;
-    const json& channels = source["channels"];
+    const std::vector<gltf::AnimationChannel>& channels = source.channels;
     for (std::size_t i = 0; i < channels.size() && !findings_.refused(); ++i) {
       const std::string at = pointerTo(pointer + "/channels", i);
-      const auto target = targetOf(document_, channels[i]);
+      const auto target = targetOf(model_, channels[i]);
       if (!target) {
         findings_.warn("The animation of " + inQuotes(targetName(channels[i])) + " is not supported and ignored.");
         continue;
@@ -51,11 +45,11 @@ class Reading {
       }
       const auto use = useOf(*target, at + "/target");
       if (!use) return animation;
-      const auto index = channels[i]["sampler"].get<std::size_t>();
+      const std::size_t index = channels[i].sampler;
       const auto [place, isNew] = built.try_emplace({index, *use}, animation.samplers.size());
       const std::string samplerAt = pointerTo(pointer + "/samplers", index);
       if (isNew) {
-        animation.samplers.push_back(buildSampler(source["samplers"][index], samplerAt, accessors_, *use,
+        animation.samplers.push_back(buildSampler(source.samplers[index], samplerAt, accessors_, *use,
                                                   limits_.maxKeyframes - keyframes_, findings_));
         const Sampler& sampler = animation.samplers.back();
         keyframes_ += sampler.times.size() + sampler.values.size();
@@ -100,22 +94,22 @@ class Reading {
       return SamplerUse{ValueKind::numbers, property->components, 1};
     }
     const auto [index, path] = std::get<NodeTarget>(target);
-    const json& node = document_["nodes"][index];
+    const gltf::Node& node = model_.nodes[index];
     if (path == ChannelPath::visibility) return SamplerUse{ValueKind::boolean, 1, 1};
     if (path != ChannelPath::weights) {
       const bool rotates = path == ChannelPath::rotation;
       const SamplerUse use{rotates ? ValueKind::rotation : ValueKind::vector, rotates ? 4u : 3u, 1};
-      if (!node.contains("matrix")) return use;
+      if (!node.matrix) return use;
       findings_.invalid(pointer, "A node with a matrix can't be animated.");
       return std::nullopt;
     }
-    const std::size_t targets = morphTargetsOf(document_, node);
+    const std::size_t targets = morphTargetsOf(model_, node);
     if (targets > 0) return SamplerUse{ValueKind::numbers, 1, targets};
     findings_.invalid(pointer, "The node has no morph targets whose weights could be animated.");
     return std::nullopt;
   }
 
-  const json& document_;
+  const gltf::Model& model_;
   const std::vector<AccessorView>& accessors_;
   const Limits& limits_;
   Findings& findings_;
@@ -124,14 +118,12 @@ class Reading {
 
 } // namespace
 
-std::vector<Animation> readAnimations(const GltfDocument& document, const std::vector<AccessorView>& accessors,
-                                      const Limits& limits, Findings& findings) {
+std::vector<Animation> readAnimations(const LoadContext& load) {
   std::vector<Animation> animations;
-  const auto sources = document.json.find("animations");
-  if (sources == document.json.end()) return animations;
-  Reading reading(document, accessors, limits, findings);
-  for (std::size_t i = 0; i < sources->size() && !findings.refused(); ++i) {
-    animations.push_back(reading.read((*sources)[i], pointerTo("/animations", i)));
+  const std::vector<gltf::Animation>& sources = load.document.model.animations;
+  Reading reading(load);
+  for (std::size_t i = 0; i < sources.size() && !load.findings.refused(); ++i) {
+    animations.push_back(reading.read(sources[i], pointerTo("/animations", i)));
   }
   return animations;
 }

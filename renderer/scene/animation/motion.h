@@ -1,20 +1,17 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/animation/property_target.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
-#include "renderer/scene/graph/local_transform.h"
+#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
-
-enum class Interpolation { linear, step, cubicSpline };
 
 /// A value over time. At least one keyframe; at least two where it is a cubic spline.
 struct Sampler {
@@ -44,7 +41,7 @@ struct Animation {
   std::string name;
   std::vector<Sampler> samplers;
   std::vector<Channel> channels;           ///< no two move the same
-  std::vector<PropertyChannel> properties; ///< alike
+  std::vector<PropertyChannel> properties; ///< no two move the same
   double durationSeconds = 0;              ///< time of the last keyframe
 };
 
@@ -69,9 +66,9 @@ struct Motion {
   std::vector<int> parents; ///< of the nodes; -1 for a root
   std::vector<int> order;   ///< the nodes, parents before children
   std::vector<LocalTransform> locals;
-  std::vector<bool> visible;                        ///< what KHR_node_visibility says of each node itself
-  std::shared_ptr<const nlohmann::json> properties; ///< propertiesOf() the file; nullptr = no animation moves any
-  std::vector<MovingView> views;                    ///< one a scene
+  std::vector<bool> visible;            ///< what KHR_node_visibility says of each node itself
+  std::optional<Properties> properties; ///< of the file; nothing = no animation moves any
+  std::vector<MovingView> views;        ///< one a scene
 };
 
 } // namespace gnomon

@@ -1,19 +1,17 @@
 #include "renderer/scene/animation/pose_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/animation/moved_properties.h"
 #include "renderer/scene/animation/sampling.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_tree.h"
-#include "renderer/scene/graph/placing.h"
-#include "renderer/scene/materials/material_factors.h"
+#include "renderer/scene/materials/materials.h"
 #include "renderer/scene/materials/variants.h"
 #include "renderer/scene/posing/apply_pose.h"
 #include "renderer/scene/posing/deformation.h"
@@ -23,7 +21,6 @@ namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
 using Weights = std::map<int, std::vector<double>>; ///< by node
 
 /// The nodes at a time.
@@ -67,7 +64,7 @@ struct PosedGraph {
   NodePlaces places;
   std::vector<bool> hidden; ///< the node or one above it is not visible
   std::vector<SkinPose> skins;
-  std::optional<json> properties; ///< where the animation moves any
+  std::optional<Properties> properties; ///< where the animation moves any
 };
 
 std::vector<SkinPose> poseSkins(const Scene& scene, const NodePlaces& places) {
@@ -92,12 +89,33 @@ bool poseVertices(const std::vector<SkinPose>& skins, const Weights& weights, Sc
   return true;
 }
 
-/// The file's materials, which stand before the default material.
-void repaint(const json& properties, std::vector<Material>& materials) {
-  const auto sources = properties.find("materials");
-  for (std::size_t i = 0; sources != properties.end() && i < sources->size(); ++i) {
-    materials[i] = repainted(materials[i], (*sources)[i]);
+Problem disallowed(const std::string& pointer, double timeSeconds, const std::string& detail) {
+  return {ProblemCode::invalidValue, "/animation",
+          "At this time the animation gives " + inQuotes(pointer) + " a value that glTF does not allow. " + detail, "",
+          std::to_string(timeSeconds) + " seconds"};
+}
+
+/// The file's properties at a time. What a spline throws beyond a property's range is held at its end; a problem where
+/// that is not in the range itself, or where two members no longer fit each other.
+Result<Properties> moveProperties(const Properties& rest, const Animation& animation, double timeSeconds) {
+  Properties moved = rest;
+  for (const PropertyChannel& channel : animation.properties) {
+    const PropertyTarget& target = channel.target;
+    const std::span<double> value = numbersOf(moved, target);
+    sample(animation.samplers[channel.sampler], timeSeconds, value);
+    for (double& number : value) {
+      number = std::clamp(number, target.min, target.max);
+      if (target.minExcluded && number <= target.min) return disallowed(target.pointer, timeSeconds, "");
+    }
   }
+  Findings findings;
+  checkCameras(moved.cameras, findings);
+  checkLights(moved.lights, findings);
+  if (findings.refused()) {
+    const Problem broken = findings.takeProblems().front();
+    return disallowed(broken.pointer, timeSeconds, broken.detail);
+  }
+  return moved;
 }
 
 /// False where an instance is not finite. What is flat is left out.
@@ -126,7 +144,7 @@ bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Sce
 void placeCameras(const MovingView& moving, const PosedGraph& graph, SceneView& view) {
   for (const FileCamera& file : moving.cameras) {
     const SceneCamera camera =
-        graph.properties ? withLens((*graph.properties)["cameras"][file.source], file.camera) : file.camera;
+        graph.properties ? withLens(graph.properties->cameras[file.source], file.camera) : file.camera;
     auto placed = placedAt(graph.places.worldFromUnscaled[static_cast<std::size_t>(camera.node)], camera);
     if (placed) view.cameras.push_back(*std::move(placed));
   }
@@ -137,7 +155,7 @@ void placeLights(const MovingView& moving, const PosedGraph& graph, SceneView& v
     SceneLight light = file.light;
     const auto node = static_cast<std::size_t>(light.node);
     if (graph.hidden[node]) continue;
-    if (graph.properties) light.light = lightFrom(lightsOf(*graph.properties)[file.source]);
+    if (graph.properties) light.light = lightFrom(graph.properties->lights[file.source]);
     auto placed = placedAt(graph.places.worldFromUnscaled[node], std::move(light));
     if (placed) view.lights.push_back(*std::move(placed));
   }
@@ -156,7 +174,7 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animati
   if (firstLost(graph.places, motion.order)) return lost;
   graph.hidden = hiddenNodes(motion.order, motion.parents, moved.visible);
   if (!animation.properties.empty()) {
-    auto properties = movedProperties(*motion.properties, animation, timeSeconds);
+    auto properties = moveProperties(*motion.properties, animation, timeSeconds);
     if (!properties) return std::move(properties).problems();
     graph.properties = *std::move(properties);
   }
@@ -164,7 +182,9 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animati
   auto posed = std::make_shared<Scene>(scene);
   posed->motion.reset();
   posed->poses.reset();
-  if (graph.properties) repaint(*graph.properties, posed->materials);
+  for (std::size_t i = 0; graph.properties && i < graph.properties->materials.size(); ++i) {
+    posed->materials[i] = repainted(posed->materials[i], graph.properties->materials[i]);
+  }
   graph.skins = poseSkins(scene, graph.places);
   if (!poseVertices(graph.skins, moved.weights, *posed)) return lost;
   posed->scenes.assign(motion.views.size(), {});

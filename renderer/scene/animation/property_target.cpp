@@ -1,72 +1,230 @@
 #include "renderer/scene/animation/property_target.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <string_view>
+#include <charconv>
 
 #include "renderer/scene/checks/gltf_fields.h"
-#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
+constexpr std::string_view kMaterials = "/materials/";
+constexpr std::string_view kCameras = "/cameras/";
+constexpr std::string_view kLights = "/extensions/KHR_lights_punctual/lights/";
+constexpr std::string_view kTransform = "/extensions/KHR_texture_transform/";
 
-constexpr std::string_view kRoots[] = {"/materials/", "/cameras/", "/extensions/KHR_lights_punctual/lights/"};
+/// Where a property stands below one of these, and the owner of its row in gltfFields(), which says its range.
+struct PropertyRow {
+  Property property;
+  std::string_view root;
+  std::string_view path;
+  std::string_view owner;
+};
 
-/// Checked, but nothing is drawn by them: a frame has an aspect ratio of its own.
-constexpr std::string_view kUnused[] = {"aspectRatio", "xmag"};
+constexpr PropertyRow kRows[] = {
+    {Property::baseColorFactor, kMaterials, "pbrMetallicRoughness/baseColorFactor", "pbr"},
+    {Property::metallicFactor, kMaterials, "pbrMetallicRoughness/metallicFactor", "pbr"},
+    {Property::roughnessFactor, kMaterials, "pbrMetallicRoughness/roughnessFactor", "pbr"},
+    {Property::normalScale, kMaterials, "normalTexture/scale", "normalTexture"},
+    {Property::occlusionStrength, kMaterials, "occlusionTexture/strength", "occlusionTexture"},
+    {Property::emissiveFactor, kMaterials, "emissiveFactor", "material"},
+    {Property::emissiveStrength, kMaterials, "extensions/KHR_materials_emissive_strength/emissiveStrength",
+     "emissiveStrength"},
+    {Property::alphaCutoff, kMaterials, "alphaCutoff", "material"},
+    {Property::transmissionFactor, kMaterials, "extensions/KHR_materials_transmission/transmissionFactor",
+     "transmission"},
+    {Property::diffuseFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor",
+     "specularGlossiness"},
+    {Property::specularFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/specularFactor",
+     "specularGlossiness"},
+    {Property::glossinessFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor",
+     "specularGlossiness"},
+    {Property::textureOffset, kTransform, "offset", "textureTransform"},
+    {Property::textureRotation, kTransform, "rotation", "textureTransform"},
+    {Property::textureScale, kTransform, "scale", "textureTransform"},
+    {Property::yfov, kCameras, "perspective/yfov", "perspective"},
+    {Property::perspectiveNear, kCameras, "perspective/znear", "perspective"},
+    {Property::perspectiveFar, kCameras, "perspective/zfar", "perspective"},
+    {Property::ymag, kCameras, "orthographic/ymag", "orthographic"},
+    {Property::orthographicNear, kCameras, "orthographic/znear", "orthographic"},
+    {Property::orthographicFar, kCameras, "orthographic/zfar", "orthographic"},
+    {Property::lightColor, kLights, "color", "light"},
+    {Property::lightIntensity, kLights, "intensity", "light"},
+    {Property::lightRange, kLights, "range", "light"},
+    {Property::innerCone, kLights, "spot/innerConeAngle", "spot"},
+    {Property::outerCone, kLights, "spot/outerConeAngle", "spot"},
+};
 
-const GltfField* fieldOf(std::string_view owner, std::string_view key) {
-  const auto fields = gltfFields();
-  const auto found =
-      std::ranges::find_if(fields, [&](const GltfField& field) { return field.owner == owner && field.key == key; });
-  return found == fields.end() ? nullptr : &*found;
+/// A material's textures by their paths; nullptr where the object that has the texture is missing.
+struct TexturePlace {
+  std::string_view path;
+  std::optional<gltf::TextureInfo>* (*in)(gltf::Material&);
+};
+
+constexpr TexturePlace kTextures[] = {
+    {"pbrMetallicRoughness/baseColorTexture", [](gltf::Material& m) { return &m.baseColorTexture; }},
+    {"pbrMetallicRoughness/metallicRoughnessTexture", [](gltf::Material& m) { return &m.metallicRoughnessTexture; }},
+    {"normalTexture", [](gltf::Material& m) { return &m.normalTexture; }},
+    {"occlusionTexture", [](gltf::Material& m) { return &m.occlusionTexture; }},
+    {"emissiveTexture", [](gltf::Material& m) { return &m.emissiveTexture; }},
+    {"extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+     [](gltf::Material& m) { return m.specularGlossiness ? &m.specularGlossiness->diffuseTexture : nullptr; }},
+    {"extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
+     [](gltf::Material& m) {
+       return m.specularGlossiness ? &m.specularGlossiness->specularGlossinessTexture : nullptr;
+     }},
+    {"extensions/KHR_materials_transmission/transmissionTexture",
+     [](gltf::Material& m) { return m.transmission ? &m.transmission->texture : nullptr; }},
+};
+
+std::span<double> numbers(double& value) {
+  return {&value, 1};
+}
+template <int kSize>
+std::span<double> numbers(glm::vec<kSize, double>& value) {
+  return {&value[0], std::size_t{kSize}};
 }
 
-const json* elementOf(const json& array, std::string_view token) {
-  const auto index = indexIn(token, array.size());
-  return index ? &array[*index] : nullptr;
+std::span<double> numbersIn(gltf::TextureTransform& transform, Property property) {
+  if (property == Property::textureOffset) return numbers(transform.offset);
+  return property == Property::textureScale ? numbers(transform.scale) : numbers(transform.rotation);
 }
 
-/// Takes the first token off a pointer.
-std::string_view nextToken(std::string_view& pointer) {
-  pointer.remove_prefix(1);
-  const std::string_view token = pointer.substr(0, pointer.find('/'));
-  pointer.remove_prefix(token.size());
-  return token;
+/// Empty where the object that the property stands in is missing.
+std::span<double> numbersIn(gltf::Material& material, const PropertyTarget& target) {
+  auto& glossy = material.specularGlossiness;
+  switch (target.property) {
+    case Property::baseColorFactor:
+      return numbers(material.baseColorFactor);
+    case Property::metallicFactor:
+      return numbers(material.metallicFactor);
+    case Property::roughnessFactor:
+      return numbers(material.roughnessFactor);
+    case Property::normalScale:
+      return material.normalTexture ? numbers(material.normalScale) : std::span<double>();
+    case Property::occlusionStrength:
+      return material.occlusionTexture ? numbers(material.occlusionStrength) : std::span<double>();
+    case Property::emissiveFactor:
+      return numbers(material.emissiveFactor);
+    case Property::emissiveStrength:
+      return material.emissiveStrength ? numbers(*material.emissiveStrength) : std::span<double>();
+    case Property::alphaCutoff:
+      return numbers(material.alphaCutoff);
+    case Property::transmissionFactor:
+      return material.transmission ? numbers(material.transmission->factor) : std::span<double>();
+    case Property::diffuseFactor:
+      return glossy ? numbers(glossy->diffuseFactor) : std::span<double>();
+    case Property::specularFactor:
+      return glossy ? numbers(glossy->specularFactor) : std::span<double>();
+    case Property::glossinessFactor:
+      return glossy ? numbers(glossy->glossinessFactor) : std::span<double>();
+    default:
+      break;
+  }
+  auto* info = kTextures[target.texture].in(material);
+  return info && *info && (*info)->transform ? numbersIn(*(*info)->transform, target.property) : std::span<double>();
+}
+
+std::span<double> numbersIn(gltf::Camera& camera, const PropertyTarget& target) {
+  if (auto& lens = camera.perspective) {
+    if (target.property == Property::yfov) return numbers(lens->yfov);
+    if (target.property == Property::perspectiveNear) return numbers(lens->znear);
+    if (target.property == Property::perspectiveFar) return numbers(lens->zfar);
+  }
+  if (auto& lens = camera.orthographic) {
+    if (target.property == Property::ymag) return numbers(lens->ymag);
+    if (target.property == Property::orthographicNear) return numbers(lens->znear);
+    if (target.property == Property::orthographicFar) return numbers(lens->zfar);
+  }
+  return {};
+}
+
+std::span<double> numbersIn(gltf::PunctualLight& light, const PropertyTarget& target) {
+  switch (target.property) {
+    case Property::lightColor:
+      if (!light.color) light.color = glm::dvec3(1);
+      return numbers(*light.color);
+    case Property::lightIntensity:
+      return numbers(light.intensity);
+    case Property::lightRange:
+      return numbers(light.range);
+    default:
+      break;
+  }
+  if (!light.spot) return {};
+  return numbers(target.property == Property::innerCone ? light.spot->inner : light.spot->outer);
+}
+
+const PropertyRow* rowOf(std::string_view root, std::string_view path) {
+  const auto* row = std::ranges::find_if(kRows, [&](const PropertyRow& r) { return r.root == root && r.path == path; });
+  return row == std::end(kRows) ? nullptr : row;
+}
+
+const GltfField& fieldOf(const PropertyRow& row) {
+  const std::string_view key = row.path.substr(row.path.rfind('/') + 1);
+  return *std::ranges::find_if(gltfFields(),
+                               [&](const GltfField& field) { return field.owner == row.owner && field.key == key; });
+}
+
+/// Finds the row, and which texture it belongs to.
+const PropertyRow* findRow(std::string_view root, std::string_view path, std::size_t& texture) {
+  if (root != kMaterials) return rowOf(root, path);
+  for (std::size_t i = 0; i < std::size(kTextures); ++i) {
+    const std::string_view start = kTextures[i].path;
+    if (!path.starts_with(start) || !path.substr(start.size()).starts_with(kTransform)) continue;
+    texture = i;
+    return rowOf(kTransform, path.substr(start.size() + kTransform.size()));
+  }
+  return rowOf(root, path);
+}
+
+/// The property of one of `holders`, the elements of the array that `root` names.
+template <class Holder>
+std::optional<PropertyTarget> propertyBelow(const std::vector<Holder>& holders, std::string_view root,
+                                            const std::string& pointer) {
+  std::string_view path = std::string_view(pointer).substr(root.size());
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const auto index = indexIn(path.substr(0, slash), holders.size());
+  if (!index || slash == path.size()) return std::nullopt;
+  PropertyTarget target;
+  const PropertyRow* row = findRow(root, path.substr(slash + 1), target.texture);
+  if (row == nullptr) return std::nullopt;
+  target.pointer = pointer;
+  target.property = row->property;
+  target.index = *index;
+  Holder holder = holders[*index];
+  target.components = numbersIn(holder, target).size();
+  if (target.components == 0) return std::nullopt;
+  const GltfField& field = fieldOf(*row);
+  target.min = field.min;
+  target.max = field.max;
+  target.minExcluded = field.minExcluded;
+  return target;
 }
 
 } // namespace
 
-std::optional<PropertyTarget> propertyAt(const json& document, const std::string& pointer) {
-  if (std::ranges::none_of(kRoots, [&](std::string_view root) { return pointer.starts_with(root); })) {
-    return std::nullopt;
-  }
-  std::string_view left = pointer;
-  std::string_view owner = "root";
-  const json* object = &document;
-  while (!left.empty() && object != nullptr) {
-    const GltfField* field = fieldOf(owner, nextToken(left));
-    if (field == nullptr || std::ranges::find(kUnused, field->key) != std::end(kUnused)) return std::nullopt;
-    if (left.empty()) {
-      const bool isArray = field->kind == FieldKind::numbers && field->length > 0;
-      if (!isArray && field->kind != FieldKind::number) return std::nullopt;
-      return PropertyTarget{pointer, isArray, isArray ? field->length : 1, field->min, field->max, field->minExcluded};
-    }
-    const json* member = memberOf(*object, field->key);
-    if (field->kind == FieldKind::objects) {
-      object = member == nullptr ? nullptr : elementOf(*member, nextToken(left));
-    } else if (field->kind == FieldKind::object) {
-      static const json kDefaults = json::object();
-      object = member == nullptr && field->of == "pbr" ? &kDefaults : member;
-    } else {
-      return std::nullopt;
-    }
-    owner = field->of;
-  }
+std::optional<PropertyTarget> propertyAt(const gltf::Model& model, const std::string& pointer) {
+  if (pointer.starts_with(kMaterials)) return propertyBelow(model.materials, kMaterials, pointer);
+  if (pointer.starts_with(kCameras)) return propertyBelow(model.cameras, kCameras, pointer);
+  if (pointer.starts_with(kLights)) return propertyBelow(model.lights, kLights, pointer);
   return std::nullopt;
+}
+
+std::span<double> numbersOf(Properties& properties, const PropertyTarget& target) {
+  if (target.property >= Property::lightColor) return numbersIn(properties.lights[target.index], target);
+  if (target.property >= Property::yfov) return numbersIn(properties.cameras[target.index], target);
+  return numbersIn(properties.materials[target.index], target);
+}
+
+std::optional<std::size_t> indexIn(std::string_view token, std::size_t size) {
+  std::size_t index = 0;
+  const char* end = token.data() + token.size();
+  const auto read = std::from_chars(token.data(), end, index);
+  const bool isIndex = read.ec == std::errc() && read.ptr == end && (token[0] != '0' || token.size() == 1);
+  if (!isIndex || index >= size) return std::nullopt;
+  return index;
 }
 
 } // namespace gnomon

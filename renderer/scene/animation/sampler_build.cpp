@@ -6,19 +6,11 @@ namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
-
 bool isOfType(const AccessorView& view, const SamplerUse& use) {
   if (static_cast<std::size_t>(view.components) != use.components) return false;
   if (use.kind == ValueKind::boolean) return view.componentType == ComponentType::uint8 && !view.normalized;
   if (view.componentType == ComponentType::float32) return true;
   return use.kind != ValueKind::vector && view.normalized && view.componentType != ComponentType::uint32;
-}
-
-Interpolation interpolationOf(const json& source) {
-  const std::string name = source.value("interpolation", "LINEAR");
-  if (name == "STEP") return Interpolation::step;
-  return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
 }
 
 bool readTimes(const AccessorView& view, const std::string& pointer, Sampler& sampler, Findings& findings) {
@@ -73,10 +65,11 @@ bool makeRotationsUnit(const std::string& pointer, Sampler& sampler, Findings& f
 
 } // namespace
 
-Sampler buildSampler(const json& source, const std::string& pointer, const std::vector<AccessorView>& accessors,
-                     const SamplerUse& use, std::size_t mostNumbers, Findings& findings) {
-  const AccessorView& input = accessors[source["input"].get<std::size_t>()];
-  const AccessorView& output = accessors[source["output"].get<std::size_t>()];
+Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& pointer,
+                     const std::vector<AccessorView>& accessors, const SamplerUse& use, std::size_t mostNumbers,
+                     Findings& findings) {
+  const AccessorView& input = accessors[source.input];
+  const AccessorView& output = accessors[source.output];
   if (input.components != 1 || input.componentType != ComponentType::float32) {
     findings.invalid(pointer + "/input", "The times of keyframes need an accessor of SCALAR and floats.");
     return {};
@@ -86,7 +79,7 @@ Sampler buildSampler(const json& source, const std::string& pointer, const std::
     return {};
   }
   Sampler sampler;
-  sampler.interpolation = interpolationOf(source);
+  sampler.interpolation = source.interpolation;
   sampler.components = use.components * use.elements;
   sampler.isRotation = use.kind == ValueKind::rotation;
   const bool isSpline = sampler.interpolation == Interpolation::cubicSpline;

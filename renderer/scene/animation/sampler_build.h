@@ -1,7 +1,6 @@
 #pragma once
 
 #include <compare>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,7 @@ struct SamplerUse {
 };
 
 /// Reads a sampler, at most `mostNumbers` of them; without times, and with a problem, where it breaks a rule.
-Sampler buildSampler(const nlohmann::json& source, const std::string& pointer,
+Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& pointer,
                      const std::vector<AccessorView>& accessors, const SamplerUse& use, std::size_t mostNumbers,
                      Findings& findings);
 

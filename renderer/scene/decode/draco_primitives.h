@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/spec/limits.h"
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/geometry/accessor_view.h"
-#include "renderer/scene/gltf_document.h"
 
 namespace gnomon {
 
@@ -23,6 +22,6 @@ using DracoPrimitives = std::map<std::pair<std::size_t, std::size_t>, DracoPrimi
 
 /// Decodes every compressed primitive. What was decoded has the types that its accessors state, and
 /// their counts but for draco_stream.h.
-DracoPrimitives decodeDracoPrimitives(const GltfDocument& document, const Limits& limits, Findings& findings);
+DracoPrimitives decodeDracoPrimitives(const LoadContext& load);
 
 } // namespace gnomon

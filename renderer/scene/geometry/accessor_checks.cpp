@@ -1,4 +1,4 @@
-#include "renderer/scene/geometry/accessor_view.h"
+#include "renderer/scene/geometry/accessor_checks.h"
 
 namespace gnomon {
 
@@ -11,27 +11,21 @@ struct ElementShape {
   std::size_t bytes = 0; ///< the columns of a matrix start at multiples of 4 bytes (glTF 2.0, 3.6.2.4)
 };
 
-ElementShape shapeOf(int type, ComponentType componentType) {
+ElementShape shapeOf(ElementType type, ComponentType componentType) {
   const std::size_t component = bytesOf(componentType);
   const auto matrix = [&](std::size_t side) {
     const std::size_t column = (side * component + 3) / 4 * 4;
     return ElementShape{0, column * side};
   };
   switch (type) {
-    case TINYGLTF_TYPE_SCALAR:
-      return {1, component};
-    case TINYGLTF_TYPE_VEC2:
-      return {2, 2 * component};
-    case TINYGLTF_TYPE_VEC3:
-      return {3, 3 * component};
-    case TINYGLTF_TYPE_VEC4:
-      return {4, 4 * component};
-    case TINYGLTF_TYPE_MAT2:
+    case ElementType::mat2:
       return matrix(2);
-    case TINYGLTF_TYPE_MAT3:
+    case ElementType::mat3:
       return matrix(3);
-    default:
+    case ElementType::mat4:
       return matrix(4);
+    default:
+      return {componentsOf(type), static_cast<std::size_t>(componentsOf(type)) * component};
   }
 }
 
@@ -81,35 +75,33 @@ void checkSparseOrder(const AccessorView& view, const std::string& pointer, Find
   }
 }
 
-void addSparse(const GltfDocument& document, const tinygltf::Accessor& accessor, std::size_t elementBytes,
+void addSparse(const GltfDocument& document, const gltf::Accessor& accessor, std::size_t elementBytes,
                const std::string& pointer, AccessorView& view, Findings& findings) {
-  const auto& sparse = accessor.sparse;
-  const auto count = static_cast<std::size_t>(sparse.count);
+  const gltf::Sparse& sparse = *accessor.sparse;
+  const std::size_t count = sparse.count;
   if (count > view.count) {
     findings.invalid(pointer + "/sparse/count", "The accessor has more sparse values than elements.",
                      std::to_string(view.count), std::to_string(count));
     return;
   }
-  view.sparseIndexType = static_cast<ComponentType>(sparse.indices.componentType);
+  view.sparseIndexType = sparse.indexType;
   const std::size_t indexBytes = bytesOf(view.sparseIndexType);
-  view.sparseIndices = locate(document,
-                              {sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-                               indexBytes, count, indexBytes, indexBytes},
-                              pointer + "/sparse/indices", findings);
-  view.sparseValues = locate(document,
-                             {sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
-                              elementBytes, count, elementBytes, bytesOf(view.componentType)},
-                             pointer + "/sparse/values", findings);
+  view.sparseIndices =
+      locate(document, {sparse.indexView, sparse.indexOffset, indexBytes, count, indexBytes, indexBytes},
+             pointer + "/sparse/indices", findings);
+  view.sparseValues = locate(
+      document, {sparse.valueView, sparse.valueOffset, elementBytes, count, elementBytes, bytesOf(view.componentType)},
+      pointer + "/sparse/values", findings);
   if (!view.sparseIndices || !view.sparseValues) return;
   view.sparseCount = count;
   view.sparseStride = elementBytes;
   checkSparseOrder(view, pointer + "/sparse/indices", findings);
 }
 
-AccessorView viewAccessor(const GltfDocument& document, const tinygltf::Accessor& accessor, const std::string& pointer,
+AccessorView viewAccessor(const GltfDocument& document, const gltf::Accessor& accessor, const std::string& pointer,
                           Findings& findings) {
   AccessorView view;
-  view.componentType = static_cast<ComponentType>(accessor.componentType);
+  view.componentType = accessor.componentType;
   view.normalized = accessor.normalized && view.componentType != ComponentType::float32;
   const ElementShape shape = shapeOf(accessor.type, view.componentType);
   view.components = shape.components;
@@ -128,7 +120,7 @@ AccessorView viewAccessor(const GltfDocument& document, const tinygltf::Accessor
         pointer, findings);
     if (!view.data) return {};
   }
-  if (accessor.sparse.isSparse) addSparse(document, accessor, shape.bytes, pointer, view, findings);
+  if (accessor.sparse) addSparse(document, accessor, shape.bytes, pointer, view, findings);
   return view;
 }
 
@@ -139,8 +131,8 @@ std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limi
   views.reserve(document.model.accessors.size());
   std::size_t sparseValues = 0;
   for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
-    const tinygltf::Accessor& accessor = document.model.accessors[i];
-    if (accessor.sparse.isSparse) sparseValues += static_cast<std::size_t>(accessor.sparse.count);
+    const gltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.sparse) sparseValues += accessor.sparse->count;
     if (sparseValues > limits.maxVertices) { // each of them is looked at, so many accessors on few bytes cost time
       findings.tooLarge("/accessors", "The accessors have too many sparse values.", std::to_string(limits.maxVertices),
                         std::to_string(sparseValues));

@@ -69,6 +69,24 @@ std::size_t bytesOf(ComponentType type) {
   return 4;
 }
 
+int componentsOf(ElementType type) {
+  switch (type) {
+    case ElementType::scalar:
+      return 1;
+    case ElementType::vec2:
+      return 2;
+    case ElementType::vec3:
+      return 3;
+    case ElementType::vec4:
+      return 4;
+    case ElementType::mat2:
+    case ElementType::mat3:
+    case ElementType::mat4:
+      break;
+  }
+  return 0;
+}
+
 const std::uint8_t* AccessorView::bytesOfElement(std::size_t element) const {
   const std::size_t indexBytes = bytesOf(sparseIndexType);
   std::size_t first = 0;

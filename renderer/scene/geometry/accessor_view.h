@@ -3,17 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <vector>
 
-#include "protocol/spec/limits.h"
-#include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/document/gltf_model.h"
 
 namespace gnomon {
 
-enum class ComponentType { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
-
 std::size_t bytesOf(ComponentType type);
+
+/// Of a scalar or a vector; 0 for matrices.
+int componentsOf(ElementType type);
 
 /// A little-endian unsigned integer; `type` must be one of the unsigned types.
 std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type);
@@ -46,8 +44,5 @@ struct AccessorView {
  private:
   const std::uint8_t* bytesOfElement(std::size_t element) const;
 };
-
-/// A view of each accessor. Accessors that break a rule are told in the findings, and their views are empty.
-std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings);
 
 } // namespace gnomon

@@ -11,9 +11,13 @@ namespace {
 
 class PrimitiveGathering {
  public:
-  PrimitiveGathering(const tinygltf::Primitive& primitive, const std::vector<AccessorView>& views,
-                     const GltfDocument& document, const DracoPrimitive* draco, std::string pointer, Findings& findings)
-      : primitive_(primitive), views_(views), document_(document), draco_(draco), findings_(findings) {
+  PrimitiveGathering(const LoadContext& load, const gltf::Primitive& primitive, const DracoPrimitive* draco,
+                     std::string pointer)
+      : primitive_(primitive),
+        views_(load.accessors),
+        document_(load.document),
+        draco_(draco),
+        findings_(load.findings) {
     source_.pointer = std::move(pointer);
   }
 
@@ -124,7 +128,7 @@ class PrimitiveGathering {
     source_.indices = &view;
   }
 
-  const tinygltf::Primitive& primitive_;
+  const gltf::Primitive& primitive_;
   const std::vector<AccessorView>& views_;
   const GltfDocument& document_;
   const DracoPrimitive* draco_; ///< nullptr = not compressed
@@ -132,8 +136,8 @@ class PrimitiveGathering {
   PrimitiveSource source_;
 };
 
-bool drawsTriangles(int mode) {
-  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
+bool drawsTriangles(PrimitiveMode mode) {
+  return mode == PrimitiveMode::triangles || mode == PrimitiveMode::triangleStrip || mode == PrimitiveMode::triangleFan;
 }
 
 /// The most vertices that a primitive can come to: flat normals give every triangle its own three.
@@ -170,22 +174,23 @@ bool morphFits(const PrimitiveSource& source, const std::vector<PrimitiveSource>
 
 std::size_t PrimitiveSource::triangles() const {
   const std::size_t count = corners();
-  if (mode == TINYGLTF_MODE_TRIANGLES) return count / 3;
+  if (mode == PrimitiveMode::triangles) return count / 3;
   return count < 3 ? 0 : count - 2;
 }
 
-std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
-                                                       const std::vector<AccessorView>& views,
-                                                       const DracoPrimitives& draco, const std::vector<UvSets>& uvSets,
-                                                       const Limits& limits, Findings& findings) {
-  std::vector<std::vector<PrimitiveSource>> meshes(document.model.meshes.size());
+std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, const DracoPrimitives& draco,
+                                                       const std::vector<UvSets>& uvSets) {
+  const gltf::Model& model = load.document.model;
+  const Limits& limits = load.limits;
+  Findings& findings = load.findings;
+  std::vector<std::vector<PrimitiveSource>> meshes(model.meshes.size());
   std::size_t triangles = 0;
   std::size_t vertices = 0;
   std::size_t morphed = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const tinygltf::Mesh& mesh = document.model.meshes[m];
+    const gltf::Mesh& mesh = model.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const gltf::Primitive& primitive = mesh.primitives[p];
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
       if (!drawsTriangles(primitive.mode)) {
         findings.warn("Mesh " + std::to_string(m) + " has points or lines, which are not drawn.");
@@ -193,14 +198,13 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& docum
       }
       const auto compressed = draco.find({m, p});
       PrimitiveSource source =
-          PrimitiveGathering(primitive, views, document, compressed == draco.end() ? nullptr : &compressed->second,
-                             pointer, findings)
-              .gather(variantMaterials(document, m, p), uvSets);
+          PrimitiveGathering(load, primitive, compressed == draco.end() ? nullptr : &compressed->second, pointer)
+              .gather(variantMaterials(model, primitive), uvSets);
       if (!source.positions) {
         findings.warn("Mesh " + std::to_string(m) + " has a primitive without positions, which is not drawn.");
         continue;
       }
-      if (source.mode == TINYGLTF_MODE_TRIANGLES && source.corners() % 3 != 0) {
+      if (source.mode == PrimitiveMode::triangles && source.corners() % 3 != 0) {
         findings.warn("Mesh " + std::to_string(m) +
                       " has a primitive whose last triangle is incomplete and not drawn.");
       }

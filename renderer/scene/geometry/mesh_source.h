@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "protocol/spec/limits.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/materials/uv_sets.h"
@@ -21,10 +20,10 @@ struct MorphSource {
 
 /// A primitive of the file whose accessors fit each other. Absent attributes are nullptr.
 struct PrimitiveSource {
-  std::string pointer;                 ///< its place in the glTF
-  int material = -1;                   ///< -1 = the default material
-  std::vector<int> variantMaterials{}; ///< as in Primitive
-  int mode = 4;                        ///< triangles, strip or fan
+  std::string pointer;                           ///< its place in the glTF
+  int material = -1;                             ///< -1 = the default material
+  std::vector<int> variantMaterials{};           ///< as in Primitive
+  PrimitiveMode mode = PrimitiveMode::triangles; ///< or a strip or fan of them
   const AccessorView* positions = nullptr;
   const AccessorView* normals = nullptr;
   const AccessorView* tangents = nullptr;
@@ -42,11 +41,9 @@ struct PrimitiveSource {
 };
 
 /// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning.
-/// Refuses before anything is allocated when the whole would pass the limits. `uvSets`: one a material. `views` and
-/// `draco` must outlive the result.
-std::vector<std::vector<PrimitiveSource>> gatherMeshes(const GltfDocument& document,
-                                                       const std::vector<AccessorView>& views,
-                                                       const DracoPrimitives& draco, const std::vector<UvSets>& uvSets,
-                                                       const Limits& limits, Findings& findings);
+/// Refuses before anything is allocated when the whole would pass the limits. `uvSets`: one a material. The
+/// accessors and `draco` must outlive the result.
+std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, const DracoPrimitives& draco,
+                                                       const std::vector<UvSets>& uvSets);
 
 } // namespace gnomon

@@ -38,12 +38,12 @@ std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, Findings& 
 
 std::vector<std::uint32_t> readTriangles(const PrimitiveSource& source, Findings& findings) {
   std::vector<std::uint32_t> corners = readCorners(source, findings);
-  if (source.mode == TINYGLTF_MODE_TRIANGLES) {
+  if (source.mode == PrimitiveMode::triangles) {
     corners.resize(corners.size() / 3 * 3);
     return corners;
   }
   if (corners.size() < 3) return {};
-  const bool fan = source.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+  const bool fan = source.mode == PrimitiveMode::triangleFan;
   std::vector<std::uint32_t> triangles;
   triangles.reserve((corners.size() - 2) * 3);
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {

@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <vector>
 
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene.h"
 
-/// The file's cameras. The JSON has passed the schema check.
+/// The file's cameras.
 namespace gnomon {
 
 /// A camera as it hangs on a node: not placed.
@@ -18,13 +19,13 @@ struct FileCamera {
 };
 
 /// Checks what the schema can't: the lens that the type asks for, and far beyond near.
-void checkCameras(const nlohmann::json& document, Findings& findings);
+void checkCameras(const std::vector<gltf::Camera>& cameras, Findings& findings);
 
 /// `camera` with the lens of one of the file's cameras, which has passed checkCameras().
-SceneCamera withLens(const nlohmann::json& source, SceneCamera camera);
+SceneCamera withLens(const gltf::Camera& source, SceneCamera camera);
 
 /// The camera that hangs on a node, if there is one.
-std::optional<FileCamera> cameraAt(const nlohmann::json& document, std::size_t node, Findings& findings);
+std::optional<FileCamera> cameraAt(const gltf::Model& model, std::size_t node, Findings& findings);
 
 /// Nothing where the matrix leaves it no direction.
 std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera);

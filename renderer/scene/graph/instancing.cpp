@@ -4,13 +4,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
 namespace {
-
-using nlohmann::json;
 
 bool isOfType(const std::string& name, const AccessorView& view) {
   const bool isFloat = view.componentType == ComponentType::float32;
@@ -44,20 +41,18 @@ std::optional<glm::dmat4> Instancing::nodeFromCopy(std::size_t copy) const {
   return matrix;
 }
 
-std::optional<Instancing> instancingOf(const GltfDocument& document, const std::vector<AccessorView>& views,
-                                       std::size_t node, Findings& findings) {
-  const json& source = document.json["nodes"][node];
-  const json* extension = extensionOf(source, "EXT_mesh_gpu_instancing");
-  if (extension == nullptr) return std::nullopt;
+std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node) {
+  Findings& findings = load.findings;
+  const auto& attributes = load.document.model.nodes[node].instancing;
+  if (!attributes) return std::nullopt;
   const std::string pointer = pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
-  const json& attributes = (*extension)["attributes"];
-  if (attributes.empty()) {
+  if (attributes->empty()) {
     findings.invalid(pointer, "The instancing names no attribute.");
     return std::nullopt;
   }
   Instancing instancing;
-  for (const auto& [name, accessor] : attributes.items()) {
-    const AccessorView& view = views[accessor.get<std::size_t>()];
+  for (const auto& [name, accessor] : *attributes) {
+    const AccessorView& view = load.accessors[static_cast<std::size_t>(accessor)];
     if (instancing.count != 0 && view.count != instancing.count) {
       findings.invalid(pointerTo(pointer, name), "The accessor does not have as many elements as the others.",
                        std::to_string(instancing.count), std::to_string(view.count));

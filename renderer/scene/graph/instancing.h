@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <vector>
 
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_view.h"
-#include "renderer/scene/gltf_document.h"
 
 namespace gnomon {
 
@@ -23,8 +22,8 @@ struct Instancing {
   std::optional<glm::dmat4> nodeFromCopy(std::size_t copy) const;
 };
 
-/// The instancing of a node that has it; nothing, and perhaps a problem, otherwise. `views` must outlive the result.
-std::optional<Instancing> instancingOf(const GltfDocument& document, const std::vector<AccessorView>& views,
-                                       std::size_t node, Findings& findings);
+/// The instancing of a node that has it; nothing, and perhaps a problem, otherwise. The
+/// accessors must outlive the result.
+std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node);
 
 } // namespace gnomon

@@ -1,23 +1,17 @@
 #include "renderer/scene/graph/lights.h"
 
 #include <algorithm>
-#include <array>
-#include <nlohmann/json.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "renderer/core/vec3.h"
-#include "renderer/scene/gltf_json.h"
 #include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
-
-constexpr const char* kExtension = "KHR_lights_punctual";
-constexpr double kDefaultOuterCone = std::numbers::pi / 4; // radians, as the extension defines it
-constexpr double kWidestConeDegrees = 89.9;                // a cone of 90 has no picture plane
+constexpr double kWidestConeDegrees = 89.9; // a cone of 90 has no picture plane
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
@@ -25,44 +19,33 @@ double degrees(double radians) {
 
 } // namespace
 
-const json& lightsOf(const json& document) {
-  static const json kNone = json::array();
-  const json* extension = extensionOf(document, kExtension);
-  return extension == nullptr ? kNone : (*extension)["lights"];
-}
-
-void checkLights(const json& document, Findings& findings) {
-  const json& lights = lightsOf(document);
+void checkLights(const std::vector<gltf::PunctualLight>& lights, Findings& findings) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (lights[i]["type"] != "spot") continue;
+    if (lights[i].type != LightType::spot) continue;
     const std::string pointer = pointerTo("/extensions/KHR_lights_punctual/lights", i) + "/spot";
-    const auto spot = lights[i].find("spot");
-    if (spot == lights[i].end()) {
+    if (!lights[i].spot) {
       findings.invalid(pointer, "A spot light needs its cone.");
-    } else if (!(spot->value("innerConeAngle", 0.0) < spot->value("outerConeAngle", kDefaultOuterCone))) {
+    } else if (!(lights[i].spot->inner < lights[i].spot->outer)) {
       findings.invalid(pointer + "/innerConeAngle", "The inner cone is not narrower than the outer cone.");
     }
   }
 }
 
-Light lightFrom(const json& source) {
-  const std::string type = source["type"].get<std::string>();
+Light lightFrom(const gltf::PunctualLight& source) {
   Light light;
-  light.type = type == "point" ? LightType::point : type == "spot" ? LightType::spot : LightType::directional;
-  const auto range = source.find("range");
-  if (light.type != LightType::directional && range != source.end()) light.range = range->get<double>();
+  light.type = source.type;
+  if (light.type != LightType::directional && std::isfinite(source.range)) light.range = source.range;
   if (light.type == LightType::spot) {
-    const json& spot = source["spot"];
-    light.innerConeDegrees = degrees(spot.value("innerConeAngle", 0.0));
-    light.outerConeDegrees = degrees(spot.value("outerConeAngle", kDefaultOuterCone));
+    light.innerConeDegrees = degrees(source.spot->inner);
+    light.outerConeDegrees = degrees(source.spot->outer);
     if (light.outerConeDegrees > kWidestConeDegrees) {
       light.outerConeDegrees = kWidestConeDegrees;
       light.innerConeDegrees = std::min(light.innerConeDegrees, kWidestConeDegrees - 0.1);
     }
   }
-  light.intensity = source.value("intensity", 1.0);
-  if (const auto color = source.find("color"); color != source.end()) {
-    const auto rgb = color->get<std::array<double, 3>>();
+  light.intensity = source.intensity;
+  if (source.color) {
+    const glm::dvec3& rgb = *source.color;
     // Colours beyond 1 become intensity, so that the light stays what it was.
     const double greatest = std::max({1.0, rgb[0], rgb[1], rgb[2]});
     light.color = {rgb[0] / greatest, rgb[1] / greatest, rgb[2] / greatest};
@@ -71,18 +54,15 @@ Light lightFrom(const json& source) {
   return light;
 }
 
-std::optional<FileLight> lightAt(const json& document, std::size_t node, Findings& findings) {
-  const json& holder = document["nodes"][node];
-  const json* extension = extensionOf(holder, kExtension);
-  if (extension == nullptr) return std::nullopt;
-  const auto index = (*extension)["light"].get<std::size_t>();
-  const json& source = lightsOf(document)[index];
-  FileLight light{{}, index};
+std::optional<FileLight> lightAt(const gltf::Model& model, std::size_t node, Findings& findings) {
+  const gltf::Node& holder = model.nodes[node];
+  if (holder.light < 0) return std::nullopt;
+  FileLight light{{}, static_cast<std::size_t>(holder.light)};
+  const gltf::PunctualLight& source = model.lights[light.source];
   light.light.node = static_cast<int>(node);
-  light.light.name = keptName(nameOf(holder).empty() ? nameOf(source) : nameOf(holder), findings);
+  light.light.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
   light.light.light = lightFrom(source);
-  if (light.light.light.type == LightType::spot &&
-      degrees(source["spot"].value("outerConeAngle", kDefaultOuterCone)) > kWidestConeDegrees) {
+  if (source.type == LightType::spot && degrees(source.spot->outer) > kWidestConeDegrees) {
     findings.warn("The light at node " + std::to_string(node) + " has a cone of 90 degrees; it is drawn with 89.9.");
   }
   return light;

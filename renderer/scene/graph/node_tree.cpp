@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/gltf_json.h"
-#include "renderer/scene/graph/node_transform.h"
 
 namespace gnomon {
 
@@ -12,7 +10,10 @@ namespace {
 
 constexpr double kSmallestSine = 1e-9; ///< below it, two axes count as parallel
 
-std::vector<int> readParents(const tinygltf::Model& model, Findings& findings) {
+/// Volume of the unit cube's image per volume of a box with the same edges: below this, a transform is flat.
+constexpr double kFlatVolume = 1e-12;
+
+std::vector<int> readParents(const gltf::Model& model, Findings& findings) {
   std::vector<int> parents(model.nodes.size(), -1);
   for (std::size_t node = 0; node < model.nodes.size(); ++node) {
     const std::vector<int>& children = model.nodes[node].children;
@@ -29,7 +30,7 @@ std::vector<int> readParents(const tinygltf::Model& model, Findings& findings) {
   return parents;
 }
 
-void checkSceneRoots(const tinygltf::Model& model, const std::vector<int>& parents, Findings& findings) {
+void checkSceneRoots(const gltf::Model& model, const std::vector<int>& parents, Findings& findings) {
   for (std::size_t scene = 0; scene < model.scenes.size(); ++scene) {
     const std::vector<int>& roots = model.scenes[scene].nodes;
     for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -41,12 +42,52 @@ void checkSceneRoots(const tinygltf::Model& model, const std::vector<int>& paren
   }
 }
 
-bool hides(const nlohmann::json& node) {
-  const nlohmann::json* visibility = extensionOf(node, "KHR_node_visibility");
-  return visibility != nullptr && !visibility->value("visible", true);
+/// The matrix is affine and the rotation has a length, or there is a problem in the findings.
+LocalTransform readTransform(const gltf::Node& node, const std::string& pointer, Findings& findings) {
+  LocalTransform local;
+  if (node.matrix) {
+    const glm::dmat4& m = *node.matrix;
+    if (m[0].w != 0 || m[1].w != 0 || m[2].w != 0 || m[3].w != 1) {
+      findings.invalid(pointer + "/matrix", "The matrix is not affine: its last row is not 0 0 0 1.");
+      return {};
+    }
+    local.matrix = m;
+    return local;
+  }
+  if (node.rotation) {
+    const glm::dquat rotation(node.rotation->w, node.rotation->x, node.rotation->y, node.rotation->z);
+    const double length = glm::length(rotation);
+    if (!(length > 0) || !std::isfinite(length)) {
+      findings.invalid(pointer + "/rotation", "The rotation is not a quaternion of length 1.");
+      return {};
+    }
+    local.rotation = rotation / length;
+  }
+  if (node.translation) local.translation = *node.translation;
+  if (node.scale) local.scale = *node.scale;
+  return local;
 }
 
 } // namespace
+
+void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const gltf::Node& node = nodes[i];
+    if (!node.matrix || !(node.translation || node.rotation || node.scale)) continue;
+    findings.invalid(pointerTo("/nodes", i) + "/matrix",
+                     "A node has either a matrix or translation, rotation and scale.");
+  }
+}
+
+bool isFlat(const glm::dmat4& matrix) {
+  double volume = glm::determinant(glm::dmat3(matrix));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = glm::length(glm::dvec3(matrix[axis]));
+    if (!(edge > 0) || !std::isfinite(edge)) return true;
+    volume /= edge;
+  }
+  return !(std::abs(volume) > kFlatVolume);
+}
 
 NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,
                       const std::vector<LocalTransform>& locals) {
@@ -83,8 +124,7 @@ std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector
   return std::nullopt;
 }
 
-NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
-  const tinygltf::Model& model = document.model;
+NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
   NodeTree tree;
   tree.parents = readParents(model, findings);
   checkSceneRoots(model, tree.parents, findings);
@@ -100,7 +140,7 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
     const auto node = static_cast<std::size_t>(tree.order[i]);
     reached[node] = true;
     tree.locals[node] = readTransform(model.nodes[node], pointerTo("/nodes", node), findings);
-    tree.visible[node] = !hides(document.json["nodes"][node]);
+    tree.visible[node] = model.nodes[node].visible;
     const std::vector<int>& children = model.nodes[node].children;
     tree.order.insert(tree.order.end(), children.begin(), children.end());
   }
@@ -116,7 +156,7 @@ NodeTree buildNodeTree(const GltfDocument& document, Findings& findings) {
   return tree;
 }
 
-std::vector<SceneNode> namedNodes(const tinygltf::Model& model) {
+std::vector<SceneNode> namedNodes(const gltf::Model& model) {
   std::vector<SceneNode> nodes(model.nodes.size());
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     nodes[node].name = model.nodes[node].name;

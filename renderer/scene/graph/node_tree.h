@@ -1,15 +1,44 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <vector>
 
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
-#include "renderer/scene/graph/local_transform.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
+
+/// A node's own transform in the parts that animations move.
+struct LocalTransform {
+  std::optional<glm::dmat4> matrix; ///< instead of the others
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0}; ///< of length 1
+  glm::dvec3 scale{1};
+};
+
+/// A node's own transform as matrices.
+struct NodeTransform {
+  glm::dmat4 parentFromNode{1};
+  glm::dmat4 parentFromUnscaled{1}; ///< without its scale; a node with a `matrix` keeps it
+};
+
+inline NodeTransform transformOf(const LocalTransform& local) {
+  if (local.matrix) return {*local.matrix, *local.matrix};
+  glm::dmat4 rigid = glm::mat4_cast(local.rotation);
+  rigid[3] = glm::dvec4(local.translation, 1);
+  glm::dmat4 scaled = rigid;
+  for (int axis = 0; axis < 3; ++axis) scaled[axis] *= local.scale[axis];
+  return {scaled, rigid};
+}
+
+/// Refuses nodes that have a matrix beside a translation, rotation or scale.
+void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings);
+
+/// Whether a transform leaves nothing of a body's volume; so does one that is not finite.
+bool isFlat(const glm::dmat4& matrix);
 
 /// Where every node stands, whichever scene it belongs to.
 struct NodePlaces {
@@ -38,11 +67,12 @@ struct NodeTree : NodePlaces {
 };
 
 /// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.
-/// With a problem in the findings, the result is not to be used.
-NodeTree buildNodeTree(const GltfDocument& document, Findings& findings);
+/// Refuses matrices that are not affine and rotations of length zero. With a problem in the findings, the result is
+/// not to be used.
+NodeTree buildNodeTree(const gltf::Model& model, Findings& findings);
 
 /// Names and parents of the nodes, which have been found to be trees.
-std::vector<SceneNode> namedNodes(const tinygltf::Model& model);
+std::vector<SceneNode> namedNodes(const gltf::Model& model);
 
 /// The axes of a node, orthonormal whatever scales it; false where the matrix leaves none.
 struct NodeFrame {

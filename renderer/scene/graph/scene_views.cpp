@@ -6,8 +6,6 @@
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/instancing.h"
 #include "renderer/scene/graph/lights.h"
-#include "renderer/scene/graph/node_tree.h"
-#include "renderer/scene/graph/placing.h"
 
 namespace gnomon {
 
@@ -15,17 +13,15 @@ namespace {
 
 class Flattening {
  public:
-  Flattening(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
-             const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
-             const std::vector<Primitive>& primitives, bool moves, const Limits& limits, Findings& findings)
-      : document_(document),
-        accessors_(accessors),
-        tree_(tree),
-        meshes_(meshes),
-        posed_(posed),
-        primitives_(primitives),
-        limits_(limits),
-        findings_(findings),
+  Flattening(const LoadContext& load, const LoadedMeshes& loaded, bool moves)
+      : load_(load),
+        nodes_(load.document.model.nodes),
+        tree_(loaded.tree),
+        meshes_(loaded.meshes),
+        posed_(loaded.posed),
+        primitives_(loaded.primitives),
+        limits_(load.limits),
+        findings_(load.findings),
         moves_(moves) {}
 
   std::vector<int> roots() const {
@@ -53,7 +49,7 @@ class Flattening {
   std::vector<int> reachedFrom(const std::vector<int>& roots) {
     std::vector<int> nodes = roots;
     for (std::size_t i = 0; i < nodes.size() && count(1, 1, "/scenes"); ++i) {
-      const auto& children = document_.model.nodes[static_cast<std::size_t>(nodes[i])].children;
+      const auto& children = nodes_[static_cast<std::size_t>(nodes[i])].children;
       nodes.insert(nodes.end(), children.begin(), children.end());
     }
     std::sort(nodes.begin(), nodes.end());
@@ -62,9 +58,9 @@ class Flattening {
 
   /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
-    const tinygltf::Node& source = document_.model.nodes[node];
+    const gltf::Node& source = nodes_[node];
     if (source.mesh >= 0 && (moves_ || !tree_.hidden[node])) placeMesh(node, view, pointer);
-    if (const auto camera = cameraAt(document_.json, node, findings_)) {
+    if (const auto camera = cameraAt(load_.document.model, node, findings_)) {
       if (moves_) scenes_.moving.back().cameras.push_back(*camera);
       if (auto placed = placedAt(tree_.worldFromUnscaled[node], camera->camera)) {
         view.cameras.push_back(*std::move(placed));
@@ -72,7 +68,7 @@ class Flattening {
         warnOfNoScale("camera", node);
       }
     }
-    if (const auto light = lightAt(document_.json, node, findings_)) {
+    if (const auto light = lightAt(load_.document.model, node, findings_)) {
       if (moves_) scenes_.moving.back().lights.push_back(*light);
       if (tree_.hidden[node]) return;
       if (auto placed = placedAt(tree_.worldFromUnscaled[node], light->light)) {
@@ -96,17 +92,17 @@ class Flattening {
   }
 
   void placeMesh(std::size_t node, SceneView& view, const std::string& pointer) {
-    const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(document_.model.nodes[node].mesh)];
+    const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(nodes_[node].mesh)];
     std::vector<int> primitives = mesh.primitives;
     primitives.insert(primitives.end(), posed_[node].followingNode.begin(), posed_[node].followingNode.end());
-    const auto instancing = instancingOf(document_, accessors_, node, findings_);
+    const auto instancing = instancingOf(load_, node);
     if (findings_.refused()) return;
     if (!posed_[node].followingSkin.empty()) {
       if (instancing) {
         findings_.warn("The mesh at node " + std::to_string(node) + " follows a skin: its copies are not drawn.");
       }
       if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
-      addPlacements(node, document_.model.nodes[node].skin, glm::dmat4(1), posed_[node].followingSkin);
+      addPlacements(node, nodes_[node].skin, glm::dmat4(1), posed_[node].followingSkin);
       placeCopy(node, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
     }
     const std::uint64_t copies = instancing ? instancing->count : 1;
@@ -172,8 +168,8 @@ class Flattening {
     return false;
   }
 
-  const GltfDocument& document_;
-  const std::vector<AccessorView>& accessors_;
+  const LoadContext& load_;
+  const std::vector<gltf::Node>& nodes_;
   const NodeTree& tree_;
   const std::vector<BuiltMesh>& meshes_;
   const std::vector<PosedMesh>& posed_; ///< one a node
@@ -188,13 +184,10 @@ class Flattening {
 
 } // namespace
 
-FlatScenes flattenScenes(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
-                         const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
-                         const std::vector<Primitive>& primitives, bool moves, const Limits& limits,
-                         Findings& findings) {
-  Flattening flattening(document, accessors, tree, meshes, posed, primitives, moves, limits, findings);
-  const auto& scenes = document.model.scenes;
-  for (std::size_t i = 0; i < scenes.size() && !findings.refused(); ++i) {
+FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool moves) {
+  Flattening flattening(load, loaded, moves);
+  const auto& scenes = load.document.model.scenes;
+  for (std::size_t i = 0; i < scenes.size() && !load.findings.refused(); ++i) {
     flattening.flatten(scenes[i].nodes, pointerTo("/scenes", i));
   }
   if (scenes.empty()) flattening.flatten(flattening.roots(), "/nodes");

@@ -2,11 +2,10 @@
 
 #include <vector>
 
-#include "protocol/spec/limits.h"
 #include "renderer/scene/animation/motion.h"
-#include "renderer/scene/findings.h"
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/geometry/mesh_build.h"
-#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/posing/posed_nodes.h"
 #include "renderer/scene/scene.h"
 
@@ -18,11 +17,16 @@ struct FlatScenes {
   std::vector<MovingView> moving; ///< parallel to the views; empty where nothing moves
 };
 
+/// What scenes are made of.
+struct LoadedMeshes {
+  const NodeTree& tree;
+  const std::vector<BuiltMesh>& meshes;
+  const std::vector<PosedMesh>& posed; ///< one a node
+  const std::vector<Primitive>& primitives;
+};
+
 /// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all its roots.
 /// `moves`: whether the file has animations.
-FlatScenes flattenScenes(const GltfDocument& document, const std::vector<AccessorView>& accessors, const NodeTree& tree,
-                         const std::vector<BuiltMesh>& meshes, const std::vector<PosedMesh>& posed,
-                         const std::vector<Primitive>& primitives, bool moves, const Limits& limits,
-                         Findings& findings);
+FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool moves);
 
 } // namespace gnomon

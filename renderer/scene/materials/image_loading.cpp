@@ -25,10 +25,8 @@ std::string_view unsupportedFormat(Encoded bytes) {
 }
 
 std::string imageName(const GltfDocument& document, int index) {
-  const auto& image = document.json["images"][static_cast<std::size_t>(index)];
-  std::string name = "image " + std::to_string(index);
-  if (const auto found = image.find("name"); found != image.end()) name += ' ' + inQuotes(found->get<std::string>());
-  return name;
+  const auto& name = document.model.images[static_cast<std::size_t>(index)].name;
+  return "image " + std::to_string(index) + (name ? ' ' + inQuotes(*name) : "");
 }
 
 /// Where each image of the file that a material uses will stand in Scene::images; -1 = it is left out.

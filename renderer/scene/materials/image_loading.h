@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "protocol/spec/limits.h"
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

@@ -1,89 +1,109 @@
 #include "renderer/scene/materials/materials.h"
 
-#include "renderer/scene/gltf_json.h"
-#include "renderer/scene/materials/material_extensions.h"
-#include "renderer/scene/materials/material_factors.h"
+#include <cmath>
 
 namespace gnomon {
 
 namespace {
 
-Wrap wrapOf(int mode) {
-  switch (mode) {
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-      return Wrap::clampToEdge;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-      return Wrap::mirroredRepeat;
-    default:
-      return Wrap::repeat;
+void readAlpha(const gltf::Material& source, const std::string& name, Material& material, Findings& findings) {
+  material.alphaMode = source.alphaMode;
+  if (source.alphaMode == AlphaMode::mask) {
+    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
+  } else if (source.alphaMode == AlphaMode::blend) {
+    material.alphaCutoff = 0.5f;
+    findings.warn("The " + name + " is blended; the camera sees it solid where its alpha is at least 0.5.");
   }
 }
 
-MinFilter minFilterOf(int filter) {
-  switch (filter) {
-    case TINYGLTF_TEXTURE_FILTER_NEAREST:
-      return MinFilter::nearest;
-    case TINYGLTF_TEXTURE_FILTER_LINEAR:
-      return MinFilter::linear;
-    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-      return MinFilter::nearestMipmapNearest;
-    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
-      return MinFilter::linearMipmapNearest;
-    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
-      return MinFilter::nearestMipmapLinear;
-    default:
-      return MinFilter::linearMipmapLinear;
+/// After the alpha mode has been read.
+void readTransmission(const gltf::Transmission& extension, const std::string& name, Material& material,
+                      Findings& findings) {
+  material.transmission = static_cast<float>(extension.factor);
+  if (!(material.transmission > 0)) return;
+  findings.warn("The " + name +
+                " lets light through: the surroundings are seen through it, but not what stands behind it.");
+  if (extension.texture) {
+    findings.warn("The transmission of the " + name + " is the same everywhere: its texture is left out.");
+  }
+  const float left = 1 - material.transmission;
+  if (material.alphaMode == AlphaMode::opaque) {
+    material.alphaMode = AlphaMode::blend;
+    material.uniformAlpha = true;
+    material.baseColorFactor.a = left;
+    material.alphaCutoff = 0;
+  } else if (material.alphaMode == AlphaMode::blend) {
+    material.baseColorFactor.a *= left;
+    material.alphaCutoff *= left;
   }
 }
 
-class MaterialReading {
- public:
-  MaterialReading(const GltfDocument& document, std::size_t index, Findings& findings)
-      : document_(document),
-        json_(document.json.at("materials")[index]),
-        name_(nameOfMaterial(index, nameOf(json_))),
-        findings_(findings) {}
-
-  Material read() const {
-    Material material = readFactors(json_, name_, findings_);
-    const auto textures = texturesOf(material);
-    const auto infos = textureInfosOf(json_);
-    for (std::size_t i = 0; i < infos.size(); ++i) {
-      if (infos[i] != nullptr) *textures[i] = texture(*infos[i]);
-    }
-    return material;
+/// All but the textures. `name` says in warnings which material it is.
+Material readFactors(const gltf::Material& source, const std::string& name, Findings& findings) {
+  Material material;
+  material.name = source.name;
+  material.baseColorFactor = glm::vec4(source.baseColorFactor);
+  material.metallicFactor = static_cast<float>(source.metallicFactor);
+  material.roughnessFactor = static_cast<float>(source.roughnessFactor);
+  material.normalScale = static_cast<float>(source.normalScale);
+  material.occlusionStrength = static_cast<float>(source.occlusionStrength);
+  material.emissiveFactor =
+      glm::vec3(source.emissiveFactor) * static_cast<float>(source.emissiveStrength.value_or(1.0));
+  material.doubleSided = source.doubleSided;
+  readAlpha(source, name, material, findings);
+  if (const auto& glossy = source.specularGlossiness) {
+    material.baseColorFactor = glm::vec4(glossy->diffuseFactor);
+    material.specularGlossiness =
+        SpecularGlossiness{glm::vec3(glossy->specularFactor), static_cast<float>(glossy->glossinessFactor)};
   }
+  material.unlit = source.unlit;
+  if (source.transmission) readTransmission(*source.transmission, name, material, findings);
+  return material;
+}
 
- private:
-  /// The texture that a textureInfo names; nothing, and a warning, where it can't be drawn.
-  std::optional<TextureUse> texture(const nlohmann::json& info) const {
-    const int index = info.at("index").get<int>();
-    const tinygltf::Texture& texture = document_.model.textures[static_cast<std::size_t>(index)];
-    const int image = imageOf(document_, static_cast<std::size_t>(index), findings_);
-    if (image < 0) {
-      findings_.warn("The texture " + std::to_string(index) + " of the " + name_ +
-                     " has no image in a supported format; it is left out.");
-      return std::nullopt;
-    }
-    TextureUse use;
-    use.image = image;
-    use.texCoord = texCoordOf(info);
-    use.transform = transformOf(info);
-    if (texture.sampler >= 0) {
-      const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<std::size_t>(texture.sampler)];
-      use.wrapS = wrapOf(sampler.wrapS);
-      use.wrapT = wrapOf(sampler.wrapT);
-      use.minFilter = minFilterOf(sampler.minFilter);
-      use.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    }
-    return use;
+/// What a material says of the textures of texturesOf(), in that order.
+std::array<const std::optional<gltf::TextureInfo>*, 5> textureInfosOf(const gltf::Material& source) {
+  const auto& glossy = source.specularGlossiness;
+  return {glossy ? &glossy->diffuseTexture : &source.baseColorTexture,
+          glossy ? &glossy->specularGlossinessTexture : &source.metallicRoughnessTexture, &source.normalTexture,
+          &source.occlusionTexture, &source.emissiveTexture};
+}
+
+/// The image of a texture: its WebP where it has one, else that in a format of glTF's own; -1 = none. Refuses a texture
+/// that has nothing but KHR_texture_basisu.
+int imageOf(const gltf::Texture& texture, std::size_t index, Findings& findings) {
+  if (texture.webp >= 0) return texture.webp;
+  if (texture.source < 0 && texture.basisu) {
+    findings.unsupported(pointerTo("/textures", index),
+                         "The texture has only a KTX 2 image (KHR_texture_basisu), which is not supported, and no "
+                         "fallback image.");
   }
+  return texture.source;
+}
 
-  const GltfDocument& document_;
-  const nlohmann::json& json_;
-  std::string name_;
-  Findings& findings_;
-};
+/// The texture that a textureInfo names; nothing, and a warning, where it can't be drawn.
+std::optional<TextureUse> readTexture(const gltf::Model& model, const gltf::TextureInfo& info, const std::string& name,
+                                      Findings& findings) {
+  const auto index = static_cast<std::size_t>(info.texture);
+  const gltf::Texture& texture = model.textures[index];
+  TextureUse use;
+  use.image = imageOf(texture, index, findings);
+  if (use.image < 0) {
+    findings.warn("The texture " + std::to_string(index) + " of the " + name +
+                  " has no image in a supported format; it is left out.");
+    return std::nullopt;
+  }
+  use.texCoord = info.texCoord;
+  use.transform = transformOf(info);
+  if (texture.sampler >= 0) {
+    const gltf::TextureSampler& sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
+    use.wrapS = sampler.wrapS;
+    use.wrapT = sampler.wrapT;
+    use.minFilter = sampler.minFilter;
+    use.nearest = sampler.nearest;
+  }
+  return use;
+}
 
 } // namespace
 
@@ -91,14 +111,48 @@ std::string nameOfMaterial(std::size_t index, const std::string& name) {
   return "material " + std::to_string(index) + (name.empty() ? "" : " " + inQuotes(name));
 }
 
-std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings) {
+/// The extension's matrix: translation * rotation * scale, with v downwards.
+std::optional<TextureTransform> transformOf(const gltf::TextureInfo& info) {
+  if (!info.transform) return std::nullopt;
+  const glm::vec2 scale(info.transform->scale);
+  const auto c = static_cast<float>(std::cos(info.transform->rotation));
+  const auto s = static_cast<float>(std::sin(info.transform->rotation));
+  const TextureTransform transform{glm::mat2(glm::vec2(c, -s) * scale.x, glm::vec2(s, c) * scale.y),
+                                   glm::vec2(info.transform->offset)};
+  if (transform.axes == glm::mat2(1) && transform.offset == glm::vec2(0)) return std::nullopt;
+  return transform;
+}
+
+std::vector<Material> readMaterials(const gltf::Model& model, Findings& findings) {
   std::vector<Material> materials;
-  const auto sources = document.json.find("materials");
-  for (std::size_t i = 0; sources != document.json.end() && i < sources->size(); ++i) {
-    materials.push_back(MaterialReading(document, i, findings).read());
+  materials.reserve(model.materials.size() + 1);
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    const gltf::Material& source = model.materials[i];
+    const std::string name = nameOfMaterial(i, source.name);
+    Material& material = materials.emplace_back(readFactors(source, name, findings));
+    const auto textures = texturesOf(material);
+    const auto infos = textureInfosOf(source);
+    for (std::size_t t = 0; t < infos.size(); ++t) {
+      if (*infos[t]) *textures[t] = readTexture(model, **infos[t], name, findings);
+    }
   }
   materials.emplace_back();
   return materials;
+}
+
+Material repainted(const Material& loaded, const gltf::Material& source) {
+  Findings said; // when the file was loaded
+  Material material = readFactors(source, {}, said);
+  material.hasVertexColors = loaded.hasVertexColors;
+  Material textured = loaded;
+  const auto from = texturesOf(textured);
+  const auto to = texturesOf(material);
+  const auto infos = textureInfosOf(source);
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    *to[i] = *from[i];
+    if (*to[i]) (*to[i])->transform = transformOf(**infos[i]);
+  }
+  return material;
 }
 
 } // namespace gnomon

@@ -5,15 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
 
 /// The file's materials, and after them the default material. Their textures name the file's images and texture
 /// coordinates by its own numbers; loadImages() and placeUvSets() make them name the scene's.
-std::vector<Material> readMaterials(const GltfDocument& document, Findings& findings);
+std::vector<Material> readMaterials(const gltf::Model& model, Findings& findings);
+
+/// A loaded material with the numbers of `source`: the textures stay, how they are laid does not.
+Material repainted(const Material& loaded, const gltf::Material& source);
+
+/// How a texture is laid; nothing where it lies as it is.
+std::optional<TextureTransform> transformOf(const gltf::TextureInfo& info);
 
 /// As it stands in warnings.
 std::string nameOfMaterial(std::size_t index, const std::string& name);

@@ -77,7 +77,7 @@ std::optional<UvSets> sharedUvSets(const UvSets& a, const UvSets& b) {
   return shared;
 }
 
-std::vector<UvSets> placeUvSets(const GltfDocument& document, std::vector<Material>& materials, Findings& findings) {
+std::vector<UvSets> placeUvSets(const gltf::Model& model, std::vector<Material>& materials, Findings& findings) {
   std::vector<UvSets> sets;
   bool anyFurther = false;
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -85,12 +85,12 @@ std::vector<UvSets> placeUvSets(const GltfDocument& document, std::vector<Materi
     anyFurther = anyFurther || std::max(sets.back()[0], sets.back()[1]) > 1;
   }
   if (!anyFurther) return sets;
-  for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
-    const auto& primitives = document.model.meshes[m].primitives;
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    const auto& primitives = model.meshes[m].primitives;
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       const int own = primitives[p].material;
       UvSets held = own < 0 ? UvSets{-1, -1} : sets[static_cast<std::size_t>(own)];
-      for (const int variant : variantMaterials(document, m, p)) {
+      for (const int variant : variantMaterials(model, primitives[p])) {
         if (variant < 0) continue;
         UvSets& wanted = sets[static_cast<std::size_t>(variant)];
         if (!sharedUvSets(held, wanted)) agree(held, static_cast<std::size_t>(variant), materials, wanted, findings);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/gltf_document.h"
 #include "renderer/scene/scene.h"
 
 /// glTF has any number of TEXCOORD_n, a vertex of a scene two: uv0 and uv1. Each material has its own choice of two.
@@ -25,7 +25,7 @@ std::optional<UvSets> sharedUvSets(const UvSets& a, const UvSets& b);
 /// One a material. Turns TextureUse::texCoord from the n of a TEXCOORD_n to 0 for uv0 and 1 for uv1. Left out with a
 /// warning: textures on a third set, and those of a variant that would need another choice than the primitive's own
 /// material.
-std::vector<UvSets> placeUvSets(const GltfDocument& document, std::vector<Material>& materials, Findings& findings);
+std::vector<UvSets> placeUvSets(const gltf::Model& model, std::vector<Material>& materials, Findings& findings);
 
 /// What a primitive's uv0 and uv1 are read from. `material` and `variantMaterials` as in PrimitiveSource.
 UvSets uvSetsOf(int material, const std::vector<int>& variantMaterials, const std::vector<UvSets>& sets);

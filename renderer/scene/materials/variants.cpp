@@ -3,44 +3,30 @@
 #include <utility>
 
 #include "renderer/scene/animation/motion.h"
-#include "renderer/scene/gltf_json.h"
 
 namespace gnomon {
 
 namespace {
 
-constexpr const char* kExtension = "KHR_materials_variants";
 constexpr const char* kPointer = "/extensions/KHR_materials_variants/variants";
 
 } // namespace
 
-void checkVariantCount(const GltfDocument& document, const Limits& limits, Findings& findings) {
-  const std::size_t variants = variantNames(document).size();
+void checkVariantCount(const gltf::Model& model, const Limits& limits, Findings& findings) {
+  const std::size_t variants = model.variants.size();
   std::size_t primitives = 0;
-  for (const tinygltf::Mesh& mesh : document.model.meshes) primitives += mesh.primitives.size();
+  for (const gltf::Mesh& mesh : model.meshes) primitives += mesh.primitives.size();
   if (variants == 0 || primitives <= limits.maxInstances / variants) return;
   findings.tooLarge(kPointer, "The file has too many material variants for its primitives.",
                     std::to_string(limits.maxInstances),
                     std::to_string(variants) + " of " + std::to_string(primitives) + " primitives");
 }
 
-std::vector<std::string> variantNames(const GltfDocument& document) {
-  std::vector<std::string> names;
-  const nlohmann::json* extension = extensionOf(document.json, kExtension);
-  if (extension == nullptr) return names;
-  for (const auto& variant : extension->at("variants")) names.push_back(variant.at("name").get<std::string>());
-  return names;
-}
-
-std::vector<int> variantMaterials(const GltfDocument& document, std::size_t mesh, std::size_t primitive) {
-  const nlohmann::json* extension =
-      extensionOf(document.json.at("meshes")[mesh].at("primitives")[primitive], kExtension);
-  if (extension == nullptr || extensionOf(document.json, kExtension) == nullptr) return {};
-  std::vector<int> materials(extensionOf(document.json, kExtension)->at("variants").size(), -1);
-  for (const auto& mapping : extension->at("mappings")) {
-    for (const auto& variant : mapping.at("variants")) {
-      materials[variant.get<std::size_t>()] = mapping.at("material").get<int>();
-    }
+std::vector<int> variantMaterials(const gltf::Model& model, const gltf::Primitive& primitive) {
+  if (primitive.variantMappings.empty()) return {};
+  std::vector<int> materials(model.variants.size(), -1);
+  for (const gltf::VariantMapping& mapping : primitive.variantMappings) {
+    for (const std::size_t variant : mapping.variants) materials[variant] = mapping.material;
   }
   return materials;
 }

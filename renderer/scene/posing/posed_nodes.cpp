@@ -6,7 +6,6 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/animation/animation_targets.h"
-#include "renderer/scene/graph/placing.h"
 #include "renderer/scene/posing/apply_pose.h"
 #include "renderer/scene/posing/pose.h"
 
@@ -14,23 +13,21 @@ namespace gnomon {
 
 namespace {
 
-using nlohmann::json;
-
 class Posing {
  public:
-  Posing(const GltfDocument& document, const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
-         Deformation& deformation, const Limits& limits, Scene& scene, Findings& findings)
-      : document_(document),
+  Posing(const LoadContext& load, const NodeTree& tree, const std::vector<BuiltMesh>& meshes, Deformation& deformation,
+         Scene& scene)
+      : model_(load.document.model),
+        limits_(load.limits),
+        findings_(load.findings),
         tree_(tree),
         meshes_(meshes),
         deformation_(deformation),
-        limits_(limits),
         scene_(scene),
-        findings_(findings),
-        moving_(nodesWithMovingWeights(document.json)) {}
+        moving_(nodesWithMovingWeights(model_)) {}
 
   PosedMesh poseNode(std::size_t node) {
-    const tinygltf::Node& source = document_.model.nodes[node];
+    const gltf::Node& source = model_.nodes[node];
     if (source.mesh < 0) return {};
     const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(source.mesh)];
     if (mesh.deformables.empty()) return {};
@@ -46,26 +43,20 @@ class Posing {
   /// The node's weights, else the mesh's, else zeros; nothing, and a problem, where they are not one a target.
   std::optional<std::vector<double>> weightsOf(std::size_t node, std::size_t mesh, const BuiltMesh& built) {
     const std::size_t targets = deformable(built.deformables.front()).targets.size();
-    const json* weights = nullptr;
-    std::string pointer;
-    for (const auto& [object, at] : {std::pair(&document_.json["nodes"][node], pointerTo("/nodes", node)),
-                                     std::pair(&document_.json["meshes"][mesh], pointerTo("/meshes", mesh))}) {
-      const auto member = object->find("weights");
-      if (weights || member == object->end()) continue;
-      weights = &*member;
-      pointer = at + "/weights";
-    }
+    const bool own = model_.nodes[node].weights.has_value();
+    const auto& weights = own ? model_.nodes[node].weights : model_.meshes[mesh].weights;
     if (!weights) return std::vector<double>(targets, 0.0);
     if (weights->size() != targets) {
-      findings_.invalid(pointer, "There are not as many weights as morph targets.", std::to_string(targets),
-                        std::to_string(weights->size()));
+      const std::string pointer = own ? pointerTo("/nodes", node) : pointerTo("/meshes", mesh);
+      findings_.invalid(pointer + "/weights", "There are not as many weights as morph targets.",
+                        std::to_string(targets), std::to_string(weights->size()));
       return std::nullopt;
     }
-    return weights->get<std::vector<double>>();
+    return weights;
   }
 
   bool jointsFit(std::size_t node, const BuiltMesh& mesh) {
-    const int skin = document_.model.nodes[node].skin;
+    const int skin = model_.nodes[node].skin;
     if (skin < 0) return true;
     const std::size_t joints = deformation_.skins[static_cast<std::size_t>(skin)].joints.size();
     for (const int index : mesh.deformables) {
@@ -80,7 +71,7 @@ class Posing {
 
   PosedMesh makePrimitives(std::size_t node, const BuiltMesh& mesh, const std::vector<double>& weights) {
     PosedMesh made;
-    const int skin = document_.model.nodes[node].skin;
+    const int skin = model_.nodes[node].skin;
     if (skin >= 0) made.worldFromSkin = jointsOf(skin).worldFromLocal;
     for (const int index : mesh.deformables) {
       const Deformable& source = deformable(index);
@@ -124,13 +115,13 @@ class Posing {
 
   const Deformable& deformable(int index) const { return deformation_.deformables[static_cast<std::size_t>(index)]; }
 
-  const GltfDocument& document_;
+  const gltf::Model& model_;
+  const Limits& limits_;
+  Findings& findings_;
   const NodeTree& tree_;
   const std::vector<BuiltMesh>& meshes_;
   Deformation& deformation_;
-  const Limits& limits_;
   Scene& scene_;
-  Findings& findings_;
   std::set<std::size_t> moving_;
   std::map<int, SkinPose> joints_; ///< by skin
   std::size_t morphed_ = 0;
@@ -140,12 +131,13 @@ class Posing {
 
 } // namespace
 
-std::vector<PosedMesh> poseNodes(const GltfDocument& document, const NodeTree& tree,
-                                 const std::vector<BuiltMesh>& meshes, Deformation& deformation, const Limits& limits,
-                                 Scene& scene, Findings& findings) {
-  Posing posing(document, tree, meshes, deformation, limits, scene, findings);
-  std::vector<PosedMesh> posed(document.model.nodes.size());
-  for (std::size_t node = 0; node < posed.size() && !findings.refused(); ++node) posed[node] = posing.poseNode(node);
+std::vector<PosedMesh> poseNodes(const LoadContext& load, const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
+                                 Deformation& deformation, Scene& scene) {
+  Posing posing(load, tree, meshes, deformation, scene);
+  std::vector<PosedMesh> posed(load.document.model.nodes.size());
+  for (std::size_t node = 0; node < posed.size() && !load.findings.refused(); ++node) {
+    posed[node] = posing.poseNode(node);
+  }
   return posed;
 }
 

@@ -3,10 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "protocol/spec/limits.h"
-#include "renderer/scene/findings.h"
+#include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/geometry/mesh_build.h"
-#include "renderer/scene/gltf_document.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/scene.h"
@@ -22,8 +20,7 @@ struct PosedMesh {
 
 /// Makes primitives of the deformables of each node's mesh, in the file's rest pose: its node transforms and default
 /// weights. Nodes whose copies can never differ share one. One a node; empty where its mesh has no deformables.
-std::vector<PosedMesh> poseNodes(const GltfDocument& document, const NodeTree& tree,
-                                 const std::vector<BuiltMesh>& meshes, Deformation& deformation, const Limits& limits,
-                                 Scene& scene, Findings& findings);
+std::vector<PosedMesh> poseNodes(const LoadContext& load, const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
+                                 Deformation& deformation, Scene& scene);
 
 } // namespace gnomon

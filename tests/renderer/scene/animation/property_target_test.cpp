@@ -3,15 +3,17 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "renderer/scene/document/read_model.h"
+
 namespace gnomon {
 namespace {
 
-const nlohmann::json kDocument = nlohmann::json::parse(R"({
+const gltf::Model kModel = readModel(nlohmann::json::parse(R"({
   "materials": [{}, {"normalTexture": {"index": 0, "extensions": {"KHR_texture_transform": {}}}}],
   "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
   "nodes": [{}],
   "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}]}}
-})");
+})"));
 
 TEST(PropertyTarget, NumbersOfMaterialsCamerasAndLights) {
   const std::pair<const char*, std::size_t> known[] = {
@@ -25,14 +27,13 @@ TEST(PropertyTarget, NumbersOfMaterialsCamerasAndLights) {
       {"/extensions/KHR_lights_punctual/lights/0/color", 3},
       {"/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", 0}};
   for (const auto& [pointer, length] : known) {
-    const auto target = propertyAt(kDocument, pointer);
+    const auto target = propertyAt(kModel, pointer);
     ASSERT_TRUE(target) << pointer;
     EXPECT_EQ(target->pointer, pointer);
-    EXPECT_EQ(target->isArray, length > 0) << pointer;
     EXPECT_EQ(target->components, std::max<std::size_t>(length, 1)) << pointer;
   }
-  EXPECT_EQ(propertyAt(kDocument, "/materials/0/pbrMetallicRoughness/metallicFactor")->max, 1);
-  EXPECT_TRUE(propertyAt(kDocument, "/cameras/0/perspective/znear")->minExcluded);
+  EXPECT_EQ(propertyAt(kModel, "/materials/0/pbrMetallicRoughness/metallicFactor")->max, 1);
+  EXPECT_TRUE(propertyAt(kModel, "/cameras/0/perspective/znear")->minExcluded);
 }
 
 TEST(PropertyTarget, NothingElse) {
@@ -67,7 +68,15 @@ TEST(PropertyTarget, NothingElse) {
                               "/extensions/KHR_lights_punctual/lights/1/color",
                               "/extensions/KHR_materials_variants/variants/0/name",
                               "/materials~10/alphaCutoff"}) {
-    EXPECT_FALSE(propertyAt(kDocument, pointer)) << pointer;
+    EXPECT_FALSE(propertyAt(kModel, pointer)) << pointer;
+  }
+}
+
+TEST(GltfJson, IndicesOfPointersAreWrittenInOneWay) {
+  EXPECT_EQ(indexIn("0", 1), 0u);
+  EXPECT_EQ(indexIn("12", 13), 12u);
+  for (const char* token : {"", "-", "-1", "+1", "00", "01", "1x", " 1", "13", "99999999999999999999"}) {
+    EXPECT_FALSE(indexIn(token, 13)) << token;
   }
 }
 

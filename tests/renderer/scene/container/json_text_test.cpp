@@ -12,9 +12,9 @@ std::string nested(int depth) {
 }
 
 Problem problemIn(std::string_view text, const Limits& limits = kLimits) {
-  const auto json = parseJsonText(text, limits);
-  EXPECT_FALSE(json);
-  return json ? Problem{} : json.problems().front();
+  const auto document = parseJsonText(text, limits);
+  EXPECT_FALSE(document);
+  return document ? Problem{} : document.problems().front();
 }
 
 TEST(JsonText, CountsDepthBeforeParsing) {

@@ -1,8 +1,8 @@
-#include "renderer/scene/materials/material_extensions.h"
-
 #include <numbers>
 
 #include "renderer/image/image_codec.h"
+#include "renderer/scene/document/read_materials.h"
+#include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {
@@ -14,10 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(MaterialExtensions, ATransformScalesThenTurnsThenMoves) {
-  const auto transform =
-      transformOf({{"extensions",
-                    {{"KHR_texture_transform",
-                      {{"offset", {0.5, 0.25}}, {"rotation", std::numbers::pi / 2}, {"scale", {2, 3}}}}}}});
+  const auto transform = transformOf(
+      readTextureInfo({{"extensions",
+                        {{"KHR_texture_transform",
+                          {{"offset", {0.5, 0.25}}, {"rotation", std::numbers::pi / 2}, {"scale", {2, 3}}}}}}}));
   ASSERT_TRUE(transform);
   // The extension's own matrices: u' = 2 cos u + 3 sin v + 0.5, v' = -2 sin u + 3 cos v + 0.25.
   const glm::vec2 moved = transform->axes * glm::vec2(0.1f, 0.2f) + transform->offset;
@@ -26,10 +26,11 @@ TEST(MaterialExtensions, ATransformScalesThenTurnsThenMoves) {
 }
 
 TEST(MaterialExtensions, ATransformThatMovesNothingIsNone) {
-  EXPECT_FALSE(transformOf(json::object()));
-  const json still = {{"extensions", {{"KHR_texture_transform", {{"texCoord", 1}, {"scale", {1, 1}}}}}}};
+  EXPECT_FALSE(transformOf(readTextureInfo(json::object())));
+  const gltf::TextureInfo still =
+      readTextureInfo({{"extensions", {{"KHR_texture_transform", {{"texCoord", 1}, {"scale", {1, 1}}}}}}});
   EXPECT_FALSE(transformOf(still));
-  EXPECT_EQ(texCoordOf(still), 1);
+  EXPECT_EQ(still.texCoord, 1);
 }
 
 /// A plane with that material.

@@ -1,15 +1,15 @@
-#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/document/gltf_document.h"
 
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_schema.h"
-#include "renderer/scene/checks/typed_model.h"
 #include "renderer/scene/container/gltf_resources.h"
 #include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
-#include "renderer/scene/decode/meshopt_view.h"
+#include "renderer/scene/decode/meshopt.h"
+#include "renderer/scene/document/read_model.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
-#include "renderer/scene/graph/node_transform.h"
+#include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {
 
@@ -35,34 +35,31 @@ void checkCounts(const nlohmann::json& document, const Limits& limits, Findings&
 Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, Findings& findings) {
   auto container = openContainer(bundle.model);
   if (!container) return std::move(container).problems();
-  auto json = parseJsonText(container->json, limits);
-  if (!json) return std::move(json).problems();
+  auto parsed = parseJsonText(container->json, limits);
+  if (!parsed) return std::move(parsed).problems();
 
-  checkVersion(*json, findings);
-  checkExtensions(*json, findings);
+  checkVersion(*parsed, findings);
+  checkExtensions(*parsed, findings);
   if (findings.refused()) return findings.takeProblems();
-  checkSchema(*json, findings);
-  checkCounts(*json, limits, findings);
+  checkSchema(*parsed, findings);
+  checkCounts(*parsed, limits, findings);
   if (findings.refused()) return findings.takeProblems();
-  checkCameras(*json, findings);
-  checkLights(*json, findings);
-  checkTransforms(*json, findings);
 
   GltfDocument document;
-  document.json = *std::move(json);
-  const std::vector<bool> fallbacks = meshoptFallbacks(document.json, container->binary.has_value());
-  document.buffers = readBuffers(document.json, fallbacks, container->binary, bundle, findings);
+  document.model = readModel(*std::move(parsed));
+  const gltf::Model& model = document.model;
+  checkCameras(model.cameras, findings);
+  checkLights(model.lights, findings);
+  checkTransforms(model.nodes, findings);
+  const std::vector<bool> fallbacks = meshoptFallbacks(model, container->binary.has_value());
+  document.buffers = readBuffers(model, fallbacks, container->binary, bundle, findings);
   DecodeBudget budget(limits.maxDecodedBytes);
-  BufferViews views = readBufferViews(document.json, document.buffers, fallbacks, budget, findings);
+  BufferViews views = readBufferViews(model, document.buffers, fallbacks, budget, findings);
   document.bufferViews = std::move(views.bytes);
   document.decodedViews = std::move(views.decoded);
   document.decodedBytes = budget.used();
-  document.images = readImages(document.json, document.bufferViews, bundle, findings);
+  document.images = readImages(model, document.bufferViews, bundle, findings);
   if (findings.refused()) return findings.takeProblems();
-
-  auto model = typedModel(document.json);
-  if (!model) return std::move(model).problems();
-  document.model = *std::move(model);
   return document;
 }
 

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
-#include <tiny_gltf.h>
 #include <vector>
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
 #include "renderer/scene/container/resource_bytes.h"
+#include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene_bundle.h"
 
@@ -16,8 +15,7 @@ namespace gnomon {
 
 /// A glTF whose schema, indices and byte ranges hold. The bundle that it was read from must outlive it.
 struct GltfDocument {
-  tinygltf::Model model; ///< nodes, meshes, accessors, textures and samplers
-  nlohmann::json json;   ///< everything that the file says
+  gltf::Model model;
   std::vector<ResourceBytes> buffers;
   std::vector<ResourceBytes> images;                      ///< encoded
   std::vector<std::span<const std::uint8_t>> bufferViews; ///< bytes of each, inside its buffer or decoded
@@ -27,5 +25,15 @@ struct GltfDocument {
 
 /// Reads the model and every file that it names; `findings` gets the warnings.
 Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, Findings& findings);
+
+struct AccessorView;
+
+/// What every step of loading after readGltf() works with.
+struct LoadContext {
+  const GltfDocument& document;
+  const std::vector<AccessorView>& accessors; ///< one an accessor of the document, checked
+  const Limits& limits;
+  Findings& findings;
+};
 
 } // namespace gnomon

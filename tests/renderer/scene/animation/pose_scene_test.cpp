@@ -1,4 +1,4 @@
-#include "renderer/scene/animation/moved_properties.h"
+#include "renderer/scene/animation/pose_scene.h"
 
 #include <numbers>
 

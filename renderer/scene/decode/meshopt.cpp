@@ -1,0 +1,167 @@
+#include "renderer/scene/decode/meshopt.h"
+
+#include <algorithm>
+#include <meshoptimizer.h>
+
+namespace gnomon {
+
+namespace {
+
+/// The strides that a mode and a filter leave; empty if the filter does not go with the mode.
+std::string stridesOf(MeshoptMode mode, MeshoptFilter filter) {
+  if (mode != MeshoptMode::attributes) return filter == MeshoptFilter::none ? "2 or 4" : "";
+  if (filter == MeshoptFilter::octahedral) return "4 or 8";
+  return filter == MeshoptFilter::quaternion ? "8" : "a multiple of 4";
+}
+
+bool strideFits(std::uint64_t stride, MeshoptMode mode, MeshoptFilter filter) {
+  if (mode != MeshoptMode::attributes) return stride == 2 || stride == 4;
+  if (filter == MeshoptFilter::octahedral) return stride == 4 || stride == 8;
+  return filter == MeshoptFilter::quaternion ? stride == 8 : stride % 4 == 0;
+}
+
+/// What the first byte of a stream holds: the format in the upper four bits, its version in the lower four.
+struct StreamKind {
+  std::uint8_t format = 0;
+  std::uint8_t newestVersion = 0;
+};
+
+StreamKind kindOf(MeshoptMode mode) {
+  switch (mode) {
+    case MeshoptMode::attributes:
+      return {0xA0, 0};
+    case MeshoptMode::triangles:
+      return {0xE0, 1};
+    case MeshoptMode::indices:
+      break;
+  }
+  return {0xD0, 1};
+}
+
+/// The fewest bytes that hold the elements (EXT_meshopt_compression, Appendix A): a triangle takes a byte and an index
+/// takes one, 64 values of one byte of an attribute take a byte, and each stream has a header and a tail.
+std::uint64_t fewestBytes(const gltf::Meshopt& view) {
+  switch (view.mode) {
+    case MeshoptMode::triangles:
+      return 1 + view.count / 3 + 16;
+    case MeshoptMode::indices:
+      return 1 + view.count + 4;
+    case MeshoptMode::attributes:
+      break;
+  }
+  const std::uint64_t runs = (view.count + 63) / 64;
+  return 1 + runs * view.byteStride + std::max<std::uint64_t>(view.byteStride, 32);
+}
+
+bool mayHold(const gltf::Meshopt& view, const std::string& pointer, std::span<const std::uint8_t> compressed,
+             Findings& findings) {
+  const std::uint64_t fewest = fewestBytes(view);
+  if (fewest > compressed.size()) {
+    findings.invalid(pointer + "/count", "The compressed data can't hold as many elements.",
+                     std::to_string(compressed.size()) + " bytes",
+                     std::to_string(view.count) + " elements, which take " + std::to_string(fewest) + " or more");
+    return false;
+  }
+  const StreamKind kind = kindOf(view.mode);
+  const std::uint8_t header = compressed.front();
+  if ((header & 0xF0) == kind.format && (header & 0x0F) > kind.newestVersion) {
+    findings.unsupported(pointer, "The data is of version " + std::to_string(header & 0x0F) +
+                                      " of its compression; versions to " + std::to_string(kind.newestVersion) +
+                                      " are supported.");
+    return false;
+  }
+  return true;
+}
+
+bool decode(const gltf::Meshopt& view, std::span<const std::uint8_t> compressed, Bytes& elements) {
+  switch (view.mode) {
+    case MeshoptMode::attributes:
+      return meshopt_decodeVertexBuffer(elements.data(), view.count, view.byteStride, compressed.data(),
+                                        compressed.size()) == 0;
+    case MeshoptMode::triangles:
+      return meshopt_decodeIndexBuffer(elements.data(), view.count, view.byteStride, compressed.data(),
+                                       compressed.size()) == 0;
+    case MeshoptMode::indices:
+      break;
+  }
+  return meshopt_decodeIndexSequence(elements.data(), view.count, view.byteStride, compressed.data(),
+                                     compressed.size()) == 0;
+}
+
+void applyFilter(const gltf::Meshopt& view, Bytes& elements) {
+  switch (view.filter) {
+    case MeshoptFilter::none:
+    case MeshoptFilter::color:
+      return;
+    case MeshoptFilter::octahedral:
+      return meshopt_decodeFilterOct(elements.data(), view.count, view.byteStride);
+    case MeshoptFilter::quaternion:
+      return meshopt_decodeFilterQuat(elements.data(), view.count, view.byteStride);
+    case MeshoptFilter::exponential:
+      return meshopt_decodeFilterExp(elements.data(), view.count, view.byteStride);
+  }
+}
+
+} // namespace
+
+std::vector<bool> meshoptFallbacks(const gltf::Model& model, bool hasBinary) {
+  std::vector<bool> plain(model.buffers.size(), false);
+  std::vector<bool> compressed(model.buffers.size(), false);
+  for (const gltf::BufferView& view : model.bufferViews) (view.meshopt ? compressed : plain)[view.buffer] = true;
+  std::vector<bool> fallbacks(model.buffers.size(), false);
+  for (std::size_t i = 0; i < fallbacks.size(); ++i) {
+    const bool hasBytes = model.buffers[i].uri || (i == 0 && hasBinary);
+    fallbacks[i] = model.buffers[i].fallback || (!hasBytes && compressed[i] && !plain[i]);
+  }
+  return fallbacks;
+}
+
+bool isSoundMeshopt(const gltf::BufferView& bufferView, const std::string& pointer, Findings& findings) {
+  const gltf::Meshopt& view = *bufferView.meshopt;
+  if (view.filter == MeshoptFilter::color) {
+    findings.unsupported(pointer + "/filter", "The filter COLOR is not supported.");
+    return false;
+  }
+  const std::string strides = stridesOf(view.mode, view.filter);
+  if (strides.empty()) {
+    findings.invalid(pointer + "/filter", "Indices have no filter.", "NONE");
+    return false;
+  }
+  if (!strideFits(view.byteStride, view.mode, view.filter)) {
+    findings.invalid(pointer + "/byteStride", "The stride is not one that the mode and the filter allow.", strides,
+                     std::to_string(view.byteStride));
+    return false;
+  }
+  if (view.mode == MeshoptMode::triangles && view.count % 3 != 0) {
+    findings.invalid(pointer + "/count", "The triangles are not complete.", "a multiple of 3",
+                     std::to_string(view.count));
+    return false;
+  }
+  const std::uint64_t length = bufferView.byteLength;
+  if (length != view.decodedBytes()) {
+    findings.invalid(pointer + "/count", "The elements do not fill the buffer view.", std::to_string(length) + " bytes",
+                     std::to_string(view.count) + " elements of " + std::to_string(view.byteStride) + " bytes");
+    return false;
+  }
+  if (bufferView.byteStride != 0 && bufferView.byteStride != view.byteStride) {
+    findings.invalid(pointer + "/byteStride", "The stride is not the one of the buffer view.",
+                     std::to_string(bufferView.byteStride), std::to_string(view.byteStride));
+    return false;
+  }
+  return true;
+}
+
+Bytes decodeMeshopt(const gltf::Meshopt& view, const std::string& pointer, std::span<const std::uint8_t> compressed,
+                    DecodeBudget& budget, Findings& findings) {
+  if (!mayHold(view, pointer, compressed, findings)) return {};
+  if (!budget.take(view.decodedBytes(), pointer + "/count", findings)) return {};
+  Bytes elements(view.decodedBytes());
+  if (!decode(view, compressed, elements)) {
+    findings.invalid(pointer, "The compressed data is damaged.");
+    return {};
+  }
+  applyFilter(view, elements);
+  return elements;
+}
+
+} // namespace gnomon

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the readers of the file's JSON ask of it. It has passed the schema check.
+namespace gnomon {
+
+/// nullptr = the object has no such member.
+inline const nlohmann::json* memberOf(const nlohmann::json& object, std::string_view key) {
+  const auto member = object.find(key);
+  return member == object.end() ? nullptr : &*member;
+}
+
+/// nullptr = the object has no such extension.
+inline const nlohmann::json* extensionOf(const nlohmann::json& object, std::string_view name) {
+  const nlohmann::json* extensions = memberOf(object, "extensions");
+  return extensions == nullptr ? nullptr : memberOf(*extensions, name);
+}
+
+/// Its name; empty where it has none.
+inline std::string nameAt(const nlohmann::json& object) {
+  return object.value("name", std::string());
+}
+
+/// A member as a value; nothing where there is none.
+template <class T>
+std::optional<T> optionalAt(const nlohmann::json& object, std::string_view key) {
+  const nlohmann::json* member = memberOf(object, key);
+  return member == nullptr ? std::nullopt : std::optional<T>(member->get<T>());
+}
+
+/// The numbers of a member; nothing where there is none.
+template <int kSize>
+std::optional<glm::vec<kSize, double>> vectorAt(const nlohmann::json& object, std::string_view key) {
+  const nlohmann::json* member = memberOf(object, key);
+  if (member == nullptr) return std::nullopt;
+  glm::vec<kSize, double> vector(0);
+  for (int i = 0; i < kSize; ++i) vector[i] = (*member)[static_cast<std::size_t>(i)].template get<double>();
+  return vector;
+}
+
+/// What `read` makes of each element of an array; empty where there is none.
+template <class Read>
+auto listAt(const nlohmann::json& object, std::string_view key, Read read) {
+  std::vector<decltype(read(object))> list;
+  if (const nlohmann::json* array = memberOf(object, key)) {
+    list.reserve(array->size());
+    for (const nlohmann::json& each : *array) list.push_back(read(each));
+  }
+  return list;
+}
+
+} // namespace gnomon
