@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "renderer/passes/gpu_scene.h"
-#include "renderer/scene/edge_mesh.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 

@@ -12,7 +12,7 @@
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/program_cache.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/scene/edge_mesh.h"
+#include "renderer/scene/mesh_edges.h"
 #include "renderer/scene/node_switches.h"
 
 namespace gnomon {

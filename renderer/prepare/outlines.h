@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/prepare/tile_casters.h"
-#include "renderer/scene/edge_mesh.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 

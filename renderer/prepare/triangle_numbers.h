@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/prepare/draw_list.h"
-#include "renderer/scene/placed_triangle.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
 

@@ -8,7 +8,7 @@
 #include "renderer/core/camera_view.h"
 #include "renderer/prepare/draw_list.h"
 #include "renderer/prepare/volume_casters.h"
-#include "renderer/scene/edge_mesh.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 

@@ -9,7 +9,7 @@
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/scene/node_switches.h"
-#include "renderer/scene/placed_triangle.h"
+#include "renderer/scene/scene.h"
 
 /// Exact answers for single points, many at a time, on all cores. Any thread.
 namespace gnomon {

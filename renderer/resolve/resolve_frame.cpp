@@ -58,7 +58,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   if (spec.materialVariant) {
     const auto variant = resolveVariant(*spec.materialVariant, scene);
     if (!variant) return variant.problems();
-    frame.scene += (1 + *variant) * count;
+    frame.scene = indexOf(scene, {frame.scene, *variant});
   }
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
   auto camera = resolveCamera(spec.camera, view, static_cast<double>(spec.width) / spec.height);

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "renderer/scene/animation/animations.h"
-#include "renderer/scene/animation/pose_cache.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <vector>
 
@@ -22,5 +23,16 @@ struct MeshEdge {
 /// no partner there has the edge alone. Triangles with two corners at one place have none; those whose corners lie on
 /// one line keep theirs, so that they leave no gap in what is closed. Sorted by the lower vertex, then the higher one.
 std::vector<MeshEdge> meshEdges(const Scene& scene, const Primitive& primitive);
+
+/// What a primitive's outline is told from.
+struct EdgeMesh {
+  std::vector<MeshEdge> edges;
+  std::vector<glm::vec3> normals; ///< one a triangle, in the primitive's own space, unit length; 0 where it has no area
+};
+
+/// One a primitive of the scene.
+std::vector<EdgeMesh> edgeMeshes(const Scene& scene);
+
+std::size_t bytesOf(const std::vector<EdgeMesh>& meshes);
 
 } // namespace gnomon

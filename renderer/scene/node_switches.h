@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -43,7 +44,9 @@ struct ReceiverGroups {
   std::vector<LitGroups> ofLight;       ///< one a light; empty = every light lights and shadows all
 
   /// Some light makes a difference between them.
-  bool matter() const;
+  bool matter() const {
+    return std::any_of(ofLight.begin(), ofLight.end(), [](const LitGroups& groups) { return groups != LitGroups{}; });
+  }
 };
 
 } // namespace gnomon

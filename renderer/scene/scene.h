@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,6 +120,14 @@ struct Instance {
   Aabb bounds; ///< in the world
 };
 
+inline constexpr std::uint32_t kNoSurface = std::numeric_limits<std::uint32_t>::max();
+
+/// One triangle of one instance.
+struct PlacedTriangle {
+  std::uint32_t instance = kNoSurface; ///< index into SceneView::instances; kNoSurface = none
+  std::uint32_t triangle = 0;          ///< of its primitive
+};
+
 struct SceneCamera {
   int node = 0;
   std::string name;
@@ -151,7 +160,7 @@ struct Deformation;
 struct Motion;
 class PoseCache;
 
-/// A loaded glTF file: immutable, shared between threads. At least one scene.
+/// A loaded glTF file, shared between threads: immutable but for `poses`, which locks itself. At least one scene.
 struct Scene {
   std::vector<glm::vec3> positions;         ///< of all primitives
   std::vector<VertexAttributes> attributes; ///< parallel to positions
@@ -174,6 +183,17 @@ struct Scene {
 /// How many scenes the file has.
 inline int fileScenes(const Scene& scene) {
   return static_cast<int>(scene.scenes.size() / (scene.variants.size() + 1));
+}
+
+/// One of the file's scenes in one of its material variants.
+struct SceneIndex {
+  int file = 0;
+  std::optional<int> variant; ///< index into Scene::variants; nothing = the materials of the primitives themselves
+};
+
+/// Index into Scene::scenes.
+inline int indexOf(const Scene& scene, const SceneIndex& index) {
+  return index.file + (index.variant ? (1 + *index.variant) * fileScenes(scene) : 0);
 }
 
 /// Index into Scene::materials.

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "renderer/scene/animation/motion.h"
-#include "renderer/scene/animation/pose_cache.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/posing/deformation.h"
 

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/animation/sampling.h"
+#include "renderer/scene/animation/samplers.h"
 #include "renderer/scene/graph/cameras.h"
 #include "renderer/scene/graph/lights.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/materials/variants.h"
-#include "renderer/scene/posing/apply_pose.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/posing/pose.h"
 
@@ -91,8 +90,9 @@ bool poseVertices(const std::vector<SkinPose>& skins, const Weights& weights, Sc
 
 Problem disallowed(const std::string& pointer, double timeSeconds, const std::string& detail) {
   return {ProblemCode::invalidValue, "/animation",
-          "At this time the animation gives " + inQuotes(pointer) + " a value that glTF does not allow. " + detail, "",
-          std::to_string(timeSeconds) + " seconds"};
+          "At this time the animation gives " + inQuotes(pointer) + " a value that glTF does not allow." +
+              (detail.empty() ? "" : " " + detail),
+          "", std::to_string(timeSeconds) + " seconds"};
 }
 
 /// The file's properties at a time. What a spline throws beyond a property's range is held at its end; a problem where

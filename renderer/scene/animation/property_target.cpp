@@ -78,17 +78,17 @@ constexpr TexturePlace kTextures[] = {
      [](gltf::Material& m) { return m.transmission ? &m.transmission->texture : nullptr; }},
 };
 
-std::span<double> numbers(double& value) {
+std::span<double> spanOf(double& value) {
   return {&value, 1};
 }
 template <int kSize>
-std::span<double> numbers(glm::vec<kSize, double>& value) {
+std::span<double> spanOf(glm::vec<kSize, double>& value) {
   return {&value[0], std::size_t{kSize}};
 }
 
 std::span<double> numbersIn(gltf::TextureTransform& transform, Property property) {
-  if (property == Property::textureOffset) return numbers(transform.offset);
-  return property == Property::textureScale ? numbers(transform.scale) : numbers(transform.rotation);
+  if (property == Property::textureOffset) return spanOf(transform.offset);
+  return property == Property::textureScale ? spanOf(transform.scale) : spanOf(transform.rotation);
 }
 
 /// Empty where the object that the property stands in is missing.
@@ -96,29 +96,29 @@ std::span<double> numbersIn(gltf::Material& material, const PropertyTarget& targ
   auto& glossy = material.specularGlossiness;
   switch (target.property) {
     case Property::baseColorFactor:
-      return numbers(material.baseColorFactor);
+      return spanOf(material.baseColorFactor);
     case Property::metallicFactor:
-      return numbers(material.metallicFactor);
+      return spanOf(material.metallicFactor);
     case Property::roughnessFactor:
-      return numbers(material.roughnessFactor);
+      return spanOf(material.roughnessFactor);
     case Property::normalScale:
-      return material.normalTexture ? numbers(material.normalScale) : std::span<double>();
+      return material.normalTexture ? spanOf(material.normalScale) : std::span<double>();
     case Property::occlusionStrength:
-      return material.occlusionTexture ? numbers(material.occlusionStrength) : std::span<double>();
+      return material.occlusionTexture ? spanOf(material.occlusionStrength) : std::span<double>();
     case Property::emissiveFactor:
-      return numbers(material.emissiveFactor);
+      return spanOf(material.emissiveFactor);
     case Property::emissiveStrength:
-      return material.emissiveStrength ? numbers(*material.emissiveStrength) : std::span<double>();
+      return material.emissiveStrength ? spanOf(*material.emissiveStrength) : std::span<double>();
     case Property::alphaCutoff:
-      return numbers(material.alphaCutoff);
+      return spanOf(material.alphaCutoff);
     case Property::transmissionFactor:
-      return material.transmission ? numbers(material.transmission->factor) : std::span<double>();
+      return material.transmission ? spanOf(material.transmission->factor) : std::span<double>();
     case Property::diffuseFactor:
-      return glossy ? numbers(glossy->diffuseFactor) : std::span<double>();
+      return glossy ? spanOf(glossy->diffuseFactor) : std::span<double>();
     case Property::specularFactor:
-      return glossy ? numbers(glossy->specularFactor) : std::span<double>();
+      return glossy ? spanOf(glossy->specularFactor) : std::span<double>();
     case Property::glossinessFactor:
-      return glossy ? numbers(glossy->glossinessFactor) : std::span<double>();
+      return glossy ? spanOf(glossy->glossinessFactor) : std::span<double>();
     default:
       break;
   }
@@ -128,14 +128,14 @@ std::span<double> numbersIn(gltf::Material& material, const PropertyTarget& targ
 
 std::span<double> numbersIn(gltf::Camera& camera, const PropertyTarget& target) {
   if (auto& lens = camera.perspective) {
-    if (target.property == Property::yfov) return numbers(lens->yfov);
-    if (target.property == Property::perspectiveNear) return numbers(lens->znear);
-    if (target.property == Property::perspectiveFar) return numbers(lens->zfar);
+    if (target.property == Property::yfov) return spanOf(lens->yfov);
+    if (target.property == Property::perspectiveNear) return spanOf(lens->znear);
+    if (target.property == Property::perspectiveFar) return spanOf(lens->zfar);
   }
   if (auto& lens = camera.orthographic) {
-    if (target.property == Property::ymag) return numbers(lens->ymag);
-    if (target.property == Property::orthographicNear) return numbers(lens->znear);
-    if (target.property == Property::orthographicFar) return numbers(lens->zfar);
+    if (target.property == Property::ymag) return spanOf(lens->ymag);
+    if (target.property == Property::orthographicNear) return spanOf(lens->znear);
+    if (target.property == Property::orthographicFar) return spanOf(lens->zfar);
   }
   return {};
 }
@@ -144,16 +144,16 @@ std::span<double> numbersIn(gltf::PunctualLight& light, const PropertyTarget& ta
   switch (target.property) {
     case Property::lightColor:
       if (!light.color) light.color = glm::dvec3(1);
-      return numbers(*light.color);
+      return spanOf(*light.color);
     case Property::lightIntensity:
-      return numbers(light.intensity);
+      return spanOf(light.intensity);
     case Property::lightRange:
-      return numbers(light.range);
+      return spanOf(light.range);
     default:
       break;
   }
   if (!light.spot) return {};
-  return numbers(target.property == Property::innerCone ? light.spot->inner : light.spot->outer);
+  return spanOf(target.property == Property::innerCone ? light.spot->inner : light.spot->outer);
 }
 
 const PropertyRow* rowOf(std::string_view root, std::string_view path) {

@@ -13,7 +13,15 @@ class DecodeBudget {
   explicit DecodeBudget(std::uint64_t limit, std::uint64_t used = 0) : limit_(limit), used_(used) {}
 
   /// False, and a problem at `pointer`, where `bytes` more would pass the limit.
-  bool take(std::uint64_t bytes, const std::string& pointer, Findings& findings);
+  bool take(std::uint64_t bytes, const std::string& pointer, Findings& findings) {
+    if (bytes > left()) {
+      findings.tooLarge(pointer, "The compressed data comes to too many bytes.", std::to_string(limit_) + " bytes",
+                        std::to_string(bytes) + " bytes after " + std::to_string(used_));
+      return false;
+    }
+    used_ += bytes;
+    return true;
+  }
 
   std::uint64_t used() const { return used_; }
   std::uint64_t left() const { return limit_ - used_; }

@@ -6,7 +6,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
-#include "renderer/scene/container/resource_bytes.h"
+#include "renderer/scene/container/resources.h"
 #include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene_bundle.h"

@@ -1,10 +1,9 @@
 #include "renderer/scene/geometry/mesh_build.h"
 
 #include "renderer/scene/geometry/clusters.h"
-#include "renderer/scene/geometry/vertex_build.h"
-#include "renderer/scene/geometry/vertex_order.h"
+#include "renderer/scene/geometry/triangle_mesh.h"
 #include "renderer/scene/geometry/welding.h"
-#include "renderer/scene/posing/deformable_build.h"
+#include "renderer/scene/posing/deformation.h"
 
 namespace gnomon {
 

@@ -8,6 +8,9 @@
 
 namespace gnomon {
 
+class Findings;
+struct PrimitiveSource;
+
 /// The vertices and triangles of one primitive.
 struct TriangleMesh {
   std::vector<glm::vec3> positions;
@@ -17,5 +20,8 @@ struct TriangleMesh {
   bool hasTangents = false;
   bool flat = false; ///< the file has no normals: each triangle has its own three vertices
 };
+
+/// Reads a primitive. Without normals it gets flat ones; normals and tangents that have no direction are replaced.
+TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings);
 
 } // namespace gnomon

@@ -9,6 +9,9 @@
 
 namespace gnomon {
 
+class Findings;
+struct PrimitiveSource;
+
 /// How much of a vertex follows which joints of a skin. The weights sum to 1; a weight of 0 is none.
 struct Influences {
   std::array<std::uint16_t, 8> joints{};
@@ -54,5 +57,8 @@ struct Deformation {
   std::vector<Skin> skins; ///< as the file numbers them
   std::vector<PosedPrimitive> posed;
 };
+
+/// Reads the morph targets and joints of a primitive whose vertices have been built.
+Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings);
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/posing/deformation.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
 
@@ -29,5 +30,9 @@ SkinPose poseSkin(const Skin& skin, std::span<const glm::dmat4> worldFromNode);
 /// 0. `localFromMesh`: one a joint; empty = the deformable keeps to its node.
 PosedShape pose(const Deformable& deformable, std::span<const double> weights,
                 std::span<const glm::dmat4> localFromMesh);
+
+/// Gives a primitive the vertices of a pose, and what follows from them: bounds, clusters, welded indices, `solid`. Its
+/// triangles keep their order.
+void applyPose(const PosedShape& shape, int primitive, Scene& scene);
 
 } // namespace gnomon

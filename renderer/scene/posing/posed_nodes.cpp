@@ -5,8 +5,7 @@
 #include <tuple>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/animation/animation_targets.h"
-#include "renderer/scene/posing/apply_pose.h"
+#include "renderer/scene/animation/animations.h"
 #include "renderer/scene/posing/pose.h"
 
 namespace gnomon {

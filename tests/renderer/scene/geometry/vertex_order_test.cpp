@@ -1,5 +1,3 @@
-#include "renderer/scene/geometry/vertex_order.h"
-
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,5 +33,12 @@ struct SamplerUse {
 Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& pointer,
                      const std::vector<AccessorView>& accessors, const SamplerUse& use, std::size_t mostNumbers,
                      Findings& findings);
+
+/// The numbers of a keyframe, `components` of them: of a cubic spline the middle row of three.
+const float* valueOf(const Sampler& sampler, std::size_t keyframe);
+
+/// The sampler's value at a time, `components` numbers; before the first and after the last keyframe that one's value
+/// (glTF 2.0, 3.11 and appendix C). Rotations have length 1.
+void sample(const Sampler& sampler, double timeSeconds, std::span<double> value);
 
 } // namespace gnomon

@@ -1,9 +1,10 @@
-#include "renderer/scene/posing/deformable_build.h"
+#include "renderer/scene/posing/deformation.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "renderer/core/aabb.h"
+#include "renderer/scene/geometry/mesh_source.h"
 
 namespace gnomon {
 

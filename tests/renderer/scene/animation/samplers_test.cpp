@@ -1,4 +1,4 @@
-#include "renderer/scene/animation/sampling.h"
+#include "renderer/scene/animation/samplers.h"
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>

@@ -1,4 +1,4 @@
-#include "renderer/scene/container/resource_bytes.h"
+#include "renderer/scene/container/resources.h"
 
 #include "tests/renderer/scene/load.h"
 
