@@ -59,11 +59,11 @@ class Reading {
       const std::string at = pointerTo(pointer + "/channels", i);
       const auto target = targetOf(model_, channels[i]);
       if (!target) {
-        findings_.warn("The animation of " + inQuotes(targetName(channels[i])) + " is not supported and ignored.");
+        findings_.warn("The animation channel that targets " + inQuotes(targetName(channels[i])) + " is ignored.");
         continue;
       }
       if (!moved.insert(keyOf(*target)).second) {
-        findings_.invalid(at + "/target", "Another channel of the animation moves the same.");
+        findings_.invalid(at + "/target", "Another channel of the animation has the same target.");
         return animation;
       }
       const auto use = useOf(*target, at + "/target");
@@ -104,9 +104,8 @@ class Reading {
             !(property.minExcluded && double{value} == property.min)) {
           continue;
         }
-        return findings_.invalid(pointer,
-                                 "A keyframe's value is not one that " + inQuotes(property.pointer) + " may have.", {},
-                                 std::to_string(value) + " at keyframe " + std::to_string(keyframe));
+        return findings_.invalid(pointer, "A keyframe's value is out of range for " + inQuotes(property.pointer) + ".",
+                                 {}, std::to_string(value) + " at keyframe " + std::to_string(keyframe));
       }
     }
   }

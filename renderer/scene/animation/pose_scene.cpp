@@ -164,9 +164,8 @@ void placeLights(const MovingView& moving, const PosedGraph& graph, SceneView& v
 } // namespace
 
 Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animation& animation, double timeSeconds) {
-  const Problem lost{ProblemCode::invalidValue, "/animation",
-                     "At this time the animation gives a value that is not finite.", "",
-                     std::to_string(timeSeconds) + " seconds"};
+  const Problem lost{ProblemCode::invalidValue, "/animation", "The animation produces a non-finite value at this time.",
+                     "", std::to_string(timeSeconds) + " seconds"};
   const Motion& motion = *scene.motion;
   const MovedNodes moved = moveNodes(motion, animation, timeSeconds);
   PosedGraph graph;

@@ -19,12 +19,12 @@ bool readTimes(const AccessorView& view, const std::string& pointer, Sampler& sa
   for (std::size_t i = 0; i < view.count; ++i) {
     const auto time = static_cast<float>(view.read(i).x);
     if (!std::isfinite(time) || time < 0) {
-      findings.invalid(pointer, "A keyframe's time is not a finite number from 0 on.", {},
-                       "of keyframe " + std::to_string(i));
+      findings.invalid(pointer, "A keyframe's time is negative or not finite.", {}, "of keyframe " + std::to_string(i));
       return false;
     }
     if (i > 0 && !(time > sampler.times.back())) {
-      findings.invalid(pointer, "The times of the keyframes do not increase.", {}, "at keyframe " + std::to_string(i));
+      findings.invalid(pointer, "The keyframe times are not strictly increasing.", {},
+                       "at keyframe " + std::to_string(i));
       return false;
     }
     sampler.times.push_back(time);
@@ -118,11 +118,11 @@ Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& po
   const AccessorView& input = accessors[source.input];
   const AccessorView& output = accessors[source.output];
   if (input.components != 1 || input.componentType != ComponentType::float32) {
-    findings.invalid(pointer + "/input", "The times of keyframes need an accessor of SCALAR and floats.");
+    findings.invalid(pointer + "/input", "Keyframe times need a SCALAR accessor of floats.");
     return {};
   }
   if (!isOfType(output, use)) {
-    findings.invalid(pointer + "/output", "The accessor is not of a type that what is animated may have.");
+    findings.invalid(pointer + "/output", "The accessor's type does not fit the animated property.");
     return {};
   }
   Sampler sampler;
@@ -131,11 +131,12 @@ Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& po
   sampler.isRotation = use.kind == ValueKind::rotation;
   const bool isSpline = sampler.interpolation == Interpolation::cubicSpline;
   if (use.kind == ValueKind::boolean && sampler.interpolation != Interpolation::step) {
-    findings.invalid(pointer + "/interpolation", "What is true or false changes in steps.", "STEP");
+    findings.invalid(pointer + "/interpolation", "Boolean values need STEP interpolation.", "STEP");
     return {};
   }
   if (isSpline && input.count < 2) {
-    findings.invalid(pointer + "/input", "A cubic spline needs two keyframes.", ">= 2", std::to_string(input.count));
+    findings.invalid(pointer + "/input", "A cubic spline needs at least two keyframes.", ">= 2",
+                     std::to_string(input.count));
     return {};
   }
   const std::size_t numbers = input.count + output.count * static_cast<std::size_t>(output.components);
@@ -146,7 +147,7 @@ Sampler buildSampler(const gltf::AnimationSampler& source, const std::string& po
   }
   const std::size_t wanted = input.count * (isSpline ? 3 : 1) * use.elements;
   if (output.count != wanted) {
-    findings.invalid(pointer + "/output", "The accessor does not have a value for each keyframe.",
+    findings.invalid(pointer + "/output", "The accessor's count does not match the number of keyframes.",
                      std::to_string(wanted), std::to_string(output.count));
     return {};
   }

@@ -33,13 +33,13 @@ struct Consequence {
 /// What happens to a file that uses, but does not require, an extension.
 constexpr std::array kConsequences{
     Consequence{"KHR_materials_anisotropy", "highlights are as wide along the surface as across it"},
-    Consequence{"KHR_materials_clearcoat", "surfaces have no coat"},
-    Consequence{"KHR_materials_dispersion", "light is not split into colors"},
+    Consequence{"KHR_materials_clearcoat", "surfaces have no clear coat"},
+    Consequence{"KHR_materials_dispersion", "all colors are refracted equally"},
     Consequence{"KHR_materials_ior", "the index of refraction is 1.5"},
     Consequence{"KHR_materials_iridescence", "surfaces have no thin film"},
     Consequence{"KHR_materials_sheen", "surfaces have no sheen"},
-    Consequence{"KHR_materials_specular", "reflections of what is no metal are neither weakened nor tinted"},
-    Consequence{"KHR_materials_volume", "surfaces are thin: nothing is bent or absorbed inside"},
+    Consequence{"KHR_materials_specular", "reflections of dielectrics are neither weakened nor tinted"},
+    Consequence{"KHR_materials_volume", "surfaces are thin: nothing is refracted or absorbed inside"},
     Consequence{"KHR_texture_basisu", "the fallback image is used"},
 };
 
@@ -51,7 +51,7 @@ std::string consequenceOf(std::string_view name) {
   for (const Consequence& row : kConsequences) {
     if (row.extension == name) return std::string(row.drawn);
   }
-  return "what it adds is not drawn";
+  return "its additions are not drawn";
 }
 
 /// The strings of an array member; other values are left to the schema check.
@@ -77,15 +77,15 @@ const std::string* assetMember(const nlohmann::json& document, const char* key) 
 void checkVersion(const nlohmann::json& document, Findings& findings) {
   const std::string* version = assetMember(document, "version");
   if (!version) {
-    findings.invalid("/asset/version", "The glTF does not say its version.", "2.x");
+    findings.invalid("/asset/version", "The glTF does not state its version.", "2.x");
   } else if (!version->starts_with("2.")) {
     findings.refuse(
         {ProblemCode::unsupportedFeature, "/asset/version", "Only glTF 2 is supported.", "2.x", inQuotes(*version)});
   }
   const std::string* minVersion = assetMember(document, "minVersion");
   if (minVersion && *minVersion != "2.0") {
-    findings.refuse({ProblemCode::unsupportedFeature, "/asset/minVersion", "The glTF asks for a newer reader.", "2.0",
-                     inQuotes(*minVersion)});
+    findings.refuse({ProblemCode::unsupportedFeature, "/asset/minVersion", "The glTF requires a newer version of glTF.",
+                     "2.0", inQuotes(*minVersion)});
   }
 }
 

@@ -80,7 +80,7 @@ class SchemaCheck {
       if (member != object.end()) {
         checkField(*field, *member, pointerTo(pointer, field->key));
       } else if (field->required) {
-        findings_.invalid(pointerTo(pointer, field->key), "The member is required but missing.");
+        findings_.invalid(pointerTo(pointer, field->key), "The required member is missing.");
       }
     }
   }
@@ -126,7 +126,7 @@ class SchemaCheck {
   }
 
   void outOfRange(const GltfField& field, const json& value, const std::string& pointer) {
-    findings_.invalid(pointer, "The value is not one that glTF allows here.", rangeOf(field), textOf(value));
+    findings_.invalid(pointer, "glTF does not allow this value here.", rangeOf(field), textOf(value));
   }
 
   void checkNumber(const GltfField& field, const json& value, const std::string& pointer) {
@@ -146,7 +146,7 @@ class SchemaCheck {
                                                    : value.get<std::int64_t>() >= 0 &&
                                                          static_cast<std::uint64_t>(value.get<std::int64_t>()) < size;
     if (exists) return;
-    findings_.invalid(pointer, "The index names nothing in " + std::string(field.of) + ".",
+    findings_.invalid(pointer, "The index is out of range of " + std::string(field.of) + ".",
                       size == 0 ? "none" : "0.." + std::to_string(size - 1), textOf(value));
   }
 
@@ -178,7 +178,7 @@ class SchemaCheck {
           break;
         case FieldKind::references:
           checkReference(field, value[i], at);
-          if (!seen.insert(value[i]).second) findings_.invalid(at, "The index stands in the array twice.");
+          if (!seen.insert(value[i]).second) findings_.invalid(at, "The array contains the index twice.");
           break;
         case FieldKind::referenceMaps:
           checkReferenceMap(field, value[i], at);

@@ -87,23 +87,25 @@ Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle
   const std::string scheme = schemeOf(uri);
   if (scheme == "data") return resolveDataUri(uri, pointer);
   if (!scheme.empty()) {
-    return refused(ProblemCode::unsupportedFeature, pointer, "Nothing outside the upload is opened.", uri);
+    return refused(ProblemCode::unsupportedFeature, pointer,
+                   "The URI refers to something outside the upload, which is never opened.", uri);
   }
   const auto name = percentDecoded(uri);
   if (!name) return refused(ProblemCode::invalidScene, pointer, "The URI has an invalid percent escape.", uri);
   const bool control = std::any_of(name->begin(), name->end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
   if (name->empty() || control) {
-    return refused(ProblemCode::invalidScene, pointer, "The URI is empty or holds control characters.", uri);
+    return refused(ProblemCode::invalidScene, pointer, "The URI is empty or contains control characters.", uri);
   }
   if (name->front() == '/' || name->find('\\') != std::string::npos || climbs(*name)) {
-    return refused(ProblemCode::invalidScene, pointer, "The URI is an absolute path or a path upwards.", uri);
+    return refused(ProblemCode::invalidScene, pointer,
+                   "The URI is an absolute path or leads out of the folder of the model.", uri);
   }
   auto file = bundle.files.find(*name);
   if (file == bundle.files.end() && name->starts_with("./")) file = bundle.files.find(name->substr(2));
   if (file == bundle.files.end()) {
     return Problem{ProblemCode::invalidScene,
                    pointer,
-                   "The glTF names the file " + inQuotes(*name) + ", which was not uploaded with it.",
+                   "The glTF refers to the file " + inQuotes(*name) + ", which was not uploaded with it.",
                    {},
                    {}};
   }

@@ -15,7 +15,7 @@ class DecodeBudget {
   /// False, and a problem at `pointer`, where `bytes` more would pass the limit.
   bool take(std::uint64_t bytes, const std::string& pointer, Findings& findings) {
     if (bytes > left()) {
-      findings.tooLarge(pointer, "The compressed data comes to too many bytes.", std::to_string(limit_) + " bytes",
+      findings.tooLarge(pointer, "The compressed data decodes to too many bytes.", std::to_string(limit_) + " bytes",
                         std::to_string(bytes) + " bytes after " + std::to_string(used_));
       return false;
     }

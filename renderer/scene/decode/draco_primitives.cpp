@@ -91,7 +91,7 @@ class PrimitiveDecoding {
       const int components = componentsOf(accessor.type);
       const ComponentType type = accessor.componentType;
       if (attribute.components != components || attribute.type != type) {
-        findings_.invalid(pointerTo(pointer, name), "The Draco data is not of the type that the accessor states.",
+        findings_.invalid(pointerTo(pointer, name), "The type of the Draco data differs from that of the accessor.",
                           shapeText(type, components), shapeText(attribute.type, attribute.components));
         return std::nullopt;
       }

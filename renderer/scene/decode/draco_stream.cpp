@@ -97,7 +97,7 @@ struct StreamCheck {
 
   bool triangles(std::uint64_t stated) const {
     if (claims.triangles && *claims.triangles != stated) {
-      findings.invalid(pointer, "The Draco data does not hold as many triangles as the accessors say.",
+      findings.invalid(pointer, "The number of triangles in the Draco data differs from that of the accessors.",
                        std::to_string(*claims.triangles), std::to_string(stated));
       return false;
     }
@@ -199,8 +199,8 @@ std::optional<DracoMesh> decodeDraco(std::span<const std::uint8_t> stream, const
     return std::nullopt;
   }
   if (mesh.num_points() != claims.points) {
-    findings.warn("The Draco data at " + pointer + " holds " + std::to_string(mesh.num_points()) +
-                  " vertices where the accessors say " + std::to_string(claims.points) + ".");
+    findings.warn("The Draco data at " + pointer + " has " + std::to_string(mesh.num_points()) +
+                  " vertices, but the accessors state " + std::to_string(claims.points) + ".");
   }
   return keptMesh(mesh, wanted, pointer, findings);
 }

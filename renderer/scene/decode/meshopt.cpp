@@ -57,7 +57,7 @@ bool mayHold(const gltf::Meshopt& view, const std::string& pointer, std::span<co
              Findings& findings) {
   const std::uint64_t fewest = fewestBytes(view);
   if (fewest > compressed.size()) {
-    findings.invalid(pointer + "/count", "The compressed data can't hold as many elements.",
+    findings.invalid(pointer + "/count", "The compressed data is too short for its number of elements.",
                      std::to_string(compressed.size()) + " bytes",
                      std::to_string(view.count) + " elements, which take " + std::to_string(fewest) + " or more");
     return false;
@@ -65,9 +65,8 @@ bool mayHold(const gltf::Meshopt& view, const std::string& pointer, std::span<co
   const StreamKind kind = kindOf(view.mode);
   const std::uint8_t header = compressed.front();
   if ((header & 0xF0) == kind.format && (header & 0x0F) > kind.newestVersion) {
-    findings.unsupported(pointer, "The data is of version " + std::to_string(header & 0x0F) +
-                                      " of its compression; versions to " + std::to_string(kind.newestVersion) +
-                                      " are supported.");
+    findings.unsupported(pointer, "The compressed data has version " + std::to_string(header & 0x0F) +
+                                      "; versions up to " + std::to_string(kind.newestVersion) + " are supported.");
     return false;
   }
   return true;
@@ -124,16 +123,16 @@ bool isSoundMeshopt(const gltf::BufferView& bufferView, const std::string& point
   }
   const std::string strides = stridesOf(view.mode, view.filter);
   if (strides.empty()) {
-    findings.invalid(pointer + "/filter", "Indices have no filter.", "NONE");
+    findings.invalid(pointer + "/filter", "Index modes allow no filter.", "NONE");
     return false;
   }
   if (!strideFits(view.byteStride, view.mode, view.filter)) {
-    findings.invalid(pointer + "/byteStride", "The stride is not one that the mode and the filter allow.", strides,
+    findings.invalid(pointer + "/byteStride", "The mode and the filter do not allow this stride.", strides,
                      std::to_string(view.byteStride));
     return false;
   }
   if (view.mode == MeshoptMode::triangles && view.count % 3 != 0) {
-    findings.invalid(pointer + "/count", "The triangles are not complete.", "a multiple of 3",
+    findings.invalid(pointer + "/count", "The last triangle is incomplete.", "a multiple of 3",
                      std::to_string(view.count));
     return false;
   }
@@ -144,7 +143,7 @@ bool isSoundMeshopt(const gltf::BufferView& bufferView, const std::string& point
     return false;
   }
   if (bufferView.byteStride != 0 && bufferView.byteStride != view.byteStride) {
-    findings.invalid(pointer + "/byteStride", "The stride is not the one of the buffer view.",
+    findings.invalid(pointer + "/byteStride", "The stride differs from that of the buffer view.",
                      std::to_string(bufferView.byteStride), std::to_string(view.byteStride));
     return false;
   }

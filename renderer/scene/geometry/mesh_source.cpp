@@ -53,11 +53,11 @@ class PrimitiveGathering {
   const AccessorView* checked(const AccessorView& view, const std::string& name, const std::string& pointer,
                               std::initializer_list<int> components) {
     if (std::find(components.begin(), components.end(), view.components) == components.end()) {
-      findings_.invalid(pointer, "The accessor is not of a type that " + name + " may have.");
+      findings_.invalid(pointer, "The accessor's type is not valid for " + name + ".");
       return nullptr;
     }
     if (source_.positions && view.count != source_.positions->count) {
-      findings_.invalid(pointer, "The accessor does not have as many elements as POSITION.",
+      findings_.invalid(pointer, "The accessor's count differs from that of POSITION.",
                         std::to_string(source_.positions->count), std::to_string(view.count));
       return nullptr;
     }
@@ -81,7 +81,7 @@ class PrimitiveGathering {
       const std::string pointer = source_.pointer + "/attributes/";
       if (!joints || !weights) {
         return findings_.invalid(pointer + (joints ? "JOINTS_" : "WEIGHTS_") + number,
-                                 "Joints and weights only go together.");
+                                 "JOINTS_n and WEIGHTS_n must appear together.");
       }
       const ComponentType type = joints->componentType;
       if ((type != ComponentType::uint8 && type != ComponentType::uint16) || joints->normalized) {
@@ -118,7 +118,8 @@ class PrimitiveGathering {
     const bool isUnsigned =
         type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
     if (view.components != 1 || !isUnsigned || document_.model.accessors[accessor].normalized) {
-      findings_.invalid(source_.pointer + "/indices", "The accessor of the indices is not of unsigned scalars.");
+      findings_.invalid(source_.pointer + "/indices",
+                        "The accessor of the indices is not a SCALAR of unsigned integers.");
       return;
     }
     if (view.data && view.stride != bytesOf(type)) {
@@ -152,7 +153,7 @@ bool morphFits(const PrimitiveSource& source, const std::vector<PrimitiveSource>
   const std::string pointer = source.pointer + "/targets";
   const std::size_t targets = source.targets.size();
   if (!before.empty() && targets != before.front().targets.size()) {
-    findings.invalid(pointer, "The primitives of a mesh do not have as many morph targets as each other.",
+    findings.invalid(pointer, "The primitives of a mesh differ in their number of morph targets.",
                      std::to_string(before.front().targets.size()), std::to_string(targets));
     return false;
   }

@@ -219,7 +219,7 @@ TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
   if (source.tangents && setTangents(mesh, *source.tangents)) replaced = true;
   if (replaced) {
     findings.warn("The primitive " + source.pointer +
-                  " has normals or tangents without a direction; they are taken from its shape.");
+                  " has normals or tangents of length 0; they are computed from its triangles.");
   }
   return mesh;
 }

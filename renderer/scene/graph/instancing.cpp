@@ -47,14 +47,14 @@ std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node
   if (!attributes) return std::nullopt;
   const std::string pointer = pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
   if (attributes->empty()) {
-    findings.invalid(pointer, "The instancing names no attribute.");
+    findings.invalid(pointer, "The instancing has no attributes.");
     return std::nullopt;
   }
   Instancing instancing;
   for (const auto& [name, accessor] : *attributes) {
     const AccessorView& view = load.accessors[static_cast<std::size_t>(accessor)];
     if (instancing.count != 0 && view.count != instancing.count) {
-      findings.invalid(pointerTo(pointer, name), "The accessor does not have as many elements as the others.",
+      findings.invalid(pointerTo(pointer, name), "The accessor's count differs from that of the other attributes.",
                        std::to_string(instancing.count), std::to_string(view.count));
       return std::nullopt;
     }
@@ -62,7 +62,7 @@ std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node
     const AccessorView** member = memberOf(instancing, name);
     if (!member) continue; // an attribute of the application's own
     if (!isOfType(name, view)) {
-      findings.invalid(pointerTo(pointer, name), "The accessor is not of a type that " + name + " may have.");
+      findings.invalid(pointerTo(pointer, name), "The accessor's type is not valid for " + name + ".");
       return std::nullopt;
     }
     *member = &view;

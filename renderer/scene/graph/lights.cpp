@@ -24,7 +24,7 @@ void checkLights(const std::vector<gltf::PunctualLight>& lights, Findings& findi
     if (lights[i].type != LightType::spot) continue;
     const std::string pointer = pointerTo("/extensions/KHR_lights_punctual/lights", i) + "/spot";
     if (!lights[i].spot) {
-      findings.invalid(pointer, "A spot light needs its cone.");
+      findings.invalid(pointer, "A spot light needs the member spot.");
     } else if (!(lights[i].spot->inner < lights[i].spot->outer)) {
       findings.invalid(pointer + "/innerConeAngle", "The inner cone is not narrower than the outer cone.");
     }

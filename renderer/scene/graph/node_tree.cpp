@@ -21,7 +21,7 @@ std::vector<int> readParents(const gltf::Model& model, Findings& findings) {
       int& parent = parents[static_cast<std::size_t>(children[i])];
       if (parent >= 0) {
         findings.invalid(pointerTo(pointerTo("/nodes", node) + "/children", i),
-                         "The node already is a child of another one.", "one parent",
+                         "The node is already a child of another node.", "one parent",
                          "nodes " + std::to_string(parent) + " and " + std::to_string(node));
       }
       parent = static_cast<int>(node);
@@ -36,7 +36,7 @@ void checkSceneRoots(const gltf::Model& model, const std::vector<int>& parents, 
     for (std::size_t i = 0; i < roots.size(); ++i) {
       const int parent = parents[static_cast<std::size_t>(roots[i])];
       if (parent < 0) continue;
-      findings.invalid(pointerTo(pointerTo("/scenes", scene) + "/nodes", i), "A scene may only name root nodes.", {},
+      findings.invalid(pointerTo(pointerTo("/scenes", scene) + "/nodes", i), "A scene may list only root nodes.", {},
                        "a child of node " + std::to_string(parent));
     }
   }
@@ -75,7 +75,7 @@ void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings) {
     const gltf::Node& node = nodes[i];
     if (!node.matrix || !(node.translation || node.rotation || node.scale)) continue;
     findings.invalid(pointerTo("/nodes", i) + "/matrix",
-                     "A node has either a matrix or translation, rotation and scale.");
+                     "A node may have a matrix or translation, rotation and scale, but not both.");
   }
 }
 
@@ -147,7 +147,7 @@ NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
   tree.hidden = hiddenNodes(tree.order, tree.parents, tree.visible);
   static_cast<NodePlaces&>(tree) = placeNodes(tree.order, tree.parents, tree.locals);
   if (const auto lost = firstLost(tree, tree.order)) {
-    findings.invalid(pointerTo("/nodes", *lost), "The node's place in the world is not finite.");
+    findings.invalid(pointerTo("/nodes", *lost), "The node's world transform is not finite.");
     return tree;
   }
   for (std::size_t node = 0; node < reached.size(); ++node) {

@@ -81,7 +81,7 @@ class Flattening {
 
   void warnOfNoScale(const char* what, std::size_t node) {
     findings_.warn("The " + std::string(what) + " at node " + std::to_string(node) +
-                   " is scaled to nothing and left out.");
+                   " has a degenerate transform and is left out.");
   }
 
   void addPlacements(std::size_t node, int skin, const glm::dmat4& nodeFromCopy, const std::vector<int>& primitives) {
@@ -99,7 +99,7 @@ class Flattening {
     if (findings_.refused()) return;
     if (!posed_[node].followingSkin.empty()) {
       if (instancing) {
-        findings_.warn("The mesh at node " + std::to_string(node) + " follows a skin: its copies are not drawn.");
+        findings_.warn("The mesh at node " + std::to_string(node) + " is skinned; its instances are not drawn.");
       }
       if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
       addPlacements(node, nodes_[node].skin, glm::dmat4(1), posed_[node].followingSkin);
@@ -114,7 +114,7 @@ class Flattening {
         placeCopy(node, tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
       } else {
         findings_.invalid(pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes",
-                          "A copy has a rotation of length 0 or a number that is not finite.", {},
+                          "An instance has a rotation of length 0 or a number that is not finite.", {},
                           "copy " + std::to_string(copy));
       }
     }
@@ -125,7 +125,7 @@ class Flattening {
     if (primitives.empty()) return;
     const bool flat = isFlat(worldFromLocal);
     if (flat && !moves_) {
-      findings_.warn("The mesh at node " + std::to_string(node) + " is scaled to nothing and not drawn.");
+      findings_.warn("The mesh at node " + std::to_string(node) + " has a degenerate transform and is not drawn.");
       return;
     }
     for (const int index : primitives) {
@@ -145,7 +145,7 @@ class Flattening {
       instance.worldFromLocal = worldFromLocal;
       instance.bounds = transformed(worldFromLocal, primitive.bounds);
       if (!finite(instance.bounds)) {
-        findings_.invalid(pointerTo("/nodes", node), "The mesh's place in the world is not finite.");
+        findings_.invalid(pointerTo("/nodes", node), "The mesh's bounds in world space are not finite.");
         return;
       }
       view.bounds.add(instance.bounds);

@@ -12,7 +12,7 @@ void readAlpha(const gltf::Material& source, const std::string& name, Material& 
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
   } else if (source.alphaMode == AlphaMode::blend) {
     material.alphaCutoff = 0.5f;
-    findings.warn("The " + name + " is blended; the camera sees it solid where its alpha is at least 0.5.");
+    findings.warn("The " + name + " uses alpha blending; it is drawn opaque where its alpha is at least 0.5.");
   }
 }
 
@@ -22,9 +22,9 @@ void readTransmission(const gltf::Transmission& extension, const std::string& na
   material.transmission = static_cast<float>(extension.factor);
   if (!(material.transmission > 0)) return;
   findings.warn("The " + name +
-                " lets light through: the surroundings are seen through it, but not what stands behind it.");
+                " is transmissive; the surroundings are visible through it, but objects behind it are not.");
   if (extension.texture) {
-    findings.warn("The transmission of the " + name + " is the same everywhere: its texture is left out.");
+    findings.warn("The transmission texture of the " + name + " is ignored.");
   }
   const float left = 1 - material.transmission;
   if (material.alphaMode == AlphaMode::opaque) {

@@ -50,7 +50,7 @@ void agree(const UvSets& held, std::size_t variant, std::vector<Material>& mater
       if (!*textures[i] || (*textures[i])->texCoord != static_cast<int>(slot)) continue;
       leaveOut(variant, i,
                "uses TEXCOORD_" + std::to_string(sets[slot]) +
-                   ", and a primitive that it is a variant of has no place for that",
+                   ", which a primitive that uses it as a variant has no room for",
                materials, findings);
     }
     sets[slot] = -1;

@@ -47,7 +47,7 @@ class Posing {
     if (!weights) return std::vector<double>(targets, 0.0);
     if (weights->size() != targets) {
       const std::string pointer = own ? pointerTo("/nodes", node) : pointerTo("/meshes", mesh);
-      findings_.invalid(pointer + "/weights", "There are not as many weights as morph targets.",
+      findings_.invalid(pointer + "/weights", "The number of weights differs from the number of morph targets.",
                         std::to_string(targets), std::to_string(weights->size()));
       return std::nullopt;
     }
@@ -61,7 +61,7 @@ class Posing {
     for (const int index : mesh.deformables) {
       const int greatest = deformable(index).greatestJoint;
       if (greatest < static_cast<int>(joints)) continue;
-      findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh names a joint that the skin does not have.",
+      findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh uses a joint that the skin does not have.",
                         "below " + std::to_string(joints), std::to_string(greatest));
       return false;
     }

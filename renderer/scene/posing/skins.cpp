@@ -19,7 +19,7 @@ void readBindMatrices(const LoadContext& load, std::size_t accessor, const std::
   Findings& findings = load.findings;
   const AccessorView& view = load.accessors[accessor];
   if (!isOfFloatMatrices(load.document.model.accessors[accessor])) {
-    return findings.invalid(pointer, "The accessor of the inverse bind matrices is not of MAT4 of floats.");
+    return findings.invalid(pointer, "Inverse bind matrices need a MAT4 accessor of floats.");
   }
   if (view.count < skin.joints.size()) {
     return findings.invalid(pointer, "The skin has fewer inverse bind matrices than joints.",
@@ -45,7 +45,7 @@ class SkinCheck {
     const std::size_t joints = model_.skins[static_cast<std::size_t>(source.skin)].joints.size();
     const double greatest = greatestJoint(static_cast<std::size_t>(source.mesh));
     if (greatest < static_cast<double>(joints)) return;
-    findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh names a joint that the skin does not have.",
+    findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh uses a joint that the skin does not have.",
                       "below " + std::to_string(joints), std::to_string(static_cast<std::int64_t>(greatest)));
   }
 
@@ -72,7 +72,7 @@ class SkinCheck {
       findings_.tooLarge(pointerTo("/accessors", accessor), "The skinned meshes have too many vertices.",
                          std::to_string(limits_.maxVertices), std::to_string(vertices_));
     } else if (view.components != 4) {
-      findings_.invalid(pointerTo("/accessors", accessor), "Joints need an accessor of the type VEC4.");
+      findings_.invalid(pointerTo("/accessors", accessor), "Joints need a VEC4 accessor.");
     } else {
       for (std::size_t i = 0; i < view.count; ++i) {
         const glm::dvec4 joints = view.read(i);

@@ -65,7 +65,7 @@ TEST(MaterialExtensions, G2_GlassCastsByWhatItKeepsAndIsWarnedOf) {
   EXPECT_TRUE(onlyMaterial(scene).uniformAlpha);
   EXPECT_EQ(onlyMaterial(scene).baseColorFactor.a, 0.25f);
   EXPECT_EQ(onlyMaterial(scene).alphaCutoff, 0);
-  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\" lets light through")));
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\" is transmissive")));
 
   glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0;
   scene = load(withMaterial(glass));
