@@ -98,8 +98,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("height", &FrameSpec::height, {.says = "Height of the picture.", .unit = "pixels", .range = kFrameSideRange}),
     field("camera", &FrameSpec::camera, {.says = "Where the picture is taken from, and with which lens."}),
     field("lights", &FrameSpec::lights,
-          {.says = "The lights; absent = those of the scene, or one sun if it has none. Each one that casts shadows "
-                   "needs tiles of its own.",
+          {.says = "The lights; absent = those of the scene, or one sun if it has none. Each shadow map needs "
+                   "tiles of its own.",
            .maxCount = kLimits.maxLights}),
     field("shadow", &FrameSpec::shadow, {.says = "The shadow of every light that has no `shadow` of its own."}),
     field("shadowLightPolicy", &FrameSpec::shadowLightPolicy, {.says = "Which lights cast shadows."}),
