@@ -53,6 +53,16 @@ Result<FrameSpec> decodeFrameSpec(std::string_view json) {
   return decodeFrameTree(*root, std::move(problems));
 }
 
+Result<SceneSummary> decodeSceneSummary(std::string_view json) {
+  ProblemList problems;
+  SceneSummary summary;
+  if (const std::optional<JsonNode> root = readJson(json, problems)) {
+    decodeValue(*root, Notes{}, Place(), problems, summary);
+  }
+  if (problems.empty()) return summary;
+  return std::move(problems).take();
+}
+
 Json toJson(const FrameSpec& spec) {
   return encodeValue(spec);
 }

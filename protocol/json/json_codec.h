@@ -20,6 +20,9 @@ Result<FrameSpec> decodeFrameSpec(std::string_view json);
 /// The same from a tree, however that was read; `problems` are those of the reading.
 Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems);
 
+/// A summary as toJson writes it; members that are absent have their defaults.
+Result<SceneSummary> decodeSceneSummary(std::string_view json);
+
 Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives the same spec
 Json toJson(const FrameReport& report);
 Json toJson(const PlanReport& report);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
+#include "protocol/json/json_codec.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"
 
@@ -40,16 +41,12 @@ HttpReply putScene(Services& services, RouteCall call) {
 }
 
 HttpReply listScenes(Services& services, RouteCall) {
-  Json scenes = Json::array();
-  for (Json& summary : services.store.summaries()) {
-    scenes.push_back(std::move(summary));
-  }
-  return jsonReply({{"scenes", std::move(scenes)}});
+  return jsonReply(toJson(services.store.summaries()));
 }
 
 HttpReply getScene(Services& services, RouteCall call) {
-  auto summary = services.store.summary(call.values.at("id"));
-  return summary ? jsonReply(*summary) : problemReply(summary.problems(), call.request.id);
+  const auto summary = services.store.summary(call.values.at("id"));
+  return summary ? jsonReply(toJson(*summary)) : problemReply(summary.problems(), call.request.id);
 }
 
 HttpReply deleteScene(Services& services, RouteCall call) {

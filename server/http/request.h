@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/base/result.h"
 #include "protocol/base/bytes.h"
+#include "protocol/base/result.h"
 
 namespace gnomon {
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "protocol/base/bytes.h"
 #include "server/http/request_log.h"
 #include "server/http/socket_io.h"
 #include "server/scenes/bundle.h"
@@ -80,6 +81,19 @@ bool syncDirectory(const std::string& path) {
   return directory && ::fsync(directory.get()) == 0;
 }
 
+/// Writes a file under another name and renames it, so that it appears whole. False, with errno, where the disk
+/// refuses.
+bool place(const std::string& path, const std::function<void(const Sink&)>& produce) {
+  const std::string temporary = fs::path(path).parent_path() / temporaryName();
+  if (writeThrough(temporary, produce) && ::rename(temporary.c_str(), path.c_str()) == 0) {
+    return true;
+  }
+  const int reason = errno;
+  ::unlink(temporary.c_str());
+  errno = reason;
+  return false;
+}
+
 } // namespace
 
 std::string SceneDirectory::pathOf(const std::string& id, const char* ending) const {
@@ -118,27 +132,20 @@ bool SceneDirectory::contains(const std::string& id) const {
 }
 
 Status SceneDirectory::write(const std::string& id, const SceneBundle& bundle, const std::string& summary) const {
-  const auto place = [&](const char* ending, const std::function<void(const Sink&)>& produce) {
-    const std::string temporary = path_ + "/" + temporaryName();
-    const bool placed =
-        writeThrough(temporary, produce) && ::rename(temporary.c_str(), pathOf(id, ending).c_str()) == 0;
-    if (!placed) {
-      const int reason = errno;
-      ::unlink(temporary.c_str());
-      errno = reason;
-    }
-    return placed;
-  };
   // The bundle last: once it is there, the scene is.
-  const bool written = place(kSummary,
-                             [&](const Sink& sink) {
-                               sink({reinterpret_cast<const std::uint8_t*>(summary.data()), summary.size()});
-                             }) &&
-                       place(kBundle, [&](const Sink& sink) { writeBundle(bundle, sink); }) && syncDirectory(path_);
+  const bool written = place(pathOf(id, kSummary), [&](const Sink& sink) { sink(asBytes(summary)); }) &&
+                       place(pathOf(id, kBundle), [&](const Sink& sink) { writeBundle(bundle, sink); }) &&
+                       syncDirectory(path_);
   if (!written) {
     return diskProblem("A scene could not be written.");
   }
   return Done{};
+}
+
+void SceneDirectory::writeSummary(const std::string& id, const std::string& summary) const {
+  if (!place(pathOf(id, kSummary), [&](const Sink& sink) { sink(asBytes(summary)); })) {
+    diskProblem("A summary could not be written.");
+  }
 }
 
 Result<SceneBundle> SceneDirectory::read(const std::string& id) const {

@@ -23,6 +23,9 @@ class SceneDirectory {
   /// Writes the bundle and its summary through to the disk.
   Status write(const std::string& id, const SceneBundle& bundle, const std::string& summary) const;
 
+  /// Replaces the summary of a scene; what the disk refuses is logged only, since a summary can be made again.
+  void writeSummary(const std::string& id, const std::string& summary) const;
+
   /// The bundle, once its hash is found equal to its id. One that differs is renamed to "<id>.damaged" and reported as
   /// notFound; uploading the scene again repairs it.
   Result<SceneBundle> read(const std::string& id) const;

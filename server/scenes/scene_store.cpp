@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
+#include "protocol/json/json_codec.h"
+#include "server/http/reply.h"
 #include "server/http/request_log.h"
 #include "server/scenes/bundle.h"
 
@@ -13,7 +15,7 @@ namespace {
 constexpr int kLoadsAtOnce = 2; ///< a load may need many times the memory of its file
 
 std::string summaryText(const SceneSummary& summary) {
-  return toJson(summary).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return jsonText(toJson(summary));
 }
 
 /// A permit to load, released however the load ends. Free memory then goes back to the system: the allocator keeps a
@@ -145,25 +147,25 @@ bool SceneStore::contains(const std::string& id) {
   return isSceneId(id) && (cache_.get(id) || (directory_ && directory_->contains(id)));
 }
 
-std::optional<Json> SceneStore::storedSummary(const std::string& id) const {
+std::optional<SceneSummary> SceneStore::storedSummary(const std::string& id) const {
   const auto text = directory_->readSummary(id);
   if (!text) {
     return std::nullopt;
   }
-  Json summary = Json::parse(*text, nullptr, false);
-  if (!summary.is_object() || summary.value("id", Json()) != id) {
-    logEvent("store", "The stored summary of scene " + id + " is damaged. The scene is loaded instead.");
+  auto summary = decodeSceneSummary(*text);
+  if (!summary || summary->id != id || summaryText(*summary) != *text) { // damaged, or written by another version
+    logEvent("store", "The stored summary of scene " + id + " can't be used. The scene is loaded instead.");
     return std::nullopt;
   }
-  return summary;
+  return *std::move(summary);
 }
 
-Result<Json> SceneStore::summary(const std::string& id) {
+Result<SceneSummary> SceneStore::summary(const std::string& id) {
   if (!contains(id)) {
     return unknownScene(id);
   }
-  if (const auto known = cache_.get(id)) {
-    return toJson(known->summary);
+  if (auto known = cache_.get(id)) {
+    return std::move(known->summary);
   }
   if (auto stored = storedSummary(id)) {
     return *std::move(stored);
@@ -172,20 +174,18 @@ Result<Json> SceneStore::summary(const std::string& id) {
   if (!loaded) {
     return std::move(loaded).problems();
   }
-  return toJson(loaded->summary);
+  directory_->writeSummary(id, summaryText(loaded->summary));
+  return std::move(loaded->summary);
 }
 
-std::vector<Json> SceneStore::summaries() {
-  std::vector<Json> all;
+SceneList SceneStore::summaries() {
   if (!directory_) {
-    for (const SceneSummary& summary : cache_.summaries()) {
-      all.push_back(toJson(summary));
-    }
-    return all;
+    return {cache_.summaries()};
   }
+  SceneList all;
   for (const std::string& id : directory_->ids()) {
     if (auto found = summary(id)) {
-      all.push_back(*std::move(found));
+      all.scenes.push_back(*std::move(found));
     }
   }
   return all;

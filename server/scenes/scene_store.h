@@ -1,13 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <semaphore>
 #include <string>
 #include <vector>
 
-#include "protocol/json/json_codec.h"
+#include "protocol/report/replies.h"
+#include "protocol/report/scene_summary.h"
 #include "server/scenes/scene_cache.h"
 #include "server/scenes/scene_directory.h"
 
@@ -43,14 +43,17 @@ class SceneStore {
   Result<LoadedScene> get(const std::string& id);
 
   bool contains(const std::string& id);
-  Result<Json> summary(const std::string& id);
-  std::vector<Json> summaries(); ///< of all scenes, by ascending id
+
+  /// What the scene holds, as stored with it; loads the scene where that is missing or of another version.
+  Result<SceneSummary> summary(const std::string& id);
+  SceneList summaries(); ///< of all scenes, by ascending id
+
   bool remove(const std::string& id);
 
  private:
   SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory);
   Result<LoadedScene> load(const std::string& id, const SceneBundle& bundle);
-  std::optional<Json> storedSummary(const std::string& id) const;
+  std::optional<SceneSummary> storedSummary(const std::string& id) const;
 
   Limits limits_;
   std::size_t memoryBytes_;

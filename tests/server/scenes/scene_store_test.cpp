@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "protocol/json/json_codec.h"
 #include "server/scenes/bundle.h"
 #include "tests/support/files.h"
 #include "tests/support/glb_builder.h"
@@ -37,6 +39,12 @@ class SceneStoreTest : public ::testing::Test {
 
   fs::path bundlePath(const std::string& id) const { return directory_ / (id + ".bundle"); }
 
+  fs::path summaryPath(const std::string& id) const { return directory_ / (id + ".json"); }
+  static std::string textOf(const fs::path& path) {
+    const auto bytes = testing::readFile(path);
+    return {bytes.begin(), bytes.end()};
+  }
+
   fs::path directory_;
 };
 
@@ -65,7 +73,7 @@ TEST_F(SceneStoreTest, KeepsNothingThatCannotBeLoaded) {
   const auto store = open(directory_);
   const auto put = store->put({{'x'}, {}});
   ASSERT_FALSE(put);
-  EXPECT_TRUE(store->summaries().empty());
+  EXPECT_TRUE(store->summaries().scenes.empty());
   EXPECT_TRUE(fs::is_empty(directory_));
 }
 
@@ -74,8 +82,9 @@ TEST_F(SceneStoreTest, FindsItsScenesAgain) {
   const Json summary = toJson(open(directory_)->put(scene(1))->loaded.summary);
   const auto reopened = open(directory_);
   EXPECT_TRUE(reopened->contains(id));
-  EXPECT_EQ(reopened->summaries(), std::vector<Json>{summary});
-  EXPECT_EQ(*reopened->summary(id), summary);
+  ASSERT_EQ(reopened->summaries().scenes.size(), 1u);
+  EXPECT_EQ(toJson(reopened->summaries().scenes[0]), summary);
+  EXPECT_EQ(toJson(*reopened->summary(id)), summary);
   const auto loaded = reopened->get(id);
   ASSERT_TRUE(loaded);
   EXPECT_EQ(toJson(loaded->summary), summary);
@@ -112,12 +121,22 @@ TEST_F(SceneStoreTest, SetsDamagedBytesAside) {
 TEST_F(SceneStoreTest, MakesAMissingOrDamagedSummaryAnew) {
   const std::string id = bundleId(scene(1));
   const Json summary = toJson(open(directory_)->put(scene(1))->loaded.summary);
-  for (const char* text : {"", "{", "[]", R"({"id": "other"})"}) {
-    std::ofstream(directory_ / (id + ".json")) << text;
-    EXPECT_EQ(*open(directory_)->summary(id), summary) << text;
+  const std::string stored = textOf(summaryPath(id));
+  for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string(R"({"id": "other"})"),
+                                  R"({"id": ")" + id + R"("})"}) {
+    std::ofstream(summaryPath(id)) << text;
+    EXPECT_EQ(toJson(*open(directory_)->summary(id)), summary) << text;
+    EXPECT_EQ(textOf(summaryPath(id)), stored) << "and keeps it";
   }
-  fs::remove(directory_ / (id + ".json"));
-  EXPECT_EQ(*open(directory_)->summary(id), summary);
+  fs::remove(summaryPath(id));
+  EXPECT_EQ(toJson(*open(directory_)->summary(id)), summary);
+}
+
+TEST_F(SceneStoreTest, ReadsASummaryWithoutItsScene) {
+  const std::string id = bundleId(scene(1));
+  const Json summary = toJson(open(directory_)->put(scene(1))->loaded.summary);
+  std::ofstream(bundlePath(id)) << "not a scene";
+  EXPECT_EQ(toJson(*open(directory_)->summary(id)), summary);
 }
 
 TEST_F(SceneStoreTest, CleansUpAfterAnInterruptedWrite) {
@@ -125,7 +144,7 @@ TEST_F(SceneStoreTest, CleansUpAfterAnInterruptedWrite) {
   std::ofstream(directory_ / "not a scene.bundle") << "x";
   const auto store = open(directory_);
   EXPECT_FALSE(fs::exists(directory_ / ".writing-1-1"));
-  EXPECT_TRUE(store->summaries().empty());
+  EXPECT_TRUE(store->summaries().scenes.empty());
 }
 
 TEST_F(SceneStoreTest, Removes) {
