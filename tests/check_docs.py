@@ -178,9 +178,6 @@ def table_faults(tree):
     yield from compare("server/API.md", "view", first_column(tree, "server/API.md", "Views"), views)
     lists = found(r"kViews = \[(.*?)\n\];", page) + found(r"kDebugViews = \[(.*?)\n\];", page)
     yield from compare("clients/web/fields.mjs", "view", re.findall(r"^  \['(\w+)'", lists, re.MULTILINE), views)
-    help_text = "".join(texts(tree, "clients/cli/*flags.cpp"))
-    help_text = "".join(re.findall(r"\"([^\"]*)\"", found(r"\"--view\"(.*?)->", help_text)))
-    yield from compare("clients/cli, --view", "view", re.findall(r"\w+", help_text), views, extra_allowed=True)
 
     names = stages(tree)
     yield from compare("server/API.md", "stage", first_column(tree, "server/API.md", "Stages"), names)

@@ -18,7 +18,7 @@ SOUND = {
     "server/frames/reply.cpp": 'stages.push_back({"encode", took});\n',
     "server/main.cpp": 'app.add_subcommand("serve", "Serve");\n',
     "clients/USING.md": "## Command line\n\n| command | does |\n|---|---|\n| `gnomon serve` | serves |\n",
-    "clients/cli/spec/spec_flags.cpp": 'command.add_option("--view", views,\n  "color, "\n  "depth")->take_all();\n',
+    "clients/cli/commands/spec_flags.cpp": "",
     "clients/web/fields.mjs": "const kViews = [\n  ['color', 'Colour'],\n];\n"
                               "const kDebugViews = [\n  ['depth', 'Depth'],\n];\n"
                               "const kStageColors = {\n  plan: '#1',\n  encode: '#2',\n};\n",
@@ -52,7 +52,6 @@ BROKEN = [
     ("server/API.md", "| `plan` | planning |\n", "", "server/API.md: stage plan is missing"),
     ("clients/web/fields.mjs", "  ['depth', 'Depth'],\n", "", "clients/web/fields.mjs: view depth is missing"),
     ("clients/web/fields.mjs", "  plan: '#1',\n", "", "clients/web/fields.mjs: stage plan is missing"),
-    ("clients/cli/spec/spec_flags.cpp", "color, ", "", "--view: view color is missing"),
     ("protocol/report/frame_report.h", "plan", "plan load", "there is no stage load"),
     ("protocol/report/report_rows.h", "plan, ", "", "protocol/report/report_rows.h: stage plan is missing"),
     ("renderer/SHADOWS.md", "| `maps` | a map |\n", "", "renderer/SHADOWS.md: technique maps is missing"),
@@ -64,7 +63,7 @@ BROKEN = [
 ]
 
 FINE = ["`image/png`", "`text/csv`", "`/v1/scenes`", "`build/release/bin/x`", "`spec_flags.cpp`",
-        "`cli/spec/spec_flags`", "`shaders/*.frag`", "`renderer/shaders/NAME.frag`", "`KHR/none`",
+        "`cli/commands/spec_flags`", "`shaders/*.frag`", "`renderer/shaders/NAME.frag`", "`KHR/none`",
         "[x](https://none.example/a.md)", "[x](#house)", "```\nserver/anything in a drawing\n```", "`./build`",
         "`shadow.filter.size`"]
 
