@@ -70,7 +70,7 @@ TEST(FrameCounts, X6_X7_ALightThatReachesNoVisibleReceiverCostsNothing) {
 }
 
 TEST(FrameCounts, X2_ASwitchedOffLightCostsNothing) {
-  expectIdle({{R"({"type":"directional","direction":[1,-1,0],"shadow":{"enabled":false}})", "turned off"},
+  expectIdle({{R"({"type":"directional","direction":[1,-1,0],"shadow":{"enabled":false}})", "is disabled"},
               {R"({"type":"directional","direction":[1,-1,0],"shadow":{"strength":0}})", "strength is 0"},
               {R"({"type":"point","position":[0,4,0],"intensity":0})", "intensity is 0"}});
 }

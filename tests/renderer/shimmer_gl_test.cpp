@@ -151,7 +151,7 @@ TEST(Shimmer, H6_APathWithNothingToWatchIsAProblem) {
   off["shadow"]["enabled"] = false;
   const auto dark = along(scene, off, kAcross);
   ASSERT_FALSE(dark);
-  EXPECT_NE(dark.problems().front().detail.find("no light"), std::string::npos);
+  EXPECT_NE(dark.problems().front().detail.find("No light"), std::string::npos);
 }
 
 } // namespace
