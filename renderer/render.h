@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "protocol/report/capabilities.h"
 #include "protocol/report/frame_report.h"
-#include "protocol/report/scene_summary.h"
+#include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"
 #include "renderer/charts/evaluation_chart.h"

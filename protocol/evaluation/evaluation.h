@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "protocol/report/capabilities.h"
 #include "protocol/report/error_metrics.h"
 #include "protocol/report/frame_report.h"
+#include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 
 /// Speed against error: a frame's settings and variants of them, each measured against rays.

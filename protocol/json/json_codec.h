@@ -5,10 +5,8 @@
 
 #include "protocol/base/result.h"
 #include "protocol/json/json_source.h"
-#include "protocol/report/capabilities.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
-#include "protocol/report/scene_summary.h"
 #include "protocol/spec/frame_spec.h"
 
 namespace gnomon {

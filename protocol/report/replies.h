@@ -1,14 +1,91 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "protocol/report/capabilities.h"
 #include "protocol/report/frame_report.h"
-#include "protocol/report/scene_summary.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon {
+
+enum class Backend { automatic, egl, osmesa };
+
+/// Which graphics context to make.
+struct BackendOptions {
+  Backend backend = Backend::automatic; ///< automatic = EGL, then OSMesa
+  bool requireGpu = false;              ///< refuse software renderers
+};
+
+/// What the chosen graphics context is and can do.
+struct RendererInfo {
+  std::string backend{};  ///< "egl" | "osmesa"
+  std::string platform{}; ///< "device" | "surfaceless" | "osmesa"
+  std::string vendor{};   ///< GL_VENDOR
+  std::string renderer{}; ///< GL_RENDERER
+  std::string version{};  ///< GL_VERSION
+  bool software = false;  ///< true = no GPU
+  int maxTextureSize = 0; ///< texels
+  int maxSamples = 0;
+  std::string fingerprint{}; ///< changes whenever the same request could give other bytes
+};
+
+struct CameraSummary {
+  int node = 0; ///< index into the file's nodes; usable as camera.node
+  std::string name{};
+  std::string type{}; ///< "perspective" | "orthographic"
+};
+
+struct LightSummary {
+  int node = 0;
+  std::string name{};
+  std::string type{}; ///< "directional" | "spot" | "point"
+};
+
+/// Bytes of a loaded scene by what they hold; they add up to its memoryBytes.
+struct MemorySummary {
+  std::uint64_t vertices = 0;    ///< positions and attributes
+  std::uint64_t indices = 0;     ///< and what is found from them
+  std::uint64_t images = 0;      ///< decoded
+  std::uint64_t deformation = 0; ///< of skins and morph targets: what poses are made from
+  std::uint64_t animations = 0;  ///< keyframes, and what else poses are made from
+  std::uint64_t structure = 0;   ///< nodes, instances, materials
+};
+
+struct AnimationSummary {
+  std::string name{};
+  double durationSeconds = 0; ///< time of its last keyframe
+};
+
+/// What an upload is told about its scene. Counts are of the default glTF scene.
+struct SceneSummary {
+  std::string id{};              ///< SHA-256 of the bundle, 64 lower-case hexadecimal digits
+  std::uint64_t bytes = 0;       ///< of the bundle
+  std::uint64_t memoryBytes = 0; ///< of the loaded scene
+  MemorySummary memory{};        ///< the same by part
+  int scenes = 0;
+  int defaultScene = 0;
+  std::uint64_t nodes = 0;
+  std::uint64_t meshes = 0;
+  std::uint64_t instances = 0; ///< primitives, each as often as it is placed
+  std::uint64_t materials = 0;
+  std::uint64_t textures = 0;
+  std::uint64_t images = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t skins = 0;
+  std::uint64_t joints = 0;          ///< over all skins
+  std::uint64_t morphTargets = 0;    ///< over all meshes
+  std::array<double, 3> boundsMin{}; ///< metres
+  std::array<double, 3> boundsMax{};
+  std::vector<CameraSummary> cameras{};
+  std::vector<LightSummary> lights{};
+  std::vector<AnimationSummary> animations{};
+  std::vector<std::string> extensionsUsed{};
+  std::vector<std::string> extensionsIgnored{}; ///< those of them that the loader does not know
+  std::vector<std::string> warnings{};          ///< what the file holds that is drawn without or drawn differently
+};
 
 /// A picture within a JSON reply.
 struct ImageReply {

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "protocol/fields/fields.h"
-#include "protocol/report/capabilities.h"
 #include "protocol/report/replies.h"
 #include "protocol/report/report_rows.h"
-#include "protocol/report/scene_summary.h"
 #include "protocol/spec/field_rows.h"
 #include "protocol/spec/limits.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/report/capabilities.h"
+#include "protocol/report/replies.h"
 #include "renderer/device/facts.h"
 #include "renderer/image/image.h"
 #include "renderer/prepare/lit_light.h"

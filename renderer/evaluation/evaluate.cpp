@@ -1,13 +1,15 @@
 #include "renderer/evaluation/evaluate.h"
 
+#include <algorithm>
+
 #include "protocol/json/problem_json.h"
-#include "renderer/evaluation/camera_path.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"
-#include "renderer/evaluation/pareto.h"
+#include "renderer/evaluation/world_points.h"
 #include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
+
 namespace {
 
 std::optional<std::string> unlessEmpty(const std::string& text) {
@@ -147,6 +149,28 @@ Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evalu
   if (!posed) return inSpec(posed.problems());
   if (const auto base = resolveFrame(**posed, evaluation.spec); !base) return inSpec(base.problems());
   return Run(scene, evaluation, tools, listener).run(renderer);
+}
+
+namespace {
+
+bool measured(const EvaluationRow& row) {
+  return row.milliseconds && row.metrics;
+}
+
+bool beats(const EvaluationRow& a, const EvaluationRow& b) {
+  const double timeA = *a.milliseconds, timeB = *b.milliseconds;
+  const double errorA = a.metrics->misclassified, errorB = b.metrics->misclassified;
+  return timeA <= timeB && errorA <= errorB && (timeA < timeB || errorA < errorB);
+}
+
+} // namespace
+
+void markPareto(std::vector<EvaluationRow>& rows) {
+  for (EvaluationRow& row : rows) {
+    row.pareto = measured(row) && std::none_of(rows.begin(), rows.end(), [&](const EvaluationRow& other) {
+                   return measured(other) && beats(other, row);
+                 });
+  }
 }
 
 } // namespace gnomon

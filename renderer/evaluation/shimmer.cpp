@@ -4,7 +4,7 @@
 
 #include "protocol/spec/technique_traits.h"
 #include "renderer/evaluation/world_points.h"
-#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/scene/animation/posed_scene.h"
 
@@ -143,7 +143,7 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
 Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, const ScenePtr& loaded,
                                const FrameSpec& spec, std::span<const Camera> path, const Progress& progress) {
   if (path.size() < 2) {
-    return Problem{ProblemCode::invalidValue, "/path", "a path has two cameras or more", "at least 2",
+    return Problem{ProblemCode::invalidValue, "/path", "A path needs two cameras or more.", "at least 2",
                    std::to_string(path.size())};
   }
   if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace gnomon {
+
 namespace {
 
 glm::dvec3 fromEye(const TraceInput& input, const SurfacePoint& point) {
@@ -67,6 +68,21 @@ std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const 
     const auto node = static_cast<std::size_t>(view.instances[points[i].instance].node);
     return reached[i] != 0 && (input.nodes.empty() || input.nodes[node].receiveShadow);
   });
+}
+
+std::vector<Camera> camerasAlong(const CameraPath& path, const Camera& start) {
+  if (path.cameras) return *path.cameras;
+  constexpr int kUsualFrames = 16;
+  std::vector<Camera> cameras(static_cast<std::size_t>(path.frames.value_or(kUsualFrames)), start);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    EyeTarget& place = *cameras[i].lookAt;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double moved = static_cast<double>(i) * (*path.step)[axis]; // not summed up: every step is the same
+      place.eye[axis] += moved;
+      place.target[axis] += moved;
+    }
+  }
+  return cameras;
 }
 
 } // namespace gnomon

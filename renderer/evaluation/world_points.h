@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "protocol/evaluation/evaluation.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
@@ -14,5 +15,8 @@ void keepInSight(const TraceInput& input, std::vector<SurfacePoint>& points);
 
 /// The points where light `light` arrives unless something stands in its way, and where its shadow shows.
 std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const std::vector<SurfacePoint>& points);
+
+/// The cameras of a path, one a frame; `start`: the effective camera that a path of steps begins at.
+std::vector<Camera> camerasAlong(const CameraPath& path, const Camera& start);
 
 } // namespace gnomon

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/view_traits.h"
-#include "renderer/frame/error_views.h"
+#include "renderer/frame/measured_shadow.h"
 
 namespace gnomon {
 namespace {

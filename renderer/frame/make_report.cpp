@@ -1,8 +1,10 @@
 #include "renderer/frame/make_report.h"
 
-#include "renderer/frame/light_reports.h"
+#include "protocol/spec/technique_traits.h"
+#include "renderer/shadow/filter_kernel.h"
 
 namespace gnomon {
+
 namespace {
 
 std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
@@ -57,6 +59,111 @@ FrameReport makeReport(FrameOutcome outcome) {
   report.stages = std::move(outcome.facts.stages);
   report.warnings = outcome.frame.warnings;
   return report;
+}
+
+namespace {
+
+std::array<double, 16> clipFromWorld(const ShadowTile& tile, const glm::dvec3& eye) {
+  glm::dmat4 matrix = tile.clipFromRelative;
+  matrix[3] = matrix * glm::dvec4(-eye, 1.0);
+  std::array<double, 16> columns{};
+  for (int i = 0; i < 16; ++i) columns[static_cast<std::size_t>(i)] = matrix[i / 4][i % 4];
+  return columns;
+}
+
+/// Offsets at the far end of a face, which is where they are largest along the normal; anywhere in a cascade.
+void addBias(const ShadowTile& tile, const Bias& bias, TileReport& report) {
+  const Fit& fit = tile.space.fit;
+  report.normalOffset = manualOffset(bias).value_or(fit.normalOffset * (fit.perspective ? tile.far : 1.0));
+  if (!fit.perspective) {
+    report.depthBias = tile.depthBias;
+    report.depthBiasMetres = tile.depthBias * fit.depthExtent;
+    return;
+  }
+  report.depthBias = tile.depthBias + tile.depthBiasNear / (tile.far * tile.far);
+  // z = far (1 - near / distance) / extent
+  const double zPerMetre = fit.depthNear / (tile.far * fit.depthExtent);
+  report.depthBiasMetres = report.depthBias / zPerMetre;
+}
+
+TileReport tileReport(const ShadowTile& tile, const Bias& bias, const std::optional<PredictedError>& error,
+                      const glm::dvec3& eye) {
+  TileReport report;
+  report.near = tile.near;
+  report.far = tile.far;
+  if (tile.rect.width == 0) return report;
+  const glm::dvec2 texelSize = tile.space.fit.texelSize * (tile.space.fit.perspective ? tile.far : 1.0);
+  report.tile = {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height};
+  report.border = tile.border;
+  report.texelSize = {texelSize.x, texelSize.y};
+  report.matrix = clipFromWorld(tile, eye);
+  addBias(tile, bias, report);
+  report.predictedError = error;
+  return report;
+}
+
+void addTo(std::optional<double>& sum, const std::optional<double>& part) {
+  if (part) sum = sum.value_or(0.0) + *part;
+}
+
+/// What a light with a size loses to a technique that knows none.
+std::string sharpNote(const Light& light) {
+  const bool sized = light.angularDiameterDegrees.value_or(0) > 0 || light.radius.value_or(0) > 0;
+  if (!sized || traitsOf(light.shadow->technique).knowsSize) return "";
+  return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
+}
+
+} // namespace
+
+std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
+                                      const glm::dvec3& eye, std::span<const int> layeredLights) {
+  std::vector<LightReport> reports;
+  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+    LightReport report;
+    report.light = static_cast<int>(i);
+    const Light& light = (*spec.lights)[i];
+    report.note = !light.shadow->enabled ? "its shadow is disabled"
+                  : light.intensity <= 0 ? "its intensity is 0"
+                                         : "shadowLightPolicy is first, and this is not the first directional light";
+    reports.push_back(std::move(report));
+  }
+  for (const int layered : layeredLights) {
+    LightReport& report = reports[static_cast<std::size_t>(layered)];
+    report.shadowed = true;
+    const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
+    const std::string sharp = sharpNote(light);
+    const bool unmapped = traitsOf(light.shadow->technique).mapSparesRays();
+    report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it saves" : "";
+    report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
+  }
+  for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+    const PlannedLight& planned = plan.lights[i];
+    LightReport& report = reports[static_cast<std::size_t>(planned.light)];
+    const auto& shadow = (*spec.lights)[static_cast<std::size_t>(planned.light)].shadow;
+    report.shadowed = report.shadowed || planned.tileCount > 0;
+    report.askedTileSize = planned.askedTileSize;
+    report.grantedTileSize = planned.grantedTileSize;
+    const std::string sharp = report.shadowed ? sharpNote((*spec.lights)[static_cast<std::size_t>(planned.light)]) : "";
+    report.note = planned.note + (planned.note.empty() || sharp.empty() ? "" : "; ") + sharp;
+    report.predictedError = errors.lights[i];
+    // A frame that sees nothing hands its predecessor's range on.
+    report.depthRange = shadow->depthRange.previous;
+    if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
+    for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
+      const auto index = static_cast<std::size_t>(tile);
+      report.tiles.push_back(tileReport(plan.tiles[index], shadow->bias, errors.tiles[index], eye));
+    }
+  }
+  return reports;
+}
+
+void addSums(LightReport& light) {
+  for (const TileReport& tile : light.tiles) {
+    light.casterTriangles += tile.casterTriangles;
+    light.drawCalls += tile.drawCalls;
+    addTo(light.cpuMilliseconds, tile.cpuMilliseconds);
+    addTo(light.gpuMilliseconds, tile.gpuMilliseconds);
+  }
 }
 
 } // namespace gnomon

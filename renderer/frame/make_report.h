@@ -1,9 +1,13 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "protocol/report/frame_report.h"
 #include "renderer/device/facts.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/predicted_error.h"
+#include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
 
@@ -21,5 +25,13 @@ struct FrameOutcome {
 
 /// What happened, in the words of protocol/report/frame_report.h.
 FrameReport makeReport(FrameOutcome outcome);
+
+/// What a plan decided about the spec's lights: everything but counts and times. `layeredLights`: those whose shadow
+/// comes from rays or shadow volumes, or also does.
+std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
+                                      const glm::dvec3& eye, std::span<const int> layeredLights);
+
+/// Fills in the sums over a light's tiles.
+void addSums(LightReport& light);
 
 } // namespace gnomon

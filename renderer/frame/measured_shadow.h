@@ -4,9 +4,12 @@
 
 #include "protocol/base/result.h"
 #include "protocol/report/error_metrics.h"
+#include "protocol/spec/output_options.h"
+#include "renderer/image/image.h"
 #include "renderer/reference/reference.h"
 #include "renderer/resolve/resolve_frame.h"
 
+/// Pictures that compare the shadow of debug.light with rays.
 namespace gnomon {
 
 /// Rays a pixel towards a light that has a size, at least.
@@ -22,5 +25,15 @@ struct MeasuredShadow {
 /// Traces light `light` of a frame (-1 = it has none) and holds `shown` against it.
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
                                      std::vector<float> shown);
+
+/// reference: V. error: S - V, 0 where no receiver. edgeDistance: pixels, -1 = no edge, infinity where V has none.
+Image errorNumbers(const MeasuredShadow& measured, View view);
+
+/// V as grey, 0 black.
+Image referencePicture(const MeasuredShadow& measured);
+
+/// error: false shadow red, false light blue. edgeDistance: the edge pixels of S by their distance, a heat map from 0
+/// to 16 pixels. Over `color`, a picture of the same size, in dim grey.
+Image errorPicture(const MeasuredShadow& measured, View view, const Image& color);
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 #include "renderer/frame/plan_frame.h"
 
-#include "renderer/frame/light_reports.h"
+#include "renderer/frame/make_report.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/frame_geometry.h"
 #include "renderer/prepare/tile_casters.h"
-#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_frame.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "protocol/base/result.h"
-#include "protocol/report/capabilities.h"
 #include "protocol/report/frame_report.h"
+#include "protocol/report/replies.h"
 
 /// Part of the door: see render.h.
 namespace gnomon {

@@ -8,7 +8,7 @@
 #include "renderer/frame/measured_shadow.h"
 #include "renderer/frame/predicted_displacement.h"
 #include "renderer/prepare/light_lists.h"
-#include "renderer/resolve/check_device.h"
+#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/scene/animation/posed_scene.h"

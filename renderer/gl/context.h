@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "protocol/base/result.h"
-#include "protocol/report/capabilities.h"
+#include "protocol/report/replies.h"
 
 namespace gnomon::gl {
 

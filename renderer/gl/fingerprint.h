@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/report/capabilities.h"
+#include "protocol/report/replies.h"
 
 namespace gnomon::gl {
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "renderer/device/device.h"
+#include "renderer/device/facts.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/gpu_scene_cache.h"
 #include "renderer/passes/pass_inputs.h"
@@ -51,5 +52,18 @@ class GlFrame : public FrameDrawing {
   DrawnViews drawn_;
   std::optional<ShowInput> shown_;
 };
+
+/// What the passes of a frame returned.
+struct PassResults {
+  const Survey& survey;
+  const ShadowAtlas& atlas;
+  const DrawnViews& drawn;
+  const GpuScene& gpu;
+  std::span<const ViewRequest> views; ///< that were shown
+};
+
+/// What they say of the frame, but for its stages. Reads the timers, so that it waits for the device if that is not
+/// done.
+FrameFacts factsOf(const PassResults& results);
 
 } // namespace gnomon

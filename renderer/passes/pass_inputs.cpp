@@ -24,4 +24,34 @@ Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const
   return Done{};
 }
 
+Result<const gl::Program*> ProgramCache::get(const gl::ProgramSource& source) {
+  std::string key = source.vertex + "+" + source.fragment;
+  for (const std::string& define : source.defines) key += " " + define;
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return &found->second;
+  auto program = gl::Program::create(source, key);
+  if (!program) return program.problems();
+  return &programs_.emplace(std::move(key), std::move(*program)).first->second;
+}
+
+DrawBatch uploadCasters(const PassInputs& inputs, const TileCasters& casters) {
+  return uploadDraws(buildDrawList(inputs.scene, inputs.view, inputs.geometry, casters.use, casters.slots));
+}
+
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer,
+                const CastProgram& programOf) {
+  gl::PipelineState state;
+  state.framebuffer = framebuffer;
+  state.viewport = tile.rect;
+  state.scissor = tile.rect;
+  state.depth = {true, true, GL_LESS};
+  state.multisample = true;
+  state.depthClamp = true; // casters between the light and its near plane are kept, flattened onto it
+  return drawGroups(inputs, inputs.anchored, batch, state, [&](const DrawGroup&, const Material* masked) {
+    auto program = inputs.programs.get(programOf(masked));
+    if (program) (*program)->set(GNOMON_LIGHT_CLIP, glm::mat4(tile.clipFromAnchored));
+    return program;
+  });
+}
+
 } // namespace gnomon

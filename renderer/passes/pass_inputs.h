@@ -2,20 +2,34 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "protocol/base/result.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/program.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/gpu_scene.h"
-#include "renderer/passes/program_cache.h"
 #include "renderer/prepare/frame_geometry.h"
+#include "renderer/prepare/tile_casters.h"
 #include "renderer/scene/mesh_edges.h"
 #include "renderer/scene/node_switches.h"
 
 namespace gnomon {
+
+/// Shader programs by their source, made when a scene first asks for them.
+class ProgramCache {
+ public:
+  /// The program; valid as long as the cache. A backend problem where the driver refuses it.
+  Result<const gl::Program*> get(const gl::ProgramSource& source);
+
+ private:
+  std::map<std::string, gl::Program> programs_;
+};
 
 /// What every pass of a frame reads. All of it outlives the frame.
 struct PassInputs {
@@ -45,5 +59,14 @@ using GroupProgram = std::function<Result<const gl::Program*>(const DrawGroup& g
 /// Draws every group of a batch, its material bound, with the group's own facing and `state` for the rest.
 Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const DrawBatch& batch,
                   gl::PipelineState state, const GroupProgram& programOf);
+
+DrawBatch uploadCasters(const PassInputs& inputs, const TileCasters& casters);
+
+/// The program that draws casters: of a masked material, or (null) of any opaque one.
+using CastProgram = std::function<gl::ProgramSource(const Material* masked)>;
+
+/// Draws casters into a tile's rectangle of `framebuffer`; the nearest to the light stays.
+Status drawTile(const PassInputs& inputs, const ShadowTile& tile, const DrawBatch& batch, GLuint framebuffer,
+                const CastProgram& programOf);
 
 } // namespace gnomon

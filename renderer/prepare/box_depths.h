@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
@@ -18,5 +20,27 @@ ReceiverDepths emptyDepths(int width, int height);
 /// where these do, and their spans lie within these. Nothing hides anything, so that every block stays open. Pure.
 ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::span<const Aabb> boxes,
                          std::span<const std::uint8_t> drawn);
+
+/// A box on the picture: the blocks that it may touch, and its least view depth.
+struct Footprint {
+  int firstColumn = 0, lastColumn = -1;
+  int firstRow = 0, lastRow = -1;
+  double nearest = 0;
+};
+
+/// Of an eye-relative box, in the blocks of `depths`. Absent where it reaches in front of the near plane: it may cover
+/// anything.
+std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepths& depths, const Aabb& box);
+
+/// Which of the boxes (eye-relative) may show in the picture: one byte a box, 0 = surely hidden. `drawn` marks those
+/// that the surveyed depths hold; the others are not looked at. A box is hidden where every block of pixels that it may
+/// touch shows nothing, or only surfaces nearer than the box. Never hides what is seen. Pure.
+std::vector<std::uint8_t> visibleBoxes(const CameraView& view, const ReceiverDepths& depths,
+                                       std::span<const Aabb> boxes, std::span<const std::uint8_t> drawn);
+
+/// The same for boxes that the depths do not hold yet: `wanted` marks them. A box is hidden where every block of pixels
+/// that it may touch is covered by surfaces nearer than the box.
+std::vector<std::uint8_t> unhiddenBoxes(const CameraView& view, const ReceiverDepths& depths,
+                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> wanted);
 
 } // namespace gnomon

@@ -7,7 +7,7 @@
 
 #include "protocol/spec/light.h"
 #include "renderer/scene/node_switches.h"
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/scene/silhouette.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "renderer/scene/silhouette.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {

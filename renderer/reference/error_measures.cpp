@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "renderer/reference/distance_transform.h"
 #include "renderer/reference/shadow_edges.h"
 
 namespace gnomon {

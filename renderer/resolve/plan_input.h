@@ -2,7 +2,8 @@
 
 #include <span>
 
-#include "renderer/resolve/hybrid_maps.h"
+#include "protocol/report/replies.h"
+#include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
@@ -22,5 +23,10 @@ bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped);
 /// What the shadow maps of a frame are planned from: those of the lights `mapped`. `receivers`: what the camera sees.
 PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
                     std::span<const int> mapped, int maxTextureSize);
+
+/// Whether light `light` of the frame, of technique hybrid, gets a shadow map. Its shadow is the same either way. On a
+/// GPU, and where a view shows the map, it does; where the processor draws, if the map is cheaper than the rays that it
+/// spares.
+bool drawsHybridMap(const ResolvedFrame& frame, const SceneView& scene, int light, const RendererInfo& device);
 
 } // namespace gnomon

@@ -1,13 +1,17 @@
 #include "renderer/resolve/resolve_frame.h"
 
+#include <algorithm>
+#include <string_view>
+
+#include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
+#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/resolve_camera.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"
-#include "renderer/resolve/resolve_technique.h"
-#include "renderer/resolve/resolve_variant.h"
 
 namespace gnomon {
+
 namespace {
 
 /// The request's lights, else the scene's own, else one sun.
@@ -83,6 +87,22 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   frame.groups = std::move(*groups);
   if (const Status able = checkTechniques(spec, scene, frame); !able) return able.problems();
   return frame;
+}
+
+namespace {
+
+std::string namesOf(const std::vector<std::string>& variants) {
+  if (variants.empty()) return "the file has no material variants";
+  return oneOf(std::vector<std::string_view>(variants.begin(), variants.end()));
+}
+
+} // namespace
+
+Result<int> resolveVariant(const std::string& name, const Scene& scene) {
+  const auto found = std::find(scene.variants.begin(), scene.variants.end(), name);
+  if (found != scene.variants.end()) return static_cast<int>(found - scene.variants.begin());
+  return Problem{ProblemCode::invalidValue, "/materialVariant", "The file has no material variant of that name.",
+                 namesOf(scene.variants), name};
 }
 
 } // namespace gnomon

@@ -25,4 +25,7 @@ struct ResolvedFrame {
 /// Fills in what only the scene can tell. The spec has passed protocol/validate.
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec);
 
+/// Index into Scene::variants; of two of one name the first. A problem at /materialVariant names those there are.
+Result<int> resolveVariant(const std::string& name, const Scene& scene);
+
 } // namespace gnomon

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/report/scene_summary.h"
+#include "protocol/report/replies.h"
 #include "protocol/spec/camera.h"
 #include "protocol/spec/light.h"
 #include "renderer/core/aabb.h"

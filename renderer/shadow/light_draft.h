@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "renderer/shadow/light_basis.h"
 #include "renderer/shadow/shadow_plan.h"
 #include "renderer/shadow/splits.h"
+#include "renderer/shadow/tile_space.h"
 
 namespace gnomon {
 

@@ -6,9 +6,9 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
-#include "renderer/shadow/light_basis.h"
 #include "renderer/shadow/shadow_plan.h"
 #include "renderer/shadow/splits.h"
+#include "renderer/shadow/tile_space.h"
 
 namespace gnomon {
 

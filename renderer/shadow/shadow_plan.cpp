@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "renderer/shadow/atlas_packer.h"
-#include "renderer/shadow/bias.h"
 #include "renderer/shadow/depth_range.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/fit.h"
 #include "renderer/shadow/light_draft.h"
 #include "renderer/shadow/receiver_pieces.h"

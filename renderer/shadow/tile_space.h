@@ -4,7 +4,6 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/shadow/fit.h"
-#include "renderer/shadow/light_basis.h"
 
 namespace gnomon {
 

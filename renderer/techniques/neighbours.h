@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/techniques/sample_grid.h"
+#include "renderer/techniques/picture_points.h"
 
 namespace gnomon {
 

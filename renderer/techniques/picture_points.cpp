@@ -1,5 +1,8 @@
 #include "renderer/techniques/picture_points.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/techniques/neighbours.h"
 
 namespace gnomon {
@@ -21,6 +24,25 @@ std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> p
 std::vector<std::uint32_t> PicturePoints::besideMasks() const {
   if (masks_.empty()) return {};
   return pixelsWhere(grid_, masks_, [](std::uint8_t /*least*/, std::uint8_t most) { return most != 0; });
+}
+
+glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position) {
+  const auto x = static_cast<float>(pixel % static_cast<std::size_t>(grid.width));
+  const auto row = static_cast<float>(pixel / static_cast<std::size_t>(grid.width));
+  return {x + position.x, static_cast<float>(grid.height) - (row + position.y)};
+}
+
+std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels) {
+  std::vector<glm::vec2> places;
+  places.reserve(pixels.size() * grid.samples());
+  for (const std::uint32_t pixel : pixels) {
+    for (const glm::vec2 position : grid.positions) places.push_back(placeIn(grid, pixel, position));
+  }
+  return places;
+}
+
+std::uint16_t unorm16(float share) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 65535.0f));
 }
 
 } // namespace gnomon

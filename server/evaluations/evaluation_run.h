@@ -1,9 +1,15 @@
 #pragma once
 
+#include <functional>
+#include <list>
+#include <mutex>
+#include <optional>
 #include <semaphore>
 #include <span>
+#include <string>
 
 #include "protocol/evaluation/evaluation.h"
+#include "protocol/report/frame_report.h"
 #include "server/frames/render_queue.h"
 #include "server/http/request_body.h"
 #include "server/scenes/scene_cache.h"
@@ -53,5 +59,27 @@ class EvaluationRun {
   Clock::time_point deadline_;
   ByteLease memory_;
 };
+
+/// Settings chosen for earlier frames with a target; the least recently used are dropped first. Any thread.
+class QualityChoices {
+ public:
+  std::optional<QualityReport> find(const std::string& key);
+  void keep(const std::string& key, const QualityReport& report);
+
+ private:
+  struct Entry {
+    std::string key;
+    QualityReport report;
+  };
+
+  std::mutex mutex_;
+  std::list<Entry> entries_; ///< most recently used first
+};
+
+/// The settings that meet the target of `spec`: those of an earlier frame of this scene and class of views, or else
+/// found by drawing and measuring many frames. Problems as an evaluation gives, with places in `spec`. `gone`: see
+/// EvaluationRun::report.
+Result<QualityReport> settleQuality(EvaluationContext& context, QualityChoices& choices, const LoadedScene& scene,
+                                    const FrameSpec& spec, const std::function<bool()>& gone);
 
 } // namespace gnomon

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "protocol/spec/limits.h"
-#include "server/evaluations/settle_quality.h"
+#include "server/evaluations/evaluation_run.h"
 #include "server/frames/render_queue.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/report/capabilities.h"
+#include "protocol/report/replies.h"
 #include "protocol/spec/limits.h"
 #include "server/http/reply.h"
 

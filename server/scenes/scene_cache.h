@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/report/scene_summary.h"
+#include "protocol/report/replies.h"
 #include "renderer/render.h"
 
 namespace gnomon {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "protocol/report/replies.h"
-#include "protocol/report/scene_summary.h"
 #include "server/scenes/scene_cache.h"
 #include "server/scenes/scene_directory.h"
 

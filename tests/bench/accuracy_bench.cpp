@@ -12,7 +12,7 @@
 
 #include "protocol/evaluation/sweeps.h"
 #include "renderer/charts/evaluation_chart.h"
-#include "renderer/evaluation/pareto.h"
+#include "renderer/evaluation/evaluate.h"
 #include "renderer/render.h"
 #include "tests/bench/accuracy_sum.h"
 #include "tests/support/files.h"

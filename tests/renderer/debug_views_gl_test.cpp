@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

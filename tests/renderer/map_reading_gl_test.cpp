@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/shadow/light_basis.h"
+#include "renderer/shadow/tile_space.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

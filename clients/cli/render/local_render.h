@@ -6,7 +6,7 @@
 #include "clients/cli/terminal/progress_line.h"
 #include "protocol/base/result.h"
 #include "protocol/evaluation/evaluation.h"
-#include "protocol/report/capabilities.h"
+#include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/scene/scene_bundle.h"
 

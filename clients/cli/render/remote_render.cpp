@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "clients/cli/remote/event_reader.h"
+#include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/render/local_render.h"
 #include "protocol/base/encoding.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/report/scene_summary.h"
+#include "protocol/report/replies.h"
 
 namespace gnomon::cli {
 

@@ -2,6 +2,7 @@
 
 #include "protocol/base/result.h"
 #include "renderer/gl/framebuffer.h"
+#include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -23,5 +24,11 @@ struct Survey {
 /// Draws the depth of everything in view that is not surely hidden, and reduces it. Of many triangles the nearest are
 /// drawn first, so that what they hide need not be. `samples`: 1 or 4.
 Result<Survey> surveyScene(const PassInputs& inputs, int samples);
+
+/// Reduces a reversed depth buffer of the frame (`samples` a pixel: 1 or 4) to what each block of pixels shows.
+Result<ReceiverDepths> depthBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples);
+
+/// The view depth in metres of a reversed depth value.
+double viewDepthOf(const CameraView& camera, double depth);
 
 } // namespace gnomon

@@ -7,9 +7,9 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
+#include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/moments_pass.h"
-#include "renderer/passes/tiles/tile_draw.h"
 #include "renderer/prepare/outlines.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "protocol/spec/view_traits.h"
-#include "renderer/passes/tiles/atlas_depth_pass.h"
+#include "renderer/passes/tiles/atlas_views.h"
 
 namespace gnomon {
 namespace {

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/spec/limits.h"
 #include "protocol/spec/technique_traits.h"
-#include "renderer/passes/views/mask_coverage.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
+
 namespace {
 
 /// Draws the next light's layer by shadow volumes; `counts` is made for the first of them.

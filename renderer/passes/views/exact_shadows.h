@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "protocol/base/result.h"
 #include "renderer/device/device.h"
+#include "renderer/gl/texture.h"
 #include "renderer/passes/views/view_pass.h"
 
 namespace gnomon {

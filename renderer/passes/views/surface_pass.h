@@ -5,7 +5,7 @@
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
-#include "renderer/prepare/triangle_numbers.h"
+#include "renderer/prepare/draw_list.h"
 
 namespace gnomon {
 

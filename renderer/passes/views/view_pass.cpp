@@ -1,13 +1,15 @@
 #include "renderer/passes/views/view_pass.h"
 
 #include <algorithm>
+#include <string>
 
+#include "protocol/spec/limits.h"
 #include "protocol/spec/view_traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/passes/views/shadow_bindings.h"
 
 namespace gnomon {
+
 namespace {
 
 GLenum formatOf(View view, bool encoded) {
@@ -101,6 +103,38 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   gl::drawFullscreen(**program, nothing);
   drawn.timer.stop();
   return drawn;
+}
+
+ShadowBindings::ShadowBindings(const Shading& shading)
+    : texels_({GL_NEAREST, GL_NEAREST}, "shadow texels"), blurred_({GL_LINEAR, GL_LINEAR}, "shadow moments") {
+  shading.buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  shading.buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
+  bindTexture(shading.atlas.textures->depth, texels_, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.textures->moments, blurred_, GNOMON_MOMENTS_UNIT);
+}
+
+void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
+  if (texture.id() == 0) return;
+  texture.bind(unit);
+  sampler.bind(unit);
+}
+
+Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers) {
+  const std::int64_t bytes = std::int64_t{2} * width * height * samples * layers;
+  if (bytes > kLimits.maxVisibilityBytes) {
+    return Problem{
+        ProblemCode::tooLarge, "/lights",
+        "What rays and shadow volumes decide for every sample and light would take more memory than a frame may have.",
+        std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
+  }
+  gl::TextureShape shape{samples > 1 ? GLenum{GL_RGBA16} : GLenum{GL_R16}, width, height};
+  shape.layers = layers;
+  return VisibilityLayers{gl::Texture(shape, "visibility")};
+}
+
+void writeVisibility(VisibilityLayers& layers, int layer, std::span<const std::uint16_t> values) {
+  const GLenum format = layers.texture.shape().format == GL_R16 ? GL_RED : GL_RGBA;
+  layers.texture.writeLayer(layer, {format, GL_UNSIGNED_SHORT}, std::as_bytes(values));
 }
 
 } // namespace gnomon

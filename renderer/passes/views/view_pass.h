@@ -5,16 +5,29 @@
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/gl/framebuffer.h"
+#include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
+#include "renderer/passes/shader_data.h"
 #include "renderer/passes/shader_variants.h"
-#include "renderer/passes/tiles/caster_node_pass.h"
+#include "renderer/passes/tiles/atlas_views.h"
 #include "renderer/passes/tiles/shadow_pass.h"
-#include "renderer/passes/views/light_data.h"
 #include "renderer/passes/views/surface_pass.h"
-#include "renderer/passes/views/visibility_layers.h"
 
 namespace gnomon {
+
+/// What exact techniques say of every sample of the picture: the share of each of their lights that arrives, before the
+/// shadow's strength. A layer a light.
+struct VisibilityLayers {
+  gl::Texture
+      texture; ///< array of R16 (one sample a pixel) or RGBA16 (four: a channel a sample); empty = no such light
+};
+
+/// Layers of undefined texels. More bytes than a frame may take are a problem at /lights.
+Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers);
+
+/// Writes one layer: a value for each sample, 0..65535, pixel by pixel, the picture's LOWEST row first.
+void writeVisibility(VisibilityLayers& layers, int layer, std::span<const std::uint16_t> values);
 
 /// One view, drawn: a single-sample color target.
 struct DrawnView {
@@ -42,7 +55,7 @@ struct ViewSources {
 };
 
 /// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults. `layersDecide`:
-/// no light that has a layer (visibility_layers.h) is looked up in its tiles.
+/// no light that has a layer (VisibilityLayers) is looked up in its tiles.
 ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool layersDecide);
 
 /// Lights the surfaces of every pixel for a view that is a picture or data. `encoded`: as in ViewRequest.
@@ -51,5 +64,19 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
 
 /// The depth of these surfaces.
 const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey);
+
+/// Lights, tiles and the atlas, bound for a shader that looks shadows up (shaders/common_shadow.glsl). Lives as long as
+/// that is drawn.
+class ShadowBindings {
+ public:
+  explicit ShadowBindings(const Shading& shading);
+
+ private:
+  gl::Sampler texels_;
+  gl::Sampler blurred_;
+};
+
+/// Binds nothing where the texture is empty.
+void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit);
 
 } // namespace gnomon

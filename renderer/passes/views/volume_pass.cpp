@@ -8,7 +8,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/prepare/volume_mesh.h"
-#include "renderer/scene/silhouette.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {

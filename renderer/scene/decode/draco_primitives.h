@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "renderer/scene/decode/draco_stream.h"
 #include "renderer/scene/document/gltf_document.h"
+#include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_view.h"
 
+namespace draco {
+class Mesh;
+}
 namespace gnomon {
 
 /// What KHR_draco_mesh_compression holds of a primitive, as if its accessors had it.
@@ -23,5 +31,10 @@ using DracoPrimitives = std::map<std::pair<std::size_t, std::size_t>, DracoPrimi
 /// Decodes every compressed primitive. What was decoded has the types that its accessors state, and
 /// their counts but for draco_stream.h.
 DracoPrimitives decodeDracoPrimitives(const LoadContext& load);
+
+/// Triangles and the attributes `wanted` of a decoded mesh; nothing, and a problem, where an index lies outside of it
+/// or an attribute is none that a glTF may have.
+std::optional<DracoMesh> keptMesh(const draco::Mesh& mesh, const std::set<std::uint32_t>& wanted,
+                                  const std::string& pointer, Findings& findings);
 
 } // namespace gnomon

@@ -11,7 +11,7 @@
 #include <draco/mesh/mesh_attribute_corner_table.h>
 #include <type_traits>
 
-#include "renderer/scene/decode/draco_kept.h"
+#include "renderer/scene/decode/draco_primitives.h"
 
 // Draco 1.5 takes memory and many seconds for as many orientations as a stream states, up to 2^31, though each belongs
 // to a corner of a triangle (bitstream specification 2.2, "Prediction Texture Coordinates Portable"). These definitions

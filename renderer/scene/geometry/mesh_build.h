@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "renderer/scene/geometry/mesh_source.h"
+#include "renderer/scene/geometry/triangle_mesh.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/scene.h"
 
@@ -21,5 +25,26 @@ std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource
 
 /// Appends one primitive's vertices, triangles and clusters to the scene; returns its index.
 int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene);
+
+/// Orders a triangle list so that triangles near each other in space are near each other in the list.
+/// The result depends on nothing but the arguments.
+std::vector<std::uint32_t> spatiallySorted(std::vector<std::uint32_t> indices, std::span<const glm::vec3> positions);
+
+/// The clusters of a triangle list: every kClusterTriangles of it, with the box around them.
+std::vector<Cluster> clustersOf(std::span<const std::uint32_t> indices, std::span<const glm::vec3> positions);
+
+/// The same triangles in the order that a device draws fast: clusters of triangles that lie near each other, those of a
+/// cluster one after the other as their vertices are shared, and vertices as they are first used. The result depends on
+/// nothing but the mesh.
+TriangleMesh ordered(TriangleMesh mesh);
+
+/// A triangle list with each vertex replaced by the first one at the same position: what needs nothing but positions
+/// runs over fewer vertices so.
+std::vector<std::uint32_t> weldedIndices(std::span<const std::uint32_t> indices, std::span<const glm::vec3> positions);
+
+/// True where the triangles (welded) bound solids: every edge is walked as often one way as the other, and every
+/// connected piece has its front faces outside (its volume is not negative). Seen from outside of all of them, the
+/// nearest surface is then always a front face.
+bool boundsSolids(std::span<const std::uint32_t> welded, std::span<const glm::vec3> positions);
 
 } // namespace gnomon

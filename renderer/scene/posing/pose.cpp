@@ -4,8 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "renderer/scene/geometry/clusters.h"
-#include "renderer/scene/geometry/welding.h"
+#include "renderer/scene/geometry/mesh_build.h"
 
 namespace gnomon {
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "protocol/evaluation/evaluation_json.h"
-#include "renderer/evaluation/camera_path.h"
+#include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"
-#include "renderer/evaluation/pareto.h"
+#include "renderer/evaluation/world_points.h"
 #include "renderer/render.h"
 
 namespace gnomon {

@@ -1,8 +1,8 @@
-#include "renderer/prepare/occlusion.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+
+#include "renderer/prepare/box_depths.h"
 
 namespace gnomon {
 namespace {

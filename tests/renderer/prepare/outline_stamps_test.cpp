@@ -1,9 +1,9 @@
-#include "renderer/prepare/outline_stamps.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck/gtest.h>
+
+#include "renderer/prepare/outlines.h"
 
 namespace gnomon {
 namespace {

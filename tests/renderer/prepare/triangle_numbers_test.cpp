@@ -1,6 +1,6 @@
-#include "renderer/prepare/triangle_numbers.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/prepare/draw_list.h"
 
 namespace gnomon {
 namespace {

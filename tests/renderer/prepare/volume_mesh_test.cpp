@@ -7,7 +7,7 @@
 #include <map>
 #include <rapidcheck.h>
 
-#include "renderer/scene/silhouette.h"
+#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
-#include "renderer/resolve/check_device.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/resolve/check_frame.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
-#include "renderer/resolve/hybrid_maps.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
 namespace {

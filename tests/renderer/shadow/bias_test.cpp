@@ -1,8 +1,7 @@
-#include "renderer/shadow/bias.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "renderer/shadow/filter_kernel.h"
 #include "tests/renderer/shadow/random_plan.h"
 
 namespace gnomon {

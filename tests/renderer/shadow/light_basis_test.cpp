@@ -1,10 +1,9 @@
-#include "renderer/shadow/light_basis.h"
-
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "renderer/shadow/tile_space.h"
 #include "tests/renderer/shadow/random_plan.h"
 
 namespace gnomon {

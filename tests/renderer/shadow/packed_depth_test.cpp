@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 
 namespace gnomon {
 namespace {

@@ -2,7 +2,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/light_draft.h"
 #include "tests/renderer/shadow/plan_lookup.h"
 

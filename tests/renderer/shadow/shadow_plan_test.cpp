@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "tests/renderer/shadow/plan_lookup.h"
 
 namespace gnomon {

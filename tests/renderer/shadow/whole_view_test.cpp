@@ -1,7 +1,7 @@
 // What a plan covers of the view: all of it, and with which depths.
 #include <gtest/gtest.h>
 
-#include "renderer/shadow/bias.h"
+#include "renderer/shadow/filter_kernel.h"
 #include "tests/renderer/shadow/plan_lookup.h"
 
 namespace gnomon {

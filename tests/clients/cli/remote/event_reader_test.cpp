@@ -1,6 +1,6 @@
-#include "clients/cli/remote/event_reader.h"
-
 #include <gtest/gtest.h>
+
+#include "clients/cli/remote/http_client.h"
 
 namespace gnomon::cli {
 namespace {

@@ -1,6 +1,6 @@
-#include "renderer/passes/views/light_data.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/passes/shader_data.h"
 
 namespace gnomon {
 namespace {

@@ -1,10 +1,9 @@
-#include "renderer/scene/geometry/clusters.h"
-
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "renderer/scene/geometry/mesh_build.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "renderer/scene/geometry/clusters.h"
+#include "renderer/scene/geometry/mesh_build.h"
 #include "tests/support/compressed_models.h"
 
 namespace gnomon {

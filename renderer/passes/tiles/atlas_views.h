@@ -10,6 +10,10 @@
 
 namespace gnomon {
 
+/// The depths of an atlas that has several a texel, as R32F: of each texel the nearest to the light. What is drawn with
+/// one a texel can be read as it is: an empty texture.
+Result<gl::Texture> flattenAtlas(const PassInputs& inputs, const gl::Texture& depth);
+
 /// Which node stands nearest to a light, texel by texel. As large as the atlas, with the light's tiles in their places.
 struct CasterNodes {
   gl::Texture nodes; ///< R32I: the node's index; -1 where nothing casts. Empty where the light has no tiles

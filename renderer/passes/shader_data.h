@@ -5,6 +5,7 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/prepare/lit_light.h"
+#include "renderer/resolve/resolve_frame.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
@@ -27,5 +28,8 @@ struct LightBuffers {
 
 LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
                           std::span<const std::uint32_t> lists = {});
+
+/// What every shader of a frame reads; the depths of the surfaces are left at 0.
+shared::FrameData frameData(const ResolvedFrame& frame);
 
 } // namespace gnomon

@@ -1,0 +1,171 @@
+#include "renderer/passes/views/map_queries.h"
+
+#include <bit>
+#include <glm/gtc/packing.hpp>
+
+#include "renderer/gl/draw.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/gl/texture.h"
+#include "renderer/passes/views/view_pass.h"
+
+namespace gnomon {
+
+Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces,
+                                         int light) {
+  const LitLight& lit = shading.lights[static_cast<std::size_t>(light)];
+  if (lit.tileCount == 0 || shading.atlas.textures->outlines.id() == 0) return std::vector<Verdict>{};
+
+  std::vector<std::string> defines{"SAMPLES " + std::to_string(surfaces.samplePositions.size())};
+  if (lit.type != LightType::directional) defines.emplace_back("PUNCTUAL");
+  if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", std::move(defines)});
+  if (!program) return program.problems();
+
+  const gl::Texture color({GL_R8, inputs.width, inputs.height}, "certainty");
+  const auto target = gl::Framebuffer::create({{{&color}}, {}}, "certainty");
+  if (!target) return target.problems();
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  gl::apply(state);
+
+  bindInputs(inputs);
+  shading.buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
+  shading.buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
+  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
+  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  bindTexture(shading.atlas.textures->depth, texels, GNOMON_ATLAS_UNIT);
+  bindTexture(shading.atlas.textures->outlines, texels, GNOMON_OUTLINES_UNIT);
+  (*program)->set(GNOMON_DEBUG_LIGHT, light);
+  for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
+    (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
+  }
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+  std::vector<Verdict> verdicts(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height));
+  target->readColor(0, {0, 0, inputs.width, inputs.height}, {GL_RED, GL_UNSIGNED_BYTE},
+                    std::as_writable_bytes(std::span(verdicts)));
+  return verdicts;
+}
+
+namespace {
+
+glm::vec2 downwards(std::uint32_t halves) {
+  return glm::unpackHalf2x16(halves) * glm::vec2(1, -1);
+}
+
+/// As fromOctahedral of shaders/common_surface.glsl.
+glm::vec3 fromOctahedral(const glm::vec2& p) {
+  glm::vec3 n(p, 1.0f - std::abs(p.x) - std::abs(p.y));
+  const float fold = std::max(-n.z, 0.0f);
+  n.x += n.x >= 0 ? -fold : fold;
+  n.y += n.y >= 0 ? -fold : fold;
+  return glm::normalize(n);
+}
+
+MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
+  MapFootprint footprint;
+  footprint.shift = downwards(lengths.x);
+  footprint.texelU = downwards(lengths.y);
+  footprint.texelV = downwards(lengths.z);
+  footprint.tile = static_cast<int>(lengths.w);
+  footprint.viewDepth = std::bit_cast<float>(place.x);
+  footprint.normal = fromOctahedral(glm::unpackSnorm2x16(place.y));
+  return footprint;
+}
+
+} // namespace
+
+Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const Shading& shading,
+                                                const Surfaces& surfaces) {
+  const auto program = inputs.programs.get(displacementProgram(lightVariant(inputs, shading, false)));
+  if (!program) return program.problems();
+  const gl::Texture lengths({GL_RGBA32UI, inputs.width, inputs.height}, "footprint lengths");
+  const gl::Texture places({GL_RGBA32UI, inputs.width, inputs.height}, "footprint places");
+  const auto target = gl::Framebuffer::create({{{&lengths}, {&places}}, {}}, "footprints");
+  if (!target) return target.problems();
+
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  gl::apply(state);
+  bindInputs(inputs);
+  const ShadowBindings bindings(shading);
+  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
+  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
+  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  const gl::Texture& atlas = shading.atlas.textures->depth;
+  (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
+  (*program)->set(GNOMON_ATLAS_SIZE, glm::vec2(atlas.width(), atlas.height()));
+  (*program)->set(GNOMON_SAMPLE_POSITIONS, surfaces.samplePositions.front());
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+
+  const Rect whole{0, 0, inputs.width, inputs.height};
+  const auto width = static_cast<std::size_t>(inputs.width);
+  const auto height = static_cast<std::size_t>(inputs.height);
+  std::vector<glm::uvec4> read(2 * width * height);
+  const std::span<glm::uvec4> both(read);
+  for (int i = 0; i < 2; ++i) {
+    target->readColor(
+        i, whole, {GL_RGBA_INTEGER, GL_UNSIGNED_INT},
+        std::as_writable_bytes(both.subspan(static_cast<std::size_t>(i) * width * height, width * height)));
+  }
+  std::vector<MapFootprint> footprints;
+  footprints.reserve(width * height);
+  for (std::size_t row = height; row-- > 0;) {
+    for (std::size_t at = row * width; at < (row + 1) * width; ++at) {
+      footprints.push_back(footprintOf(both[at], both[width * height + at]));
+    }
+  }
+  return footprints;
+}
+
+namespace {
+
+/// Whole rows of the target.
+std::vector<shared::ProbeData> padded(std::span<const ProbePoint> points, const glm::dvec3& forward) {
+  std::vector<shared::ProbeData> rows;
+  rows.reserve(points.size() + GNOMON_PROBE_COLUMNS);
+  for (const ProbePoint& point : points) {
+    rows.push_back(
+        {glm::vec4(point.relative, glm::dot(point.relative, forward)), glm::vec4(point.normal, point.group)});
+  }
+  rows.resize((rows.size() + GNOMON_PROBE_COLUMNS - 1) / GNOMON_PROBE_COLUMNS * GNOMON_PROBE_COLUMNS,
+              {glm::vec4(0, 0, 0, 1), glm::vec4(0, 1, 0, 0)});
+  return rows;
+}
+
+} // namespace
+
+Result<std::vector<float>> probeShadow(const PassInputs& inputs, const Shading& shading,
+                                       std::span<const ProbePoint> points) {
+  if (points.empty()) return std::vector<float>{};
+  const auto program = inputs.programs.get(probeProgram(lightVariant(inputs, shading, false)));
+  if (!program) return program.problems();
+  const std::vector<shared::ProbeData> rows = padded(points, inputs.camera.forward);
+  const Rect whole{0, 0, GNOMON_PROBE_COLUMNS, static_cast<int>(rows.size()) / GNOMON_PROBE_COLUMNS};
+  const gl::Texture color({GL_R32F, whole.width, whole.height}, "probes");
+  const auto target = gl::Framebuffer::create({{{&color}}, {}}, "probes");
+  if (!target) return target.problems();
+
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, whole.width, whole.height};
+  gl::apply(state);
+  bindInputs(inputs);
+  const gl::Buffer probes(gl::bytesOf(rows), "probes");
+  probes.bindStorage(GNOMON_PROBE_BUFFER);
+  const ShadowBindings bindings(shading);
+  (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
+  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
+  gl::drawFullscreen(**program, nothing);
+
+  std::vector<float> visibility(rows.size());
+  target->readColor(0, whole, {GL_RED, GL_FLOAT}, std::as_writable_bytes(std::span(visibility)));
+  visibility.resize(points.size());
+  return visibility;
+}
+
+} // namespace gnomon
