@@ -4,34 +4,11 @@
 #include <map>
 #include <tuple>
 
+#include "renderer/device/shader_data.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
 namespace {
-
-shared::MaterialData materialData(const Material& material) {
-  shared::MaterialData data{
-      material.baseColorFactor,
-      glm::vec4(material.emissiveFactor, material.alphaMode != AlphaMode::opaque ? material.alphaCutoff : 0.0f),
-      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength),
-      glm::vec4(0),
-      glm::vec4(material.transmission, 0, 0, 0),
-      {},
-      {}};
-  if (const auto& glossy = material.specularGlossiness) {
-    data.specularGlossiness = glm::vec4(glossy->specularFactor, glossy->glossinessFactor);
-  }
-  const std::array uses{&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
-                        &material.emissive};
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    const TextureTransform transform =
-        *uses[i] ? (*uses[i])->transform.value_or(TextureTransform{}) : TextureTransform{};
-    data.uvAxes[i] = glm::vec4(transform.axes[0], transform.axes[1]);
-    data.uvOffsets[i] = glm::vec4(transform.offset, 0, 0);
-  }
-  return data;
-}
 
 GLenum glFilter(MinFilter filter) {
   switch (filter) {

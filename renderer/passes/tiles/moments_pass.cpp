@@ -7,7 +7,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
-#include "renderer/passes/shader_data.h"
+#include "renderer/device/shader_data.h"
 
 namespace gnomon {
 namespace {

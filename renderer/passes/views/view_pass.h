@@ -8,7 +8,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/pass_inputs.h"
-#include "renderer/passes/shader_data.h"
+#include "renderer/passes/light_buffers.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/atlas_views.h"
 #include "renderer/passes/tiles/shadow_pass.h"

@@ -1,6 +1,7 @@
-#include "renderer/passes/shader_data.h"
+#include "renderer/device/shader_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
@@ -151,12 +152,6 @@ std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
   return data;
 }
 
-LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
-                          std::span<const std::uint32_t> lists) {
-  return {gl::Buffer(gl::bytesOf(lightData(lights)), "lights"), gl::Buffer(gl::bytesOf(tileData(plan)), "tiles"),
-          gl::Buffer(std::as_bytes(lists), "light lists")};
-}
-
 shared::FrameData frameData(const ResolvedFrame& frame) {
   const CameraView& view = frame.view;
   const Vec3& ambient = frame.spec.ambient.color;
@@ -172,6 +167,29 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.background = glm::vec4(toVector(background.color), background.alpha);
   data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
   data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
+  return data;
+}
+
+shared::MaterialData materialData(const Material& material) {
+  shared::MaterialData data{
+      material.baseColorFactor,
+      glm::vec4(material.emissiveFactor, material.alphaMode != AlphaMode::opaque ? material.alphaCutoff : 0.0f),
+      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength),
+      glm::vec4(0),
+      glm::vec4(material.transmission, 0, 0, 0),
+      {},
+      {}};
+  if (const auto& glossy = material.specularGlossiness) {
+    data.specularGlossiness = glm::vec4(glossy->specularFactor, glossy->glossinessFactor);
+  }
+  const std::array uses{&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
+                        &material.emissive};
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const TextureTransform transform =
+        *uses[i] ? (*uses[i])->transform.value_or(TextureTransform{}) : TextureTransform{};
+    data.uvAxes[i] = glm::vec4(transform.axes[0], transform.axes[1]);
+    data.uvOffsets[i] = glm::vec4(transform.offset, 0, 0);
+  }
   return data;
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "renderer/passes/shader_data.h"
+#include "renderer/device/shader_data.h"
 
 namespace gnomon {
 namespace {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/prepare/lit_light.h"
+#include "renderer/resolve/resolve_frame.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shaders/shared/frame_types.h"
+
+/// What a device computes a pixel from, as floats: packed at the last moment, and the same for every device.
+namespace gnomon {
+
+/// How a map is read: GNOMON_FILTER_...
+int filterKind(const FilterKernel& filter);
+
+std::vector<shared::LightData> lightData(std::span<const LitLight> lights);
+
+/// The plan's tiles, in its order.
+std::vector<shared::TileData> tileData(const ShadowPlan& plan);
+
+/// What all pixels of a frame share; the depths of the surfaces are left at 0.
+shared::FrameData frameData(const ResolvedFrame& frame);
+
+shared::MaterialData materialData(const Material& material);
+
+} // namespace gnomon
