@@ -44,6 +44,7 @@ MAY_INCLUDE = {
     "renderer/device": DEVICE,
     "renderer/frame": FRAME,
     "renderer/evaluation": FRAME + ["renderer/evaluation"],
+    "renderer/cpu": DEVICE + ["renderer/techniques", "renderer/cpu"],
     "renderer/gl": VALUES + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": DEVICE + ["renderer/techniques", "renderer/shaders", "renderer/gl", "renderer/passes"],
     "renderer/charts": ["protocol", "renderer/charts"],
@@ -88,6 +89,7 @@ KEPT_IN = {
     "GL/": ["renderer/gl"],
     "EGL/": ["renderer/gl"],
     "embree3/": ["renderer/reference"],
+    "hwy/": ["renderer/cpu"],
     "tbb/": ["renderer/core/parallel.cpp"],
 }
 

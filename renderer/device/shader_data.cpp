@@ -193,4 +193,24 @@ shared::MaterialData materialData(const Material& material) {
   return data;
 }
 
+shared::InstanceData instanceData(const PlacedInstance& instance) {
+  shared::InstanceData data{};
+  const glm::dmat4 place = glm::transpose(instance.relativeFromLocal);
+  const glm::dmat3 normals = glm::transpose(instance.normalFromLocal);
+  for (int row = 0; row < 3; ++row) {
+    data.relativeFromLocal[row] = glm::vec4(place[row]);
+    data.normalFromLocal[row] = glm::vec4(normals[row], 0.0);
+  }
+  data.normalFromLocal[0].w = instance.group;
+  data.normalFromLocal[2].w = static_cast<float>(instance.node); // exact: there are no more than kLimits.maxNodes
+  return data;
+}
+
+std::vector<shared::InstanceData> instanceData(const FrameGeometry& geometry) {
+  std::vector<shared::InstanceData> data;
+  data.reserve(geometry.instances.size());
+  for (const PlacedInstance& instance : geometry.instances) data.push_back(instanceData(instance));
+  return data;
+}
+
 } // namespace gnomon

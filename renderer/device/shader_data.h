@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/prepare/frame_geometry.h"
 #include "renderer/prepare/lit_light.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/scene.h"
@@ -23,5 +24,11 @@ std::vector<shared::TileData> tileData(const ShadowPlan& plan);
 shared::FrameData frameData(const ResolvedFrame& frame);
 
 shared::MaterialData materialData(const Material& material);
+
+/// The number of a draw's first triangle is left at 0.
+shared::InstanceData instanceData(const PlacedInstance& instance);
+
+/// Relative to the geometry's eye.
+std::vector<shared::InstanceData> instanceData(const FrameGeometry& geometry);
 
 } // namespace gnomon

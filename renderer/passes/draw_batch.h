@@ -1,16 +1,13 @@
 #pragma once
 
+#include "renderer/device/shader_data.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/prepare/draw_list.h"
-#include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
-
-/// The instances as shaders read them, relative to the geometry's eye.
-std::vector<shared::InstanceData> instanceData(const FrameGeometry& geometry);
 
 /// Feeds a scene's vertices and its instances (shared::InstanceData) to every pass of a frame. Both outlive it.
 struct SceneVertices {

@@ -1,0 +1,287 @@
+// Sixteen numbers at a time, whatever the processor: one vector of AVX-512, two of AVX2, four of SSE4 or NEON. Compiled
+// once for each instruction set (Highway's foreach_target.h), so it has no include guard in the usual sense.
+//
+// Arithmetic is that of IEEE 754 binary32, an operation at a time: nothing is fused but what `mulAdd` fuses, and there
+// are no approximate reciprocals. So a lane's result depends on its inputs and, by `mulAdd`, on the instruction set.
+#if defined(GNOMON_CPU_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_LANES_INL_H
+#undef GNOMON_CPU_LANES_INL_H
+#else
+#define GNOMON_CPU_LANES_INL_H
+#endif
+
+#include <cstddef>
+#include <cstdint>
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr std::size_t kLanes = 16;
+using FloatTag = hn::CappedTag<float, kLanes>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+inline constexpr std::size_t kPerPart = HWY_MAX_LANES_D(FloatTag);
+inline constexpr std::size_t kParts = kLanes / kPerPart;
+inline constexpr FloatTag kFloats{};
+inline constexpr IntTag kInts{};
+
+struct Float;
+struct Int;
+
+struct Mask {
+  hn::Mask<FloatTag> part[kParts];
+};
+
+struct Float {
+  hn::Vec<FloatTag> part[kParts];
+
+  Float() = default;
+  HWY_INLINE Float(float all) { // NOLINT(google-explicit-constructor): a number stands for sixteen
+    for (auto& p : part) p = hn::Set(kFloats, all);
+  }
+};
+
+struct Int {
+  hn::Vec<IntTag> part[kParts];
+
+  Int() = default;
+  HWY_INLINE Int(std::int32_t all) { // NOLINT(google-explicit-constructor)
+    for (auto& p : part) p = hn::Set(kInts, all);
+  }
+};
+
+#define GNOMON_EACH_PART(Type, result, expression)                      \
+  Type result;                                                          \
+  for (std::size_t i = 0; i < kParts; ++i) result.part[i] = expression; \
+  return result
+
+// Masks.
+HWY_INLINE Mask operator&(const Mask& a, const Mask& b) {
+  GNOMON_EACH_PART(Mask, r, hn::And(a.part[i], b.part[i]));
+}
+HWY_INLINE Mask operator|(const Mask& a, const Mask& b) {
+  GNOMON_EACH_PART(Mask, r, hn::Or(a.part[i], b.part[i]));
+}
+HWY_INLINE Mask operator!(const Mask& a) {
+  GNOMON_EACH_PART(Mask, r, hn::Not(a.part[i]));
+}
+HWY_INLINE Mask andNot(const Mask& without, const Mask& a) {
+  GNOMON_EACH_PART(Mask, r, hn::AndNot(without.part[i], a.part[i]));
+}
+HWY_INLINE bool any(const Mask& a) {
+  bool found = false;
+  for (const auto& p : a.part) found |= !hn::AllFalse(kFloats, p);
+  return found;
+}
+HWY_INLINE bool none(const Mask& a) {
+  return !any(a);
+}
+HWY_INLINE bool all(const Mask& a) {
+  return none(!a);
+}
+
+/// A bit a lane, lane 0 lowest.
+HWY_INLINE unsigned bitsOf(const Mask& a) {
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(kFloats, a.part[i], bytes);
+    bits |= (bytes[0] | static_cast<unsigned>(bytes[1]) << 8) << (i * kPerPart);
+  }
+  return bits;
+}
+HWY_INLINE Mask maskOf(unsigned bits) {
+  Mask r;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const unsigned own = bits >> (i * kPerPart);
+    alignas(8) const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(own), static_cast<std::uint8_t>(own >> 8)};
+    r.part[i] = hn::LoadMaskBits(kFloats, bytes);
+  }
+  return r;
+}
+HWY_INLINE Mask firstLanes(std::size_t count) {
+  return maskOf((1u << count) - 1u);
+}
+
+// Memory. `from` and `to` hold 16 values; gathers read from base[index].
+HWY_INLINE Float load(const float* from) {
+  GNOMON_EACH_PART(Float, r, hn::LoadU(kFloats, from + i * kPerPart));
+}
+HWY_INLINE Int load(const std::int32_t* from) {
+  GNOMON_EACH_PART(Int, r, hn::LoadU(kInts, from + i * kPerPart));
+}
+HWY_INLINE Int load(const std::uint32_t* from) {
+  return load(reinterpret_cast<const std::int32_t*>(from));
+}
+HWY_INLINE void store(const Float& a, float* to) {
+  for (std::size_t i = 0; i < kParts; ++i) hn::StoreU(a.part[i], kFloats, to + i * kPerPart);
+}
+HWY_INLINE void store(const Int& a, std::int32_t* to) {
+  for (std::size_t i = 0; i < kParts; ++i) hn::StoreU(a.part[i], kInts, to + i * kPerPart);
+}
+HWY_INLINE void store(const Int& a, std::uint32_t* to) {
+  store(a, reinterpret_cast<std::int32_t*>(to));
+}
+HWY_INLINE Float gather(const float* base, const Int& index) {
+  GNOMON_EACH_PART(Float, r, hn::GatherIndex(kFloats, base, index.part[i]));
+}
+HWY_INLINE Int gather(const std::int32_t* base, const Int& index) {
+  GNOMON_EACH_PART(Int, r, hn::GatherIndex(kInts, base, index.part[i]));
+}
+HWY_INLINE Int gather(const std::uint32_t* base, const Int& index) {
+  return gather(reinterpret_cast<const std::int32_t*>(base), index);
+}
+/// 0, 1, ... 15.
+HWY_INLINE Int laneNumbers() {
+  GNOMON_EACH_PART(Int, r, hn::Iota(kInts, static_cast<std::int32_t>(i * kPerPart)));
+}
+
+// Conversions. A float that no int holds becomes some int.
+HWY_INLINE Float toFloat(const Int& a) {
+  GNOMON_EACH_PART(Float, r, hn::ConvertTo(kFloats, a.part[i]));
+}
+HWY_INLINE Int truncated(const Float& a) {
+  GNOMON_EACH_PART(Int, r, hn::ConvertTo(kInts, a.part[i]));
+}
+HWY_INLINE Int nearest(const Float& a) {
+  GNOMON_EACH_PART(Int, r, hn::NearestInt(a.part[i]));
+}
+HWY_INLINE Int bitsOf(const Float& a) {
+  GNOMON_EACH_PART(Int, r, hn::BitCast(kInts, a.part[i]));
+}
+HWY_INLINE Float floatOf(const Int& bits) {
+  GNOMON_EACH_PART(Float, r, hn::BitCast(kFloats, bits.part[i]));
+}
+
+#define GNOMON_BINARY(Type, name, function)                        \
+  HWY_INLINE Type name(const Type& a, const Type& b) {             \
+    GNOMON_EACH_PART(Type, r, hn::function(a.part[i], b.part[i])); \
+  }
+GNOMON_BINARY(Float, operator+, Add)
+GNOMON_BINARY(Float, operator-, Sub)
+GNOMON_BINARY(Float, operator*, Mul)
+GNOMON_BINARY(Float, operator/, Div)
+GNOMON_BINARY(Float, min, Min)
+GNOMON_BINARY(Float, max, Max)
+GNOMON_BINARY(Int, operator+, Add)
+GNOMON_BINARY(Int, operator-, Sub)
+GNOMON_BINARY(Int, operator*, Mul)
+GNOMON_BINARY(Int, operator&, And)
+GNOMON_BINARY(Int, operator|, Or)
+GNOMON_BINARY(Int, operator^, Xor)
+GNOMON_BINARY(Int, min, Min)
+GNOMON_BINARY(Int, max, Max)
+#undef GNOMON_BINARY
+
+HWY_INLINE Float operator-(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Neg(a.part[i]));
+}
+HWY_INLINE Float& operator+=(Float& a, const Float& b) {
+  return a = a + b;
+}
+HWY_INLINE Float& operator-=(Float& a, const Float& b) {
+  return a = a - b;
+}
+HWY_INLINE Float& operator*=(Float& a, const Float& b) {
+  return a = a * b;
+}
+HWY_INLINE Float& operator/=(Float& a, const Float& b) {
+  return a = a / b;
+}
+
+template <int bits>
+HWY_INLINE Int shiftLeft(const Int& a) {
+  GNOMON_EACH_PART(Int, r, hn::ShiftLeft<bits>(a.part[i]));
+}
+/// Of the sign's copies.
+template <int bits>
+HWY_INLINE Int shiftRight(const Int& a) {
+  GNOMON_EACH_PART(Int, r, hn::ShiftRight<bits>(a.part[i]));
+}
+/// Of zeros.
+template <int bits>
+HWY_INLINE Int shiftRightUnsigned(const Int& a) {
+  constexpr hn::RebindToUnsigned<IntTag> unsignedInts;
+  GNOMON_EACH_PART(Int, r, hn::BitCast(kInts, hn::ShiftRight<bits>(hn::BitCast(unsignedInts, a.part[i]))));
+}
+
+#define GNOMON_COMPARE(name, function)                                                      \
+  HWY_INLINE Mask name(const Float& a, const Float& b) {                                    \
+    GNOMON_EACH_PART(Mask, r, hn::function(a.part[i], b.part[i]));                          \
+  }                                                                                         \
+  HWY_INLINE Mask name(const Int& a, const Int& b) {                                        \
+    GNOMON_EACH_PART(Mask, r, hn::RebindMask(kFloats, hn::function(a.part[i], b.part[i]))); \
+  }
+GNOMON_COMPARE(operator<, Lt)
+GNOMON_COMPARE(operator>, Gt)
+GNOMON_COMPARE(operator==, Eq)
+GNOMON_COMPARE(operator!=, Ne)
+GNOMON_COMPARE(operator<=, Le)
+GNOMON_COMPARE(operator>=, Ge)
+#undef GNOMON_COMPARE
+
+HWY_INLINE Float select(const Mask& where, const Float& yes, const Float& no) {
+  GNOMON_EACH_PART(Float, r, hn::IfThenElse(where.part[i], yes.part[i], no.part[i]));
+}
+HWY_INLINE Int select(const Mask& where, const Int& yes, const Int& no) {
+  GNOMON_EACH_PART(Int, r, hn::IfThenElse(hn::RebindMask(kInts, where.part[i]), yes.part[i], no.part[i]));
+}
+
+/// a * b + c, rounded once where the processor can.
+HWY_INLINE Float mulAdd(const Float& a, const Float& b, const Float& c) {
+  GNOMON_EACH_PART(Float, r, hn::MulAdd(a.part[i], b.part[i], c.part[i]));
+}
+HWY_INLINE Float abs(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Abs(a.part[i]));
+}
+HWY_INLINE Float sqrt(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Sqrt(a.part[i]));
+}
+HWY_INLINE Float inversesqrt(const Float& a) {
+  return Float(1.0f) / sqrt(a);
+}
+HWY_INLINE Float floor(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Floor(a.part[i]));
+}
+HWY_INLINE Float ceil(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Ceil(a.part[i]));
+}
+HWY_INLINE Float fract(const Float& a) {
+  return a - floor(a);
+}
+HWY_INLINE Float exp(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Exp(kFloats, a.part[i]));
+}
+HWY_INLINE Float exp2(const Float& a) {
+  return exp(a * 0.69314718f);
+}
+HWY_INLINE Float log2(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Log2(kFloats, a.part[i]));
+}
+HWY_INLINE Float sin(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Sin(kFloats, a.part[i]));
+}
+HWY_INLINE Float cos(const Float& a) {
+  GNOMON_EACH_PART(Float, r, hn::Cos(kFloats, a.part[i]));
+}
+
+// As GLSL has them.
+HWY_INLINE Float clamp(const Float& a, const Float& low, const Float& high) {
+  return min(max(a, low), high);
+}
+HWY_INLINE Float mix(const Float& a, const Float& b, const Float& share) {
+  return a * (1.0f - share) + b * share;
+}
+HWY_INLINE Float smoothstep(const Float& low, const Float& high, const Float& at) {
+  const Float t = clamp((at - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+#undef GNOMON_EACH_PART
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
