@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "protocol/spec/view_traits.h"
-#include "renderer/gl/debug_log.h"
 #include "renderer/device/shader_data.h"
+#include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/read_back.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
-#include "renderer/device/shader_data.h"
 
 namespace gnomon {
 namespace {

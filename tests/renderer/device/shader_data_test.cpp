@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "renderer/device/shader_data.h"
+
+#include <gtest/gtest.h>
 
 namespace gnomon {
 namespace {
