@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr std::size_t kLanes = 16;
 using FloatTag = hn::CappedTag<float, kLanes>;
 using IntTag = hn::RebindToSigned<FloatTag>;
-inline constexpr std::size_t kPerPart = HWY_MAX_LANES_D(FloatTag);
+inline constexpr std::size_t kPerPart = hn::MaxLanes(FloatTag{});
 inline constexpr std::size_t kParts = kLanes / kPerPart;
 inline constexpr FloatTag kFloats{};
 inline constexpr IntTag kInts{};
@@ -219,9 +219,19 @@ GNOMON_COMPARE(operator<, Lt)
 GNOMON_COMPARE(operator>, Gt)
 GNOMON_COMPARE(operator==, Eq)
 GNOMON_COMPARE(operator!=, Ne)
-GNOMON_COMPARE(operator<=, Le)
-GNOMON_COMPARE(operator>=, Ge)
 #undef GNOMON_COMPARE
+HWY_INLINE Mask operator<=(const Float& a, const Float& b) {
+  GNOMON_EACH_PART(Mask, r, hn::Le(a.part[i], b.part[i]));
+}
+HWY_INLINE Mask operator>=(const Float& a, const Float& b) {
+  GNOMON_EACH_PART(Mask, r, hn::Ge(a.part[i], b.part[i]));
+}
+HWY_INLINE Mask operator<=(const Int& a, const Int& b) {
+  return !(a > b);
+}
+HWY_INLINE Mask operator>=(const Int& a, const Int& b) {
+  return !(a < b);
+}
 
 HWY_INLINE Float select(const Mask& where, const Float& yes, const Float& no) {
   GNOMON_EACH_PART(Float, r, hn::IfThenElse(where.part[i], yes.part[i], no.part[i]));

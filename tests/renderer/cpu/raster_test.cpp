@@ -1,0 +1,269 @@
+#include "renderer/cpu/raster.h"
+
+#include <random>
+
+#include "tests/renderer/cpu/each_target.h"
+
+namespace gnomon::cpu {
+namespace {
+
+using Random = std::mt19937;
+
+double between(Random& random, double low, double high) {
+  return std::uniform_real_distribution(low, high)(random);
+}
+
+/// Triangles that stand in clip space as they are, after `clip`.
+struct Mesh {
+  Scene scene;
+  std::vector<Slot> slots;
+  std::vector<RasterDraw> draws;
+  glm::mat4 clip{1};
+
+  RasterInput input() const { return {scene, slots, std::span(&clip, 1), draws}; }
+};
+
+Mesh meshOf(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices, Facing facing = Facing::both) {
+  Mesh mesh;
+  mesh.scene.positions = std::move(positions);
+  for (std::uint32_t first = 0; first < indices.size(); first += 3 * kClusterTriangles) {
+    const auto left = static_cast<std::uint32_t>(indices.size()) - first;
+    mesh.draws.push_back({static_cast<std::uint32_t>(mesh.slots.size()), facing});
+    mesh.slots.push_back({0, first, std::min(left / 3, kClusterTriangles), 0, 0});
+  }
+  mesh.scene.welded = std::move(indices);
+  return mesh;
+}
+
+DepthBuffer drawn(const Mesh& mesh, int width, int height, int samples = 1, DepthRange range = DepthRange::reversed) {
+  DepthBuffer buffer = emptyBuffer(width, height, samples, range, true);
+  RasterScratch scratch;
+  raster(mesh.input(), range, buffer, scratch);
+  return buffer;
+}
+
+/// A net of triangles over the whole picture and beyond, whose inner corners are moved at random; some of it slivers.
+Mesh net(Random& random, int cells, double reach) {
+  std::vector<glm::vec3> positions;
+  for (int y = 0; y <= cells; ++y) {
+    for (int x = 0; x <= cells; ++x) {
+      const bool inner = x > 0 && x < cells && y > 0 && y < cells;
+      const double move = inner ? 0.45 * 2 * reach / cells : 0;
+      positions.emplace_back((2.0 * x / cells - 1) * reach + between(random, -move, move),
+                             (2.0 * y / cells - 1) * reach + between(random, -move, move), between(random, 0, 1));
+    }
+  }
+  std::vector<std::uint32_t> indices;
+  const auto across = static_cast<std::uint32_t>(cells) + 1;
+  for (std::uint32_t y = 0; y + 1 < across; ++y) {
+    for (std::uint32_t x = 0; x + 1 < across; ++x) {
+      const std::uint32_t at = y * across + x;
+      indices.insert(indices.end(), {at, at + 1, at + across + 1, at, at + across + 1, at + across});
+    }
+  }
+  return meshOf(std::move(positions), std::move(indices));
+}
+
+TEST(Raster, EverySampleLiesInExactlyOneTriangleOfANet) {
+  onEachTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    Random random(7);
+    for (const int samples : {1, 4}) {
+      for (const double reach : {1.0, 1.01, 40.0, 3000.0}) {
+        const Mesh whole = net(random, 8, reach);
+        std::vector<int> hits(97 * 61 * static_cast<std::size_t>(samples));
+        const auto triangles = whole.scene.welded.size() / 3;
+        for (std::uint32_t t = 0; t < triangles; ++t) {
+          const auto* own = &whole.scene.welded[3 * std::size_t{t}];
+          // What moving corners turned over lies twice where its neighbours lie, and counts against them.
+          for (const Facing facing : {Facing::counterClockwise, Facing::clockwise}) {
+            const DepthBuffer one = drawn(meshOf(whole.scene.positions, {own[0], own[1], own[2]}, facing), 97, 61,
+                                          samples, DepthRange::clamped);
+            for (int i = 0; i < static_cast<int>(hits.size()); ++i) {
+              const int pixel = i / samples;
+              const bool hit = one.triangles[one.at(pixel % 97, pixel / 97, i % samples)] == 0;
+              hits[static_cast<std::size_t>(i)] += hit ? (facing == Facing::clockwise ? -1 : 1) : 0;
+            }
+          }
+        }
+        EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(hits.size())) << reach;
+      }
+    }
+  });
+}
+
+/// Whether a sample belongs to a triangle, in exact arithmetic.
+bool covers(const std::array<glm::i64vec2, 3>& corners, const glm::i64vec2& sample) {
+  auto [a, b, c] = corners;
+  const auto cross = [](const glm::i64vec2& u, const glm::i64vec2& v) { return u.x * v.y - u.y * v.x; };
+  if (cross(b - a, c - a) == 0) return false;
+  if (cross(b - a, c - a) < 0) std::swap(b, c);
+  const std::array<glm::i64vec2, 4> round{a, b, c, a};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::i64vec2 along = round[i + 1] - round[i];
+    const std::int64_t side = cross(along, sample - round[i]);
+    const bool owns = along.y < 0 || (along.y == 0 && along.x < 0);
+    if (side < 0 || (side == 0 && !owns)) return false;
+  }
+  return true;
+}
+
+TEST(Raster, CoverageIsThatOfExactArithmeticOnTheGrid) {
+  onEachTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    Random random(11);
+    constexpr int kSide = 64; // so that 1/256 of a pixel is a power of two in clip space
+    for (int round = 0; round < 600; ++round) {
+      const double reach = round % 3 == 0 ? 0.05 : round % 3 == 1 ? 1.2 : 100;
+      std::vector<glm::vec3> positions;
+      std::array<glm::i64vec2, 3> corners{};
+      for (glm::i64vec2& corner : corners) {
+        // Whole pixels and halves, so that samples often lie on edges.
+        const auto place = [&] {
+          const auto at = std::llround(between(random, -reach, reach) * 64 * 256 / 2);
+          return round % 2 == 0 ? at / 128 * 128 : at;
+        };
+        corner = {place(), place()};
+        positions.emplace_back(static_cast<float>(corner.x) / (kSide / 2 * 256.0f),
+                               static_cast<float>(corner.y) / (kSide / 2 * 256.0f), 0.5f);
+      }
+      const DepthBuffer buffer = drawn(meshOf(positions, {0, 1, 2}), kSide, kSide);
+      int wrong = 0;
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          const glm::i64vec2 sample((x - kSide / 2) * 256 + 128, (y - kSide / 2) * 256 + 128);
+          wrong += covers(corners, sample) != (buffer.triangles[buffer.at(x, y)] == 0);
+        }
+      }
+      ASSERT_EQ(wrong, 0) << round;
+    }
+  });
+}
+
+TEST(Raster, TheNearestIsShownAndOfTwoAtOneDepthTheFirst) {
+  onEachTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    const std::vector<glm::vec3> positions{{-3, -1, 0.5f}, {3, -1, 0.5f},  {0, 4, 0.5f},  {-3, -1, 0.5f}, {3, -1, 0.5f},
+                                           {0, 4, 0.5f},   {-3, -1, 0.7f}, {3, -1, 0.7f}, {0, 4, 0.0f}};
+    const Mesh mesh = meshOf(positions, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+    const DepthBuffer camera = drawn(mesh, 32, 32);
+    EXPECT_EQ(camera.triangles[camera.at(16, 1)], 2u) << "nearer below";
+    EXPECT_NEAR(camera.depths[camera.at(16, 1)], 0.7, 0.02);
+    EXPECT_EQ(camera.triangles[camera.at(16, 30)], 0u) << "two alike";
+    const DepthBuffer light = drawn(mesh, 32, 32, 1, DepthRange::clamped);
+    EXPECT_EQ(light.triangles[light.at(16, 1)], 0u);
+    EXPECT_EQ(light.triangles[light.at(16, 30)], 2u);
+  });
+}
+
+TEST(Raster, OnlyTheSideThatCountsIsDrawn) {
+  const std::vector<glm::vec3> positions{{-3, -1, 0.5f}, {3, -1, 0.5f}, {0, 4, 0.5f}};
+  const auto hits = [&](Facing facing, std::vector<std::uint32_t> indices) {
+    const DepthBuffer buffer = drawn(meshOf(positions, std::move(indices), facing), 16, 16);
+    return buffer.triangles[buffer.at(8, 8)] == 0;
+  };
+  EXPECT_TRUE(hits(Facing::counterClockwise, {0, 1, 2}));
+  EXPECT_FALSE(hits(Facing::counterClockwise, {0, 2, 1}));
+  EXPECT_FALSE(hits(Facing::clockwise, {0, 1, 2}));
+  EXPECT_TRUE(hits(Facing::clockwise, {0, 2, 1}));
+  EXPECT_TRUE(hits(Facing::both, {0, 2, 1}));
+}
+
+/// A camera at the origin that looks along -z, 90 degrees, near plane at 1, far plane at infinity.
+glm::mat4 perspective() {
+  glm::mat4 clip(0);
+  clip[0][0] = clip[1][1] = 1;
+  clip[2][3] = -1;
+  clip[3][2] = 1;
+  return clip;
+}
+
+TEST(Raster, TrianglesAcrossTheNearPlaneShowWhatLiesBehindIt) {
+  onEachTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    Random random(5);
+    constexpr int kSide = 48;
+    for (int round = 0; round < 500; ++round) {
+      const double size = round % 2 == 0 ? 4 : 1e6;
+      std::array<glm::dvec3, 3> c;
+      std::vector<glm::vec3> positions;
+      for (glm::dvec3& corner : c) {
+        positions.emplace_back(between(random, -size, size), between(random, -size, size),
+                               between(random, -size, size));
+        corner = glm::dvec3(positions.back());
+      }
+      Mesh mesh = meshOf(positions, {0, 1, 2});
+      mesh.clip = perspective();
+      const DepthBuffer buffer = drawn(mesh, kSide, kSide);
+      const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+      int wrong = 0;
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          const glm::dvec3 ray((x + 0.5) / (kSide / 2) - 1, (y + 0.5) / (kSide / 2) - 1, -1);
+          const double t = glm::dot(normal, c[0]) / glm::dot(normal, ray); // the view depth
+          const glm::dvec3 hit = ray * t;
+          double least = std::abs(t - 1); // how surely it is a hit or none
+          bool inside = t > 1;
+          for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 edge = c[(i + 1) % 3] - c[i];
+            const glm::dvec3 inward = glm::cross(normal, edge);
+            const double side = glm::dot(inward, hit - c[i]) / glm::length(inward);
+            inside = inside && side > 0;
+            least = std::min(least, std::abs(side));
+          }
+          // A corner may be moved by half of 1/256 pixel, which is that share of the distance on the surface, seen
+          // as obliquely as it is.
+          const double oblique = std::abs(glm::dot(normal, ray)) / (glm::length(normal) * glm::length(ray));
+          if (least < 0.004 * std::abs(t) / std::max(oblique, 1e-9)) continue;
+          wrong += inside != (buffer.triangles[buffer.at(x, y)] == 0);
+        }
+      }
+      ASSERT_EQ(wrong, 0) << round;
+    }
+  });
+}
+
+TEST(Raster, WhatLiesBeyondALightsDepthsIsFlattenedOntoThem) {
+  const std::vector<glm::vec3> positions{{-3, -1, -5}, {3, -1, -5}, {0, 4, -5}, {-3, -1, 5}, {3, -1, 5}, {0, 4, 5}};
+  const DepthBuffer front = drawn(meshOf(positions, {0, 1, 2}), 16, 16, 1, DepthRange::clamped);
+  EXPECT_EQ(front.depths[front.at(8, 8)], 0);
+  DepthBuffer behind = drawn(meshOf(positions, {3, 4, 5}), 16, 16, 1, DepthRange::clamped);
+  EXPECT_EQ(behind.depths[behind.at(8, 8)], 1);
+}
+
+TEST(Raster, ComesOutTheSameOnEveryRunAndInstructionSetForOrthographicNets) {
+  Random random(3);
+  Mesh mesh = net(random, 90, 1.0); // 16,200 triangles in 16 slots
+  const DepthBuffer first = drawn(mesh, 300, 200, 4);
+  onEachTarget([&](const char* target) {
+    const DepthBuffer again = drawn(mesh, 300, 200, 4);
+    EXPECT_TRUE(again.triangles == first.triangles) << target;
+  });
+}
+
+/// Leaves out every other pixel.
+class Chequers : public Holes {
+ public:
+  unsigned filled(std::uint32_t, bool, int, int, int, unsigned covered) const override { return covered & 0x5a5au; }
+};
+
+TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
+  const std::vector<glm::vec3> positions{{-3, -1, 0.9f}, {3, -1, 0.9f}, {0, 4, 0.9f},
+                                         {-3, -1, 0.5f}, {3, -1, 0.5f}, {0, 4, 0.5f}};
+  Mesh mesh = meshOf(positions, {0, 1, 2});
+  mesh.scene.welded = {0, 1, 2, 3, 4, 5};
+  mesh.slots.push_back({0, 3, 1, 0, 0});
+  mesh.draws.front().holed = true;
+  mesh.draws.push_back({1, Facing::both, false});
+  const Chequers chequers;
+  RasterInput input = mesh.input();
+  input.holes = &chequers;
+  DepthBuffer buffer = emptyBuffer(16, 16, 1, DepthRange::reversed, true);
+  RasterScratch scratch;
+  EXPECT_EQ(raster(input, DepthRange::reversed, buffer, scratch), 2u);
+  EXPECT_EQ(buffer.triangles[buffer.at(9, 8)], 0u);
+  EXPECT_EQ(buffer.triangles[buffer.at(8, 8)], kClusterTriangles);
+}
+
+} // namespace
+} // namespace gnomon::cpu
