@@ -36,6 +36,13 @@ glm::dmat4 clipFromView(const CameraView& view) {
   return matrix;
 }
 
+double viewDepthOf(const CameraView& view, double depth) {
+  const glm::dmat4 clip = clipFromView(view);
+  const double a = clip[2][2];
+  const double b = clip[3][2];
+  return view.perspective ? b / (depth + a) : (b - depth) / a;
+}
+
 Frustum frustumOf(const CameraView& view) {
   // A side plane of a perspective view holds the eye: right . p + halfSize.x * depth(p) >= 0. An orthographic one does
   // not: right . p + halfSize.x >= 0.

@@ -36,6 +36,9 @@ glm::dmat4 viewFromRelative(const CameraView& view);
 /// (Reversed depth: Reed, "Depth Precision Visualized", 2015.)
 glm::dmat4 clipFromView(const CameraView& view);
 
+/// The view depth in metres of a depth of that clip space; infinite for 0 where the far plane is.
+double viewDepthOf(const CameraView& view, double depth);
+
 /// The planes of a view, eye-relative; a point p is inside where dot(plane.xyz, p) + plane.w >= 0.
 /// An infinite far plane is (0,0,0,1).
 struct Frustum {

@@ -12,20 +12,11 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/prepare/box_depths.h"
+#include "renderer/prepare/survey_slots.h"
 
 namespace gnomon {
 
 namespace {
-
-std::vector<std::uint8_t> slotsInView(const PassInputs& inputs) {
-  const Frustum frustum = frustumOf(inputs.camera);
-  std::vector<std::uint8_t> keep(inputs.geometry.slotCount());
-  std::transform(inputs.geometry.slotBounds.begin(), inputs.geometry.slotBounds.end(), keep.begin(),
-                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayIntersect(frustum, box)); });
-  keepNodes(
-      inputs.nodes, inputs.view, inputs.geometry, [](const NodeSwitches& node) { return node.visible; }, keep);
-  return keep;
-}
 
 /// Adds the depth of the slots that `keep` marks.
 Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep, GLuint framebuffer, Survey& survey) {
@@ -44,58 +35,13 @@ Status drawDepth(const PassInputs& inputs, const std::vector<std::uint8_t>& keep
   });
 }
 
-/// Below this, finding what is hidden takes longer than drawing it.
-constexpr std::uint64_t kTrianglesWorthHiding = 1u << 16;
-/// The share of the triangles in view, the nearest ones, that is drawn first to hide others.
-constexpr double kFirstShare = 0.12;
-
-std::uint64_t trianglesIn(const PassInputs& inputs, std::uint32_t slot, std::size_t instance) {
-  const Primitive& primitive =
-      inputs.scene.primitives[static_cast<std::size_t>(inputs.view.instances[instance].primitive)];
-  const std::uint32_t first = (slot - inputs.geometry.firstSlot[instance]) * kClusterTriangles;
-  return std::min(kClusterTriangles, primitive.indexCount / 3 - first);
-}
-
-/// The nearest slots, with a share of all triangles in view; every one where there are few.
-std::vector<std::uint8_t> firstToDraw(const PassInputs& inputs, const std::vector<std::uint8_t>& inView) {
-  struct Seen {
-    double nearest;
-    std::uint32_t slot;
-    std::uint64_t triangles;
-  };
-  std::vector<Seen> seen;
-  std::uint64_t total = 0;
-  for (std::size_t instance = 0; instance < inputs.view.instances.size(); ++instance) {
-    for (std::uint32_t slot = inputs.geometry.firstSlot[instance]; slot < inputs.geometry.firstSlot[instance + 1];
-         ++slot) {
-      if (inView[slot] == 0) continue;
-      const Aabb& box = inputs.geometry.slotBounds[slot];
-      const double nearest =
-          glm::dot(box.center(), inputs.camera.forward) - glm::dot(box.halfExtent(), glm::abs(inputs.camera.forward));
-      seen.push_back({nearest, slot, trianglesIn(inputs, slot, instance)});
-      total += seen.back().triangles;
-    }
-  }
-  if (total < kTrianglesWorthHiding) return inView;
-  std::sort(seen.begin(), seen.end(),
-            [](const Seen& a, const Seen& b) { return std::tie(a.nearest, a.slot) < std::tie(b.nearest, b.slot); });
-  std::vector<std::uint8_t> first(inView.size());
-  auto left = static_cast<std::int64_t>(kFirstShare * static_cast<double>(total));
-  for (const Seen& each : seen) {
-    if (left <= 0) break;
-    first[each.slot] = 1;
-    left -= static_cast<std::int64_t>(each.triangles);
-  }
-  return first;
-}
-
 } // namespace
 
 Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   Survey survey;
   survey.timer = gl::Timer::start();
   survey.samples = samples;
-  survey.inView = slotsInView(inputs);
+  survey.inView = slotsInView({inputs.scene, inputs.view, inputs.geometry, inputs.camera, inputs.nodes});
   survey.depth =
       gl::Texture({GL_DEPTH_COMPONENT32F, inputs.width, inputs.height, 1, samples > 1 ? samples : 0}, "survey depth");
   auto target = gl::Framebuffer::create({{}, {&survey.depth}}, "survey");
@@ -107,16 +53,12 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   gl::apply(clear);
   target->clearDepth(0.0f);
 
-  std::vector<std::uint8_t> drawn = firstToDraw(inputs, survey.inView);
+  std::vector<std::uint8_t> drawn = firstToDraw({inputs.scene, inputs.view, inputs.geometry, inputs.camera, inputs.nodes}, survey.inView);
   if (const Status first = drawDepth(inputs, drawn, target->id(), survey); !first) return first.problems();
   auto blocks = depthBlocks(inputs, survey.depth, samples);
   if (!blocks) return blocks.problems();
   if (drawn != survey.inView) {
-    std::vector<std::uint8_t> rest(drawn.size());
-    std::transform(
-        survey.inView.begin(), survey.inView.end(), drawn.begin(), rest.begin(),
-        [](std::uint8_t seen, std::uint8_t done) { return static_cast<std::uint8_t>(seen != 0 && done == 0); });
-    rest = unhiddenBoxes(inputs.camera, *blocks, inputs.geometry.slotBounds, rest);
+    const std::vector<std::uint8_t> rest = unhiddenBoxes(inputs.camera, *blocks, inputs.geometry.slotBounds, without(survey.inView, drawn));
     if (const Status second = drawDepth(inputs, rest, target->id(), survey); !second) return second.problems();
     std::transform(drawn.begin(), drawn.end(), rest.begin(), drawn.begin(), std::bit_or<>());
     blocks = depthBlocks(inputs, survey.depth, samples);
@@ -174,13 +116,6 @@ void fillBlocks(ReceiverDepths& grid, const CameraView& camera, const std::vecto
 }
 
 } // namespace
-
-double viewDepthOf(const CameraView& camera, double depth) {
-  const glm::dmat4 clip = clipFromView(camera);
-  const double a = clip[2][2];
-  const double b = clip[3][2];
-  return camera.perspective ? b / (depth + a) : (b - depth) / a;
-}
 
 Result<ReceiverDepths> depthBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples) {
   ReceiverDepths grid = emptyDepths(inputs.width, inputs.height);

@@ -28,7 +28,4 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples);
 /// Reduces a reversed depth buffer of the frame (`samples` a pixel: 1 or 4) to what each block of pixels shows.
 Result<ReceiverDepths> depthBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples);
 
-/// The view depth in metres of a reversed depth value.
-double viewDepthOf(const CameraView& camera, double depth);
-
 } // namespace gnomon

@@ -1,23 +1,10 @@
 #include "renderer/passes/views/read_back.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "protocol/spec/view_traits.h"
+#include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
 
 namespace gnomon {
 namespace {
-
-std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
-  const ViewTraits& traits = traitsOf(view);
-  std::vector<std::string> channels;
-  for (const std::string_view name : encoded ? traits.png : traits.exr) {
-    if (!name.empty()) channels.emplace_back(name);
-  }
-  if (traits.source == ViewSource::picture && !opaque) channels.emplace_back("A");
-  return channels;
-}
 
 /// The first `channels` of four, rows turned over.
 template <class T>
@@ -45,26 +32,11 @@ std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t chann
 }
 
 /// A rectangle of the atlas, first row on top: grey when encoded, else the depths as they are.
-Image depthImage(const gl::Texture& atlas, const Rect& rect, bool encoded) {
-  Image image{rect.width, rect.height, {encoded ? "Y" : "Z"}, {}};
-  const auto width = static_cast<std::size_t>(rect.width);
-  const auto height = static_cast<std::size_t>(rect.height);
-  std::vector<float> depths(width * height);
+Image depthsIn(const gl::Texture& atlas, const Rect& rect, bool encoded) {
+  std::vector<float> depths(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
   const GLenum format = atlas.shape().format == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT;
   atlas.read(0, rect, {format, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
-  std::vector<float> turned(depths.size());
-  for (std::size_t y = 0; y < height; ++y) {
-    std::copy_n(depths.data() + (height - 1 - y) * width, width, turned.data() + y * width);
-  }
-  if (!encoded) {
-    image.pixels = std::move(turned);
-    return image;
-  }
-  std::vector<std::uint8_t> grey(turned.size());
-  std::transform(turned.begin(), turned.end(), grey.begin(),
-                 [](float depth) { return static_cast<std::uint8_t>(std::lround(depth * 255.0f)); });
-  image.pixels = std::move(grey);
-  return image;
+  return depthImage(rect.width, rect.height, depths, encoded);
 }
 
 } // namespace
@@ -80,11 +52,11 @@ Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
 }
 
 Image readTile(const gl::Texture& depths, const ShadowTile& tile, bool encoded) {
-  return depthImage(depths, tile.rect, encoded);
+  return depthsIn(depths, tile.rect, encoded);
 }
 
 Image readAtlas(const gl::Texture& depths, const ShadowPlan& plan, bool encoded) {
-  Image image = depthImage(depths, {0, 0, depths.width(), depths.height()}, encoded);
+  Image image = depthsIn(depths, {0, 0, depths.width(), depths.height()}, encoded);
   return encoded ? namedTiles(image, plan) : image;
 }
 

@@ -1,0 +1,38 @@
+#include "renderer/device/view_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace gnomon {
+
+std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
+  const ViewTraits& traits = traitsOf(view);
+  std::vector<std::string> channels;
+  for (const std::string_view name : encoded ? traits.png : traits.exr) {
+    if (!name.empty()) channels.emplace_back(name);
+  }
+  if (traits.source == ViewSource::picture && !opaque) channels.emplace_back("A");
+  return channels;
+}
+
+Image depthImage(int width, int height, const std::vector<float>& depths, bool encoded) {
+  Image image{width, height, {encoded ? "Y" : "Z"}, {}};
+  const auto across = static_cast<std::size_t>(width);
+  const auto rows = static_cast<std::size_t>(height);
+  std::vector<float> turned(depths.size());
+  for (std::size_t y = 0; y < rows; ++y) {
+    std::copy_n(depths.data() + (rows - 1 - y) * across, across, turned.data() + y * across);
+  }
+  if (!encoded) {
+    image.pixels = std::move(turned);
+    return image;
+  }
+  std::vector<std::uint8_t> grey(turned.size());
+  std::transform(turned.begin(), turned.end(), grey.begin(),
+                 [](float depth) { return static_cast<std::uint8_t>(std::lround(depth * 255.0f)); });
+  image.pixels = std::move(grey);
+  return image;
+}
+
+} // namespace gnomon

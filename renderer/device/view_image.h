@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/spec/view_traits.h"
+#include "renderer/image/image.h"
+
+/// How a device hands out what it drew.
+namespace gnomon {
+
+/// The channels of a view's picture, in their order. `encoded`, `opaque`: as in ViewRequest.
+std::vector<std::string> channelsOf(View view, bool encoded, bool opaque);
+
+/// The picture, first row on top, of depths 0..1 whose LOWEST row comes first: grey where `encoded`, else as they are.
+Image depthImage(int width, int height, const std::vector<float>& depths, bool encoded);
+
+} // namespace gnomon

@@ -1,0 +1,73 @@
+#include "renderer/prepare/survey_slots.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace gnomon {
+
+std::vector<std::uint8_t> slotsInView(const SurveyInput& input) {
+  const Frustum frustum = frustumOf(input.camera);
+  std::vector<std::uint8_t> keep(input.geometry.slotCount());
+  std::transform(input.geometry.slotBounds.begin(), input.geometry.slotBounds.end(), keep.begin(),
+                 [&](const Aabb& box) { return static_cast<std::uint8_t>(mayIntersect(frustum, box)); });
+  keepNodes(
+      input.nodes, input.view, input.geometry, [](const NodeSwitches& node) { return node.visible; }, keep);
+  return keep;
+}
+
+namespace {
+
+/// Below this, finding what is hidden takes longer than drawing it.
+constexpr std::uint64_t kTrianglesWorthHiding = 1u << 16;
+/// The share of the triangles in view, the nearest ones, that is drawn first to hide others.
+constexpr double kFirstShare = 0.12;
+
+std::uint64_t trianglesIn(const SurveyInput& input, std::uint32_t slot, std::size_t instance) {
+  const Primitive& primitive =
+      input.scene.primitives[static_cast<std::size_t>(input.view.instances[instance].primitive)];
+  const std::uint32_t first = (slot - input.geometry.firstSlot[instance]) * kClusterTriangles;
+  return std::min(kClusterTriangles, primitive.indexCount / 3 - first);
+}
+
+} // namespace
+
+std::vector<std::uint8_t> firstToDraw(const SurveyInput& input, const std::vector<std::uint8_t>& inView) {
+  struct Seen {
+    double nearest;
+    std::uint32_t slot;
+    std::uint64_t triangles;
+  };
+  std::vector<Seen> seen;
+  std::uint64_t total = 0;
+  for (std::size_t instance = 0; instance < input.view.instances.size(); ++instance) {
+    for (std::uint32_t slot = input.geometry.firstSlot[instance]; slot < input.geometry.firstSlot[instance + 1];
+         ++slot) {
+      if (inView[slot] == 0) continue;
+      const Aabb& box = input.geometry.slotBounds[slot];
+      const double nearest =
+          glm::dot(box.center(), input.camera.forward) - glm::dot(box.halfExtent(), glm::abs(input.camera.forward));
+      seen.push_back({nearest, slot, trianglesIn(input, slot, instance)});
+      total += seen.back().triangles;
+    }
+  }
+  if (total < kTrianglesWorthHiding) return inView;
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return std::tie(a.nearest, a.slot) < std::tie(b.nearest, b.slot); });
+  std::vector<std::uint8_t> first(inView.size());
+  auto left = static_cast<std::int64_t>(kFirstShare * static_cast<double>(total));
+  for (const Seen& each : seen) {
+    if (left <= 0) break;
+    first[each.slot] = 1;
+    left -= static_cast<std::int64_t>(each.triangles);
+  }
+  return first;
+}
+
+std::vector<std::uint8_t> without(std::span<const std::uint8_t> marked, std::span<const std::uint8_t> done) {
+  std::vector<std::uint8_t> rest(marked.size());
+  std::transform(marked.begin(), marked.end(), done.begin(), rest.begin(),
+                 [](std::uint8_t mark, std::uint8_t no) { return static_cast<std::uint8_t>(mark != 0 && no == 0); });
+  return rest;
+}
+
+} // namespace gnomon
