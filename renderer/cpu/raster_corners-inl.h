@@ -138,6 +138,8 @@ class TriangleSieve {
   }
 
  private:
+  static constexpr double kLeastDivisor = 1e-300; ///< the guard leaves x = y = 0 of what has none
+
   static HWY_INLINE Mask mayHoldSample(const Int& least, const Int& most, int firstSample, int lastSample, int size) {
     const Int first = max(shiftRight<8>(least + Int(kSubpixels - 1 - lastSample)), Int(0));
     const Int last = min(shiftRight<8>(most - Int(firstSample)), Int(size - 1));
@@ -185,9 +187,10 @@ class TriangleSieve {
         placed[i] = {corners.x[source], corners.y[source], corners.z[source]};
         continue;
       }
-      const glm::dvec2 at = glm::dvec2(corner.clip) / corner.clip.w * view_.middle() + view_.middle();
+      const double w = std::max(corner.clip.w, kLeastDivisor);
+      const glm::dvec2 at = glm::dvec2(corner.clip) / w * view_.middle() + view_.middle();
       placed[i] = {static_cast<std::int32_t>(std::lround(at.x)), static_cast<std::int32_t>(std::lround(at.y)),
-                   static_cast<float>(corner.clip.z / corner.clip.w)};
+                   static_cast<float>(corner.clip.z / w)};
     }
     for (std::size_t i = 2; i < polygon.count; ++i) measureAndKeep({placed[0], placed[i - 1], placed[i]}, triangle);
   }

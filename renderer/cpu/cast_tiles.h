@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/cpu/raster.h"
+#include "renderer/cpu/tile_store.h"
+#include "renderer/device/facts.h"
+#include "renderer/scene/mesh_edges.h"
+#include "renderer/shadow/shadow_plan.h"
+
+namespace gnomon::cpu {
+
+/// What the tiles of a frame are cast from. All of it outlives the call.
+struct CastInput {
+  const FrameScene& scene;
+  const ShadowPlan& plan;
+  const FrameSpec& spec; ///< effective
+  std::span<const NodeSwitches> nodes;
+  std::span<const EdgeMesh> edges; ///< one a primitive; empty where no light's technique asks for them
+  std::uint64_t sceneId = 0;       ///< a number that no other scene has
+  int view = 0;                    ///< index into Scene::scenes
+  RasterScratch& scratch;
+};
+
+struct CastTiles {
+  std::vector<std::shared_ptr<const RasteredTile>> tiles; ///< one a tile of the plan; null where it has no texels
+  std::vector<TileFacts> facts;                           ///< parallel
+};
+
+/// Tiles that the store has are taken from it, and it keeps the new ones.
+CastTiles castTiles(const CastInput& input, TileStore& store);
+
+/// The tile's casters once more, with the number of the triangle nearest to the light in each texel; one sample a
+/// texel.
+DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const Light& light);
+
+} // namespace gnomon::cpu

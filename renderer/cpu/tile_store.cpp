@@ -1,0 +1,29 @@
+#include "renderer/cpu/tile_store.h"
+
+#include <algorithm>
+
+namespace gnomon::cpu {
+
+std::size_t RasteredTile::bytes() const {
+  return depths.depths.size() * sizeof(float) + depths.triangles.size() * sizeof(std::uint32_t) +
+         moments.size() * sizeof(glm::vec4) + outlines.size();
+}
+
+std::shared_ptr<const RasteredTile> TileStore::find(const TileKey& key) {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
+  if (found == entries_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found);
+  return found->tile;
+}
+
+void TileStore::keep(const TileKey& key, std::shared_ptr<const RasteredTile> tile) {
+  bytes_ += tile->bytes();
+  entries_.push_front({key, std::move(tile)});
+  while (!entries_.empty() && bytes_ > budgetBytes_) {
+    bytes_ -= entries_.back().tile->bytes();
+    entries_.pop_back();
+  }
+}
+
+} // namespace gnomon::cpu

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "renderer/cpu/depth_buffer.h"
+#include "renderer/prepare/outlines.h"
+#include "renderer/prepare/tile_casters.h"
+
+namespace gnomon::cpu {
+
+/// One tile of the plan, rastered: its texels alone, from its own lowest corner.
+struct RasteredTile {
+  DepthBuffer depths;
+  std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty where its light's filter reads none
+  TileOutlines outlines;          ///< empty where its light's technique asks for none
+
+  std::size_t bytes() const;
+};
+
+/// The tiles of the last frames, so that one that was rastered before need not be again. The least recently used are
+/// dropped first once they take more than a budget; a budget of 0 keeps nothing.
+class TileStore {
+ public:
+  explicit TileStore(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
+
+  /// Null where it is not kept.
+  std::shared_ptr<const RasteredTile> find(const TileKey& key);
+  void keep(const TileKey& key, std::shared_ptr<const RasteredTile> tile);
+
+ private:
+  struct Entry {
+    TileKey key;
+    std::shared_ptr<const RasteredTile> tile;
+  };
+
+  std::size_t budgetBytes_;
+  std::size_t bytes_ = 0;
+  std::list<Entry> entries_; ///< most recently used first
+};
+
+} // namespace gnomon::cpu
