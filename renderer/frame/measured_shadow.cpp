@@ -6,7 +6,7 @@
 
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
-#include "renderer/shaders/shared/heat_map.h"
+#include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
 

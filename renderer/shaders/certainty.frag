@@ -3,7 +3,8 @@
 #include "common_surface_read.glsl"
 #include "common_shadow_lookup.glsl"
 #include "common_shadow_choice.glsl"
-#include "common_light.glsl"
+#include "common_names.glsl"
+#include "shared/light.h"
 
 // Whether the shadow map of one light knows what arrives at a pixel (Verdict of renderer/passes/views/certainty_pass.h).
 //

@@ -93,6 +93,7 @@ vec3 texelGrid(vec3 shown, Receiver receiver) {
 #endif
 
 #ifdef ENCODED
+#include "common_names.glsl"
 #include "shared/heat_map.h"
 #endif
 

@@ -3,7 +3,8 @@
 #include "common_surface.glsl"
 #include "common_surface_read.glsl"
 #include "common_shadow.glsl"
-#include "common_light.glsl"
+#include "common_names.glsl"
+#include "shared/light.h"
 #include "common_debug.glsl"
 
 // What a shadow map does to an edge that runs through a pixel: its texel as it lies on the surface, and where the bias has

@@ -6,7 +6,8 @@ layout(std430, binding = GNOMON_PROBE_BUFFER) readonly buffer ProbeBuffer { Prob
 vec2 shadedPixel;
 #define SHADED_PIXEL shadedPixel
 #include "common_shadow.glsl"
-#include "common_light.glsl"
+#include "common_names.glsl"
+#include "shared/light.h"
 
 layout(location = GNOMON_DEBUG_LIGHT) uniform int debugLight;
 layout(location = 0) out float visibility;

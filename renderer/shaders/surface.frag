@@ -2,10 +2,11 @@
 #include "shared/frame_types.h"
 #include "common_surface_varyings.glsl"
 #include "common_surface.glsl"
-#include "common_material.glsl"
-#ifdef TRANSMISSION
+#include "common_names.glsl"
 #include "shared/surroundings.h"
-#endif
+#include "shared/normal_map.h"
+#include "shared/specular_glossiness.h"
+#include "common_material.glsl"
 
 layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
 layout(location = 0) out uvec4 surfaceBits;

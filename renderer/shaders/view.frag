@@ -1,9 +1,11 @@
 #include "shared/frame_types.h"
 #include "common_surface.glsl"
 #include "common_surface_read.glsl"
-#include "common_brdf.glsl"
+#include "common_names.glsl"
+#include "shared/surroundings.h"
+#include "shared/brdf.h"
 #include "common_shadow.glsl"
-#include "common_light.glsl"
+#include "shared/light.h"
 #include "common_light_lists.glsl"
 #include "common_tone.glsl"
 #ifdef DEBUG_LIGHT
@@ -62,7 +64,7 @@ vec4 picture(Sample seen, uint samples) {
 #endif
   Surface surface = unpackedSurface(seen.bits);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
-  SurfacePoint s = surfacePoint(surface, toEye);
+  SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   Receiver receiver = receiverOf(seen, surface.face, samples);
   vec3 radiance = radianceToEye(s, receiver, emissionAt(seen.index), surface.occlusion);
   vec3 shown = toneMapped(radiance * frame.depthRange.z);

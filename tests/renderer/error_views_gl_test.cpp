@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/shaders/shared/heat_map.h"
+#include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "tests/renderer/cpu/each_target.h"
+#include "tests/renderer/cpu/instruction_sets.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -65,8 +65,7 @@ Mesh net(Random& random, int cells, double reach) {
 }
 
 TEST(Raster, EverySampleLiesInExactlyOneTriangleOfANet) {
-  onEachTarget([](const char* target) {
-    SCOPED_TRACE(target);
+  onEachInstructionSet([] {
     Random random(7);
     for (const int samples : {1, 4}) {
       for (const double reach : {1.0, 1.01, 40.0, 3000.0}) {
@@ -109,8 +108,7 @@ bool covers(const std::array<glm::i64vec2, 3>& corners, const glm::i64vec2& samp
 }
 
 TEST(Raster, CoverageIsThatOfExactArithmeticOnTheGrid) {
-  onEachTarget([](const char* target) {
-    SCOPED_TRACE(target);
+  onEachInstructionSet([] {
     Random random(11);
     constexpr int kSide = 64; // so that 1/256 of a pixel is a power of two in clip space
     for (int round = 0; round < 600; ++round) {
@@ -141,8 +139,7 @@ TEST(Raster, CoverageIsThatOfExactArithmeticOnTheGrid) {
 }
 
 TEST(Raster, TheNearestIsShownAndOfTwoAtOneDepthTheFirst) {
-  onEachTarget([](const char* target) {
-    SCOPED_TRACE(target);
+  onEachInstructionSet([] {
     const std::vector<glm::vec3> positions{{-3, -1, 0.5f}, {3, -1, 0.5f},  {0, 4, 0.5f},  {-3, -1, 0.5f}, {3, -1, 0.5f},
                                            {0, 4, 0.5f},   {-3, -1, 0.7f}, {3, -1, 0.7f}, {0, 4, 0.0f}};
     const Mesh mesh = meshOf(positions, {0, 1, 2, 3, 4, 5, 6, 7, 8});
@@ -179,8 +176,7 @@ glm::mat4 perspective() {
 }
 
 TEST(Raster, TrianglesAcrossTheNearPlaneShowWhatLiesBehindIt) {
-  onEachTarget([](const char* target) {
-    SCOPED_TRACE(target);
+  onEachInstructionSet([] {
     Random random(5);
     constexpr int kSide = 48;
     for (int round = 0; round < 500; ++round) {
@@ -235,9 +231,9 @@ TEST(Raster, ComesOutTheSameOnEveryRunAndInstructionSetForOrthographicNets) {
   Random random(3);
   Mesh mesh = net(random, 90, 1.0); // 16,200 triangles in 16 slots
   const DepthBuffer first = drawn(mesh, 300, 200, 4);
-  onEachTarget([&](const char* target) {
+  onEachInstructionSet([&] {
     const DepthBuffer again = drawn(mesh, 300, 200, 4);
-    EXPECT_TRUE(again.triangles == first.triangles) << target;
+    EXPECT_TRUE(again.triangles == first.triangles);
   });
 }
 

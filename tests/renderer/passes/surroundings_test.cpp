@@ -1,8 +1,8 @@
-#include "renderer/shaders/shared/surroundings.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+
+#include "renderer/shaders/shared/functions.h"
 
 namespace gnomon::shared {
 namespace {

@@ -1,0 +1,54 @@
+// How much light a surface reflects to the eye.
+GNOMON_CONSTANT(kPi, 3.14159265358979f);
+
+struct SurfacePoint {
+  vec3 albedo; // of the diffuse part
+  vec3 f0;     // reflectance at normal incidence
+  Real alpha;  // roughness squared
+  vec3 normal; // shading normal
+  vec3 toEye;
+};
+
+// `roughness` is perceptual.
+GNOMON_FUNCTION SurfacePoint surfacePoint(vec3 baseColor, Real metallic, Real roughness, vec3 normal, vec3 toEye) {
+  SurfacePoint s;
+  s.albedo = baseColor * (1.0f - metallic);
+  s.f0 = mix(vec3(0.04f), baseColor, metallic);
+  s.alpha = max(roughness * roughness, 0.002f);
+  s.normal = normal;
+  s.toEye = toEye;
+  return s;
+}
+
+// Lambert and GGX with height-correlated Smith visibility (Walter et al. 2007; Heitz, JCGT 2014) and Schlick's Fresnel
+// term (1994), times the cosine: radiance out for a unit of irradiance facing the light.
+GNOMON_FUNCTION vec3 reflectedRadiance(SurfacePoint s, vec3 toLight) {
+  Real nl = dot(s.normal, toLight);
+  Real nv = max(dot(s.normal, s.toEye), 1e-4f);
+  vec3 h = normalize(toLight + s.toEye);
+  Real nh = clamp(dot(s.normal, h), 0.0f, 1.0f);
+  Real vh = clamp(dot(s.toEye, h), 0.0f, 1.0f);
+  Real a2 = s.alpha * s.alpha;
+  Real d = nh * nh * (a2 - 1.0f) + 1.0f;
+  Real distribution = a2 / (kPi * d * d);
+  Real masking = 0.5f / (nl * sqrt(nv * nv * (1.0f - a2) + a2) + nv * sqrt(nl * nl * (1.0f - a2) + a2));
+  Real grazing = 1.0f - vh;
+  Real grazing2 = grazing * grazing;
+  vec3 fresnel = s.f0 + (1.0f - s.f0) * (grazing2 * grazing2 * grazing);
+  vec3 reflected = ((1.0f - fresnel) * s.albedo / kPi + fresnel * (distribution * masking)) * nl;
+  return select(nl <= 0.0f, vec3(0.0f), reflected);
+}
+
+// What a surface shows of the surroundings: Lambert, and the split-sum fit of Karis, "Physically Based Shading on
+// Mobile", 2014.
+GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s) {
+  Real roughness = sqrt(s.alpha);
+  Real nv = clamp(dot(s.normal, s.toEye), 0.0f, 1.0f);
+  Real rx = roughness * -1.0f + 1.0f;
+  Real ry = roughness * -0.0275f + 0.0425f;
+  Real a004 = min(rx * rx, exp2(-9.28f * nv)) * rx + ry;
+  Real scale = -1.04f * a004 + (roughness * -0.572f + 1.04f);
+  Real bias = 1.04f * a004 + (roughness * 0.022f + -0.04f);
+  vec3 mirrored = reflect(-s.toEye, s.normal);
+  return s.albedo * irradianceAround(s.normal.y) + (s.f0 * scale + bias) * radianceAround(mirrored.y, roughness);
+}

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "renderer/shaders/shared/frame_types.h"
+
+/// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
+/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition. They
+/// branch only on what is the same for a whole frame, light or material, so that C++ may take them with `Real` for many
+/// numbers at once (renderer/cpu/shared_functions-inl.h).
+namespace gnomon::shared {
+
+using glm::clamp;
+using glm::cross;
+using glm::dot;
+using glm::exp2;
+using glm::inversesqrt;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::reflect;
+using glm::smoothstep;
+using glm::sqrt;
+
+using Real = float;
+
+template <class T>
+T select(bool condition, const T& yes, const T& no) {
+  return condition ? yes : no;
+}
+
+#define GNOMON_FUNCTION inline
+#define GNOMON_CONSTANT(name, value) inline constexpr float name = value
+#define GNOMON_OUT(type) type&
+#define PUNCTUAL
+#include "renderer/shaders/shared/surroundings.h"
+// brdf.h calls what surroundings.h defines.
+#include "renderer/shaders/shared/brdf.h"
+#include "renderer/shaders/shared/heat_map.h"
+#include "renderer/shaders/shared/light.h"
+#include "renderer/shaders/shared/normal_map.h"
+#include "renderer/shaders/shared/specular_glossiness.h"
+#include "renderer/shaders/shared/tone.h"
+#undef PUNCTUAL
+#undef GNOMON_OUT
+#undef GNOMON_CONSTANT
+#undef GNOMON_FUNCTION
+
+} // namespace gnomon::shared

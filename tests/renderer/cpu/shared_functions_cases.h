@@ -1,0 +1,88 @@
+// Calls of the functions that shaders share with C++: one text, compiled for one number at a time and for lanes. Each
+// takes numbers from -1 to 1 and gives three.
+
+/// -1..1 to 0..1.
+template <class Number>
+Number share(const Number& number) {
+  return number * 0.5f + 0.5f;
+}
+
+template <class Columns>
+SurfacePoint pointOf(const Columns& in) {
+  const vec3 color = in.three(0) * 0.5f + vec3(0.5f);
+  // Smoother than this, rounding shows in the highlight.
+  return surfacePoint(color, share(in.one(3)), 0.2f + 0.8f * share(in.one(4)), normalize(in.three(5)),
+                      normalize(in.three(8)));
+}
+
+struct Reflected {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return reflectedRadiance(pointOf(in), normalize(in.three(11)));
+  }
+};
+
+struct Ambient {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return ambientReflected(pointOf(in));
+  }
+};
+
+template <int type>
+struct Arriving {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    LightData light{};
+    light.type = type;
+    light.direction = {0.6f, 0.0f, 0.8f};
+    light.position = {0.5f, -0.25f, 3.0f};
+    light.range = 4.0f;
+    light.radiance = {3.0f, 2.0f, 1.0f};
+    light.coneScale = 4.0f;
+    light.coneOffset = -1.0f;
+    vec3 toLight;
+    const vec3 arriving = irradiance(light, in.three(0), toLight);
+    return arriving + toLight;
+  }
+};
+
+struct Tone {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const vec3 radiance = in.three(0) * 4.0f + vec3(4.0f);
+    return acesToneMapped(radiance) + clippedTone(radiance);
+  }
+};
+
+struct Heat {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return heat(in.one(0) * 1.5f);
+  }
+};
+
+struct Glossy {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const vec3 diffuse = in.three(0) * 0.5f + vec3(0.5f);
+    const vec3 specular = in.three(3) * 0.5f + vec3(0.5f);
+    return baseColorOf(diffuse, specular, metallicOf(diffuse, specular));
+  }
+};
+
+struct ByTangent {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return bentByTangent(normalize(in.three(0)), in.three(3), select(in.one(6) < 0.0f, Real(-1.0f), Real(1.0f)),
+                         in.three(7));
+  }
+};
+
+struct BySteps {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return bentBySteps(normalize(in.three(0)), in.three(3), in.three(6), vec2(in.one(9), in.one(10)),
+                       vec2(in.one(11), in.one(12)), in.three(13));
+  }
+};

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace gnomon::cpu {
+
+inline constexpr std::size_t kSharedFunctionInputs = 16; ///< columns, from -1 to 1
+inline constexpr std::size_t kSharedFunctionOutputs = 3;
+
+/// The cases of shared_functions_cases.h by lanes, in `sharedFunctionNames`' order. `rows`: a multiple of 16.
+void sharedFunctionByLanes(std::size_t which, std::size_t rows, const float* in, float* out);
+
+inline constexpr std::array sharedFunctionNames{"reflected", "ambient", "directional", "spot",       "point",
+                                                "tone",      "heat",    "glossy",      "by tangent", "by steps"};
+
+/// The cases in that order, as a list of what they are made of.
+#define GNOMON_SHARED_FUNCTION_CASES                                                                                   \
+  Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Heat, Glossy, \
+      ByTangent, BySteps
+
+} // namespace gnomon::cpu

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "renderer/shaders/shared/functions.h"
+#include "tests/renderer/cpu/instruction_sets.h"
+#include "tests/renderer/cpu/number_table.h"
+#include "tests/renderer/cpu/shared_functions_kernels.h"
+
+namespace gnomon::shared {
+namespace {
+
+#include "tests/renderer/cpu/shared_functions_cases.h"
+
+struct Columns {
+  const cpu::NumberTable& table;
+  std::size_t row;
+
+  float one(std::size_t column) const { return table.at(row, column); }
+  vec3 three(std::size_t column) const { return {one(column), one(column + 1), one(column + 2)}; }
+};
+
+template <class... Cases>
+vec3 byNumbers(std::size_t which, const Columns& in) {
+  using Case = vec3 (*)(const Columns&);
+  constexpr Case cases[] = {&Cases::template of<Columns>...};
+  return cases[which](in);
+}
+
+/// Largest difference, as a share of the result where that is above 1.
+float largestDifference(const cpu::NumberTable& in, const cpu::NumberTable& lanes, std::size_t which) {
+  float largest = 0;
+  for (std::size_t row = 0; row < in.rows; ++row) {
+    const vec3 expected = byNumbers<GNOMON_SHARED_FUNCTION_CASES>(which, {in, row});
+    for (int axis = 0; axis < 3; ++axis) {
+      const float off = std::abs(lanes.at(row, static_cast<std::size_t>(axis)) - expected[axis]);
+      const float share = off / std::max(1.0f, std::abs(expected[axis]));
+      if (!(share <= largest)) largest = share; // not a number counts
+    }
+  }
+  return largest;
+}
+
+TEST(SharedFunctions, LanesGiveWhatSingleNumbersGive) {
+  constexpr std::size_t kRows = 100'000;
+  const cpu::NumberTable in = cpu::randomNumbers(kRows, cpu::kSharedFunctionInputs, -1.0f, 1.0f);
+  cpu::onEachInstructionSet([&] {
+    for (std::size_t which = 0; which < cpu::sharedFunctionNames.size(); ++which) {
+      cpu::NumberTable out(kRows, cpu::kSharedFunctionOutputs);
+      cpu::sharedFunctionByLanes(which, kRows, in.column(0), out.column(0));
+      EXPECT_LE(largestDifference(in, out, which), 1e-3f) << cpu::sharedFunctionNames[which];
+    }
+  });
+}
+
+} // namespace
+} // namespace gnomon::shared
