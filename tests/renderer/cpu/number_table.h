@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <glm/glm.hpp>
 #include <random>
 #include <vector>
 
@@ -17,6 +17,9 @@ struct NumberTable {
   float* column(std::size_t column) { return numbers.data() + column * rows; }
   const float* column(std::size_t column) const { return numbers.data() + column * rows; }
   float at(std::size_t row, std::size_t column) const { return numbers[column * rows + row]; }
+  glm::vec3 triple(std::size_t row, std::size_t first) const {
+    return {at(row, first), at(row, first + 1), at(row, first + 2)};
+  }
 };
 
 /// Evenly spread between the bounds; the same each time.
