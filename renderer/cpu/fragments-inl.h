@@ -26,6 +26,7 @@ struct Receiver {
   Float viewDepth; ///< metres
   Int groupBit;    ///< 1 << receiver group
   Float2 place;    ///< pixels, as Fragments::place
+  Int samples;     ///< of the pixel that show it, a bit each; 1 where a pixel has one
 };
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -1,0 +1,132 @@
+// Visibility of a light through its tiles, or its visibility layer: shaders/common_shadow.glsl, sixteen at a time.
+#if defined(GNOMON_CPU_SHADOW_VISIBILITY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#undef GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#else
+#define GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#endif
+
+#include "renderer/cpu/shadow_disc-inl.h"
+#include "renderer/cpu/shadow_filter-inl.h"
+#include "renderer/cpu/shadow_lookup-inl.h"
+#include "renderer/cpu/shadow_moments-inl.h"
+#include "renderer/cpu/tile_choice-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
+/// no lookup of it leaves the tile. Lanes outside of `asked` hold anything.
+inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int tileIndex, const Receiver& receiver,
+                            const Float3& toLight, const Mask& asked) {
+  const TileData& tile = maps.tiles[tileIndex];
+  const TileMap& map = maps.maps[tileIndex];
+  if (map.depths == nullptr) return 1.0f;
+  Lookup at = lookupIn(light, tile, receiver, toLight);
+  const Mask read = asked & at.inside;
+  if (none(read)) return 1.0f;
+  const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
+  const Float2 place = Float2(at.coordinate.x, at.coordinate.y) * Float2(maps.atlasTexels) - corner;
+  if (GNOMON_READS_MOMENTS(light.filterKind)) {
+    return select(at.inside, momentVisibility(map, place, momentDepth(tile, at), light.filterKind), 1.0f);
+  }
+  const Float2 slope = comparedSlope(light, tile, receiver);
+  if (light.filterKind == GNOMON_FILTER_DISC) {
+    const glm::vec2 texels = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels;
+    const Float radius = std::max(texels.x, texels.y) / at.divisor;
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius);
+    return select(at.inside, discVisibility(maps, tileIndex, at, slope, light.filterRadius, receiver.place, read),
+                  1.0f);
+  }
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
+  return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize), 1.0f);
+}
+
+/// A face turned away from the light, or along it to within rounding, shadows itself.
+HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
+  return dot(receiver.normal, toLight) <= 1e-4f;
+}
+
+/// The mean over the samples of each pixel that show the receiver. Lanes outside of `asked` hold anything.
+inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask& asked) {
+  alignas(64) std::int32_t columns[kLanes];
+  alignas(64) std::int32_t rows[kLanes];
+  alignas(64) std::uint32_t samples[kLanes];
+  alignas(64) float shares[kLanes] = {};
+  store(truncated(receiver.place.x), columns);
+  store(truncated(receiver.place.y), rows);
+  store(receiver.samples, samples);
+  const unsigned lanes = bitsOf(asked);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if ((lanes >> lane & 1u) == 0) continue;
+    const std::size_t pixel = static_cast<std::size_t>(rows[lane]) * static_cast<std::size_t>(layer.width) +
+                              static_cast<std::size_t>(columns[lane]);
+    const std::uint16_t* values = layer.values + pixel * static_cast<std::size_t>(layer.samples);
+    if (layer.samples == 1) {
+      shares[lane] = static_cast<float>(values[0]) / 65535.0f;
+      continue;
+    }
+    int sum = 0;
+    int count = 0;
+    for (int i = 0; i < layer.samples; ++i) {
+      const int shows = static_cast<int>(samples[lane] >> i & 1u);
+      sum += shows * values[i];
+      count += shows;
+    }
+    shares[lane] = static_cast<float>(sum) / (65535.0f * static_cast<float>(std::max(count, 1)));
+  }
+  return load(shares);
+}
+
+/// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes
+/// that are not `needed`, because no light arrives anyway, hold anything in 0 to 1.
+inline Float shadowVisibility(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight,
+                              const Mask& needed) {
+  const LightData& data = maps.lights[light];
+  const bool layered = data.visibilityLayer > 0u;
+  if (!layered && data.tileCount == 0u) return 1.0f;
+  Mask asked = needed & receiver.shown;
+  if (none(asked)) return 1.0f;
+  const Mask receives = (receiver.groupBit & Int(static_cast<std::int32_t>(data.shadowedGroups))) != Int(0);
+  asked = asked & receives;
+  const Mask turnedAway = isTurnedAway(receiver, toLight);
+  Float visibility = 0.0f;
+  if (layered) {
+    visibility = layerValue(maps.layers[data.visibilityLayer - 1], receiver, asked);
+    // Rays know which faces are turned away, shadow volumes don't.
+    if (data.layerOmitsTurnedFaces != 0u) visibility = select(turnedAway, 0.0f, visibility);
+    return select(receives, mix(1.0f, visibility, data.strength), 1.0f);
+  }
+  const TileChoice choice = chooseTile(maps, data, receiver, toLight);
+  asked = andNot(turnedAway, asked & choice.covered);
+  for (int i = 0; i < static_cast<int>(data.tileCount) && any(asked); ++i) {
+    const Mask isFirst = choice.first == Int(i);
+    const Mask served = asked & (isFirst | (choice.second == Int(i)));
+    if (none(served)) continue;
+    const Float share = select(isFirst, 1.0f - choice.blend, choice.blend);
+    const Float lit = tileVisibility(maps, data, static_cast<int>(data.firstTile) + i, receiver, toLight, served);
+    visibility += select(served, share * lit, 0.0f);
+  }
+  visibility = mix(visibility, 1.0f, choice.fade);
+  return select(receives & choice.covered, mix(1.0f, visibility, data.strength), 1.0f);
+}
+
+/// The cascades from near to far, or a light's faces; white beyond.
+inline Float3 cascadeTint(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight) {
+  using glm::vec3;
+  constexpr vec3 tints[GNOMON_LIGHT_TILES] = {GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
+  const LightData& data = maps.lights[light];
+  const TileChoice choice = chooseTile(maps, data, receiver, toLight);
+  Float3 first(Float(1.0f));
+  Float3 second(Float(1.0f));
+  for (int i = 0; i < static_cast<int>(data.tileCount); ++i) {
+    first = select(choice.first == Int(i), Float3(tints[i]), first);
+    second = select(choice.second == Int(i), Float3(tints[i]), second);
+  }
+  const Float3 white(Float(1.0f));
+  return select(choice.covered, mix(mix(first, second, choice.blend), white, choice.fade), white);
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,48 @@
+#include "tests/renderer/cpu/shadow_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow_kernels.cpp"
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/shadow_visibility-inl.h"
+#include "tests/renderer/cpu/asked_points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+void visibilities(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    alignas(64) float lanes[kLanes];
+    store(shadowVisibility(maps, 0, packet.receiver, packet.toLight, packet.receiver.shown), lanes);
+    std::copy_n(lanes, packet.count, out + first);
+  }
+}
+
+void tints(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    const Float3 tint = cascadeTint(maps, 0, packet.receiver, packet.toLight);
+    storePoints(tint, out + first, packet.count);
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+
+HWY_EXPORT(visibilities);
+HWY_EXPORT(tints);
+
+void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out) {
+  HWY_DYNAMIC_DISPATCH(visibilities)(maps, points, out);
+}
+
+void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {
+  HWY_DYNAMIC_DISPATCH(tints)(maps, points, out);
+}
+
+} // namespace gnomon::cpu
+#endif

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "renderer/cpu/shadow_maps.h"
+
+namespace gnomon::cpu {
+
+/// A point that light is asked for, and where the light is.
+struct AskedPoint {
+  glm::vec3 relative{0};
+  glm::vec3 normal{0, 0, 1};
+  float viewDepth = 0;
+  unsigned groupBit = 1;
+  glm::vec2 place{0.5f};
+  unsigned samples = 1;
+  glm::vec3 toLight{0, 0, 1};
+};
+
+// Sixteen points at a time; `points` and `out` are of one length, which may be any.
+
+/// shadowVisibility of light 0.
+void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out);
+/// cascadeTint of light 0.
+void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out);
+
+} // namespace gnomon::cpu

@@ -1,0 +1,291 @@
+#include "tests/renderer/cpu/shadow_truth.h"
+
+#include <cmath>
+
+namespace gnomon::cpu::truth {
+
+using glm::abs;
+using glm::clamp;
+using glm::dot;
+using glm::floor;
+using glm::fract;
+using glm::ivec2;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using shared::LightData;
+using shared::TileData;
+
+namespace {
+
+bool isParallel(const TileData& tile) {
+  return dot(vec3(tile.atlasFromRelative[3]), tile.axis) == 0.0f;
+}
+
+vec3 movedReceiver(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
+  if (light.hasManualBias != 0u) {
+    const float cosine = clamp(dot(receiver.normal, receiver.toLight), 1e-2f, 1.0f);
+    const float tangent = std::sqrt(1.0f - cosine * cosine) / cosine;
+    return receiver.relative + receiver.normal * light.manualNormalOffset +
+           receiver.toLight * (light.manualDepthBias + light.manualSlopeBias * tangent);
+  }
+  const float cosine = dot(receiver.normal, tile.axis);
+  float offset = tile.normalOffset * std::sqrt(max(1.0f - cosine * cosine, 0.0f));
+  offset *= dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0f));
+  return receiver.relative + receiver.normal * offset;
+}
+
+vec2 comparedSlope(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
+  if (light.hasManualBias != 0u) return vec2(0.0f);
+  const vec2 across(dot(receiver.normal, tile.right), dot(receiver.normal, tile.up));
+  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis), -1e-4f);
+  return across / min(dot(receiver.normal, receiver.relative - light.position), -1e-6f);
+}
+
+float bendRoom(const LightData& light, const TileData& tile, const Lookup& at, vec2 slope, float reach) {
+  if (light.hasManualBias != 0u) return 0.0f;
+  const float texel = tile.texelDepth / at.divisor;
+  const float bent = texel + dot(slope, slope) / max(texel, 1e-30f);
+  const float most = 0.3f * (texel + abs(slope.x) + abs(slope.y));
+  return max(min(0.1f * bent, most), 2e-4f * reach * bent);
+}
+
+/// The atlas, and the tile that is read.
+struct Reading {
+  const ShadowMaps& maps;
+  const TileData& tile;
+  const TileMap& map;
+  vec2 slope;
+
+  float depth(ivec2 texel, int sample = 0) const {
+    return map.depths->depths[map.depths->at(texel.x - map.rect.x, texel.y - map.rect.y, sample)];
+  }
+  /// Of one texel, for a plane whose depth at `place` (texels of the atlas) is `plane`.
+  float lit(ivec2 texel, vec2 place, float plane) const {
+    const float held = plane + dot(slope, vec2(texel) + 0.5f - place);
+    return depth(texel) < min(held, 1.0f) ? 0.0f : 1.0f;
+  }
+  float bilinear(vec2 place, float plane) const {
+    const vec2 corner = floor(place - 0.5f) + 1.0f;
+    const vec2 fraction = place + 0.5f - corner;
+    const ivec2 high(corner);
+    const float low = mix(lit(high - ivec2(1, 1), place, plane), lit(high - ivec2(0, 1), place, plane), fraction.x);
+    return mix(low, mix(lit(high - ivec2(1, 0), place, plane), lit(high, place, plane), fraction.x), fraction.y);
+  }
+  float square(vec2 place, float plane, int size) const {
+    const ivec2 middle(place);
+    float sum = 0;
+    for (int y = -(size / 2); y <= size / 2; ++y) {
+      for (int x = -(size / 2); x <= size / 2; ++x) {
+        const ivec2 texel = middle + ivec2(x, y);
+        const float held = plane + dot(slope, vec2(texel) + 0.5f - place) - 0.5f * (abs(slope.x) + abs(slope.y));
+        for (int i = 0; i < 4; ++i) sum += depth(texel, i) < min(held, 1.0f) ? 0.0f : 0.25f;
+      }
+    }
+    return sum / static_cast<float>(size * size);
+  }
+  float kernel(vec2 place, float plane, int size) const {
+    if (map.depths->samples > 1) return square(place, plane, size);
+    if (size <= 1) return bilinear(place, plane);
+    const float kernels[3][7] = {{1, 2, 1}, {1, 3, 4, 3, 1}, {1, 5, 12, 16, 12, 5, 1}};
+    const float* weights = kernels[size / 2 - 1];
+    float sum = 0;
+    float all = 0;
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const vec2 step = vec2(x, y) - static_cast<float>(size / 2);
+        // Neighbours of a bilinear comparison: the texels stay the same whichever comparison weighs them.
+        sum += weights[x] * weights[y] * bilinear(place + step, plane + dot(slope, step));
+        all += weights[x] * weights[y];
+      }
+    }
+    return sum / all;
+  }
+  float disc(const Lookup& at, float radius, vec2 pixel) const {
+    const vec2 texels = maps.atlasTexels;
+    if (!isParallel(tile)) radius = min(radius / at.divisor, 0.5f);
+    const float turn = 6.2831853f * fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
+    float sum = 0;
+    for (int i = 0; i < 32; ++i) {
+      const float angle = turn + static_cast<float>(i) * 2.39996323f;
+      const vec2 step =
+          vec2(std::cos(angle), std::sin(angle)) * (radius * std::sqrt((static_cast<float>(i) + 0.5f) / 32.0f));
+      const vec2 place = vec2(at.coordinate) + step * tile.atlasPerMetre;
+      const bool outside =
+          glm::any(glm::lessThan(place, tile.lowest)) || glm::any(glm::greaterThan(place, tile.highest));
+      const float plane = at.coordinate.z + dot(slope, (place - vec2(at.coordinate)) * texels);
+      sum += outside ? 1.0f : kernel(place * texels, plane, 1);
+    }
+    return sum / 32.0f;
+  }
+  vec4 moments(vec2 place) const {
+    const auto texel = [&](ivec2 at) {
+      return map.moments[static_cast<std::size_t>((at.y - map.rect.y) * map.rect.width + at.x - map.rect.x)];
+    };
+    const vec2 base = floor(place - 0.5f);
+    const vec2 fraction = place - 0.5f - base;
+    const ivec2 low(base);
+    return mix(mix(texel(low), texel(low + ivec2(1, 0)), fraction.x),
+               mix(texel(low + ivec2(0, 1)), texel(low + ivec2(1, 1)), fraction.x), fraction.y);
+  }
+};
+
+float chebyshev(vec2 moments, float depth, float leastVariance) {
+  if (depth <= moments.x) return 1.0f;
+  const float variance = max(moments.y - moments.x * moments.x, leastVariance);
+  const float beyond = depth - moments.x;
+  return variance / (variance + beyond * beyond);
+}
+
+float hamburger(vec4 moments, float depth) {
+  const vec4 m = mix(moments, vec4(0.0f, 0.375f, 0.0f, 0.375f), 3e-7f);
+  const float d1 = max(m.y - m.x * m.x, 1e-12f);
+  const float l21 = (m.z - m.x * m.y) / d1;
+  const float d2 = max(m.w - m.y * m.y - l21 * l21 * d1, 1e-12f);
+  const float y1 = depth - m.x;
+  const float y2 = depth * depth - m.y - l21 * y1;
+  const float x2 = y2 / d2;
+  const float x1 = y1 / d1 - l21 * x2;
+  const float x0 = 1.0f - m.x * x1 - m.y * x2;
+  const float half = -0.5f * x1 / x2;
+  const float spread = std::sqrt(max(half * half - x0 / x2, 0.0f));
+  const float low = half - spread;
+  const float high = half + spread;
+  if (depth <= low) return 0.0f;
+  if (depth <= high) {
+    return clamp((depth * high - m.x * (depth + high) + m.y) / ((high - low) * (depth - low)), 0.0f, 1.0f);
+  }
+  return clamp(1.0f - (low * high - m.x * (low + high) + m.y) / ((depth - low) * (depth - high)), 0.0f, 1.0f);
+}
+
+float withoutBleeding(float share) {
+  return clamp((share - 0.2f) / 0.8f, 0.0f, 1.0f);
+}
+
+float visibilityFrom(vec4 moments, float depth, int kind) {
+  if (kind == GNOMON_FILTER_VSM) return withoutBleeding(chebyshev(vec2(moments), depth - 0.5f, 1e-7f));
+  if (kind == GNOMON_FILTER_MSM) return withoutBleeding(1.0f - hamburger(moments, 2.0f * depth - 1.0f));
+  const float z = 2.0f * depth - 1.0f;
+  const vec2 w(std::exp(40.0f * z), -std::exp(-5.0f * z));
+  vec2 least = 1e-4f * vec2(40, 5) * w;
+  least *= least;
+  return withoutBleeding(min(chebyshev(vec2(moments), w.x, least.x), chebyshev({moments.z, moments.w}, w.y, least.y)));
+}
+
+float momentDepth(const TileData& tile, const Lookup& at) {
+  if (isParallel(tile)) return clamp(at.coordinate.z, 0.0f, 1.0f);
+  const float bias = (3.0f * tile.depthBias * at.divisor * at.divisor + tile.depthBiasNear) / (tile.near * tile.far);
+  return clamp((at.divisor - tile.near) / (tile.far - tile.near) - bias, 0.0f, 1.0f);
+}
+
+float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t index, const AskedPoint& receiver) {
+  const TileData& tile = maps.tiles[index];
+  Lookup at = lookupIn(light, tile, receiver);
+  if (!at.inside) return 1.0f;
+  const vec2 slope = comparedSlope(light, tile, receiver);
+  const Reading reading{maps, tile, maps.maps[index], slope};
+  const vec2 place = vec2(at.coordinate) * maps.atlasTexels;
+  if (GNOMON_READS_MOMENTS(light.filterKind)) {
+    return visibilityFrom(reading.moments(place), momentDepth(tile, at), light.filterKind);
+  }
+  if (light.filterKind == GNOMON_FILTER_DISC) {
+    const vec2 radius = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels / at.divisor;
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + max(radius.x, radius.y));
+    return reading.disc(at, light.filterRadius, receiver.place);
+  }
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
+  return reading.kernel(place, at.coordinate.z, light.filterSize);
+}
+
+TileChoice chooseCascade(const ShadowMaps& maps, const LightData& light, float viewDepth) {
+  const int last = static_cast<int>(light.tileCount) - 1;
+  int index = 0;
+  const auto tile = [&](int i) -> const TileData& { return maps.tiles[light.firstTile + static_cast<unsigned>(i)]; };
+  while (index < last && viewDepth > tile(index).far) ++index;
+  const bool begun = viewDepth >= tile(0).near;
+  const float blendNear = tile(index).blendNear;
+  const float far = tile(index).far;
+  const float zone = far > blendNear ? glm::smoothstep(blendNear, far, viewDepth) : 0.0f;
+  const bool fades = light.fadesOut != 0u;
+  if (index < last) return {index, zone > 0.0f ? index + 1 : index, zone, 0.0f, begun};
+  return {index, index, 0.0f, fades ? zone : 0.0f, begun && (!fades || viewDepth <= far)};
+}
+
+float layerValue(const Layer& layer, const AskedPoint& receiver) {
+  const auto pixel = static_cast<std::size_t>(receiver.place.y) * static_cast<std::size_t>(layer.width) +
+                     static_cast<std::size_t>(receiver.place.x);
+  if (layer.samples == 1) return static_cast<float>(layer.values[pixel]) / 65535.0f;
+  float sum = 0;
+  float count = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if ((receiver.samples >> i & 1u) == 0) continue;
+    sum += static_cast<float>(layer.values[4 * pixel + i]) / 65535.0f;
+    count += 1;
+  }
+  return sum / count;
+}
+
+} // namespace
+
+Lookup lookupIn(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
+  const vec4 p(movedReceiver(light, tile, receiver), 1.0f);
+  Lookup at;
+  at.coordinate =
+      vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p), dot(tile.atlasFromRelative[2], p));
+  at.divisor = dot(tile.atlasFromRelative[3], p);
+  if (at.divisor <= 0.0f) return {vec3(0.0f), 1.0f, false};
+  at.coordinate /= at.divisor;
+  at.coordinate.z -= tile.depthBias + tile.depthBiasNear / (at.divisor * at.divisor);
+  at.inside = glm::all(glm::greaterThanEqual(vec2(at.coordinate), tile.lowest)) &&
+              glm::all(glm::lessThanEqual(vec2(at.coordinate), tile.highest));
+  return at;
+}
+
+TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& receiver) {
+  const LightData& data = maps.lights[static_cast<std::size_t>(light)];
+  if (data.type == GNOMON_DIRECTIONAL) return chooseCascade(maps, data, receiver.viewDepth);
+  int best = 0;
+  float most = -2.0f;
+  for (unsigned i = 0; i < data.tileCount; ++i) {
+    const float along = -dot(maps.tiles[data.firstTile + i].axis, receiver.toLight);
+    if (along > most) {
+      most = along;
+      best = static_cast<int>(i);
+    }
+  }
+  return {best, best, 0.0f, 0.0f, true};
+}
+
+float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& receiver) {
+  const LightData& data = maps.lights[static_cast<std::size_t>(light)];
+  const bool turnedAway = dot(receiver.normal, receiver.toLight) <= 1e-4f;
+  const bool receives = (data.shadowedGroups & receiver.groupBit) != 0u;
+  if (data.visibilityLayer > 0u) {
+    if (!receives) return 1.0f;
+    float visibility = layerValue(maps.layers[data.visibilityLayer - 1], receiver);
+    if (data.layerOmitsTurnedFaces != 0u && turnedAway) visibility = 0.0f;
+    return mix(1.0f, visibility, data.strength);
+  }
+  if (data.tileCount == 0u || !receives) return 1.0f;
+  const TileChoice choice = chooseTile(maps, light, receiver);
+  if (!choice.covered) return 1.0f;
+  float visibility = 0.0f;
+  for (int i = choice.first; i <= choice.second && !turnedAway; ++i) {
+    const float share = i == choice.first ? 1.0f - choice.blend : choice.blend;
+    visibility += share * tileVisibility(maps, data, data.firstTile + static_cast<unsigned>(i), receiver);
+  }
+  visibility = mix(visibility, 1.0f, choice.fade);
+  return mix(1.0f, visibility, data.strength);
+}
+
+vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& receiver) {
+  const vec3 tints[] = {GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
+  const TileChoice choice = chooseTile(maps, light, receiver);
+  if (!choice.covered) return vec3(1.0f);
+  return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0f), choice.fade);
+}
+
+} // namespace gnomon::cpu::truth

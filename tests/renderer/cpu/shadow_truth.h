@@ -1,0 +1,28 @@
+#pragma once
+
+#include "renderer/cpu/shadow_maps.h"
+#include "tests/renderer/cpu/shadow_kernels.h"
+
+/// What shaders/common_shadow*.glsl compute, a number at a time: their text with GLM's names.
+namespace gnomon::cpu::truth {
+
+struct Lookup {
+  glm::vec3 coordinate{0};
+  float divisor = 1;
+  bool inside = false;
+};
+
+struct TileChoice {
+  int first = 0;
+  int second = 0;
+  float blend = 0;
+  float fade = 0;
+  bool covered = false;
+};
+
+Lookup lookupIn(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& point);
+TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& point);
+float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& point);
+glm::vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& point);
+
+} // namespace gnomon::cpu::truth

@@ -1,0 +1,198 @@
+#include <cmath>
+
+#include "tests/renderer/cpu/each_target.h"
+#include "tests/renderer/cpu/random_maps.h"
+#include "tests/renderer/cpu/shadow_truth.h"
+
+namespace gnomon::cpu {
+namespace {
+
+constexpr int kPoints = 100'000;
+
+struct Case {
+  const char* name;
+  MapsOptions options;
+};
+
+const Case kCases[] = {
+    {"one bilinear comparison", {}},
+    {"3 x 3", {.filterSize = 3}},
+    {"5 x 5", {.filterSize = 5}},
+    {"7 x 7", {.filterSize = 7}},
+    {"7 x 7, fades out", {.filterSize = 7, .fadesOut = true}},
+    {"5 x 5 of a point light", {.lightType = GNOMON_POINT, .filterSize = 5}},
+    {"3 x 3, manual bias", {.filterSize = 3, .manualBias = true}},
+    {"3 x 3 of a spot light, manual bias", {.lightType = GNOMON_SPOT, .filterSize = 3, .manualBias = true}},
+    {"4 samples a texel", {.samples = 4}},
+    {"5 x 5 of 4 samples a texel", {.filterSize = 5, .samples = 4}},
+    {"5 x 5 of 4 samples a texel of a point light", {.lightType = GNOMON_POINT, .filterSize = 5, .samples = 4}},
+    {"disc", {.filterKind = GNOMON_FILTER_DISC}},
+    {"disc of a point light", {.lightType = GNOMON_POINT, .filterKind = GNOMON_FILTER_DISC}},
+    {"disc of 4 samples a texel", {.filterKind = GNOMON_FILTER_DISC, .samples = 4}},
+    {"vsm", {.filterKind = GNOMON_FILTER_VSM}},
+    {"vsm of a point light", {.lightType = GNOMON_POINT, .filterKind = GNOMON_FILTER_VSM}},
+    {"evsm", {.filterKind = GNOMON_FILTER_EVSM}},
+    {"evsm of a point light", {.lightType = GNOMON_POINT, .filterKind = GNOMON_FILTER_EVSM}},
+    {"msm", {.filterKind = GNOMON_FILTER_MSM}},
+    {"msm of a point light", {.lightType = GNOMON_POINT, .filterKind = GNOMON_FILTER_MSM}},
+};
+
+struct Difference {
+  int points = 0;  ///< that differ by more than a 500th
+  int between = 0; ///< points that are neither lit nor in full shadow
+  double mean = 0;
+  float greatest = 0;
+};
+
+std::vector<float> expectedOf(const ShadowMaps& maps, const std::vector<AskedPoint>& points) {
+  std::vector<float> expected;
+  for (const AskedPoint& point : points) expected.push_back(truth::shadowVisibility(maps, 0, point));
+  return expected;
+}
+
+Difference differences(const ShadowMaps& maps, const std::vector<AskedPoint>& points,
+                       const std::vector<float>& expected) {
+  std::vector<float> seen(points.size());
+  visibilitiesByLanes(maps, points, seen.data());
+  Difference result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float off = std::abs(seen[i] - expected[i]);
+    if (!(off <= 2e-3f)) ++result.points;
+    if (expected[i] > 0.11f && expected[i] < 0.99f) ++result.between;
+    result.mean += off / static_cast<double>(points.size());
+    result.greatest = std::max(result.greatest, off);
+  }
+  return result;
+}
+
+// A comparison may turn over where the plane meets a texel's depth to within rounding.
+TEST(ShadowVisibility, LanesGiveWhatTheShadersText) {
+  for (const Case& c : kCases) {
+    std::mt19937 random(7);
+    const RandomMaps maps = randomMaps(random, c.options);
+    const std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
+    const std::vector<float> expected = expectedOf(maps.view(), points);
+    onEachTarget([&](const char* target) {
+      const Difference off = differences(maps.view(), points, expected);
+      EXPECT_LE(off.points, kPoints / 1000) << c.name << " " << target << ", greatest " << off.greatest;
+      EXPECT_LE(off.mean, 2e-5) << c.name << " " << target;
+      EXPECT_GE(off.between, kPoints / 200) << c.name;
+    });
+  }
+}
+
+std::vector<AskedPoint> quarterSteps(const RandomMaps& maps) {
+  std::vector<AskedPoint> points;
+  for (int y = 40; y <= 152; ++y) { // from 10 to 38 texels; the bounds lie at 12 and 36
+    for (int x = 40; x <= 152; ++x) {
+      AskedPoint point;
+      point.relative = glm::vec3(0.25f * static_cast<float>(x), 0.25f * static_cast<float>(y), 20 + (x + y) % 32);
+      point.toLight = maps.lights[0].direction;
+      point.normal = point.toLight;
+      point.groupBit = 2;
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+TEST(ShadowVisibility, BoundsAndEdgesOfTexelsAreExact) {
+  for (const int samples : {1, 4}) {
+    for (const int size : {1, 3, 5, 7}) {
+      std::mt19937 random(8);
+      RandomMaps maps = exactMaps(random, {.filterSize = size, .samples = samples});
+      maps.lights[0].strength = 1;
+      const std::vector<AskedPoint> points = quarterSteps(maps);
+      const ShadowMaps view = maps.view();
+      const std::vector<float> expected = expectedOf(view, points);
+      onEachTarget([&](const char* target) {
+        std::vector<float> seen(points.size());
+        visibilitiesByLanes(view, points, seen.data());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const glm::vec3& at = points[i].relative;
+          ASSERT_NEAR(seen[i], expected[i], 1e-6)
+              << target << " " << size << " at " << at.x << " " << at.y << " " << at.z;
+          const bool beyond = std::min(at.x, at.y) < 12 || std::max(at.x, at.y) > 36;
+          ASSERT_TRUE(!beyond || seen[i] == 1.0f) << target << " at " << at.x << " " << at.y;
+        }
+      });
+    }
+  }
+}
+
+TEST(ShadowVisibility, FacesTurnedAwayAreInShadow) {
+  std::mt19937 random(9);
+  const RandomMaps maps = exactMaps(random, {});
+  AskedPoint point;
+  point.relative = glm::vec3(20, 20, 10);
+  point.toLight = maps.lights[0].direction;
+  point.normal = -point.toLight;
+  point.groupBit = 2;
+  onEachTarget([&](const char* target) {
+    float seen = -1;
+    visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
+    EXPECT_FLOAT_EQ(seen, 0.1f) << target;
+  });
+}
+
+TEST(ShadowVisibility, ATileWithoutTexelsIsLit) {
+  std::mt19937 random(9);
+  RandomMaps maps = exactMaps(random, {});
+  maps.maps[0] = {};
+  std::swap(maps.tiles[0].lowest, maps.tiles[0].highest);
+  AskedPoint point;
+  point.relative = glm::vec3(20, 20, 60);
+  point.toLight = maps.lights[0].direction;
+  point.normal = point.toLight;
+  point.groupBit = 2;
+  onEachTarget([&](const char* target) {
+    float seen = -1;
+    visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
+    EXPECT_FLOAT_EQ(seen, 1) << target;
+  });
+}
+
+TEST(ShadowVisibility, LayersAreReadPixelByPixel) {
+  for (const int samples : {1, 4}) {
+    for (const bool omitsTurnedFaces : {false, true}) {
+      std::mt19937 random(10);
+      RandomMaps maps = randomMaps(random, {});
+      maps.lights[0].visibilityLayer = 2;
+      maps.lights[0].layerOmitsTurnedFaces = omitsTurnedFaces ? 1 : 0;
+      std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
+      for (AskedPoint& point : points) point.samples = samples == 1 ? 1u : 1u + static_cast<unsigned>(random() % 15);
+      const int width = 640;
+      std::vector<std::uint16_t> values(static_cast<std::size_t>(width * (kPoints / width + 1) * samples));
+      for (std::uint16_t& value : values) value = static_cast<std::uint16_t>(random());
+      const Layer layers[] = {{}, {values.data(), width, samples}};
+      ShadowMaps view = maps.view();
+      view.layers = layers;
+      const std::vector<float> expected = expectedOf(view, points);
+      onEachTarget([&](const char* target) {
+        const Difference off = differences(view, points, expected);
+        EXPECT_LE(off.greatest, 1e-6f) << target;
+      });
+    }
+  }
+}
+
+TEST(CascadeTint, LanesGiveWhatTheShadersText) {
+  for (const int type : {GNOMON_DIRECTIONAL, GNOMON_POINT}) {
+    std::mt19937 random(11);
+    const RandomMaps maps = randomMaps(random, {.lightType = type, .fadesOut = true});
+    const std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
+    onEachTarget([&](const char* target) {
+      std::vector<glm::vec3> seen(points.size());
+      tintsByLanes(maps.view(), points, seen.data());
+      float greatest = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 off = glm::abs(seen[i] - truth::cascadeTint(maps.view(), 0, points[i]));
+        greatest = std::max({greatest, off.x, off.y, off.z});
+      }
+      EXPECT_LE(greatest, 1e-5f) << target;
+    });
+  }
+}
+
+} // namespace
+} // namespace gnomon::cpu
