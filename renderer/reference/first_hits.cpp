@@ -33,15 +33,23 @@ struct Stretch {
   double to = std::numeric_limits<double>::infinity();
 };
 
+/// std::fmin and std::fmax, without the call.
+double lesser(double a, double b) {
+  return a < b || b != b ? a : b;
+}
+double greater(double a, double b) {
+  return a > b || b != b ? a : b;
+}
+
 /// What lies in the box of a line (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986).
 Stretch stretchIn(const Aabb& box, const glm::dvec3& origin, const glm::dvec3& direction) {
   Stretch inside;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = (box.min[axis] - origin[axis]) / direction[axis];
     const double high = (box.max[axis] - origin[axis]) / direction[axis];
-    // fmin and fmax pass over what is not a number: an origin in the very side that the line runs along.
-    inside.from = std::fmax(inside.from, std::fmin(low, high));
-    inside.to = std::fmin(inside.to, std::fmax(low, high));
+    // What is not a number is passed over: an origin in the very side that the line runs along.
+    inside.from = greater(inside.from, lesser(low, high));
+    inside.to = lesser(inside.to, greater(low, high));
   }
   return inside;
 }
@@ -80,8 +88,7 @@ constexpr std::size_t kPointsAtOnce = 4096; ///< found by one core at a time
 
 /// Where a camera ray of this direction crosses a triangle. `at`: as crossing() gives it.
 SurfacePoint surfacePoint(const glm::dvec3& direction, const PlacedTriangle& on, const Triangle& triangle,
-                          const Barycentric& at) {
-  const glm::dvec3 area = triangle.area();
+                          const glm::dvec3& area, const Barycentric& at) {
   const bool away = glm::dot(area, direction) > 0;
   return {at.mix(triangle.a, triangle.b, triangle.c), glm::vec3(unitAlong(away ? -area : area)), on.instance,
           on.triangle};
@@ -92,7 +99,7 @@ constexpr std::size_t kRaysAtOnce = 512; ///< traced by one core at a time
 struct Eye {
   const TraceInput& input;
   const TracedScene::Tree& tree;
-  std::vector<std::uint8_t> visible; ///< one an instance
+  std::span<const std::uint8_t> visible; ///< one an instance
 };
 
 /// Embree's context, and what its filter needs of the rays.
@@ -115,7 +122,7 @@ std::optional<SurfacePoint> seen(const Eye& eye, const CameraRay& ray, const Can
       !(alphaAt(eye.tree, hit.instance, hit.triangle, at) >= material.alphaCutoff)) {
     return std::nullopt;
   }
-  return surfacePoint(ray.direction, {hit.instance, hit.triangle}, triangle, at);
+  return surfacePoint(ray.direction, {hit.instance, hit.triangle}, triangle, area, at);
 }
 
 void keepSeen(const RTCFilterFunctionNArguments* call) {
@@ -151,6 +158,7 @@ void trace(const Eye& eye, std::span<const glm::vec2> places, std::span<SurfaceP
   intersect();
   Lanes again;
   for (unsigned i = 0; i < places.size(); ++i) {
+    points[i] = {};
     if (lanes.active[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     if (const auto point = seen(eye, query.rays[i], candidateOf(packet, i))) {
       points[i] = *point;
@@ -171,15 +179,22 @@ void trace(const Eye& eye, std::span<const glm::vec2> places, std::span<SurfaceP
 
 } // namespace
 
+TracedCamera::TracedCamera(const TraceInput& input)
+    : input_(input), visible_(instancesWhere(input, [](const NodeSwitches& node) { return node.visible; })) {}
+
+void TracedCamera::firstHits(std::span<const glm::vec2> places, std::span<SurfacePoint> points) const {
+  const Eye eye{input_, input_.traced.tree(), visible_};
+  for (std::size_t first = 0; first < places.size(); first += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, places.size() - first);
+    trace(eye, places.subspan(first, count), points.subspan(first, count));
+  }
+}
+
 std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm::vec2> places) {
-  const Eye eye{input, input.traced.tree(),
-                instancesWhere(input, [](const NodeSwitches& node) { return node.visible; })};
+  const TracedCamera camera(input);
   std::vector<SurfacePoint> points(places.size());
   forEachPiece(places.size(), kRaysAtOnce, [&](std::size_t first, std::size_t last) {
-    for (; first < last; first += kLanes) {
-      const std::size_t count = std::min<std::size_t>(kLanes, last - first);
-      trace(eye, places.subspan(first, count), std::span(points).subspan(first, count));
-    }
+    camera.firstHits(places.subspan(first, last - first), std::span(points).subspan(first, last - first));
   });
   return points;
 }
@@ -195,7 +210,7 @@ std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm:
       const SightLine line = sightLine(input.camera, tree.anchor, size, glm::dvec2(places[i]));
       const Triangle triangle = tree.triangle(triangles[i].instance, triangles[i].triangle);
       const Barycentric at = crossing(triangle, line.origin, line.direction, {1.0 / 3.0, 1.0 / 3.0});
-      points[i] = surfacePoint(line.direction, triangles[i], triangle, at);
+      points[i] = surfacePoint(line.direction, triangles[i], triangle, triangle.area(), at);
     }
   });
   return points;

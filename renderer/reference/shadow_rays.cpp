@@ -20,29 +20,41 @@ double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest) {
 /// Where a ray is started for Embree: the point, moved off its surface by what is lost at most when it becomes a float
 /// (after Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019). It
 /// only spares candidates: `meets` decides.
-glm::dvec3 startOf(const Receiver& from) {
-  return from.position + from.normal * (2 * kHalfUnit * glm::dot(glm::abs(from.normal), glm::abs(from.position)));
+glm::dvec3 startOf(const SurfacePoint& from) {
+  const glm::dvec3 normal(from.normal);
+  return from.position + normal * (2 * kHalfUnit * glm::dot(glm::abs(normal), glm::abs(from.position)));
+}
+
+double sumOf(const glm::dvec3& v) {
+  return v.x + v.y + v.z;
 }
 
 /// Embree's context, and what its filters need of the rays.
 struct LightQuery {
   RTCIntersectContext context;
   const Casters* casters = nullptr;
-  std::span<const ShadowRay> rays;
+  std::span<const RayToLight> rays;
   std::array<float, kLanes> through{}; ///< of the light, past the casters met so far that let some of it through
 };
 
+bool meetsCaster(const Casters& casters, const RayToLight& ray, const Triangle& caster) {
+  if (surelyMeets(ray, caster, casters.rounding)) return true;
+  const Receiver receiver = receiverAt(casters.tree, casters.eye, *ray.from);
+  return meets({receiver, ray.way.direction, ray.way.length}, caster).has_value();
+}
+
 /// The share of the light that the caster stops: 0 where it can't throw a shadow onto the ray's start.
 double opacityOf(const LightQuery& query, const Candidate& hit) {
-  const ShadowRay& ray = query.rays[hit.lane];
+  const RayToLight& ray = query.rays[hit.lane];
   const Casters& casters = *query.casters;
-  if (casters.cast[hit.instance] == 0) return 0;
-  if (hit.instance == ray.from.instance && hit.triangle == ray.from.triangle) return 0;
+  const Opacity opacity = casters.opacity[hit.instance];
+  if (opacity == Opacity::none) return 0;
+  if (hit.instance == ray.from->instance && hit.triangle == ray.from->triangle) return 0;
   const Triangle triangle = casters.tree.triangle(hit.instance, hit.triangle);
-  if (!meets(ray, triangle)) return 0;
+  if (!meetsCaster(casters, ray, triangle)) return 0;
+  if (opacity == Opacity::full) return 1;
   const Material& material = casters.tree.material(hit.instance);
-  if (material.alphaMode == AlphaMode::opaque) return 1;
-  const Barycentric at = crossing(triangle, ray.from.position, ray.direction, {hit.u, hit.v});
+  const Barycentric at = crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v});
   const double alpha = alphaAt(casters.tree, hit.instance, hit.triangle, at);
   const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
   return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
@@ -66,7 +78,7 @@ void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
   filterCandidates(*call, [&](const Candidate& hit) { return opacityOf(query, hit) > 0.5; });
 }
 
-LightQuery queryFor(const Casters& casters, std::span<const ShadowRay> rays, RTCFilterFunctionN filter) {
+LightQuery queryFor(const Casters& casters, std::span<const RayToLight> rays, RTCFilterFunctionN filter) {
   LightQuery query;
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -77,10 +89,10 @@ LightQuery queryFor(const Casters& casters, std::span<const ShadowRay> rays, RTC
   return query;
 }
 
-void setRays(const Casters& casters, std::span<const ShadowRay> rays, RTCRay16& packet) {
+void setRays(const Casters& casters, std::span<const RayToLight> rays, RTCRay16& packet) {
   const double scale = casters.tree.scale;
   for (unsigned i = 0; i < rays.size(); ++i) {
-    setRay(packet, i, startOf(rays[i].from) * scale, rays[i].direction, rays[i].length * scale);
+    setRay(packet, i, startOf(*rays[i].from) * scale, rays[i].way.direction, rays[i].way.length * scale);
   }
 }
 
@@ -121,7 +133,33 @@ std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
   return distance;
 }
 
-std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const ShadowRay> rays) {
+double roundingIn(const TracedScene::Tree& tree) {
+  if (tree.bounds.empty()) return 0;
+  const glm::dvec3 largest = glm::max(glm::abs(tree.bounds.min), glm::abs(tree.bounds.max));
+  return 16 * kHalfUnit * (sumOf(largest) + glm::length(2.0 * tree.bounds.halfExtent()));
+}
+
+bool surelyMeets(const RayToLight& ray, const Triangle& caster, double rounding) {
+  const glm::dvec3& point = ray.from->position;
+  const glm::dvec3 area = caster.area();
+  const double across = glm::dot(area, ray.way.direction);
+  const double away = glm::dot(area, caster.a - point);
+  // Some corner of the receiver lies as far off the caster's plane as the point does.
+  const double squared = glm::dot(area, area);
+  if (!(away * away > rounding * rounding * squared)) return false;
+  const double distance = away / across;
+  if (!(distance > 0 && distance < ray.way.length)) return false;
+  const glm::dvec3 normal(ray.from->normal);
+  const auto rises = [&](const glm::dvec3& corner) { return glm::dot(normal, corner - point) > rounding; };
+  if (!rises(caster.a) && !rises(caster.b) && !rises(caster.c)) return false;
+  if (std::isinf(ray.way.length)) return true;
+  const glm::dvec3 light = point + ray.way.direction * ray.way.length;
+  const double beyond = ray.way.length * across - away;
+  const double unsure = rounding + 16 * kHalfUnit * sumOf(glm::abs(light));
+  return beyond * beyond > unsure * unsure * squared;
+}
+
+std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const RayToLight> rays) {
   LightQuery query = queryFor(casters, rays, keepOpaque);
   RTCRay16 packet;
   setRays(casters, rays, packet);
@@ -132,7 +170,7 @@ std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const 
   return shares;
 }
 
-std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const ShadowRay> rays) {
+std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const RayToLight> rays) {
   LightQuery query = queryFor(casters, rays, keepHalfOpaque);
   RTCRayHit16 packet;
   setRays(casters, rays, packet.ray);
@@ -141,10 +179,14 @@ std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const Sha
   rtcIntersect16(lanes.active.data(), casters.tree.rays.get(), &query.context, &packet);
   std::array<float, kLanes> distances{};
   for (unsigned i = 0; i < rays.size(); ++i) {
-    const bool hidden = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    distances[i] = static_cast<float>(
-        hidden ? meets(rays[i], casters.tree.triangle(packet.hit.geomID[i], packet.hit.primID[i])).value_or(kInfinity)
-               : kInfinity);
+    if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
+      distances[i] = std::numeric_limits<float>::infinity();
+      continue;
+    }
+    const Receiver receiver = receiverAt(casters.tree, casters.eye, *rays[i].from);
+    const Triangle caster = casters.tree.triangle(packet.hit.geomID[i], packet.hit.primID[i]);
+    distances[i] =
+        static_cast<float>(meets({receiver, rays[i].way.direction, rays[i].way.length}, caster).value_or(kInfinity));
   }
   return distances;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/spec/shadow_options.h"
+#include "renderer/reference/light_source.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"
@@ -31,23 +32,41 @@ struct ShadowRay {
   double length = 0;       ///< metres to the light; infinite for directional ones
 };
 
+/// The same, as little as rays need until a caster comes near the planes that rounding moves.
+struct RayToLight {
+  const SurfacePoint* from = nullptr; ///< outlives the ray
+  WayToLight way;
+};
+
+/// How an instance stops light.
+enum class Opacity : std::uint8_t { none, full, byAlpha };
+
 /// What throws shadows of a light.
 struct Casters {
   const TracedScene::Tree& tree;
-  std::vector<std::uint8_t> cast; ///< one an instance
+  glm::dvec3 eye{0};            ///< of the camera that sees the points, relative to the anchor
+  std::vector<Opacity> opacity; ///< one an instance
   BlendedCasters blended = BlendedCasters::dither;
+  double rounding = 0; ///< roundingIn(tree)
 };
 
 /// The share of the light that comes through, for up to kLanes rays.
-std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const ShadowRay> rays);
+std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const RayToLight> rays);
 
 /// Metres to the nearest caster that lets through less than half, for up to kLanes rays; infinity where none does.
-std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const ShadowRay> rays);
+std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const RayToLight> rays);
 
 /// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
 /// it does not rise over the plane of the receiver, or the receiver's triangle lies in its plane, or it lies behind
 /// the receiver's point, or beyond the light. What vertices and the camera's rays lose by being rounded decides for
 /// light: neither a coplanar triangle nor a neighbour in a flat mesh casts.
 std::optional<double> meets(const ShadowRay& ray, const Triangle& caster);
+
+/// Metres: twice what `meets` puts down to rounding at most, of any two triangles of the scene and any eye.
+double roundingIn(const TracedScene::Tree& tree);
+
+/// True only where `meets` finds a distance: the caster's plane and the receiver's lie farther off each other than
+/// rounding (roundingIn) moves either. Needs neither the receiver's triangle nor a unit normal.
+bool surelyMeets(const RayToLight& ray, const Triangle& caster, double rounding);
 
 } // namespace gnomon

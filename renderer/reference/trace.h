@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,20 @@ struct SurfacePoint {
   std::uint32_t triangle = 0;          ///< of its primitive
 };
 
+/// What a frame's camera sees. Made once, asked for any number of places; any thread. What the input refers to outlives
+/// it.
+class TracedCamera {
+ public:
+  explicit TracedCamera(const TraceInput& input);
+
+  /// firstHits, one a place, on the calling thread. REQUIRES: as many points as places.
+  void firstHits(std::span<const glm::vec2> places, std::span<SurfacePoint> points) const;
+
+ private:
+  TraceInput input_;
+  std::vector<std::uint8_t> visible_; ///< one an instance
+};
+
 /// The first hits of the camera rays through `places`: pixels from the picture's upper left corner, so that the centre
 /// of the first pixel is 0.5 0.5.
 std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm::vec2> places);
@@ -53,6 +68,29 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
 /// none. Blended casters let 1 - alpha through, or all or nothing by `blendedCasters`.
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples);
+
+/// One light of a frame as rays meet it. Made once, asked for any number of points; any thread. What the input refers
+/// to outlives it.
+class TracedLight {
+ public:
+  TracedLight(const TraceInput& input, int light);
+  TracedLight(TracedLight&&) noexcept;
+  ~TracedLight();
+
+  /// lightVisibility, a share a point, on the calling thread; `turnedAway`, unless it is empty: 1 where the share is 0
+  /// because the surface does not face the light. REQUIRES: as many of each as points.
+  void visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
+                  std::span<std::uint8_t> turnedAway = {}) const;
+
+  /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
+  void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;
+
+  bool hasSize() const; ///< several rays go to it from a point
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
 
 /// Metres from each point to what hides the light's middle from it, the nearest; infinity where nothing does.
 std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "renderer/core/parallel.h"
@@ -13,34 +14,16 @@ namespace {
 constexpr std::size_t kPoints = 512; ///< that one core has in hand at a time, at most
 constexpr std::size_t kRays = 8192;  ///< that it traces for them, about
 
-/// A light as rays need it.
-struct TracedLight {
-  LightSource source;
-  glm::dvec3 eye{0};                  ///< relative to the anchor
-  std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
-  Casters casters;
-};
-
-TracedLight tracedLight(const TraceInput& input, int index) {
-  const Light& light = input.lights[static_cast<std::size_t>(index)];
-  const TracedScene::Tree& tree = input.traced.tree();
-  const Shadow shadow = light.shadow.value_or(Shadow{});
-  const auto isShadowed = [&](const NodeSwitches& node) {
-    return shadow.enabled && node.receiveShadow && isLitBy(light, node);
-  };
-  const auto casts = [&](const NodeSwitches& node) { return castsFrom(light, node); };
-  return {lightSource(light, tree.anchor),
-          input.camera.eye - tree.anchor,
-          instancesWhere(input, isShadowed),
-          {tree, instancesWhere(input, casts), shadow.blendedCasters}};
+Opacity opacityOf(const TracedScene::Tree& tree, std::uint32_t instance) {
+  return tree.material(instance).alphaMode == AlphaMode::opaque ? Opacity::full : Opacity::byAlpha;
 }
 
-/// What a point sees of the light where that takes no rays.
-std::optional<float> withoutRays(const TracedLight& light, const SurfacePoint& point, const WayToLight& way) {
-  if (point.instance == kNoSurface || light.shadowed[point.instance] == 0) return 1.0f;
-  if (!faces(point.normal, way)) return 0.0f;
-  if (!reaches(light.source, way)) return 1.0f;
-  return std::nullopt;
+std::vector<Opacity> opacities(const TraceInput& input, const Light& light) {
+  std::vector<Opacity> opacity(input.traced.view().instances.size());
+  for (std::uint32_t i = 0; i < opacity.size(); ++i) {
+    opacity[i] = castsFrom(light, switchesOf(input, i)) ? opacityOf(input.traced.tree(), i) : Opacity::none;
+  }
+  return opacity;
 }
 
 /// Rays of many points, traced kLanes at a time; what comes through is added up for each point.
@@ -48,7 +31,7 @@ class RayQueue {
  public:
   RayQueue(const Casters& casters, std::span<float> sums) : casters_(casters), sums_(sums) {}
 
-  void add(const ShadowRay& ray, std::size_t point) {
+  void add(const RayToLight& ray, std::size_t point) {
     rays_[count_] = ray;
     points_[count_] = point;
     if (++count_ == kLanes) trace();
@@ -63,19 +46,27 @@ class RayQueue {
  private:
   const Casters& casters_;
   std::span<float> sums_;
-  std::array<ShadowRay, kLanes> rays_{};
+  std::array<RayToLight, kLanes> rays_{};
   std::array<std::size_t, kLanes> points_{};
   std::size_t count_ = 0;
 };
 
+/// Whether a way leads off the surface, to its normal's side. What a float normal cannot say, the triangle does.
+bool leavesSurface(const Casters& casters, const SurfacePoint& point, const glm::dvec3& direction) {
+  constexpr double kUnsure = 0x1p-20; // of a cosine
+  const double cosine = glm::dot(direction, glm::dvec3(point.normal));
+  if (std::abs(cosine) > kUnsure) return cosine > 0;
+  return glm::dot(direction, receiverAt(casters.tree, casters.eye, point).normal) > 0;
+}
+
 /// Rays to places all over the light's disc; none to those that the surface itself hides.
-void addSamples(const LightSource& source, const SurfacePoint& point, const Receiver& receiver, std::uint32_t samples,
+void addSamples(const LightSource& source, const Casters& casters, const SurfacePoint& point, std::uint32_t samples,
                 std::size_t index, RayQueue& queue) {
   const std::uint64_t seed = seedOf(point);
   const LightDisc disc = discFacing(source, point.position);
   for (std::uint32_t k = 0; k < samples; ++k) {
     const WayToLight way = wayTo(disc, discSample(k, samples, seed));
-    if (glm::dot(way.direction, receiver.normal) > 0) queue.add({receiver, way.direction, way.length}, index);
+    if (leavesSurface(casters, point, way.direction)) queue.add({&point, way}, index);
   }
 }
 
@@ -95,58 +86,105 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
   return reached;
 }
 
+struct TracedLight::State {
+  LightSource source;
+  std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
+  Casters casters;
+
+  /// What a point sees of the light where that takes no rays.
+  std::optional<float> withoutRays(const SurfacePoint& point, const WayToLight& way) const {
+    if (point.instance == kNoSurface || shadowed[point.instance] == 0) return 1.0f;
+    if (!faces(point.normal, way)) return 0.0f;
+    if (!reaches(source, way)) return 1.0f;
+    return std::nullopt;
+  }
+};
+
+TracedLight::TracedLight(const TraceInput& input, int index) {
+  const Light& light = input.lights[static_cast<std::size_t>(index)];
+  const TracedScene::Tree& tree = input.traced.tree();
+  const Shadow shadow = light.shadow.value_or(Shadow{});
+  const auto isShadowed = [&](const NodeSwitches& node) {
+    return shadow.enabled && node.receiveShadow && isLitBy(light, node);
+  };
+  state_ = std::make_unique<const State>(
+      State{lightSource(light, tree.anchor),
+            instancesWhere(input, isShadowed),
+            {tree, input.camera.eye - tree.anchor, opacities(input, light), shadow.blendedCasters, roundingIn(tree)}});
+}
+
+TracedLight::TracedLight(TracedLight&&) noexcept = default;
+TracedLight::~TracedLight() = default;
+
+bool TracedLight::hasSize() const {
+  return state_->source.radius > 0;
+}
+
+void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
+                             std::span<std::uint8_t> turnedAway) const {
+  const auto rays = hasSize() ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
+  std::fill(turnedAway.begin(), turnedAway.end(), std::uint8_t{0});
+  RayQueue queue(state_->casters, shares);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint& point = points[i];
+    const WayToLight way = wayTo(state_->source, point.position);
+    if (const auto plain = state_->withoutRays(point, way)) {
+      shares[i] = *plain * static_cast<float>(rays);
+      if (*plain == 0 && !turnedAway.empty()) turnedAway[i] = 1;
+      continue;
+    }
+    shares[i] = 0;
+    if (hasSize()) {
+      addSamples(state_->source, state_->casters, point, rays, i, queue);
+    } else {
+      queue.add({&point, way}, i);
+    }
+  }
+  queue.trace();
+  if (rays == 1) return;
+  for (float& share : shares) share /= static_cast<float>(rays);
+}
+
+void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const {
+  std::array<RayToLight, kLanes> rays;
+  std::array<std::size_t, kLanes> of{};
+  std::size_t count = 0;
+  const auto trace = [&] {
+    const std::array<float, kLanes> found = blockersOf(state_->casters, std::span(rays).first(count));
+    for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
+    count = 0;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const WayToLight way = wayTo(state_->source, points[i].position);
+    if (const auto plain = state_->withoutRays(points[i], way)) {
+      distances[i] = *plain == 0 ? 0 : std::numeric_limits<float>::infinity();
+      continue;
+    }
+    rays[count] = {&points[i], way};
+    of[count] = i;
+    if (++count == kLanes) trace();
+  }
+  trace();
+}
+
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples) {
-  const TracedLight traced = tracedLight(input, light);
-  const bool sized = traced.source.radius > 0;
-  const auto rays = sized ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
-  std::vector<float> visibility(points.size(), 0.0f);
-  const auto trace = [&](std::size_t first, std::size_t last) {
-    RayQueue queue(traced.casters, visibility);
-    for (std::size_t i = first; i < last; ++i) {
-      const SurfacePoint& point = points[i];
-      const WayToLight way = wayTo(traced.source, point.position);
-      if (const auto plain = withoutRays(traced, point, way)) {
-        visibility[i] = *plain * static_cast<float>(rays);
-        continue;
-      }
-      const Receiver receiver = receiverAt(traced.casters.tree, traced.eye, point);
-      if (sized) {
-        addSamples(traced.source, point, receiver, rays, i, queue);
-      } else {
-        queue.add({receiver, way.direction, way.length}, i);
-      }
-    }
-    queue.trace();
-    for (std::size_t i = first; i < last; ++i) visibility[i] /= static_cast<float>(rays);
-  };
-  forEachPiece(points.size(), std::clamp<std::size_t>(kRays / rays, kLanes, kPoints), trace);
+  const TracedLight traced(input, light);
+  const auto rays = traced.hasSize() ? static_cast<std::size_t>(std::max(samples, 1)) : 1u;
+  std::vector<float> visibility(points.size());
+  forEachPiece(points.size(), std::clamp<std::size_t>(kRays / rays, kLanes, kPoints),
+               [&](std::size_t first, std::size_t last) {
+                 traced.visibility(points.subspan(first, last - first), samples,
+                                   std::span(visibility).subspan(first, last - first));
+               });
   return visibility;
 }
 
 std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
-  const TracedLight traced = tracedLight(input, light);
-  std::vector<float> distances(points.size(), std::numeric_limits<float>::infinity());
+  const TracedLight traced(input, light);
+  std::vector<float> distances(points.size());
   forEachPiece(points.size(), kPoints, [&](std::size_t first, std::size_t last) {
-    std::array<ShadowRay, kLanes> rays;
-    std::array<std::size_t, kLanes> of{};
-    std::size_t count = 0;
-    const auto trace = [&] {
-      const std::array<float, kLanes> found = blockersOf(traced.casters, std::span(rays).first(count));
-      for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
-      count = 0;
-    };
-    for (std::size_t i = first; i < last; ++i) {
-      const WayToLight way = wayTo(traced.source, points[i].position);
-      if (const auto plain = withoutRays(traced, points[i], way)) {
-        if (*plain == 0) distances[i] = 0;
-        continue;
-      }
-      rays[count] = {receiverAt(traced.casters.tree, traced.eye, points[i]), way.direction, way.length};
-      of[count] = i;
-      if (++count == kLanes) trace();
-    }
-    trace();
+    traced.blockerDistances(points.subspan(first, last - first), std::span(distances).subspan(first, last - first));
   });
   return distances;
 }

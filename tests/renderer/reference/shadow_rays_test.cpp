@@ -1,9 +1,17 @@
 #include "renderer/reference/shadow_rays.h"
 
 #include <gtest/gtest.h>
+#include <random>
+#include <rapidcheck.h>
+
+#include "tests/renderer/reference/shapes.h"
 
 namespace gnomon {
 namespace {
+
+using testing::GlbBuilder;
+using testing::Point;
+using testing::Traced;
 
 /// From the floor at 10 m from the anchor, 45 degrees up, as far as `length`.
 ShadowRay slanted(double length) {
@@ -65,6 +73,65 @@ TEST(ShadowRays, PassTrianglesAlongTheirWayOrWithoutAnArea) {
   EXPECT_FALSE(meets(slanted(kFar), {{11, 1, 0}, {12, 2, 0}, {12, 2, 0}}));
   EXPECT_FALSE(meets(slanted(kFar), {{11, 1, 0}, {12, 2, 0}, {13, 3, 0}}));
   EXPECT_FALSE(meets(slanted(kFar), {{11, 5, 1}, {11, 5, 1}, {11, 5, 1}}));
+}
+
+/// A scene of one mesh of two triangles, the receiver and the caster; `node`: what else its node has.
+Traced twoTriangles(const std::vector<Point>& corners, const nlohmann::json& node) {
+  GlbBuilder builder;
+  const int at = builder.addMeshNode(builder.addMesh({{"attributes", {{"POSITION", builder.addPoints(corners)}}}}));
+  builder.json["nodes"][std::size_t(at)].update(node);
+  return Traced(builder);
+}
+
+TEST(SurelyMeets, OnlyWhatMeetsFindsWhateverTheDistanceOfThePlanes) {
+  int sure = 0;
+  int unsure = 0;
+  EXPECT_TRUE(rc::check([&] {
+    std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto anywhere = [&] { return glm::dvec3(place(random), place(random), place(random)); };
+    const double size = *rc::gen::element(1e-6, 1.0, 1e9);
+    // From the receiver's plane: beyond rounding, about as far, within it, none.
+    const double apart = *rc::gen::element(1.0, 1e-3, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 0.0);
+    const glm::dvec3 a = anywhere(), b = anywhere(), c = anywhere();
+    const auto corner = [&] {
+      const double u = place(random), v = place(random);
+      return a + u * (b - a) + v * (c - a) + apart * anywhere();
+    };
+    std::vector<Point> corners;
+    for (const glm::dvec3& p : {a, b, c, corner(), corner(), corner()}) {
+      corners.push_back({float(p.x * size), float(p.y * size), float(p.z * size)});
+    }
+    const double far = *rc::gen::element(0.0, 10.0, 1e6);
+    nlohmann::json node = {{"translation", {far * size, -far * size, far * size}}};
+    if (*rc::gen::arbitrary<bool>()) node["scale"] = {-1, 2, 0.5};
+    const Traced traced = twoTriangles(corners, node);
+    const TracedScene::Tree& tree = traced.scene.tree();
+    const Triangle receiver = tree.triangle(0, 0);
+    const Triangle caster = tree.triangle(0, 1);
+    const double rounding = roundingIn(tree);
+    const glm::dvec3 eye = *rc::gen::element(1.0, 1e6) * size * anywhere();
+    for (int i = 0; i < 50; ++i) {
+      const double u = std::abs(place(random)), v = std::abs(place(random)) * (1 - u);
+      SurfacePoint point{Barycentric{u, v}.mix(receiver.a, receiver.b, receiver.c),
+                         glm::vec3(unitAlong(receiver.area())), 0, 0};
+      if (i % 2 == 1) point.normal = -point.normal;
+      // Towards the caster, or a grazing direction.
+      const glm::dvec3 target = Barycentric{v, u * (1 - v)}.mix(caster.a, caster.b, caster.c);
+      const glm::dvec3 along =
+          i % 5 == 0 ? receiver.b - receiver.a + apart * size * anywhere() : target - point.position;
+      const WayToLight way{unitAlong(along), i % 3 == 0 ? 1.5 * glm::length(along) : kFar};
+      const ShadowRay exact{receiverAt(tree, eye, point), way.direction, way.length};
+      if (surelyMeets({&point, way}, caster, rounding)) {
+        ++sure;
+        RC_ASSERT(meets(exact, caster).has_value());
+      } else if (meets(exact, caster)) {
+        ++unsure;
+      }
+    }
+  }));
+  EXPECT_GT(sure, 300) << "it spares something";
+  EXPECT_GT(unsure, 300) << "the border was reached";
 }
 
 } // namespace
