@@ -1,7 +1,6 @@
 #include "renderer/techniques/picture_points.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/techniques/neighbours.h"
 
@@ -18,7 +17,10 @@ std::vector<SurfacePoint> PicturePoints::drawn(std::span<const std::uint32_t> pi
 }
 
 std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> pixels) const {
-  return firstHits(rays_, samplesOf(grid_, pixels));
+  const std::vector<glm::vec2> places = samplesOf(grid_, pixels);
+  std::vector<SurfacePoint> points(places.size());
+  camera_.firstHits(places, points);
+  return points;
 }
 
 std::vector<std::uint32_t> PicturePoints::besideMasks() const {
@@ -42,7 +44,11 @@ std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::ui
 }
 
 std::uint16_t unorm16(float share) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 65535.0f));
+  return static_cast<std::uint16_t>(double{std::clamp(share, 0.0f, 1.0f) * 65535.0f} + 0.5);
+}
+
+std::uint8_t unorm8(float share) {
+  return static_cast<std::uint8_t>(double{std::clamp(share, 0.0f, 1.0f) * 255.0f} + 0.5);
 }
 
 } // namespace gnomon

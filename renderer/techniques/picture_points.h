@@ -27,26 +27,30 @@ glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position)
 /// Every sample of the given pixels, pixel by pixel.
 std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels);
 
-/// A share 0..1 as 16-bit textures hold it.
+/// A share 0..1 as 16-bit textures hold it, and as 8-bit ones do.
 std::uint16_t unorm16(float share);
+std::uint8_t unorm8(float share);
 
 /// The points that a picture's samples show, for rays that go on from there. Pixels are numbered as in SampleGrid.
 class PicturePoints {
  public:
   /// `shown`: the number of the triangle that each sample shows, or kNoNumber; `masks`: a byte a pixel, not 0 where
-  /// masked triangles lie, empty = nowhere. All that the others refer to outlives it.
+  /// masked triangles lie, empty = nowhere. All that is referred to outlives it; nothing is copied.
   PicturePoints(const TraceInput& rays, const SampleGrid& grid, const TriangleNumbers& numbers,
-                std::vector<std::uint32_t> shown, std::vector<std::uint8_t> masks)
-      : rays_(rays), grid_(grid), numbers_(numbers), shown_(std::move(shown)), masks_(std::move(masks)) {}
+                std::span<const std::uint32_t> shown, std::span<const std::uint8_t> masks)
+      : rays_(rays), camera_(rays), grid_(grid), numbers_(numbers), shown_(shown), masks_(masks) {}
 
   const TraceInput& rays() const { return rays_; }
   const SampleGrid& grid() const { return grid_; }
+
+  /// Whether a surface was drawn at a pixel's first sample.
+  bool showsSurface(std::uint32_t pixel) const { return shown_[pixel * grid_.samples()] != kNoNumber; }
 
   /// What each of these pixels shows at its first sample, as it was drawn: the exact point, but for samples that the
   /// rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
   std::vector<SurfacePoint> drawn(std::span<const std::uint32_t> pixels) const;
 
-  /// What a ray through each of their samples meets first.
+  /// What a ray through each of their samples meets first. Both run on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;
 
   /// The pixels where masked triangles lie, and those next to them or to their corners.
@@ -54,10 +58,11 @@ class PicturePoints {
 
  private:
   TraceInput rays_;
+  TracedCamera camera_;
   const SampleGrid& grid_;
   const TriangleNumbers& numbers_;
-  std::vector<std::uint32_t> shown_;
-  std::vector<std::uint8_t> masks_;
+  std::span<const std::uint32_t> shown_;
+  std::span<const std::uint8_t> masks_;
 };
 
 } // namespace gnomon

@@ -1,10 +1,11 @@
 #include "renderer/techniques/traced_shadow.h"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <numeric>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/rect.h"
 #include "renderer/techniques/neighbours.h"
 
 namespace gnomon {
@@ -13,14 +14,16 @@ namespace {
 /// Pixels that one core has in hand at a time: what is kept of them stays in its caches.
 constexpr std::size_t kPixels = 512;
 
+/// Blocks of the picture, in which a packet of rays takes squares of 4 x 4 pixels: rays of a packet stay together.
+constexpr int kBlockWidth = 32;
+constexpr int kBlockHeight = 16;
+constexpr int kSquare = 4;
+static_assert(kBlockWidth * kBlockHeight == kPixels);
+
 /// Shares of 255 that differ by less show no edge between them.
 constexpr int kEdge = 26;
 
 using Pixels = std::vector<std::uint32_t>;
-
-std::uint8_t unorm8(float share) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
-}
 
 Pixels eachOnce(Pixels pixels) {
   std::sort(pixels.begin(), pixels.end());
@@ -28,38 +31,46 @@ Pixels eachOnce(Pixels pixels) {
   return pixels;
 }
 
+/// Calls `each(pixel)` for the pixels of a block of the picture, square by square.
+template <class Each>
+void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
+  const int right = std::min(block.x + block.width, grid.width);
+  const int top = std::min(block.y + block.height, grid.height);
+  for (int y = block.y; y < top; y += kSquare) {
+    for (int x = block.x; x < right; x += kSquare) {
+      for (int row = y; row < std::min(y + kSquare, top); ++row) {
+        for (int column = x; column < std::min(x + kSquare, right); ++column) {
+          each(static_cast<std::uint32_t>(row * grid.width + column));
+        }
+      }
+    }
+  }
+}
+
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
  public:
   ShadowTracing(const PicturePoints& points, const TraceInput& rays, int light, int samples)
       : points_(points),
-        rays_(rays),
-        light_(light),
+        light_(rays, light),
         samples_(samples),
         values_(grid().pixels() * places()),
         shares_(grid().pixels()),
         away_(grid().pixels()),
         exact_(grid().pixels()) {}
 
-  void setLit(std::uint32_t pixel) {
-    shares_[pixel] = 255;
-    std::fill_n(valuesOf(pixel), places(), std::uint16_t{65535});
-  }
-
-  void setTurnedAway(std::uint32_t pixel) { away_[pixel] = 1; }
-
-  /// Sends rays from the points as they were drawn.
-  void traceDrawn(const Pixels& pixels) {
-    forEachPiece(pixels.size(), kPixels, [&](std::size_t first, std::size_t last) {
-      const auto piece = std::span(pixels).subspan(first, last - first);
-      const std::vector<SurfacePoint> drawn = points_.drawn(piece);
-      const std::vector<float> found = lightVisibility(rays_, light_, drawn, samples_);
-      markTurnedAway(piece, drawn, found);
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        std::fill_n(valuesOf(piece[i]), places(), unorm16(found[i]));
-        shares_[piece[i]] = unorm8(found[i]);
-      }
+  /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn. Gives how many
+  /// those are.
+  std::uint64_t traceDrawn(std::span<const Verdict> verdicts) {
+    const int columns = (grid().width + kBlockWidth - 1) / kBlockWidth;
+    const int rows = (grid().height + kBlockHeight - 1) / kBlockHeight;
+    std::atomic<std::uint64_t> unsure = 0;
+    forEach(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i) {
+      const int block = static_cast<int>(i);
+      unsure += traceBlock({block % columns * kBlockWidth, block / columns * kBlockHeight, kBlockWidth, kBlockHeight},
+                           verdicts);
     });
+    return unsure;
   }
 
   /// Sends rays from where camera rays lead. Gives the pixels that other shares came of.
@@ -68,7 +79,8 @@ class ShadowTracing {
     forEachPiece(pixels.size(), kPixels, [&](std::size_t first, std::size_t last) {
       const auto piece = std::span(pixels).subspan(first, last - first);
       const std::vector<SurfacePoint> hits = points_.traced(piece);
-      const std::vector<float> found = lightVisibility(rays_, light_, hits, samples_);
+      std::vector<float> found(hits.size());
+      light_.visibility(hits, samples_, found);
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const auto own = std::span(found).subspan(i * places(), places());
         std::transform(own.begin(), own.end(), valuesOf(piece[i]), unorm16);
@@ -120,17 +132,39 @@ class ShadowTracing {
   std::vector<std::uint16_t> takeValues() { return std::move(values_); }
 
  private:
-  void markTurnedAway(std::span<const std::uint32_t> pixels, std::span<const SurfacePoint> drawn,
-                      std::span<const float> found) {
-    Pixels dark;
-    std::vector<SurfacePoint> points;
+  void setLit(std::uint32_t pixel) {
+    shares_[pixel] = 255;
+    std::fill_n(valuesOf(pixel), places(), std::uint16_t{65535});
+  }
+
+  std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
+    std::uint64_t unsure = 0;
+    Pixels pixels;
+    pixels.reserve(kPixels);
+    forEachPixel(grid(), block, [&](std::uint32_t pixel) {
+      const Verdict verdict = verdicts.empty() ? Verdict::unsure : verdicts[pixel];
+      if (verdict == Verdict::unsure) ++unsure;
+      if (verdict == Verdict::turnedAway) away_[pixel] = 1;
+      if (verdict == Verdict::lit || (verdict == Verdict::unsure && !points_.showsSurface(pixel))) {
+        setLit(pixel);
+      } else if (verdict == Verdict::unsure) {
+        pixels.push_back(pixel);
+      }
+    });
+    if (!pixels.empty()) traceDrawn(pixels);
+    return unsure;
+  }
+
+  void traceDrawn(const Pixels& pixels) {
+    const std::vector<SurfacePoint> drawn = points_.drawn(pixels);
+    std::vector<float> found(pixels.size());
+    std::vector<std::uint8_t> away(pixels.size());
+    light_.visibility(drawn, samples_, found, away);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (found[i] != 0) continue;
-      dark.push_back(pixels[i]);
-      points.push_back(drawn[i]);
+      std::fill_n(valuesOf(pixels[i]), places(), unorm16(found[i]));
+      shares_[pixels[i]] = unorm8(found[i]);
+      away_[pixels[i]] = away[i];
     }
-    const std::vector<std::uint8_t> facing = facesLight(rays_, light_, points);
-    for (std::size_t i = 0; i < dark.size(); ++i) away_[dark[i]] = facing[i] == 0 ? 1 : 0;
   }
 
   const SampleGrid& grid() const { return points_.grid(); }
@@ -140,8 +174,7 @@ class ShadowTracing {
   }
 
   const PicturePoints& points_;
-  const TraceInput& rays_;
-  int light_;
+  TracedLight light_;
   int samples_;
   std::vector<std::uint16_t> values_;
   std::vector<std::uint8_t> shares_; ///< 0..255, one a pixel: the mean of its samples
@@ -149,28 +182,12 @@ class ShadowTracing {
   std::vector<std::uint8_t> exact_;  ///< one a pixel; 1 = camera rays led to its points
 };
 
-Pixels unsureAmong(std::span<const Verdict> verdicts, std::size_t pixels) {
-  Pixels unsure;
-  unsure.reserve(verdicts.empty() ? pixels : 0);
-  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-    if (verdicts.empty() || verdicts[pixel] == Verdict::unsure) unsure.push_back(pixel);
-  }
-  return unsure;
-}
-
 } // namespace
 
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
                           std::span<const Verdict> verdicts) {
   ShadowTracing shadow(points, rays, light, samples);
-  for (std::uint32_t pixel = 0; pixel < verdicts.size(); ++pixel) {
-    if (verdicts[pixel] == Verdict::lit) shadow.setLit(pixel);
-    if (verdicts[pixel] == Verdict::turnedAway) shadow.setTurnedAway(pixel);
-  }
-  const Pixels unsure = unsureAmong(verdicts, points.grid().pixels());
-  shadow.traceDrawn(unsure);
-
-  std::uint64_t traced = unsure.size();
+  std::uint64_t traced = shadow.traceDrawn(verdicts);
   const auto traceExactly = [&](const Pixels& pixels) {
     traced += static_cast<std::uint64_t>(std::count_if(pixels.begin(), pixels.end(), [&](std::uint32_t pixel) {
       return !verdicts.empty() && verdicts[pixel] != Verdict::unsure;

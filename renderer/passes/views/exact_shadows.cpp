@@ -72,7 +72,9 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
 
   const std::vector<Light>& lights = *shading.spec.lights;
   std::shared_ptr<const TracedScene> traced;
-  std::optional<PicturePoints> points; // after `traced`, which it refers to
+  std::vector<std::uint32_t> shown;
+  std::vector<std::uint8_t> masks;
+  std::optional<PicturePoints> points; // after what it refers to
   std::optional<VolumeCounts> counts;
   for (const int light : work.layered) {
     const auto start = std::chrono::steady_clock::now();
@@ -88,12 +90,14 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
         const auto made = work.traced();
         if (!made) return made.problems();
         traced = *made;
-        auto shown = shownTriangles(inputs, surfaces);
-        if (!shown) return shown.problems();
-        auto masks = maskCoverage(inputs, shading.survey);
-        if (!masks) return masks.problems();
+        auto numbers = shownTriangles(inputs, surfaces);
+        if (!numbers) return numbers.problems();
+        shown = std::move(*numbers);
+        auto covered = maskCoverage(inputs, shading.survey);
+        if (!covered) return covered.problems();
+        masks = std::move(*covered);
         points.emplace(TraceInput{*traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes}, grid,
-                       surfaces.numbers, std::move(*shown), std::move(*masks));
+                       surfaces.numbers, shown, masks);
       }
       auto found = traits.mapSparesRays()
                        ? hybridShadow(inputs, shading, surfaces, *points, light)

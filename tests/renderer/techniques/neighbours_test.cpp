@@ -30,9 +30,11 @@ std::vector<std::uint32_t> differing(const SampleGrid& grid, const std::vector<s
 
 TEST(Neighbours, AreThoseAroundAPixelInsideThePicture) {
   EXPECT_TRUE(rc::check([] {
+    constexpr int kRows = int(kScanRows);
     SampleGrid grid;
-    grid.width = *rc::gen::inRange(1, 9);
-    grid.height = *rc::gen::inRange(1, 9);
+    grid.width = *rc::gen::inRange(1, 30);
+    // Low ones, and those that several cores look through.
+    grid.height = *rc::gen::oneOf(rc::gen::inRange(1, 9), rc::gen::inRange(kRows - 2, 2 * kRows + 2));
     const auto values = *rc::gen::container<std::vector<std::uint8_t>>(
         grid.pixels(), rc::gen::weightedElement<std::uint8_t>({{6, 0}, {1, 1}, {1, 255}}));
     const auto found = pixelsWhere(grid, values, [](std::uint8_t least, std::uint8_t most) { return least != most; });
