@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/technique_traits.h"
 #include "renderer/cpu/camera_survey.h"
 
 namespace gnomon::cpu {
@@ -27,17 +26,6 @@ std::uint64_t rasterCasters(const CastInput& input, const ShadowTile& tile, cons
   const std::vector<glm::mat4> clip = tileFromLocal(input.scene, tile);
   const std::vector<RasterDraw> draws = rasterDraws(input.scene, casters.use, casters.slots);
   return raster({input.scene.scene, input.scene.slots, clip, draws}, DepthRange::clamped, buffer, input.scratch);
-}
-
-bool isOutlined(const Light& light) {
-  return traitsOf(light.shadow->technique).mapSparesRays();
-}
-
-TileOutlines outlinesOf(const CastInput& input, const ShadowTile& tile, const Light& light,
-                        const TileCasters& casters) {
-  const FrameScene& scene = input.scene;
-  const OutlineInput of{scene.scene, scene.view, scene.geometry, input.edges, light, anchorOf(scene.view)};
-  return std::move(gnomon::outlinesOf(of, {{tile, casters}}).front());
 }
 
 } // namespace
@@ -65,7 +53,6 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
     made->depths = emptyBuffer(tile.rect.width, tile.rect.height, samples, DepthRange::clamped, false);
     facts.casterTriangles = rasterCasters(input, tile, casters, made->depths);
     facts.culledTriangles = input.scene.view.triangles - facts.casterTriangles;
-    if (isOutlined(light)) made->outlines = outlinesOf(input, tile, light, casters);
     store.keep(key, made);
     cast.tiles[i] = std::move(made);
     facts.time = WorkTime{millisecondsSince(start)};

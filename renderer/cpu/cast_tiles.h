@@ -8,7 +8,6 @@
 #include "renderer/cpu/raster.h"
 #include "renderer/cpu/tile_store.h"
 #include "renderer/device/facts.h"
-#include "renderer/scene/mesh_edges.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {
@@ -19,9 +18,8 @@ struct CastInput {
   const ShadowPlan& plan;
   const FrameSpec& spec; ///< effective
   std::span<const NodeSwitches> nodes;
-  std::span<const EdgeMesh> edges; ///< one a primitive; empty where no light's technique asks for them
-  std::uint64_t sceneId = 0;       ///< a number that no other scene has
-  int view = 0;                    ///< index into Scene::scenes
+  std::uint64_t sceneId = 0; ///< a number that no other scene has
+  int view = 0;              ///< index into Scene::scenes
   RasterScratch& scratch;
 };
 

@@ -6,7 +6,7 @@ namespace gnomon::cpu {
 
 std::size_t RasteredTile::bytes() const {
   return depths.depths.size() * sizeof(float) + depths.triangles.size() * sizeof(std::uint32_t) +
-         moments.size() * sizeof(glm::vec4) + outlines.size();
+         moments.size() * sizeof(glm::vec4);
 }
 
 std::shared_ptr<const RasteredTile> TileStore::find(const TileKey& key) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/cpu/depth_buffer.h"
-#include "renderer/prepare/outlines.h"
 #include "renderer/prepare/tile_casters.h"
 
 namespace gnomon::cpu {
@@ -15,7 +14,6 @@ namespace gnomon::cpu {
 struct RasteredTile {
   DepthBuffer depths;
   std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty where its light's filter reads none
-  TileOutlines outlines;          ///< empty where its light's technique asks for none
 
   std::size_t bytes() const;
 };

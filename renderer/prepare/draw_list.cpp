@@ -106,6 +106,14 @@ TriangleNumbers::TriangleNumbers(const Scene& scene, const SceneView& view, cons
   }
 }
 
+TriangleNumbers::TriangleNumbers(const FrameGeometry& geometry) {
+  draws_.reserve(geometry.instances.size());
+  for (std::uint32_t i = 0; i < geometry.instances.size(); ++i) {
+    if (geometry.firstSlot[i] == geometry.firstSlot[i + 1]) continue;
+    draws_.push_back({geometry.firstSlot[i] * kClusterTriangles, {i, 0}});
+  }
+}
+
 std::vector<PlacedTriangle> TriangleNumbers::of(std::span<const std::uint32_t> numbers) const {
   std::vector<PlacedTriangle> triangles(numbers.size());
   std::size_t draw = 0;

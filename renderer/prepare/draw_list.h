@@ -57,6 +57,8 @@ class TriangleNumbers {
  public:
   TriangleNumbers() = default;
   TriangleNumbers(const Scene& scene, const SceneView& view, const DrawList& list);
+  /// Numbers by slot: slot * kClusterTriangles + the triangle's place in it.
+  explicit TriangleNumbers(const FrameGeometry& geometry);
 
   /// Fastest when consecutive numbers share a draw. REQUIRES: numbers of the list, or
   /// kNoNumber.

@@ -202,4 +202,13 @@ TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, i
   return {shadow.takeValues(), traced};
 }
 
+std::vector<Light> withoutSizes(std::span<const Light> lights) {
+  std::vector<Light> sharp(lights.begin(), lights.end());
+  for (Light& light : sharp) {
+    light.angularDiameterDegrees.reset();
+    light.radius.reset();
+  }
+  return sharp;
+}
+
 } // namespace gnomon

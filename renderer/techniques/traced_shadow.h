@@ -27,4 +27,7 @@ struct TracedShadow {
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
                           std::span<const Verdict> verdicts = {});
 
+/// Hybrid shadows are sharp: a size would blur what rays see, and not what the map does.
+std::vector<Light> withoutSizes(std::span<const Light> lights);
+
 } // namespace gnomon

@@ -33,16 +33,6 @@ Status volumeShadow(const PassInputs& inputs, const Shading& shading, const Surf
   return Done{};
 }
 
-/// Hybrid shadows are sharp: a size would blur what rays see, and not what the map does.
-std::vector<Light> withoutSizes(std::span<const Light> lights) {
-  std::vector<Light> sharp(lights.begin(), lights.end());
-  for (Light& light : sharp) {
-    light.angularDiameterDegrees.reset();
-    light.radius.reset();
-  }
-  return sharp;
-}
-
 /// The shadow map, if there is one, decides where it is sure, rays do elsewhere.
 Result<TracedShadow> hybridShadow(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces,
                                   const PicturePoints& points, int light) {

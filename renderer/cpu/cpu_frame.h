@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+
+#include "renderer/cpu/camera_survey.h"
+#include "renderer/cpu/cast_tiles.h"
+#include "renderer/cpu/exact_layers.h"
+#include "renderer/cpu/scene_cache.h"
+#include "renderer/cpu/shadow_maps.h"
+#include "renderer/device/device.h"
+
+namespace gnomon::cpu {
+
+/// What the frames of one device share.
+struct Shared {
+  SceneCache scenes;
+  TileStore tiles;
+  RasterScratch scratch;
+};
+
+/// A frame, drawn by the processor: one stage after the other, each keeping what the later ones read.
+class CpuFrame : public FrameDrawing {
+ public:
+  CpuFrame(Shared& shared, const FrameWork& work);
+
+  Result<ReceiverDepths> survey() override;
+  Status cast(const ShadowPlan& plan, TileUse tiles) override;
+  Status show(const ShowInput& input) override;
+  Result<std::vector<MapFootprint>> footprints(const ShowInput& input) override;
+  Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) override;
+  Image picture(std::size_t index) override;
+  void endStage(std::string name) override;
+  Result<FrameFacts> finish() override;
+
+ private:
+  CameraRaster camera() const;
+  CastInput castInput(const ShadowPlan& plan) const;
+  const DepthBuffer& surfaces(int samples);
+  Status needLayers(int samples);
+  Status showOne(const ShowInput& input, const ViewRequest& request);
+  Image atlasPicture(const ShowInput& input, const ViewRequest& request) const;
+  void endPass(const char* name, std::uint64_t triangles);
+
+  Shared& shared_;
+  const FrameWork work_;
+  CachedScene& cached_;
+  const SceneView& view_;
+  FrameGeometry geometry_;
+  FrameScene scene_;
+  Survey survey_;
+  CastTiles cast_;
+  std::map<int, DepthBuffer> otherSurfaces_; ///< by samples a pixel, where they aren't the survey's
+  std::map<int, ExactLayers> layers_;        ///< by samples a pixel
+  std::vector<Image> pictures_;
+  FrameFacts facts_;
+  std::chrono::steady_clock::time_point stageStart_, passStart_;
+};
+
+} // namespace gnomon::cpu

@@ -1,0 +1,118 @@
+#include "renderer/cpu/exact_layers.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "protocol/base/elapsed.h"
+#include "protocol/spec/limits.h"
+#include "protocol/spec/technique_traits.h"
+#include "renderer/core/parallel.h"
+#include "renderer/techniques/traced_shadow.h"
+
+namespace gnomon::cpu {
+namespace {
+
+SampleGrid gridOf(const DepthBuffer& surfaces) {
+  SampleGrid grid{surfaces.width, surfaces.height, {}};
+  for (const glm::ivec2& place : samplePlaces(surfaces.samples)) grid.positions.push_back(glm::vec2(place) / 256.0f);
+  return grid;
+}
+
+/// The triangles' numbers in the grid's order.
+std::vector<std::uint32_t> shownTriangles(const DepthBuffer& surfaces) {
+  const auto samples = static_cast<std::size_t>(surfaces.samples);
+  const auto width = static_cast<std::size_t>(surfaces.width);
+  std::vector<std::uint32_t> shown(width * static_cast<std::size_t>(surfaces.height) * samples);
+  forEachPiece(static_cast<std::size_t>(surfaces.height), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t y = first; y < last; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t s = 0; s < samples; ++s) {
+          shown[(y * width + x) * samples + s] =
+              surfaces.triangles[surfaces.at(static_cast<int>(x), static_cast<int>(y), static_cast<int>(s))];
+        }
+      }
+    }
+  });
+  return shown;
+}
+
+/// Marks where triangles lie, and lets none of them hide anything.
+class Coverage : public Holes {
+ public:
+  Coverage(int width, int height)
+      : width_(width), height_(height), masks_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+  unsigned filled(std::uint32_t, bool, int column, int row, int, unsigned covered) const override {
+    for (unsigned left = covered; left != 0; left &= left - 1) {
+      const int place = __builtin_ctz(left);
+      const int x = column * kBlockSide + place % kBlockSide;
+      const int y = row * kBlockSide + place / kBlockSide;
+      if (x < width_ && y < height_) {
+        masks_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = 255;
+      }
+    }
+    return 0;
+  }
+
+  std::vector<std::uint8_t> take() { return std::move(masks_); }
+
+ private:
+  int width_, height_;
+  mutable std::vector<std::uint8_t> masks_; ///< each square of the picture is rastered by one thread
+};
+
+/// Where masked and blended triangles lie, holes and all, in front or behind: a byte a pixel, not 0 there. Filtered as
+/// they are shown, their holes differ from those that rays meet. Empty where the view holds none.
+std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey& survey) {
+  const FrameScene& scene = camera.scene;
+  std::vector<std::uint8_t> slots = survey.visible;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const Material& material = scene.scene.materials[static_cast<std::size_t>(scene.slots[i].material)];
+    if (material.alphaMode == AlphaMode::opaque) slots[i] = 0;
+  }
+  if (std::none_of(slots.begin(), slots.end(), [](std::uint8_t slot) { return slot != 0; })) return {};
+  Coverage coverage(scene.width, scene.height);
+  CameraRaster covering = camera;
+  covering.holes = &coverage;
+  Survey masked;
+  masked.visible = std::move(slots);
+  std::uint64_t triangles = 0;
+  rasterVisible(covering, masked, 1, triangles);
+  return coverage.take();
+}
+
+} // namespace
+
+std::vector<Layer> ExactLayers::layers(const DepthBuffer& surfaces) const {
+  std::vector<Layer> all;
+  for (const std::vector<std::uint16_t>& each : values) all.push_back({each.data(), surfaces.width, surfaces.samples});
+  return all;
+}
+
+Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,
+                                const DepthBuffer& surfaces) {
+  const auto traced = work.traced();
+  if (!traced) return traced.problems();
+  const std::vector<Light>& lights = *work.frame.spec.lights;
+  const std::vector<Light> sharp = withoutSizes(lights);
+  const SampleGrid grid = gridOf(surfaces);
+  const std::vector<std::uint32_t> shown = shownTriangles(surfaces);
+  const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
+  const TriangleNumbers numbers(camera.scene.geometry);
+  const TraceInput rays{**traced, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};
+  const PicturePoints points(rays, grid, numbers, shown, masks);
+  ExactLayers exact;
+  for (const int light : work.layered) {
+    const auto start = std::chrono::steady_clock::now();
+    const Shadow& shadow = *lights[static_cast<std::size_t>(light)].shadow;
+    TraceInput own = rays;
+    const bool isHybrid = traitsOf(shadow.technique).mapSparesRays();
+    if (isHybrid) own.lights = sharp;
+    TracedShadow found = tracedShadow(points, own, light, isHybrid ? 1 : shadow.raySamples);
+    exact.values.push_back(std::move(found.values));
+    exact.lights.push_back({light, millisecondsSince(start), found.tracedPixels});
+  }
+  return exact;
+}
+
+} // namespace gnomon::cpu

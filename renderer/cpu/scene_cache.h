@@ -1,0 +1,30 @@
+#pragma once
+
+#include <list>
+#include <memory>
+
+#include "renderer/scene/scene.h"
+
+namespace gnomon::cpu {
+
+/// What frames of one scene share beside it.
+struct CachedScene {
+  std::uint64_t id = 0; ///< no other scene's
+};
+
+/// Of the scenes drawn lately. What belongs to a scene that is gone goes with the next one that comes.
+class SceneCache {
+ public:
+  /// Valid until the next call.
+  CachedScene& of(const std::shared_ptr<const Scene>& scene);
+
+ private:
+  struct Entry {
+    std::weak_ptr<const Scene> scene;
+    CachedScene cached;
+  };
+  std::list<Entry> entries_; ///< most recently used first
+  std::uint64_t scenes_ = 0;
+};
+
+} // namespace gnomon::cpu
