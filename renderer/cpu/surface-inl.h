@@ -7,6 +7,7 @@
 #endif
 
 #include "renderer/cpu/fragments-inl.h"
+#include "renderer/cpu/sampling-inl.h"
 #include "renderer/cpu/shared_functions-inl.h"
 #include "renderer/cpu/vertices-inl.h"
 
@@ -55,17 +56,29 @@ HWY_INLINE Float3 turned(const glm::vec4 (&rows)[3], const Float3& v) {
   return {dot(Float3(glm::vec3(rows[0])), v), dot(Float3(glm::vec3(rows[1])), v), dot(Float3(glm::vec3(rows[2])), v)};
 }
 
+/// How the uses of a material's textures move coordinates: KHR_texture_transform.
+HWY_INLINE TextureSpot moved(const shared::MaterialData& material, std::size_t unit, const TextureSpot& spot) {
+  const glm::vec4& axes = material.uvAxes[unit];
+  const auto turn = [&](const Float2& v)
+                        HWY_ATTR { return Float2(v.x * axes.x + v.y * axes.z, v.x * axes.y + v.y * axes.w); };
+  return {turn(spot.uv) + Float2(glm::vec2(material.uvOffsets[unit])), turn(spot.right), turn(spot.up)};
+}
+
 /// What triangles of one instance show.
 class InstanceSurface {
  public:
-  /// `triangle`: of the instance's primitive.
-  HWY_INLINE InstanceSurface(const FrameScene& scene, std::uint32_t instance, const Int& triangle,
-                             const Fragments& fragments)
+  /// `triangle`: of the instance's primitive; `own`: the lanes that count.
+  HWY_INLINE InstanceSurface(const FrameScene& scene, const Textures& textures, std::uint32_t instance,
+                             const Int& triangle, const Fragments& fragments, const Mask& own)
       : frame_(scene.frame),
+        textures_(textures),
+        own_(own),
         slot_(scene.slots[scene.geometry.firstSlot[instance]]),
         placed_(scene.instances[instance]),
         material_(scene.scene.materials[static_cast<std::size_t>(slot_.material)]),
         data_(scene.materials[static_cast<std::size_t>(slot_.material)]),
+        tangents_(
+            scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
         corners_(scene, slot_, triangle),
         sight_(sightThrough(scene.frame, fragments.place)) {
     const Triangle local = corners_.triangle();
@@ -74,6 +87,7 @@ class InstanceSurface {
     triangle_.edge1 = turned(rows, local.edge1);
     triangle_.edge2 = turned(rows, local.edge2);
     meeting_ = meetingOf(sight_, triangle_);
+    findTextureSpots();
   }
 
   HWY_INLINE Surface surface(const Fragments& fragments) const {
@@ -93,23 +107,87 @@ class InstanceSurface {
   }
 
  private:
+  /// What materials read of a vertex's coordinates: those of sets that they use.
+  HWY_INLINE void findTextureSpots() {
+    bool used[2] = {};
+    for (const auto* use : {&material_.baseColor, &material_.metallicRoughness, &material_.normal, &material_.occlusion,
+                            &material_.emissive}) {
+      if (*use) used[(*use)->texCoord == 0 ? 0 : 1] = true;
+    }
+    if (!used[0] && !used[1]) return;
+    steps_ = stepsOf(sight_, triangle_, meeting_);
+    constexpr std::size_t kOffsets[2] = {offsetof(VertexAttributes, uv0), offsetof(VertexAttributes, uv1)};
+    for (std::size_t set = 0; set < 2; ++set) {
+      if (!used[set]) continue;
+      spots_[set] = {corners_.pair(kOffsets[set], meeting_), corners_.moved(kOffsets[set], steps_.right),
+                     corners_.moved(kOffsets[set], steps_.up)};
+    }
+  }
+
+  HWY_INLINE TextureSpot spotOf(const TextureUse& use, std::size_t unit) const {
+    const TextureSpot& spot = spots_[use.texCoord == 0 ? 0 : 1];
+    return use.transform ? moved(data_, unit, spot) : spot;
+  }
+  HWY_INLINE Texel texel(const TextureUse& use, std::size_t unit, bool srgb) const {
+    if (use.image < 0) return {Float3(0.0f), Float(1.0f)};
+    return sampled(textures_.of(use.image, srgb), use, spotOf(use, unit), own_);
+  }
+
   HWY_INLINE Float3 shadingNormal(const Float3& face) const {
     const Float3 own = turned(placed_.normalFromLocal, corners_.triple(offsetof(VertexAttributes, normal), meeting_));
-    const Float3 n = material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own;
-    return directionOf(n, face);
+    const Float3 n = directionOf(material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own, face);
+    return material_.normal ? directionOf(bent(n, *material_.normal), n) : n;
+  }
+
+  HWY_INLINE Float3 bent(const Float3& n, const TextureUse& use) const {
+    Float3 direction = texel(use, GNOMON_NORMAL_UNIT, false).rgb * 2.0f - Float3(1.0f);
+    direction.x *= data_.surface.z;
+    direction.y *= data_.surface.z;
+    if (tangents_) {
+      const Float3 tangent =
+          turned(placed_.relativeFromLocal, corners_.triple(offsetof(VertexAttributes, tangent), meeting_));
+      const Float sign = corners_.number(offsetof(VertexAttributes, tangent) + 3 * sizeof(float), meeting_);
+      return bentByTangent(n, tangent, sign, direction);
+    }
+    const TextureSpot spot = spotOf(use, GNOMON_NORMAL_UNIT);
+    const auto movedPlace = [&](const Float2& step)
+                                HWY_ATTR { return triangle_.edge1 * step.x + triangle_.edge2 * step.y; };
+    return bentBySteps(n, movedPlace(steps_.right), movedPlace(steps_.up), spot.right, spot.up, direction);
+  }
+
+  HWY_INLINE Float3 ownColor() const {
+    Float3 color{glm::vec3(data_.baseColorFactor)};
+    if (material_.baseColor) color = color * texel(*material_.baseColor, GNOMON_BASE_COLOR_UNIT, true).rgb;
+    if (material_.hasVertexColors) color = color * corners_.color(meeting_).rgb;
+    return color;
+  }
+
+  /// Turns the diffuse color into a base color.
+  HWY_INLINE void addGlossiness(Float3& color, Float& metallic, Float& roughness) const {
+    Float3 specular{glm::vec3(data_.specularGlossiness)};
+    Float glossiness(data_.specularGlossiness.w);
+    if (material_.metallicRoughness) {
+      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, true);
+      specular = specular * factor.rgb;
+      glossiness *= factor.a;
+    }
+    metallic = metallicOf(color, specular);
+    color = baseColorOf(color, specular, metallic);
+    roughness = 1.0f - glossiness;
   }
 
   HWY_INLINE void addMaterial(const Float3& toEye, Surface& s) const {
-    Float3 color{glm::vec3(data_.baseColorFactor)};
-    if (material_.hasVertexColors) color = color * corners_.color(meeting_).rgb;
+    Float3 color = ownColor();
     Float metallic(data_.surface.x), roughness(data_.surface.y);
     if (material_.specularGlossiness) {
-      const Float3 specular{glm::vec3(data_.specularGlossiness)};
-      metallic = metallicOf(color, specular);
-      color = baseColorOf(color, specular, metallic);
-      roughness = 1.0f - data_.specularGlossiness.w;
+      addGlossiness(color, metallic, roughness);
+    } else if (material_.metallicRoughness) {
+      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, false);
+      metallic *= factor.rgb.z;
+      roughness *= factor.rgb.y;
     }
     s.emission = Float3(glm::vec3(data_.emissiveFactor));
+    if (material_.emissive) s.emission = s.emission * texel(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
     s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
     if (material_.unlit) {
       s.emission = color;
@@ -124,21 +202,30 @@ class InstanceSurface {
     s.metallic = clamp(metallic, 0.0f, 1.0f);
     s.roughness = clamp(roughness, 0.0f, 1.0f);
     s.occlusion = 1.0f;
+    if (material_.occlusion) {
+      const Float open = texel(*material_.occlusion, GNOMON_OCCLUSION_UNIT, false).rgb.x;
+      s.occlusion = clamp(mix(Float(1.0f), open, data_.surface.w), 0.0f, 1.0f);
+    }
   }
 
   const shared::FrameData& frame_;
+  const Textures& textures_;
+  const Mask own_;
   const Slot& slot_; ///< the instance's first
   const shared::InstanceData& placed_;
   const Material& material_;
   const shared::MaterialData& data_;
+  const bool tangents_; ///< vertices bring their own
   Corners corners_;
   Sight sight_;
   Triangle triangle_; ///< relative to the eye
   Meeting meeting_;
+  MeetingSteps steps_;   ///< where textures are used
+  TextureSpot spots_[2]; ///< of the sets of coordinates that textures use
 };
 
 /// Lanes that show one instance are worked on together; a packet mostly shows one.
-HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Fragments& fragments) {
+HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Textures& textures, const Fragments& fragments) {
   static_assert(kClusterTriangles == 1 << 10);
   alignas(64) std::int32_t slots[kLanes];
   const Int slot = shiftRightUnsigned<10>(fragments.triangle);
@@ -157,7 +244,7 @@ HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Fragments& fragments
     const Mask own = fragments.shown & (slot >= Int(begin)) & (slot < Int(end));
     // What the other lanes show is no triangle of this instance.
     const Int triangle = select(own, fragments.triangle, Int(triangles[lane])) - shiftLeft<10>(Int(begin));
-    const Surface found = InstanceSurface(scene, instance, triangle, fragments).surface(fragments);
+    const Surface found = InstanceSurface(scene, textures, instance, triangle, fragments, own).surface(fragments);
     surface = first ? found : select(own, found, surface);
     left &= ~bitsOf(own);
   }

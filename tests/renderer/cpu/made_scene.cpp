@@ -26,11 +26,13 @@ MadeScene::MadeScene(bool perspective) {
   frame_.view.far = 1000;
 }
 
-void MadeScene::place(const std::vector<Material>& materials) {
+void MadeScene::place(const std::vector<Material>& materials, std::vector<std::shared_ptr<const Image>> images) {
   std::uniform_real_distribution<float> spread(-1, 1);
   const auto number = [&] { return spread(generator_); };
   const auto vector = [&] { return glm::vec3(number(), number(), number()); };
   scene_.materials = materials;
+  scene_.images = std::move(images);
+  textures_ = std::make_unique<Textures>(scene_.images);
   for (std::size_t i = 0; i < materials.size(); ++i) {
     Primitive primitive;
     primitive.material = static_cast<int>(i);
@@ -120,9 +122,9 @@ std::vector<MadeScene::Seen> MadeScene::seen(std::size_t count) {
   return all;
 }
 
-FragmentInput fragmentsOf(const std::vector<MadeScene::Seen>& seen) {
-  FragmentInput in;
-  for (const MadeScene::Seen& s : seen) {
+FragmentInput MadeScene::fragmentsOf(const std::vector<Seen>& seen) const {
+  FragmentInput in{*textures_, {}, {}, {}};
+  for (const Seen& s : seen) {
     in.triangles.push_back(s.triangle);
     in.x.push_back(static_cast<float>(s.place.x));
     in.y.push_back(static_cast<float>(s.place.y));

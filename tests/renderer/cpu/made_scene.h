@@ -15,7 +15,7 @@ class MadeScene {
   explicit MadeScene(bool perspective);
 
   /// `materials`: what instance i shows; each has a primitive of its own, of two clusters.
-  void place(const std::vector<Material>& materials);
+  void place(const std::vector<Material>& materials, std::vector<std::shared_ptr<const Image>> images = {});
   const FrameScene& frameScene() const { return *frameScene_; }
   const CameraView& view() const { return frame_.view; }
 
@@ -33,6 +33,8 @@ class MadeScene {
   };
   /// Points that the picture holds, of triangles that aren't seen edge-on; packets of 16 show from one to 16 triangles.
   std::vector<Seen> seen(std::size_t count);
+  FragmentInput fragmentsOf(const std::vector<Seen>& seen) const;
+  const Textures& textures() const { return *textures_; }
 
  private:
   std::optional<Seen> seenAt(std::uint32_t instance, std::uint32_t triangle);
@@ -43,8 +45,7 @@ class MadeScene {
   ResolvedFrame frame_;
   FrameGeometry geometry_;
   std::unique_ptr<FrameScene> frameScene_;
+  std::unique_ptr<Textures> textures_;
 };
-
-FragmentInput fragmentsOf(const std::vector<MadeScene::Seen>& seen);
 
 } // namespace gnomon::cpu

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/textures.h"
 #include "tests/renderer/cpu/number_table.h"
 
 namespace gnomon::cpu {
 
 /// Places of the picture and what they show; a multiple of 16 of them.
 struct FragmentInput {
+  const Textures& textures;
   std::vector<std::uint32_t> triangles; ///< kNoNumber: nothing
   std::vector<float> x, y;              ///< pixels, from the lower left corner
 };

@@ -54,7 +54,9 @@ glm::vec3 pictureOf(const FrameScene& scene, const LightInput& lights, const Num
 
 class CpuShading : public testing::Test {
  protected:
-  CpuShading() : made_(true) {
+  CpuShading() : made_(true), seen_(seen()), in_(made_.fragmentsOf(seen_)) {}
+
+  std::vector<MadeScene::Seen> seen() {
     std::vector<Material> materials(4);
     materials[0].metallicFactor = 0.0f;
     materials[1].metallicFactor = 0.5f;
@@ -62,8 +64,7 @@ class CpuShading : public testing::Test {
     materials[2].emissiveFactor = {0.1f, 0.2f, 0.3f};
     materials[3].unlit = true;
     made_.place(materials);
-    seen_ = made_.seen(9600);
-    in_ = fragmentsOf(seen_);
+    return made_.seen(9600);
   }
 
   /// `askedAt(row)`: the lights that the list of a place names.

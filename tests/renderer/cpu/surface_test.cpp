@@ -71,7 +71,7 @@ void expectTruth(bool perspective) {
   MadeScene made(perspective);
   made.place(plainMaterials());
   const std::vector<MadeScene::Seen> seen = made.seen(48'000);
-  const FragmentInput in = fragmentsOf(seen);
+  const FragmentInput in = made.fragmentsOf(seen);
   onEachInstructionSet([&] {
     const NumberTable out = surfacesByLanes(made.frameScene(), in);
     double place = 0, face = 0, normal = 0, color = 0, rest = 0;
@@ -113,7 +113,7 @@ TEST(CpuSurface, ShowsWhatAnOrthographicCameraSees) {
 TEST(CpuSurface, IsFiniteOfTrianglesSeenEdgeOnOrWithoutArea) {
   MadeScene made(true);
   made.place(plainMaterials());
-  FragmentInput in = fragmentsOf(made.seen(4800));
+  FragmentInput in = made.fragmentsOf(made.seen(4800));
   // Any triangle at any place: most of them lie elsewhere, some behind the eye.
   std::reverse(in.triangles.begin(), in.triangles.end());
   onEachInstructionSet([&] {

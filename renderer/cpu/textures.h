@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace gnomon::cpu {
+
+/// One size of a texture. RGBA, 8 bits each, red in the lowest; row by row from the image's first, which is at v = 0.
+struct TextureLevel {
+  const std::uint32_t* texels = nullptr;
+  int width = 0;
+  int height = 0;
+};
+
+/// A texture in all of its sizes: the image's own, then halves, rounded down, to one texel.
+struct Pyramid {
+  bool srgb = false;
+  std::vector<TextureLevel> levels;              ///< the first is the image itself
+  std::vector<std::vector<std::uint32_t>> owned; ///< what the others point to
+};
+
+/// The smaller levels average in linear light where the image is sRGB, as OpenGL's do. The image outlives the pyramid.
+Pyramid pyramidOf(const Image& image, bool srgb);
+
+/// A scene's textures, each made when it is first asked for, from any thread. The images outlive it.
+class Textures {
+ public:
+  explicit Textures(std::vector<std::shared_ptr<const Image>> images);
+
+  /// REQUIRES: an index into Scene::images.
+  const Pyramid& of(int image, bool srgb) const {
+    const Made& made = made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)];
+    const Pyramid* pyramid = made.ready.load(std::memory_order_acquire);
+    return pyramid != nullptr ? *pyramid : make(image, srgb);
+  }
+
+  /// What the textures that were made take beside the images.
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Made {
+    std::atomic<const Pyramid*> ready{nullptr};
+    std::mutex making;
+    std::unique_ptr<const Pyramid> pyramid;
+  };
+
+  const Pyramid& make(int image, bool srgb) const;
+
+  std::vector<std::shared_ptr<const Image>> images_;
+  std::unique_ptr<Made[]> made_; ///< two an image: linear and sRGB
+  mutable std::atomic<std::size_t> bytes_{0};
+};
+
+} // namespace gnomon::cpu

@@ -1,0 +1,39 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/sampling_kernels.cpp" // NOLINT: included again for each instruction set
+#include "tests/renderer/cpu/sampling_kernels.h"
+
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/sampling-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+void sampleRows(const Pyramid& texture, const TextureUse& use, const NumberTable& in, NumberTable& out) {
+  for (std::size_t row = 0; row < in.rows; row += kLanes) {
+    const auto pair = [&](std::size_t column)
+                          HWY_ATTR { return Float2(load(in.column(column) + row), load(in.column(column + 1) + row)); };
+    const Texel texel = sampled(texture, use, {pair(0), pair(2), pair(4)}, maskOf(0xffffu));
+    store(texel.rgb.x, out.column(0) + row);
+    store(texel.rgb.y, out.column(1) + row);
+    store(texel.rgb.z, out.column(2) + row);
+    store(texel.a, out.column(3) + row);
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+
+HWY_EXPORT(sampleRows);
+
+NumberTable sampledByLanes(const Pyramid& texture, const TextureUse& use, const NumberTable& in) {
+  NumberTable out(in.rows, 4);
+  HWY_DYNAMIC_DISPATCH(sampleRows)(texture, use, in, out);
+  return out;
+}
+
+} // namespace gnomon::cpu
+#endif

@@ -1,0 +1,122 @@
+#include "renderer/cpu/textures.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "tests/renderer/cpu/instruction_sets.h"
+#include "tests/renderer/cpu/sampled_truth.h"
+#include "tests/renderer/cpu/sampling_kernels.h"
+
+namespace gnomon::cpu {
+namespace {
+
+TEST(CpuTextures, HalvesDownToOneTexelAndKeepsTheImage) {
+  const auto image = noise(20, 6);
+  const Pyramid pyramid = pyramidOf(*image, false);
+  std::vector<glm::ivec2> sizes;
+  for (const TextureLevel& level : pyramid.levels) sizes.emplace_back(level.width, level.height);
+  EXPECT_EQ(sizes, (std::vector<glm::ivec2>{{20, 6}, {10, 3}, {5, 1}, {2, 1}, {1, 1}}));
+  const void* pixels = std::get<std::vector<std::uint8_t>>(image->pixels).data();
+  EXPECT_EQ(static_cast<const void*>(pyramid.levels[0].texels), pixels);
+}
+
+TEST(CpuTextures, ATexelIsTheMeanOfFourInLinearLight) {
+  const auto image = noise(64, 32);
+  for (const bool srgb : {false, true}) {
+    const Pyramid pyramid = pyramidOf(*image, srgb);
+    const TextureLevel& full = pyramid.levels[0];
+    const TextureLevel& half = pyramid.levels[1];
+    for (int y = 0; y < half.height; ++y) {
+      for (int x = 0; x < half.width; ++x) {
+        glm::dvec4 mean(0);
+        for (int i = 0; i < 4; ++i) {
+          mean += 0.25 * texelOf(full.texels[(2 * y + i / 2) * full.width + 2 * x + i % 2], srgb);
+        }
+        const std::uint32_t texel = half.texels[y * half.width + x];
+        // Half a byte's step to each side.
+        for (int c = 0; c < 4; ++c) {
+          const double byte = texel >> (8 * c) & 255u;
+          const auto number = [&](double b) { return srgb && c < 3 ? linearFromSrgb(b / 255.0) : b / 255.0; };
+          ASSERT_GE(mean[c], number(byte - 0.501)) << x << " " << y << " " << c;
+          ASSERT_LE(mean[c], number(byte + 0.501)) << x << " " << y << " " << c;
+        }
+      }
+    }
+  }
+}
+
+TEST(CpuTextures, AreMadeOnceWhoeverAsks) {
+  const Textures textures({noise(256, 256), noise(8, 8)});
+  EXPECT_EQ(textures.bytes(), 0u);
+  std::vector<const Pyramid*> found(4);
+  std::vector<std::thread> threads;
+  for (const Pyramid*& pyramid : found) threads.emplace_back([&] { pyramid = &textures.of(0, true); });
+  for (std::thread& thread : threads) thread.join();
+  for (const Pyramid* pyramid : found) EXPECT_EQ(pyramid, found[0]);
+  EXPECT_EQ(textures.bytes(), (256u * 256u - 1u) / 3u * 4u);
+  EXPECT_NE(&textures.of(0, false), found[0]);
+}
+
+/// Coordinates from -3 to 3, and steps from a 30th of a texel to more than the whole texture.
+NumberTable places(int width) {
+  NumberTable in = randomNumbers(16'000, kSamplingInputs, -1.0f, 1.0f);
+  for (std::size_t row = 0; row < in.rows; ++row) {
+    const float size = std::exp2(static_cast<float>(row / 16 % 14) - 5.0f) / static_cast<float>(width);
+    for (std::size_t column = 0; column < kSamplingInputs; ++column) {
+      in.column(column)[row] *= column < 2 ? 3.0f : size;
+    }
+  }
+  return in;
+}
+
+void expectSampled(const Pyramid& texture, const TextureUse& use, const NumberTable& in) {
+  const NumberTable out = sampledByLanes(texture, use, in);
+  std::size_t off = 0;
+  for (std::size_t row = 0; row < in.rows; ++row) {
+    const auto pair = [&](std::size_t column) { return glm::dvec2(in.at(row, column), in.at(row, column + 1)); };
+    const glm::dvec4 expected = sampledTruth(texture, use, pair(0), pair(2), pair(4));
+    const glm::dvec4 found(out.triple(row, 0), out.at(row, 3));
+    off += glm::length(found - expected) < 1e-3 ? 0 : 1;
+  }
+  // At the border between two texels or levels rounding decides.
+  EXPECT_LE(off, in.rows / 2000);
+}
+
+TEST(CpuTextures, AreReadAsOpenGlReadsThem) {
+  const auto wide = noise(64, 16);
+  const auto odd = noise(37, 53);
+  const Pyramid textures[] = {pyramidOf(*wide, true), pyramidOf(*odd, false)};
+  onEachInstructionSet([&] {
+    for (const Pyramid& texture : textures) {
+      const NumberTable in = places(texture.levels[0].width);
+      for (const Wrap wrap : {Wrap::repeat, Wrap::clampToEdge, Wrap::mirroredRepeat}) {
+        for (const MinFilter filter :
+             {MinFilter::linearMipmapLinear, MinFilter::linearMipmapNearest, MinFilter::nearestMipmapLinear,
+              MinFilter::nearestMipmapNearest, MinFilter::linear, MinFilter::nearest}) {
+          SCOPED_TRACE(testing::Message() << static_cast<int>(wrap) << " " << static_cast<int>(filter));
+          TextureUse use;
+          use.wrapS = wrap;
+          use.wrapT = wrap == Wrap::repeat ? Wrap::mirroredRepeat : wrap;
+          use.minFilter = filter;
+          use.nearest = filter == MinFilter::nearest || filter == MinFilter::linear;
+          expectSampled(texture, use, in);
+        }
+      }
+    }
+  });
+}
+
+TEST(CpuTextures, PlacesThatAreNoNumbersGiveSomeTexel) {
+  const auto image = noise(16, 16);
+  const Pyramid texture = pyramidOf(*image, true);
+  NumberTable in = randomNumbers(160, kSamplingInputs, -1e30f, 1e30f);
+  for (std::size_t i = 0; i < in.numbers.size(); i += 7) in.numbers[i] = std::nanf("");
+  for (std::size_t i = 0; i < in.numbers.size(); i += 11) in.numbers[i] = INFINITY;
+  onEachInstructionSet([&] {
+    for (const float number : sampledByLanes(texture, {}, in).numbers) ASSERT_TRUE(std::isfinite(number));
+  });
+}
+
+} // namespace
+} // namespace gnomon::cpu
