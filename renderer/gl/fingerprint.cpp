@@ -43,30 +43,45 @@ std::string buildIdAmong(std::span<const unsigned char> notes) {
   return {};
 }
 
-/// Called for each loaded object: finds the one that this function is in.
-int visit(dl_phdr_info* object, std::size_t, void* found) {
-  const std::span headers(object->dlpi_phdr, object->dlpi_phnum);
-  const auto here = reinterpret_cast<ElfW(Addr)>(&visit);
-  bool ours = false;
-  for (const ElfW(Phdr) & header : headers) {
-    const ElfW(Addr) start = object->dlpi_addr + header.p_vaddr;
-    ours = ours || (header.p_type == PT_LOAD && here >= start && here < start + header.p_memsz);
+/// A loaded object that is looked for, and its build id once it is found.
+struct Search {
+  std::string_view library; ///< first characters of its file's name; empty = the object that this code is in
+  std::string id{};
+};
+
+bool isNamed(const dl_phdr_info& object, std::string_view library) {
+  const std::string_view path = object.dlpi_name ? object.dlpi_name : "";
+  return path.substr(path.rfind('/') + 1).starts_with(library);
+}
+
+bool holds(const dl_phdr_info& object, ElfW(Addr) address) {
+  for (const ElfW(Phdr) & header : std::span(object.dlpi_phdr, object.dlpi_phnum)) {
+    const ElfW(Addr) start = object.dlpi_addr + header.p_vaddr;
+    if (header.p_type == PT_LOAD && address >= start && address < start + header.p_memsz) return true;
   }
-  if (!ours) return 0;
-  std::string& id = *static_cast<std::string*>(found);
-  for (const ElfW(Phdr) & header : headers) {
-    if (header.p_type != PT_NOTE || !id.empty()) continue;
-    id = buildIdAmong({reinterpret_cast<const unsigned char*>(object->dlpi_addr + header.p_vaddr), header.p_memsz});
+  return false;
+}
+
+/// Called for each loaded object until it gives 1.
+int visit(dl_phdr_info* object, std::size_t, void* target) {
+  Search& search = *static_cast<Search*>(target);
+  const bool found =
+      search.library.empty() ? holds(*object, reinterpret_cast<ElfW(Addr)>(&visit)) : isNamed(*object, search.library);
+  if (!found) return 0;
+  for (const ElfW(Phdr) & header : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
+    if (header.p_type != PT_NOTE || !search.id.empty()) continue;
+    search.id =
+        buildIdAmong({reinterpret_cast<const unsigned char*>(object->dlpi_addr + header.p_vaddr), header.p_memsz});
   }
   return 1;
 }
 
 } // namespace
 
-std::string buildId() {
-  std::string id;
-  dl_iterate_phdr(visit, &id);
-  return id;
+std::string buildId(std::string_view library) {
+  Search search{library};
+  dl_iterate_phdr(visit, &search);
+  return search.id;
 }
 
 std::string cpuMake() {
@@ -78,11 +93,13 @@ std::string cpuMake() {
   std::memcpy(vendor + 4, &d, 4);
   std::memcpy(vendor + 8, &c, 4);
   unsigned family = 0;
+  bool sse42 = false;
   if (__get_cpuid(1, &a, &b, &c, &d) != 0) {
     family = a >> 8 & 15u;
     if (family == 15) family += a >> 20 & 255u;
+    sse42 = (c & bit_SSE4_2) != 0;
   }
-  return std::string(vendor, sizeof vendor) + " " + std::to_string(family);
+  return std::string(vendor, sizeof vendor) + " " + std::to_string(family) + (sse42 ? " sse4.2" : "");
 #else
   utsname name{};
   uname(&name);
@@ -92,7 +109,8 @@ std::string cpuMake() {
 
 std::string fingerprintOf(const RendererInfo& info) {
   std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a, 64 bits
-  for (const std::string& part : {info.renderer, info.version, cpuMake(), std::string(GNOMON_VERSION), buildId()}) {
+  for (const std::string& part : {info.renderer, info.version, cpuMake(), std::string(GNOMON_VERSION), buildId(),
+                                  buildId("libisal.so"), buildId("libdeflate.so")}) {
     for (const char c : part + '\n') hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   }
   std::string hex;

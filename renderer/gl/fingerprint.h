@@ -1,18 +1,22 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "protocol/report/replies.h"
 
 namespace gnomon::gl {
 
-/// The CPU's vendor and family, e.g. "AuthenticAMD 25". Software renderers give other bytes on other makes.
+/// The CPU's vendor and family, and whether it knows SSE 4.2, e.g. "AuthenticAMD 25 sse4.2". Software renderers give
+/// other bytes on other makes, and the compressor of PNGs does without SSE 4.2.
 std::string cpuMake();
 
-/// The linker's hash over this program's code, in hex (the GNU build id): changes with any source or compiler.
-std::string buildId();
+/// The linker's hash over the code of this program, in hex (the GNU build id): changes with any source or compiler.
+/// With `library`: that of the loaded library whose file's name begins so; empty where none is loaded.
+std::string buildId(std::string_view library = {});
 
-/// A short hash of the driver, the CPU's make and this very program: frames from equal fingerprints are equal.
+/// A short hash of the driver, the CPU's make, this very program and the libraries that compress its PNGs: frames from
+/// equal fingerprints are equal.
 std::string fingerprintOf(const RendererInfo& info);
 
 } // namespace gnomon::gl

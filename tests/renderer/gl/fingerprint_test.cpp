@@ -12,6 +12,12 @@ TEST(BuildIdentity, isTheLinkersHash) {
   EXPECT_THAT(buildId(), testing::MatchesRegex("[0-9a-f]{40}"));
 }
 
+TEST(BuildIdentity, ofALibraryIsItsOwn) {
+  EXPECT_THAT(buildId("libc.so"), testing::MatchesRegex("[0-9a-f]{40}"));
+  EXPECT_NE(buildId("libc.so"), buildId());
+  EXPECT_EQ(buildId("libthatisnotloaded.so"), "");
+}
+
 TEST(BuildIdentity, namesTheCpu) {
   EXPECT_FALSE(cpuMake().empty());
 }
