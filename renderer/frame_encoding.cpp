@@ -1,6 +1,7 @@
 #include "protocol/spec/enum_rows.h"
 #include "protocol/spec/output_options.h"
 #include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "renderer/render.h"
 
 namespace gnomon {

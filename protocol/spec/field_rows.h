@@ -34,10 +34,13 @@ template <>
 inline constexpr auto kRows<Output> = rows(
     "Output", "The picture's file.",
     field("format", &Output::format, {.says = "File format if the Accept header names none."}),
-    field("pngCompression", &Output::pngCompression,
-          {.says = "0 = largest file and fastest, 9 = smallest and slowest. The picture is the same at any level; the "
-                   "default favours speed.",
-           .range = {0, 9}}),
+    field(
+        "pngCompression", &Output::pngCompression,
+        {.says = "0 = largest file and fastest, 9 = smallest and slowest. The picture is the same at any level. 0 does "
+                 "not compress; 1 and 2 take a few milliseconds; against 2, 3 takes about four times as long for 5 to "
+                 "10 % less, 6 eight times for 10 to 20 % less, 9 a hundred times and more for 20 to 30 % less. The "
+                 "default is the last one that is quick.",
+         .range = {0, 9}}),
     field("exrCompression", &Output::exrCompression, {.says = "Compression of an EXR; all kinds are lossless."}),
     field(
         "exrPixelType", &Output::exrPixelType,

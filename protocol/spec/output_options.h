@@ -32,7 +32,7 @@ enum class Antialiasing { none, msaa4x };
 
 struct Output {
   ImageFormat format = ImageFormat::png;
-  int pngCompression = 2; ///< 0 fastest .. 9 smallest
+  int pngCompression = 2; ///< 0 fastest .. 9 smallest; up to 2 by ISA-L, from 3 on by libdeflate
   ExrCompression exrCompression = ExrCompression::piz;
   ExrPixelType exrPixelType = ExrPixelType::half; ///< JSON: "half" | "float"
 

@@ -8,7 +8,7 @@
 namespace gnomon::codec {
 
 /// Rises whenever anything in this header changes, so that a stale module is refused and not called.
-inline constexpr std::uint32_t kTableVersion = 2;
+inline constexpr std::uint32_t kTableVersion = 3;
 
 inline constexpr const char* kTableFunction = "gnomonImageCodec";
 
@@ -20,14 +20,6 @@ struct Sink {
 
 enum class Format : std::uint32_t { png, jpeg, webp };
 enum class Compression : std::uint32_t { none, rle, zip, piz };
-
-/// Interleaved rows, first row on top.
-struct BytePicture {
-  int width = 0;
-  int height = 0;
-  int channelCount = 0; ///< 1 grey, 3 RGB, 4 RGB and straight alpha
-  const std::uint8_t* pixels = nullptr;
-};
 
 /// One part of an EXR.
 struct FloatPart {
@@ -43,8 +35,6 @@ struct FloatPart {
 /// Each call gives true when done; otherwise a sentence has gone to `message`. Safe from any thread.
 struct Table {
   std::uint32_t version = 0;
-
-  bool (*encodePng)(const BytePicture& picture, int level, const Sink& encoded, const Sink& message) = nullptr;
 
   /// Several parts need names that differ.
   bool (*encodeExr)(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,

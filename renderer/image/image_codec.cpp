@@ -101,29 +101,6 @@ Result<Essential> essentialOf(codec::Format format, EncodedBytes encoded) {
 
 } // namespace
 
-Result<Bytes> encodePng(const Image& image, int level) {
-  const auto* pixels = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const std::size_t channels = image.channels.size();
-  const bool sound = pixels && image.width > 0 && image.height > 0 && (channels == 1 || channels == 3 || channels == 4);
-  if (!sound ||
-      pixels->size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * channels) {
-    return failure(ProblemCode::internal, "A PNG needs an 8-bit image of 1, 3 or 4 channels", "");
-  }
-  if (level < 0 || level > 9) {
-    return Problem{ProblemCode::invalidValue, "", "The PNG compression level is out of range.", "0..9",
-                   std::to_string(level)};
-  }
-  auto codec = imageCodec();
-  if (!codec) return std::move(codec).problems();
-  Bytes encoded;
-  std::string message;
-  if (!(*codec)->encodePng({image.width, image.height, static_cast<int>(channels), pixels->data()}, level,
-                           sinkInto(encoded), sinkInto(message))) {
-    return failure(ProblemCode::internal, "The PNG could not be written", message);
-  }
-  return encoded;
-}
-
 Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType) {
   auto parts = exrParts(layers, pixelType);
   if (!parts) return std::move(parts).problems();

@@ -23,9 +23,6 @@ struct ImageSize {
   int height = 0;
 };
 
-/// An 8-bit PNG (1, 3 or 4 channels). level 0..9.
-Result<Bytes> encodePng(const Image& image, int level);
-
 /// A float image per layer. Layers of one size share a part; a layer of another size gets a part of its own, and all
 /// parts have the first one's size as their display window. Where a layer has an A, its R, G and B (straight, as
 /// everywhere here) are multiplied by it, as EXR's convention demands. A channel called Z is always written as float.

@@ -1,4 +1,3 @@
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <span>
 #include <string>
@@ -8,10 +7,6 @@
 
 namespace gnomon::codec {
 namespace {
-
-/// libpng's PNG_FILTER_SUB. Trying every filter on every row, its default, takes half as long again for the same size;
-/// PNG_FILTER_PAETH a quarter longer, for 4 % less.
-constexpr int kSubFilter = 0x10;
 
 /// The library writes the time of day where none is given; pinned, equal pictures have equal bytes.
 constexpr const char* kDateTime = "2000:01:01 00:00:00";
@@ -51,30 +46,7 @@ OIIO::ImageSpec specOf(const FloatPart& part, const FloatPart& first, Compressio
   return spec;
 }
 
-bool deliver(std::span<const std::uint8_t> bytes, const Sink& encoded, const Sink& message) {
-  return encoded.accept(encoded.target, bytes.data(), bytes.size()) || fail(message, "out of memory");
-}
-
 } // namespace
-
-bool encodePng(const BytePicture& picture, int level, const Sink& encoded, const Sink& message) {
-  return guarded(message, [&] {
-    OIIO::ImageSpec spec(picture.width, picture.height, picture.channelCount, OIIO::TypeUInt8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("png:compressionLevel", level);
-    spec.attribute("png:filter", kSubFilter);
-    const auto output = OIIO::ImageOutput::create("png");
-    if (!output) return fail(message, OIIO::geterror());
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    if (!output->set_ioproxy(&memory) || !output->open("picture.png", spec) ||
-        !output->write_image(OIIO::TypeUInt8, picture.pixels) || !output->close()) {
-      return fail(message, output->geterror());
-    }
-    return deliver(bytes, encoded, message);
-  });
-}
 
 bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,
                const Sink& message) {
@@ -97,7 +69,7 @@ bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compre
     if (!output->close()) return fail(message, output->geterror());
     const std::span<const std::uint8_t> bytes = file.contents();
     if (bytes.empty()) return fail(message, "the memory file is empty");
-    return deliver(bytes, encoded, message);
+    return encoded.accept(encoded.target, bytes.data(), bytes.size()) || fail(message, "out of memory");
   });
 }
 

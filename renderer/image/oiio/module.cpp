@@ -48,6 +48,6 @@ std::span<const std::uint8_t> MemoryFile::contents() {
 extern "C" __attribute__((visibility("default"))) const gnomon::codec::Table* gnomonImageCodec() {
   using namespace gnomon::codec;
   static const bool ready = setUpLibrary();
-  static const Table table{kTableVersion, encodePng, encodeExr, decode, decodeAlpha};
+  static const Table table{kTableVersion, encodeExr, decode, decodeAlpha};
   return ready ? &table : nullptr;
 }

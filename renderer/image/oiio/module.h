@@ -12,8 +12,6 @@ namespace gnomon::codec {
 
 // The calls of the table, in terms of OpenImageIO. They throw nothing.
 
-bool encodePng(const BytePicture& picture, int level, const Sink& encoded, const Sink& message);
-
 bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,
                const Sink& message);
 

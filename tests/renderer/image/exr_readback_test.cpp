@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 
 namespace gnomon {
 namespace {

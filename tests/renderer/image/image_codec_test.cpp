@@ -1,7 +1,6 @@
 #include "renderer/image/image_codec.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include "tests/renderer/image/png_builder.h"
 
@@ -99,51 +98,6 @@ TEST(DecodePng, RefusesBombsByTheirHeaders) {
   EXPECT_EQ(image.problems().front().code, ProblemCode::tooLarge);
   EXPECT_EQ(image.problems().front().limit, "4095 pixels");
   EXPECT_EQ(image.problems().front().actual, "64x64");
-}
-
-TEST(EncodePng, ComesBackAsItWas) {
-  EXPECT_TRUE(rc::check("decode(encode(image)) == image", [] {
-    const int width = *rc::gen::inRange(1, 9);
-    const int height = *rc::gen::inRange(1, 9);
-    const std::size_t count = static_cast<std::size_t>(width * height * 4);
-    const auto pixels = *rc::gen::container<Pixels>(count, rc::gen::arbitrary<std::uint8_t>());
-    const auto png = encodePng({width, height, {"R", "G", "B", "A"}, pixels}, *rc::gen::inRange(0, 10));
-    RC_ASSERT(bool(png));
-    const auto back = decodeImage(*png, kSide, kPixels);
-    RC_ASSERT(bool(back));
-    RC_ASSERT(back->width == width && back->height == height);
-    RC_ASSERT(std::get<Pixels>(back->pixels) == pixels);
-  }));
-}
-
-TEST(EncodePng, WritesGreyAndRgb) {
-  const auto grey = encodePng({2, 1, {"Y"}, Pixels{3, 250}}, 2);
-  ASSERT_TRUE(grey);
-  EXPECT_EQ((*grey)[25], 0) << "colour type";
-  EXPECT_EQ(decoded(*grey), (Pixels{3, 3, 3, 255, 250, 250, 250, 255}));
-  const auto rgb = encodePng({1, 1, {"R", "G", "B"}, Pixels{3, 4, 5}}, 2);
-  ASSERT_TRUE(rgb);
-  EXPECT_EQ((*rgb)[25], 2) << "colour type";
-  EXPECT_EQ(decoded(*rgb), (Pixels{3, 4, 5, 255}));
-}
-
-TEST(EncodePng, DependsOnItsArgumentsOnly) {
-  const Image image{16, 16, {"R", "G", "B"}, Pixels(768, 77)};
-  const auto first = encodePng(image, 0);
-  const auto second = encodePng(image, 0);
-  const auto smaller = encodePng(image, 9);
-  ASSERT_TRUE(first && second && smaller);
-  EXPECT_EQ(*first, *second);
-  EXPECT_LT(smaller->size(), first->size());
-}
-
-TEST(EncodePng, RefusesWhatItCannotWrite) {
-  EXPECT_FALSE(encodePng({1, 1, {"Y", "A"}, Pixels{1, 2}}, 2));
-  EXPECT_FALSE(encodePng({2, 1, {"Y"}, Pixels{1}}, 2));
-  EXPECT_FALSE(encodePng({0, 0, {"Y"}, Pixels{}}, 2));
-  EXPECT_FALSE(encodePng({1, 1, {"Y"}, std::vector<float>{1}}, 2));
-  EXPECT_FALSE(encodePng({1, 1, {"Y"}, Pixels{1}}, 10));
-  EXPECT_FALSE(encodePng({1, 1, {"Y"}, Pixels{1}}, -1));
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "tests/renderer/scene/animation/animated.h"
 #include "tests/renderer/scene/load.h"

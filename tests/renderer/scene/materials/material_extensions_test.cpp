@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "renderer/scene/document/read_materials.h"
 #include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"

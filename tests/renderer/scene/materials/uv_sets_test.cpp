@@ -1,6 +1,6 @@
 #include "renderer/scene/materials/uv_sets.h"
 
-#include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {
