@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "renderer/shaders/shared/frame_types.h"
-#include "tests/renderer/cpu/each_target.h"
+#include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/random_maps.h"
 
 namespace gnomon::cpu {
@@ -103,12 +103,12 @@ TEST(BlurredMoments, AreWhatTheShadersTextGives) {
           }
           const DepthBuffer depths = randomBuffer(random, size.x, size.y, samples);
           const std::vector<glm::vec4> expected = Truth{depths, blur, {}}.all();
-          onEachTarget([&](const char* target) {
+          onEachInstructionSet([&] {
             const std::vector<glm::vec4> seen = blurredMoments(depths, blur);
             ASSERT_EQ(seen.size(), expected.size());
             ASSERT_LE(greatestDifference(seen, expected), 3e-5f)
-                << target << " kind " << kind << ", " << size.x << " x " << size.y << ", reach " << reach.x << " "
-                << reach.y << ", samples " << samples << ", to " << blur.farthest << " m";
+                << "kind " << kind << ", " << size.x << " x " << size.y << ", reach " << reach.x << " " << reach.y
+                << ", samples " << samples << ", to " << blur.farthest << " m";
           });
         }
       }

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "tests/renderer/cpu/each_target.h"
+#include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/random_maps.h"
 #include "tests/renderer/cpu/shadow_truth.h"
 
@@ -72,10 +72,10 @@ TEST(ShadowVisibility, LanesGiveWhatTheShadersText) {
     const RandomMaps maps = randomMaps(random, c.options);
     const std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
     const std::vector<float> expected = expectedOf(maps.view(), points);
-    onEachTarget([&](const char* target) {
+    onEachInstructionSet([&] {
       const Difference off = differences(maps.view(), points, expected);
-      EXPECT_LE(off.points, kPoints / 1000) << c.name << " " << target << ", greatest " << off.greatest;
-      EXPECT_LE(off.mean, 2e-5) << c.name << " " << target;
+      EXPECT_LE(off.points, kPoints / 1000) << c.name << ", greatest " << off.greatest;
+      EXPECT_LE(off.mean, 2e-5) << c.name;
       EXPECT_GE(off.between, kPoints / 200) << c.name;
     });
   }
@@ -105,15 +105,14 @@ TEST(ShadowVisibility, BoundsAndEdgesOfTexelsAreExact) {
       const std::vector<AskedPoint> points = quarterSteps(maps);
       const ShadowMaps view = maps.view();
       const std::vector<float> expected = expectedOf(view, points);
-      onEachTarget([&](const char* target) {
+      onEachInstructionSet([&] {
         std::vector<float> seen(points.size());
         visibilitiesByLanes(view, points, seen.data());
         for (std::size_t i = 0; i < points.size(); ++i) {
           const glm::vec3& at = points[i].relative;
-          ASSERT_NEAR(seen[i], expected[i], 1e-6)
-              << target << " " << size << " at " << at.x << " " << at.y << " " << at.z;
+          ASSERT_NEAR(seen[i], expected[i], 1e-6) << size << " at " << at.x << " " << at.y << " " << at.z;
           const bool beyond = std::min(at.x, at.y) < 12 || std::max(at.x, at.y) > 36;
-          ASSERT_TRUE(!beyond || seen[i] == 1.0f) << target << " at " << at.x << " " << at.y;
+          ASSERT_TRUE(!beyond || seen[i] == 1.0f) << at.x << " " << at.y;
         }
       });
     }
@@ -128,10 +127,10 @@ TEST(ShadowVisibility, FacesTurnedAwayAreInShadow) {
   point.toLight = maps.lights[0].direction;
   point.normal = -point.toLight;
   point.groupBit = 2;
-  onEachTarget([&](const char* target) {
+  onEachInstructionSet([&] {
     float seen = -1;
     visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
-    EXPECT_FLOAT_EQ(seen, 0.1f) << target;
+    EXPECT_FLOAT_EQ(seen, 0.1f);
   });
 }
 
@@ -145,10 +144,10 @@ TEST(ShadowVisibility, ATileWithoutTexelsIsLit) {
   point.toLight = maps.lights[0].direction;
   point.normal = point.toLight;
   point.groupBit = 2;
-  onEachTarget([&](const char* target) {
+  onEachInstructionSet([&] {
     float seen = -1;
     visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
-    EXPECT_FLOAT_EQ(seen, 1) << target;
+    EXPECT_FLOAT_EQ(seen, 1);
   });
 }
 
@@ -168,9 +167,9 @@ TEST(ShadowVisibility, LayersAreReadPixelByPixel) {
       ShadowMaps view = maps.view();
       view.layers = layers;
       const std::vector<float> expected = expectedOf(view, points);
-      onEachTarget([&](const char* target) {
+      onEachInstructionSet([&] {
         const Difference off = differences(view, points, expected);
-        EXPECT_LE(off.greatest, 1e-6f) << target;
+        EXPECT_LE(off.greatest, 1e-6f);
       });
     }
   }
@@ -181,7 +180,7 @@ TEST(CascadeTint, LanesGiveWhatTheShadersText) {
     std::mt19937 random(11);
     const RandomMaps maps = randomMaps(random, {.lightType = type, .fadesOut = true});
     const std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
-    onEachTarget([&](const char* target) {
+    onEachInstructionSet([&] {
       std::vector<glm::vec3> seen(points.size());
       tintsByLanes(maps.view(), points, seen.data());
       float greatest = 0;
@@ -189,7 +188,7 @@ TEST(CascadeTint, LanesGiveWhatTheShadersText) {
         const glm::vec3 off = glm::abs(seen[i] - truth::cascadeTint(maps.view(), 0, points[i]));
         greatest = std::max({greatest, off.x, off.y, off.z});
       }
-      EXPECT_LE(greatest, 1e-5f) << target;
+      EXPECT_LE(greatest, 1e-5f);
     });
   }
 }
