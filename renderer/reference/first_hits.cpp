@@ -84,8 +84,6 @@ CameraRay cameraRay(const CameraView& view, const glm::dvec3& anchor, const Aabb
   return ray;
 }
 
-constexpr std::size_t kPointsAtOnce = 4096; ///< found by one core at a time
-
 /// Where a camera ray of this direction crosses a triangle. `at`: as crossing() gives it.
 SurfacePoint surfacePoint(const glm::dvec3& direction, const PlacedTriangle& on, const Triangle& triangle,
                           const glm::dvec3& area, const Barycentric& at) {
@@ -195,23 +193,6 @@ std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm
   std::vector<SurfacePoint> points(places.size());
   forEachPiece(places.size(), kRaysAtOnce, [&](std::size_t first, std::size_t last) {
     camera.firstHits(places.subspan(first, last - first), std::span(points).subspan(first, last - first));
-  });
-  return points;
-}
-
-std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm::vec2> places,
-                                   std::span<const PlacedTriangle> triangles) {
-  const TracedScene::Tree& tree = input.traced.tree();
-  const glm::dvec2 size(input.width, input.height);
-  std::vector<SurfacePoint> points(places.size());
-  forEachPiece(places.size(), kPointsAtOnce, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (triangles[i].instance == kNoSurface) continue;
-      const SightLine line = sightLine(input.camera, tree.anchor, size, glm::dvec2(places[i]));
-      const Triangle triangle = tree.triangle(triangles[i].instance, triangles[i].triangle);
-      const Barycentric at = crossing(triangle, line.origin, line.direction, {1.0 / 3.0, 1.0 / 3.0});
-      points[i] = surfacePoint(line.direction, triangles[i], triangle, triangle.area(), at);
-    }
   });
   return points;
 }

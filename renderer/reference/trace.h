@@ -57,6 +57,10 @@ std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm
 std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm::vec2> places,
                                    std::span<const PlacedTriangle> triangles);
 
+/// The same, on the calling thread. REQUIRES: as many of each as places.
+void pointsOn(const TraceInput& input, std::span<const glm::vec2> places, std::span<const PlacedTriangle> triangles,
+              std::span<SurfacePoint> points);
+
 /// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, and lies in its
 /// range and its cone.
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points);

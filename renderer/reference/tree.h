@@ -49,8 +49,12 @@ struct TracedScene::Tree {
   const Material& material(std::uint32_t instanceIndex) const {
     return scene->materials[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))];
   }
+  /// Its corners' places among the positions of its instance.
+  const std::uint32_t* corners(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
+    return &scene->indices[primitive(instanceIndex).firstIndex + 3 * std::size_t{triangleIndex}];
+  }
   Triangle triangle(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
-    const std::uint32_t* corner = &scene->indices[primitive(instanceIndex).firstIndex + 3 * std::size_t{triangleIndex}];
+    const std::uint32_t* corner = corners(instanceIndex, triangleIndex);
     const glm::vec3* placed = &positions[firstPosition[instanceIndex]];
     const double metres = 1.0 / scale;
     return {glm::dvec3(placed[corner[0]]) * metres, glm::dvec3(placed[corner[1]]) * metres,

@@ -13,7 +13,9 @@ std::vector<SurfacePoint> PicturePoints::drawn(std::span<const std::uint32_t> pi
     places[i] = placeIn(grid_, pixels[i], grid_.positions.front());
     numbers[i] = shown_[pixels[i] * grid_.samples()];
   }
-  return pointsOn(rays_, places, numbers_.of(numbers));
+  std::vector<SurfacePoint> points(pixels.size());
+  pointsOn(rays_, places, numbers_.of(numbers), points);
+  return points;
 }
 
 std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> pixels) const {

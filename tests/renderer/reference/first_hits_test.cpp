@@ -27,40 +27,6 @@ TEST(FirstHits, LieInTheSurfaceWherePointAtPutsThePixel) {
   }
 }
 
-TEST(PointsOn, AreTheFirstHitsWhereThoseAreKnown) {
-  GlbBuilder builder;
-  for (const float y : {0.0f, 1.0f, 2.0f}) addSquare(builder, 3.0f - y, y);
-  Traced traced(builder);
-  for (const bool perspective : {false, true}) {
-    traced.camera = perspective ? perspectiveView({4, 9, 7}, {0.3, 0, 0.2}, 50) //
-                                : parallelView({4, 9, 7}, {-4, -9, -7}, 9);
-    std::vector<glm::vec2> places;
-    std::vector<PlacedTriangle> triangles;
-    const std::vector<SurfacePoint> hits = traced.surface();
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      places.emplace_back(float(i % 64) + 0.5f, float(i / 64) + 0.5f);
-      triangles.push_back({hits[i].instance, hits[i].triangle});
-    }
-    const std::vector<SurfacePoint> points = pointsOn(traced.input(), places, triangles);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      ASSERT_EQ(points[i].instance, hits[i].instance);
-      EXPECT_EQ(points[i].normal, hits[i].normal);
-      EXPECT_LT(glm::length(points[i].position - hits[i].position), 1e-12);
-    }
-  }
-}
-
-TEST(PointsOn, StayInTheTriangleThatTheRayPasses) {
-  GlbBuilder builder;
-  addSquare(builder, 1, 0);
-  Traced traced(builder);
-  traced.camera = parallelView({0, 5, 0}, {0, -1, 0}, 4);
-  const std::vector<glm::vec2> places{{0.5f, 0.5f}};
-  const std::vector<PlacedTriangle> triangles{{0, 0}};
-  const SurfacePoint point = pointsOn(traced.input(), places, triangles)[0];
-  EXPECT_LE(std::max(std::abs(point.position.x), std::abs(point.position.z)), 1);
-}
-
 TEST(FirstHits, AnEmptySceneHasNone) {
   Traced traced{GlbBuilder{}};
   traced.camera = perspectiveView({1, 4, 3}, {0, 0, 0}, 40);
