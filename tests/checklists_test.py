@@ -75,14 +75,14 @@ class Checklists(unittest.TestCase):
 
     def test_a_view(self):
         self.assertEqual(self.steps_of("To add a debug view"), ["1", "2", "3"])
-        rows = '#include "protocol/spec/view_traits.h"\n'
+        rows = '#include "protocol/spec/traits.h"\n'
         self.assert_fine(rows)
         # 1. Its name, what it shows, and its row.
         self.edit("protocol/spec/output_options.h", r"\n  edgeDistance", ",\n  scratch")
         self.assert_refused(rows, "spellsAll<View>")
         self.edit("protocol/spec/enum_rows.h", r"spelling\(View::edgeDistance,.*?\),\n", '    spelling(View::scratch, "scratch", "nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
-        self.edit("protocol/spec/view_traits.h", r"ViewTraits\{View::edgeDistance,[^\n]*\n",
+        self.edit("protocol/spec/traits.h", r"ViewTraits\{View::edgeDistance,[^\n]*\n",
                   "    ViewTraits{View::scratch, ViewSource::data, false, false, false, false, channels::kValue, channels::kValue},\n")
         self.assert_fine(rows)
         # 2. What it draws, under the define that follows from its name.
@@ -128,14 +128,14 @@ class Checklists(unittest.TestCase):
 
     def test_a_technique(self):
         self.assertEqual(self.steps_of("To add a technique"), ["1", "2", "3"])
-        rows = '#include "protocol/spec/technique_traits.h"\n'
+        rows = '#include "protocol/spec/traits.h"\n'
         # 1. Its name, what it is, and its row.
         self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ shadowMap, hybrid, shadowVolume, rayTraced", ", scratch")
         self.assert_refused(rows, "spellsAll<ShadowTechnique>")
         self.edit("protocol/spec/enum_rows.h", r"spelling\(ShadowTechnique::rayTraced,.*?\),\n",
                   '    spelling(ShadowTechnique::scratch, "scratch", "nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
-        self.edit("protocol/spec/technique_traits.h", r"TechniqueTraits\{ShadowTechnique::rayTraced,[^\n]*\n",
+        self.edit("protocol/spec/traits.h", r"TechniqueTraits\{ShadowTechnique::rayTraced,[^\n]*\n",
                   "    TechniqueTraits{ShadowTechnique::scratch, false, true, true, false, true, false, false},\n")
         # 2. What finds the shadow asks the row: nothing else names techniques.
         self.assert_fine('#include "renderer/resolve/plan_input.cpp"\n')

@@ -7,8 +7,8 @@
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
 #include "protocol/fields/field_list.h"
+#include "protocol/spec/rules.h"
 #include "protocol/spec/validate.h"
-#include "protocol/spec/view_rules.h"
 
 namespace gnomon {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {

@@ -8,10 +8,9 @@
 #include <span>
 #include <string_view>
 
-#include "protocol/base/json_pointer.h"
+#include "protocol/base/json.h"
 #include "protocol/base/result.h"
 #include "protocol/fields/fields.h"
-#include "protocol/fields/spellings.h"
 #include "protocol/json/json_source.h"
 
 /// What the compiler knows of a member's type, as a table. So what reads, writes, checks and describes fields are plain

@@ -1,9 +1,12 @@
 #include "protocol/json/json_codec.h"
 
+#include <cassert>
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/text.h"
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
+#include "protocol/fields/fields.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/spec/validate.h"
 
@@ -86,6 +89,99 @@ Json toJson(const SceneList& list) {
 }
 Json toJson(const Capabilities& capabilities) {
   return encodeValue(capabilities);
+}
+
+/// `says` is the title: the reason phrase of its HTTP status where the code has one to itself, else a name in that
+/// form.
+template <>
+inline constexpr std::array kSpellings<ProblemCode>{
+    spelling(ProblemCode::malformed, "malformed", "Malformed Request"),
+    spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
+    spelling(ProblemCode::notFound, "notFound", "Not Found"),
+    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
+    spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),
+    spelling(ProblemCode::lengthRequired, "lengthRequired", "Length Required"),
+    spelling(ProblemCode::tooLarge, "tooLarge", "Content Too Large"),
+    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "Unsupported Media Type"),
+    spelling(ProblemCode::invalidScene, "invalidScene", "Invalid Scene"),
+    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "Unsupported Feature"),
+    spelling(ProblemCode::hashMismatch, "hashMismatch", "Hash Mismatch"),
+    spelling(ProblemCode::busy, "busy", "Too Many Requests"),
+    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "Deadline Exceeded"),
+    spelling(ProblemCode::unavailable, "unavailable", "Service Unavailable"),
+    spelling(ProblemCode::backend, "backend", "Graphics Backend Failure"),
+    spelling(ProblemCode::internal, "internal", "Internal Server Error"),
+};
+static_assert(spellsAll<ProblemCode>());
+
+namespace {
+
+Json entry(const Problem& problem) {
+  Json json = {{"code", std::string(problemName(problem.code))},
+               {"pointer", asUtf8(problem.pointer)},
+               {"detail", asUtf8(problem.detail)}};
+  if (!problem.limit.empty()) json["limit"] = asUtf8(problem.limit);
+  if (!problem.actual.empty()) json["actual"] = asUtf8(problem.actual);
+  return json;
+}
+
+Json textSchema(const char* description) {
+  return {{"type", "string"}, {"description", description}};
+}
+
+} // namespace
+
+std::string_view problemName(ProblemCode code) {
+  return spell(code);
+}
+
+std::string_view problemTitle(ProblemCode code) {
+  return kSpellings<ProblemCode>[static_cast<std::size_t>(code)].says;
+}
+
+Json problemJson(const Problems& problems, int status, std::string_view instance) {
+  assert(!problems.empty());
+  const Problem& first = problems.front();
+  std::string detail = asUtf8(first.detail);
+  if (problems.size() > 1) {
+    detail = "There are " + std::to_string(problems.size()) + " problems, the first at \"" + asUtf8(first.pointer) +
+             "\": " + detail;
+  }
+  Json json = {{"type", "/problems/" + std::string(problemName(first.code))},
+               {"title", std::string(problemTitle(first.code))},
+               {"status", status},
+               {"detail", detail}};
+  if (!instance.empty()) json["instance"] = asUtf8(instance);
+  json["problems"] = Json::array();
+  for (const Problem& problem : problems) json["problems"].push_back(entry(problem));
+  return json;
+}
+
+Json problemSchema() {
+  Json codes = Json::array();
+  for (const Spelling& spelling : kSpellings<ProblemCode>) codes.push_back(std::string(spelling.name));
+  const Json item = {
+      {"type", "object"},
+      {"description", "One thing that is wrong."},
+      {"additionalProperties", false},
+      {"required", {"code", "pointer", "detail"}},
+      {"properties",
+       {{"code", {{"type", "string"}, {"enum", codes}, {"description", "What kind of thing is wrong."}}},
+        {"pointer", textSchema("Where: a JSON pointer, a query key or a part's name; empty = the whole.")},
+        {"detail", textSchema("One sentence for people.")},
+        {"limit", textSchema("What would have been accepted.")},
+        {"actual", textSchema("What came, shortened.")}}}};
+  return {{"type", "object"},
+          {"description", "Everything that is wrong with a request, as RFC 9457 has it."},
+          {"additionalProperties", false},
+          {"required", {"type", "title", "status", "detail", "problems"}},
+          {"properties",
+           {{"type", textSchema("/problems/ and the first problem's code.")},
+            {"title", textSchema("The first problem's code in words, such as Too Many Requests.")},
+            {"status", {{"type", "integer"}, {"description", "The HTTP status."}}},
+            {"detail", textSchema("The first problem, for people, and how many there are.")},
+            {"instance", textSchema("The request's id.")},
+            {"problems", {{"type", "array"}, {"minItems", 1}, {"items", item}, {"description", "Every problem."}}}}}};
 }
 
 } // namespace gnomon

@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
-#include "protocol/base/json_pointer.h"
-#include "protocol/base/json_shape.h"
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "protocol/base/json_pointer.h"
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"

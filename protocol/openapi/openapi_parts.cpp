@@ -6,7 +6,7 @@
 
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
-#include "protocol/json/problem_json.h"
+#include "protocol/json/json_codec.h"
 #include "protocol/report/replies.h"
 
 namespace gnomon::openapi {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/fields/spellings.h"
+#include "protocol/fields/fields.h"
 #include "protocol/spec/frame_spec.h"
 
 /// The spelling of every enum that a frame's specification can hold.

@@ -2,11 +2,9 @@
 
 #include "protocol/fields/fields.h"
 #include "protocol/fields/ranges.h"
-#include "protocol/spec/camera_rows.h"
 #include "protocol/spec/enum_rows.h"
 #include "protocol/spec/frame_spec.h"
-#include "protocol/spec/light_rows.h"
-#include "protocol/spec/node_rows.h"
+#include "protocol/spec/scene_rows.h"
 #include "protocol/spec/shadow_rows.h"
 
 /// One row for each member of every struct that a frame's specification is made of. A new member without its row

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/spec/camera.h"
-#include "protocol/spec/light.h"
 #include "protocol/spec/output_options.h"
+#include "protocol/spec/scene_options.h"
 #include "protocol/spec/shadow_options.h"
 
 namespace gnomon {

@@ -1,7 +1,6 @@
-#include "protocol/spec/shadow_rules.h"
-
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/rules.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {

@@ -4,8 +4,7 @@
 
 #include "protocol/fields/field_checks.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/shadow_rules.h"
-#include "protocol/spec/view_rules.h"
+#include "protocol/spec/rules.h"
 
 namespace gnomon {
 namespace {

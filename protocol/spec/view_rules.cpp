@@ -1,5 +1,3 @@
-#include "protocol/spec/view_rules.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include "protocol/fields/field_checks.h"
 #include "protocol/spec/enum_rows.h"
+#include "protocol/spec/rules.h"
 
 namespace gnomon {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 
 namespace gnomon {
 

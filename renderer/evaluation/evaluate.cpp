@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/json/problem_json.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/evaluation/evaluation_times.h"
 #include "renderer/evaluation/evaluation_truth.h"
 #include "renderer/evaluation/world_points.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/animation/posed_scene.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"

@@ -1,6 +1,6 @@
 #include "renderer/frame/make_report.h"
 
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/shadow/filter_kernel.h"
 
 namespace gnomon {

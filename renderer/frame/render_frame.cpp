@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/measured_shadow.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"

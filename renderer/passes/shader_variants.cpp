@@ -3,7 +3,7 @@
 #include <array>
 #include <cctype>
 
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {

@@ -1,6 +1,6 @@
 #include "renderer/prepare/lit_light.h"
 
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 

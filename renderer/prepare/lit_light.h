@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/prepare/draw_list.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/trace.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/scene/node_switches.h"

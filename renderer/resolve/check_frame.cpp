@@ -5,7 +5,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {

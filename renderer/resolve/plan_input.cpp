@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "protocol/spec/technique_traits.h"
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 #include "renderer/shadow/tile_size.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "protocol/base/result.h"
-#include "protocol/spec/camera.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/scene/scene.h"
 

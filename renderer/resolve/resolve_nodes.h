@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "protocol/spec/light.h"
-#include "protocol/spec/node_options.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/base/json_pointer.h"
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {

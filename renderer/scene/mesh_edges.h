@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

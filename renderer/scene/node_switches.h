@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 
 namespace gnomon {
 

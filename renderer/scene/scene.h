@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "protocol/report/replies.h"
-#include "protocol/spec/camera.h"
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
 #include "renderer/image/image.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"

@@ -5,11 +5,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/bytes.h"
 #include "protocol/base/elapsed.h"
-#include "protocol/base/encoding.h"
-#include "protocol/base/sha256.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
 

@@ -8,7 +8,7 @@
 
 #include "protocol/base/text.h"
 #include "protocol/evaluation/evaluation_json.h"
-#include "protocol/json/problem_json.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "server/evaluations/evaluation_run.h"

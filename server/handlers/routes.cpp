@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/sha256.h"
+#include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/openapi/openapi.h"

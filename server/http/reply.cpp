@@ -5,7 +5,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "protocol/json/problem_json.h"
+#include "protocol/json/json_codec.h"
 
 namespace gnomon {
 namespace {

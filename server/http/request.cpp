@@ -6,7 +6,7 @@
 #include <charconv>
 #include <random>
 
-#include "protocol/base/encoding.h"
+#include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 #include "server/http/url.h"
 

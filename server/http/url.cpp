@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/base/encoding.h"
+#include "protocol/base/bytes.h"
 
 namespace gnomon {
 namespace {

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "protocol/base/bytes.h"
-#include "protocol/base/sha256.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {

@@ -3,7 +3,6 @@
 
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/problem_json.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {

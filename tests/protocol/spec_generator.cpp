@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "protocol/spec/field_rows.h"
-#include "protocol/spec/shadow_rules.h"
+#include "protocol/spec/rules.h"
 
 namespace gnomon {
 namespace {

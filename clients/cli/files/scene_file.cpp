@@ -7,7 +7,6 @@
 
 #include "clients/cli/files/file_io.h"
 #include "protocol/base/bytes.h"
-#include "protocol/base/encoding.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "protocol/base/bytes.h"
-#include "protocol/base/sha256.h"
 
 namespace gnomon::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/render/local_render.h"
-#include "protocol/base/encoding.h"
+#include "protocol/base/bytes.h"
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"
 

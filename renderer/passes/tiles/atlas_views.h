@@ -3,7 +3,7 @@
 #include <span>
 
 #include "protocol/base/result.h"
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/passes/tiles/atlas_views.h"
 
 namespace gnomon {

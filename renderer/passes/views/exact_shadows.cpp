@@ -7,7 +7,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/traced_shadow.h"

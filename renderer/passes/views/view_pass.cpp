@@ -4,7 +4,7 @@
 #include <string>
 
 #include "protocol/spec/limits.h"
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "protocol/base/result.h"
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"

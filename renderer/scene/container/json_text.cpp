@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/base/json_shape.h"
+#include "protocol/base/json.h"
 
 namespace gnomon {
 

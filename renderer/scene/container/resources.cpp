@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "protocol/base/encoding.h"
+#include "protocol/base/bytes.h"
 #include "renderer/scene/decode/meshopt.h"
 #include "renderer/scene/findings.h"
 

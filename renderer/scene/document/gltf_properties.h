@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/spec/light.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/scene/scene.h"
 
 /// Materials, cameras and lights as a glTF file states them: the parts of gltf::Model that animations may change.

@@ -1,9 +1,8 @@
-#include "protocol/json/problem_json.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "protocol/json/json_codec.h"
 #include "tests/protocol/schema_check.h"
 
 namespace gnomon {

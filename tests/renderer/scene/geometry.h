@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "protocol/spec/camera.h"
+#include "protocol/spec/scene_options.h"
 
 namespace gnomon {
 

@@ -1,4 +1,4 @@
-#include "protocol/base/encoding.h"
+#include "protocol/base/bytes.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -75,6 +75,21 @@ TEST(Bytes, LeastSignificantFirst) {
   EXPECT_EQ(littleEndian({}), 0u);
   EXPECT_EQ(littleEndian(Bytes{0x12, 0x34, 0x56, 0x87}), 0x87563412u);
   EXPECT_EQ(littleEndian(Bytes(8, 0xff)), ~std::uint64_t{0});
+}
+
+TEST(Sha256, KnownVectors) { // FIPS 180-2, appendix B
+  EXPECT_EQ(Sha256().hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  Sha256 hash;
+  hash.add("abc");
+  EXPECT_EQ(hash.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(Sha256, PiecesAreTheWhole) {
+  Sha256 hash;
+  hash.add("a");
+  hash.add("");
+  hash.add(asBytes("bc"));
+  EXPECT_EQ(hash.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 } // namespace

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
+/// Places in a JSON document, and how large one may be. Reading one: protocol/json/json_source.h.
 namespace gnomon {
 
 /// A place in a JSON document: a chain of keys and indices on the stack, written out only when a problem needs it.
@@ -31,5 +34,21 @@ std::string pointerSegment(std::string_view key);
 
 /// True where `inner` is `outer` or lies within it. Both are JSON pointers.
 bool pointsInto(std::string_view inner, std::string_view outer);
+
+/// How large untrusted JSON may be, so that no parser meets a text that would exhaust its stack or the memory.
+struct JsonShape {
+  int maxDepth = 0; ///< levels of objects and arrays
+  std::size_t maxValues = std::numeric_limits<std::size_t>::max();
+};
+
+/// Where a text leaves its bounds.
+struct JsonExcess {
+  enum class Of { depth, values } of = Of::depth;
+  std::size_t offset = 0; ///< of the first byte too much
+};
+
+/// Counts brackets and commas outside strings, before anything is parsed: the text need not be JSON. Nothing = within
+/// the bounds.
+std::optional<JsonExcess> findExcess(std::string_view text, const JsonShape& bounds);
 
 } // namespace gnomon
