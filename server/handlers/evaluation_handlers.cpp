@@ -1,5 +1,3 @@
-#include "server/handlers/evaluation_handlers.h"
-
 #include <array>
 #include <atomic>
 #include <exception>
@@ -12,7 +10,7 @@
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "server/evaluations/evaluation_run.h"
-#include "server/http/event_stream.h"
+#include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 

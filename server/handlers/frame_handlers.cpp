@@ -1,5 +1,3 @@
-#include "server/handlers/frame_handlers.h"
-
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/elapsed.h"
@@ -7,6 +5,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/json/query_codec.h"
 #include "server/frames/frame_reply.h"
+#include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"

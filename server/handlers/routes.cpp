@@ -8,9 +8,7 @@
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/openapi/openapi.h"
-#include "server/handlers/evaluation_handlers.h"
-#include "server/handlers/frame_handlers.h"
-#include "server/handlers/scene_handlers.h"
+#include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/handlers/services.h"
+#include "server/handlers/handlers.h"
 #include "server/http/connection.h"
 #include "server/http/router.h"
 

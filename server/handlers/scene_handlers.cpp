@@ -1,9 +1,8 @@
-#include "server/handlers/scene_handlers.h"
-
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
+#include "server/handlers/handlers.h"
 #include "server/http/reply.h"
 #include "server/scenes/bundle.h"
 

@@ -10,6 +10,7 @@
 #include "server/frames/render_queue.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
+#include "server/http/router.h"
 #include "server/scenes/scene_store.h"
 
 namespace gnomon {
@@ -27,5 +28,18 @@ struct Services {
   std::counting_semaphore<> plans{2}; ///< how many more may be made at once: each takes memory by the picture's size
   std::atomic<bool> draining = false; ///< true from the first signal on; readyz reports it
 };
+
+HttpReply postScene(Services& services, RouteCall call);   ///< POST /v1/scenes
+HttpReply putScene(Services& services, RouteCall call);    ///< PUT /v1/scenes/{id}
+HttpReply listScenes(Services& services, RouteCall call);  ///< GET /v1/scenes
+HttpReply getScene(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}
+HttpReply deleteScene(Services& services, RouteCall call); ///< DELETE /v1/scenes/{id}
+
+HttpReply postFrame(Services& services, RouteCall call);  ///< POST /v1/scenes/{id}/frames
+HttpReply getFrame(Services& services, RouteCall call);   ///< GET /v1/scenes/{id}/frame?…
+HttpReply postPlan(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/plan
+HttpReply renderOnce(Services& services, RouteCall call); ///< POST /v1/render
+
+HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
 
 } // namespace gnomon
