@@ -6,11 +6,9 @@
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/scene_file.h"
-#include "clients/cli/render/local_render.h"
-#include "clients/cli/render/remote_render.h"
+#include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
-#include "clients/cli/terminal/problem_text.h"
-#include "clients/cli/terminal/progress_line.h"
+#include "clients/cli/terminal/messages.h"
 
 namespace gnomon::cli {
 namespace {

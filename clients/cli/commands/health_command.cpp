@@ -4,7 +4,7 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/remote/http_client.h"
-#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/messages.h"
 
 namespace gnomon::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/cli/render/rendered.h"
+#include "clients/cli/render/rendering.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 

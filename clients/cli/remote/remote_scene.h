@@ -3,7 +3,7 @@
 #include <string>
 
 #include "clients/cli/remote/http_client.h"
-#include "clients/cli/terminal/progress_line.h"
+#include "clients/cli/terminal/messages.h"
 #include "protocol/base/result.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/scene/scene_bundle.h"

@@ -1,9 +1,8 @@
-#include "clients/cli/render/local_render.h"
-
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "clients/cli/render/rendering.h"
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"

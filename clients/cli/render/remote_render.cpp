@@ -1,11 +1,9 @@
-#include "clients/cli/render/remote_render.h"
-
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
-#include "clients/cli/render/local_render.h"
+#include "clients/cli/render/rendering.h"
 #include "protocol/base/bytes.h"
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/messages.h"
 #include "protocol/base/result.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/frame_spec.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/messages.h"
 #include "protocol/base/text.h"
 
 namespace gnomon::cli {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/messages.h"
 
 namespace gnomon::cli {
 namespace {

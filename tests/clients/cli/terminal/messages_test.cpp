@@ -1,4 +1,4 @@
-#include "clients/cli/terminal/problem_text.h"
+#include "clients/cli/terminal/messages.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/cli/terminal/messages.h"
+#include "protocol/base/bytes.h"
+#include "protocol/base/result.h"
+#include "protocol/evaluation/evaluation.h"
+#include "protocol/report/replies.h"
+#include "protocol/spec/frame_spec.h"
+#include "renderer/scene/scene_bundle.h"
+
+namespace gnomon::cli {
+
+/// An encoded picture.
+struct Picture {
+  std::string view; ///< its name; of an EXR, which holds every view, the first one's
+  Bytes file;       ///< PNG or EXR
+};
+
+/// What a frame gives, wherever it was rendered: the same spec gives the same pictures here and there.
+struct Rendered {
+  std::vector<Picture> pictures; ///< one per view as PNG, one for all as EXR
+  std::string reportJson;
+};
+
+/// Renders in this process. The report gets the stages `load` and `encode` besides the renderer's own.
+Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
+                            ProgressLine& progress);
+
+/// Measures in this process.
+Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
+                                      const BackendOptions& backend, ProgressLine& progress);
+
+/// Plans in this process, as JSON. The renderer is created only to ask what it can do; it draws nothing.
+Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
+                             ProgressLine& progress);
+
+/// Renders on `server` ("http://host:port"): uploads the scene unless it is there, then asks for the frame. What the
+/// server refuses comes back as its own problems.
+Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+                             ProgressLine& progress);
+
+/// The same for a plan: its JSON.
+Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+                              ProgressLine& progress);
+
+/// Measures on `server`, listening to its events; `requestJson`: an EvaluationRequest.
+Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBundle& bundle,
+                                       const std::string& requestJson, ProgressLine& progress);
+
+} // namespace gnomon::cli
