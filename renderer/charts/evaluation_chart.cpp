@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "protocol/base/text.h"
-#include "renderer/charts/chart_axes.h"
-#include "renderer/charts/svg.h"
+#include "renderer/charts/chart_parts.h"
 
 namespace gnomon {
 namespace {

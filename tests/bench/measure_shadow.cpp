@@ -8,7 +8,7 @@
 
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"
-#include "renderer/evaluation/evaluation_times.h"
+#include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/render.h"

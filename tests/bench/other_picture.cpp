@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "renderer/evaluation/evaluation_times.h"
+#include "renderer/evaluation/evaluation_measures.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/charts/svg.h"
+#include "renderer/charts/chart_parts.h"
 
 namespace gnomon::bench {
 namespace {

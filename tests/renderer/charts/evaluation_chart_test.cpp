@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <regex>
 
-#include "renderer/charts/chart_axes.h"
+#include "renderer/charts/chart_parts.h"
 
 namespace gnomon {
 namespace {
