@@ -1,16 +1,149 @@
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "protocol/base/result.h"
 #include "renderer/gl/context_setup.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/egl_api.h"
 #include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {
 namespace {
+
+/// The functions of libEGL, loaded at run time.
+struct EglApi {
+  PFNEGLGETPROCADDRESSPROC getProcAddress = nullptr;
+  PFNEGLQUERYSTRINGPROC queryString = nullptr;
+  PFNEGLINITIALIZEPROC initialize = nullptr;
+  PFNEGLBINDAPIPROC bindApi = nullptr;
+  PFNEGLCHOOSECONFIGPROC chooseConfig = nullptr;
+  PFNEGLCREATECONTEXTPROC createContext = nullptr;
+  PFNEGLDESTROYCONTEXTPROC destroyContext = nullptr;
+  PFNEGLMAKECURRENTPROC makeCurrent = nullptr;
+  PFNEGLGETERRORPROC getError = nullptr;
+  PFNEGLRELEASETHREADPROC releaseThread = nullptr;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = nullptr; ///< null without EGL_EXT_platform_base
+  PFNEGLQUERYDEVICESEXTPROC queryDevices = nullptr;             ///< null without EGL_EXT_device_enumeration
+  PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = nullptr;   ///< null without EGL_EXT_device_query
+};
+
+Result<EglApi> openEgl() {
+  constexpr const char* kName = "libEGL.so.1";
+  const SharedLibrary library(kName);
+  if (!library.isOpen()) return backendProblem(library.failure());
+  EglApi egl;
+  library.load(egl.getProcAddress, "eglGetProcAddress");
+  library.load(egl.queryString, "eglQueryString");
+  library.load(egl.initialize, "eglInitialize");
+  library.load(egl.bindApi, "eglBindAPI");
+  library.load(egl.chooseConfig, "eglChooseConfig");
+  library.load(egl.createContext, "eglCreateContext");
+  library.load(egl.destroyContext, "eglDestroyContext");
+  library.load(egl.makeCurrent, "eglMakeCurrent");
+  library.load(egl.getError, "eglGetError");
+  library.load(egl.releaseThread, "eglReleaseThread");
+  if (!egl.getProcAddress || !egl.queryString || !egl.initialize || !egl.bindApi || !egl.chooseConfig ||
+      !egl.createContext || !egl.destroyContext || !egl.makeCurrent || !egl.getError || !egl.releaseThread) {
+    return backendProblem(std::string(kName) + " lacks functions of EGL 1.4");
+  }
+  const auto extension = [&]<class Function>(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(egl.getProcAddress(name));
+  };
+  extension(egl.getPlatformDisplay, "eglGetPlatformDisplayEXT");
+  extension(egl.queryDevices, "eglQueryDevicesEXT");
+  extension(egl.queryDeviceString, "eglQueryDeviceStringEXT");
+  return egl;
+}
+
+/// The process's libEGL.so.1, opened at the first call; a problem that says why it can't be.
+const Result<EglApi>& eglApi() {
+  static const Result<EglApi> api = openEgl();
+  return api;
+}
+
+/// The name of the last EGL error of this thread, e.g. "EGL_BAD_MATCH".
+std::string eglErrorName(const EglApi& egl) {
+  constexpr std::array<const char*, 15> kNames{"EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
+                                               "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",       "EGL_BAD_CONFIG",
+                                               "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
+                                               "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP",   "EGL_BAD_NATIVE_WINDOW",
+                                               "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",         "EGL_CONTEXT_LOST"};
+  const EGLint code = egl.getError() - EGL_SUCCESS;
+  if (code < 0 || code >= static_cast<EGLint>(kNames.size())) return "error " + std::to_string(code + EGL_SUCCESS);
+  return kNames[static_cast<std::size_t>(code)];
+}
+
+/// Whether a list separated by spaces has the name; a null list has none.
+bool hasExtension(const char* extensions, std::string_view name) {
+  if (!extensions) return false;
+  const std::string list = " " + std::string(extensions) + " ";
+  return list.find(" " + std::string(name) + " ") != std::string::npos;
+}
+
+/// A place where EGL may make a context.
+struct EglPlace {
+  std::string name;     ///< for messages: "EGL device 0 (hardware)"
+  std::string platform; ///< "device" | "surfaceless"
+  EGLenum kind = 0;
+  void* native = nullptr;
+};
+
+bool isSoftwareDevice(const EglApi& egl, EGLDeviceEXT device) {
+  return egl.queryDeviceString &&
+         hasExtension(egl.queryDeviceString(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+std::vector<EglPlace> devicePlaces(const EglApi& egl) {
+  EGLint count = 0;
+  if (!egl.queryDevices || !egl.queryDevices(0, nullptr, &count) || count <= 0) return {};
+  std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+  if (!egl.queryDevices(count, devices.data(), &count)) return {};
+  devices.resize(static_cast<std::size_t>(count));
+  const auto hardware =
+      std::ranges::stable_partition(devices, [&](EGLDeviceEXT device) { return !isSoftwareDevice(egl, device); });
+  const std::size_t hardwareCount = devices.size() - hardware.size();
+  std::vector<EglPlace> places;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    places.push_back({.name = "EGL device " + std::to_string(i) + (i < hardwareCount ? " (hardware)" : " (software)"),
+                      .platform = "device",
+                      .kind = EGL_PLATFORM_DEVICE_EXT,
+                      .native = devices[i]});
+  }
+  return places;
+}
+
+/// Every place that this EGL offers without a window system: devices, hardware before software, then surfaceless. Never
+/// the default display, which may be X or Wayland. Empty when EGL knows neither platform.
+std::vector<EglPlace> eglPlaces(const EglApi& egl) {
+  if (!egl.getPlatformDisplay) return {};
+  const char* extensions = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  std::vector<EglPlace> places;
+  if (hasExtension(extensions, "EGL_EXT_platform_device")) places = devicePlaces(egl);
+  if (hasExtension(extensions, "EGL_MESA_platform_surfaceless")) {
+    places.push_back({.name = "EGL surfaceless", .platform = "surfaceless", .kind = EGL_PLATFORM_SURFACELESS_MESA});
+  }
+  return places;
+}
+
+/// An initialized display. EGL has one display for a place, however often it is asked, and contexts on other threads
+/// may use it: it is never terminated.
+Result<EGLDisplay> openDisplay(const EglApi& egl, const EglPlace& place) {
+  const EGLDisplay display = egl.getPlatformDisplay(place.kind, place.native, nullptr);
+  if (display == EGL_NO_DISPLAY) return backendProblem("no display (" + eglErrorName(egl) + ")");
+  if (!egl.initialize(display, nullptr, nullptr)) {
+    return backendProblem("eglInitialize failed (" + eglErrorName(egl) + ")");
+  }
+  return display;
+}
 
 /// A surfaceless EGL context, current on this thread from `create` to its destruction.
 class EglContext final : public Context {
