@@ -2,13 +2,21 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/spec/shadow_options.h"
 #include "renderer/core/camera_view.h"
-#include "renderer/shadow/shadow_plan.h"
-#include "renderer/shadow/splits.h"
 
+/// The view depths that a light's cascades cover, and where one cascade ends and the next begins.
 namespace gnomon {
+
+struct ReceiverDepths;
+
+/// From one view depth to another, metres.
+struct DepthInterval {
+  double near = 0;
+  double far = 0;
+};
 
 /// How far a depth that a shader computes may lie from the surveyed one: metres, at view depth `depth`. Floats and a
 /// 32-bit depth buffer keep 6e-8 of the depth (perspective) or of far - near (orthographic); this leaves room for the
@@ -33,5 +41,24 @@ struct PlannedRange {
 /// be. What comes out depends on the previous range and this frame, and on nothing else.
 std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverDepths& receivers,
                                          const DepthRange& options);
+
+/// The distances between cascades: n cascades, n + 1 view depths, strictly increasing. The first is range.near; the
+/// last is range.far, except in mode manual where the last fraction is less than 1: the rest is uncovered by choice.
+/// Manual: range.near + fraction * length, one cascade for each fraction (cascadeCount is not looked at).
+/// Logarithmic: Zhang et al., "Parallel-Split Shadow Maps for Large-scale Virtual Environments", 2006, with
+/// pssmFactor = 1 - lambda. Where range.near <= 0, which only an orthographic camera gives, the distances are laid out
+/// as if the range began at a thousandth of its length.
+std::vector<double> splitDistances(const Partition& partition, int cascadeCount, const DepthInterval& range);
+
+/// What one cascade serves.
+struct CascadeInterval {
+  double near = 0;      ///< view depth from which a pixel may read it: the previous cascade's blend zone included
+  double far = 0;       ///< its split
+  double blendNear = 0; ///< where it begins to fade into the next, or to lit; = far where it does not fade
+};
+
+/// A blend zone is the last 20 % of a cascade's own interval between its splits. The next cascade serves from the
+/// beginning of that zone, so that both have texels for every pixel in it. The last cascade fades only on `fadeOut`.
+std::vector<CascadeInterval> cascadeIntervals(const std::vector<double>& splits, bool blendCascades, bool fadeOut);
 
 } // namespace gnomon

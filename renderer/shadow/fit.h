@@ -6,8 +6,8 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"
-#include "renderer/shadow/splits.h"
 
 namespace gnomon {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/shadow_plan.h"
-#include "renderer/shadow/splits.h"
 #include "renderer/shadow/tile_space.h"
 
 namespace gnomon {

@@ -6,8 +6,8 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/shadow_plan.h"
-#include "renderer/shadow/splits.h"
 #include "renderer/shadow/tile_space.h"
 
 namespace gnomon {

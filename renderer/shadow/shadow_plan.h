@@ -9,9 +9,8 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/core/rect.h"
+#include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"
-#include "renderer/shadow/receiver_mask.h"
-#include "renderer/shadow/splits.h"
 #include "renderer/shadow/tile_space.h"
 
 namespace gnomon {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "renderer/shadow/depth_range.h"
+#include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/shadow/receiver_mask.h"
+#include "renderer/shadow/tile_space.h"
 
 #include <gtest/gtest.h>
 
