@@ -78,7 +78,7 @@ KEPT_IN = {
         "clients/cli",
         "renderer/charts",
         "renderer/scene/checks",
-        "renderer/scene/container/json_text.h",
+        "renderer/scene/container/model_container.h",
         "renderer/scene/document",
     ],
     "tiny_gltf.h": ["tests"],

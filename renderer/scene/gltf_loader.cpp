@@ -17,9 +17,8 @@
 #include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/materials/uv_sets.h"
-#include "renderer/scene/materials/variants.h"
+#include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/posing/posed_nodes.h"
-#include "renderer/scene/posing/skins.h"
 #include "renderer/scene/summary.h"
 
 namespace gnomon {

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "renderer/scene/animation/property_target.h"
-#include "renderer/scene/graph/cameras.h"
-#include "renderer/scene/graph/lights.h"
+#include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/scene.h"
 

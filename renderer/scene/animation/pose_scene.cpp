@@ -8,11 +8,9 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/animation/samplers.h"
-#include "renderer/scene/graph/cameras.h"
-#include "renderer/scene/graph/lights.h"
+#include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/materials/materials.h"
-#include "renderer/scene/materials/variants.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/posing/pose.h"
 

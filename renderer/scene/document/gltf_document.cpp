@@ -2,13 +2,11 @@
 
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_schema.h"
-#include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
 #include "renderer/scene/container/resources.h"
 #include "renderer/scene/decode/meshopt.h"
 #include "renderer/scene/document/read_model.h"
-#include "renderer/scene/graph/cameras.h"
-#include "renderer/scene/graph/lights.h"
+#include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {

@@ -1,6 +1,5 @@
-#include "renderer/scene/document/read_materials.h"
-
 #include "renderer/scene/document/gltf_json.h"
+#include "renderer/scene/document/read_model.h"
 
 namespace gnomon {
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "renderer/scene/document/gltf_json.h"
-#include "renderer/scene/document/read_materials.h"
 
 namespace gnomon {
 

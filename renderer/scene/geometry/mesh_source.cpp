@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "renderer/scene/materials/variants.h"
+#include "renderer/scene/materials/materials.h"
 
 namespace gnomon {
 

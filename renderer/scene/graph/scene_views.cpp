@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "renderer/core/aabb.h"
-#include "renderer/scene/graph/cameras.h"
+#include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/instancing.h"
-#include "renderer/scene/graph/lights.h"
 
 namespace gnomon {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "renderer/scene/materials/materials.h"
-#include "renderer/scene/materials/variants.h"
 
 namespace gnomon {
 

@@ -10,6 +10,7 @@
 namespace gnomon {
 
 class Findings;
+struct LoadContext;
 struct PrimitiveSource;
 
 /// How much of a vertex follows which joints of a skin. The weights sum to 1; a weight of 0 is none.
@@ -60,5 +61,11 @@ struct Deformation {
 
 /// Reads the morph targets and joints of a primitive whose vertices have been built.
 Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings);
+
+/// The skins of the file, in its order. Without inverse bind matrices a skin has those of identity.
+std::vector<Skin> readSkins(const LoadContext& load);
+
+/// Refuses meshes, drawn or not, whose joints reach past the skin of the node that they hang on.
+void checkJoints(const LoadContext& load);
 
 } // namespace gnomon

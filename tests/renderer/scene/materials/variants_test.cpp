@@ -1,5 +1,4 @@
-#include "renderer/scene/materials/variants.h"
-
+#include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

@@ -1,4 +1,4 @@
-#include "renderer/scene/graph/lights.h"
+#include "renderer/scene/graph/attachments.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,6 +8,108 @@
 
 namespace gnomon {
 namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+json perspective() {
+  return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.5}, {"zfar", 20.0}}}};
+}
+
+TEST(Cameras, StandWhereTheirNodeStands) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.add("cameras", perspective());
+  builder.addRoot({{"camera", 0}, {"name", "Eye"}, {"translation", {1, 2, 3}}, {"rotation", kQuarterAroundY}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.scenes[0].cameras.size(), 1u);
+  const SceneCamera& camera = scene.scenes[0].cameras[0];
+  EXPECT_EQ(camera.node, 1);
+  EXPECT_EQ(camera.name, "Eye");
+  expectNear(camera.eye, {1, 2, 3});
+  expectNear(camera.forward, {-1, 0, 0});
+  expectNear(camera.up, {0, 1, 0});
+  ASSERT_TRUE(camera.perspective && !camera.orthographic);
+  EXPECT_NEAR(camera.perspective->fovYDegrees, 180 / std::numbers::pi, 1e-12);
+  EXPECT_EQ(camera.perspective->near, 0.5);
+  EXPECT_EQ(camera.perspective->far, 20.0);
+}
+
+TEST(Cameras, ScaleDoesNotMatter) {
+  for (const json& scale : {json{3, 3, 3}, json{1, 5, 0.1}, json{-1, 1, 1}, json{1, 1, -1}, json{-2, -2, -2}}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.add("cameras", perspective());
+    builder.addRoot({{"camera", 0}, {"scale", scale}, {"rotation", kQuarterAroundY}});
+    const SceneCamera camera = load(builder).scenes[0].cameras.at(0);
+    expectNear(camera.forward, {-1, 0, 0});
+    expectNear(camera.up, {0, 1, 0});
+  }
+}
+
+TEST(Cameras, AxesStayOrthonormalUnderAShear) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.add("cameras", perspective());
+  const double s = std::sin(0.3);
+  const double c = std::cos(0.3);
+  builder.addRoot({{"children", {2}}, {"scale", {1, 10, 1}}});
+  builder.add("nodes", {{"camera", 0}, {"rotation", {s, 0, 0, c}}});
+  const SceneCamera camera = load(builder).scenes[0].cameras.at(0);
+  EXPECT_NEAR(glm::length(camera.forward), 1, 1e-12);
+  EXPECT_NEAR(glm::length(camera.up), 1, 1e-12);
+  EXPECT_NEAR(glm::dot(camera.forward, camera.up), 0, 1e-12);
+}
+
+TEST(Cameras, ReadsOrthographicLenses) {
+  testing::GlbBuilder builder;
+  builder.add("cameras",
+              {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
+  builder.addRoot({{"camera", 0}});
+  const Scene scene = load(builder);
+  const SceneCamera& camera = scene.scenes[0].cameras.at(0);
+  ASSERT_TRUE(camera.orthographic && !camera.perspective);
+  EXPECT_EQ(camera.orthographic->height, 6);
+  EXPECT_EQ(camera.orthographic->near, 0);
+  EXPECT_EQ(camera.orthographic->far, 9);
+  ASSERT_EQ(scene.summary.cameras.size(), 1u);
+  EXPECT_EQ(scene.summary.cameras[0].type, "orthographic");
+}
+
+TEST(Cameras, RefusesBrokenLenses) {
+  const auto problems = [](const json& camera) {
+    testing::GlbBuilder builder;
+    builder.add("cameras", camera);
+    return problemsOf(builder);
+  };
+  json camera = perspective();
+  camera["perspective"]["zfar"] = 0.5;
+  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/zfar")));
+  camera["perspective"] = {{"yfov", 4}, {"znear", 1}};
+  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/yfov")));
+  camera.erase("perspective");
+  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective")));
+}
+
+TEST(Cameras, ScaledToNothingAreLeftOut) {
+  testing::GlbBuilder builder;
+  builder.add("cameras", perspective());
+  builder.addRoot({{"children", {1}}, {"scale", {0, 0, 0}}});
+  builder.add("nodes", {{"camera", 0}});
+  const Scene scene = load(builder);
+  EXPECT_THAT(scene.scenes[0].cameras, IsEmpty());
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("camera at node 1")));
+}
+
+TEST(Cameras, VeryLongNamesAreCutWithAWarning) {
+  testing::GlbBuilder builder;
+  builder.add("cameras", perspective());
+  std::string name = "x";
+  for (int i = 0; i < 1000; ++i) name += "\xC3\xA4"; // two bytes each, so that the cut falls inside one
+  builder.addRoot({{"camera", 0}, {"name", name}});
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.scenes[0].cameras.at(0).name, name.substr(0, 255));
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("cut to 256 bytes")));
+}
 
 using nlohmann::json;
 using ::testing::Contains;
