@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/evaluation/evaluation_times.h"
-#include "renderer/evaluation/evaluation_truth.h"
+#include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/scene/animation/posed_scene.h"
 

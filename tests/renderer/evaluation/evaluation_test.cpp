@@ -3,8 +3,7 @@
 
 #include "protocol/evaluation/evaluation_json.h"
 #include "renderer/evaluation/evaluate.h"
-#include "renderer/evaluation/evaluation_times.h"
-#include "renderer/evaluation/evaluation_truth.h"
+#include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/render.h"
 
