@@ -1,7 +1,7 @@
 #include "renderer/cpu/cpu_frame.h"
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/cpu/show_view.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"

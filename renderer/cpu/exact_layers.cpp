@@ -5,7 +5,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/technique_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/techniques/traced_shadow.h"
 

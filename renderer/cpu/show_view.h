@@ -5,7 +5,7 @@
 #include <span>
 
 #include "protocol/spec/output_options.h"
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/cpu/depth_buffer.h"
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/shadow_maps.h"

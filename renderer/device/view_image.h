@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/spec/view_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/image/image.h"
 
 /// How a device hands out what it drew.
