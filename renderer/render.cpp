@@ -1,8 +1,8 @@
 #include "renderer/render.h"
 
+#include "renderer/devices.h"
 #include "renderer/evaluation/shimmer.h"
 #include "renderer/frame/render_frame.h"
-#include "renderer/passes/gl_device.h"
 #include "renderer/scene/gltf_loader.h"
 
 namespace gnomon {
@@ -16,33 +16,38 @@ const SceneSummary& summaryOf(const Scene& scene) {
 }
 
 struct Renderer::Impl {
-  std::unique_ptr<Device> device;
+  Devices devices;
   TracedSceneCache traced;
 };
 
 Renderer::Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes)
-    : impl_(new Impl{std::move(device), TracedSceneCache(tracedSceneBytes)}) {}
+    : impl_(new Impl{Devices(std::move(device)), TracedSceneCache(tracedSceneBytes)}) {}
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(const RendererOptions& options) {
-  auto device = createGlDevice({options.backend, options.gpuSceneBytes, options.tileCacheBytes});
-  if (!device) return device.problems();
-  return Renderer(std::move(*device), options.tracedSceneBytes);
+  auto devices = Devices::open(options);
+  if (!devices) return devices.problems();
+  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*devices), TracedSceneCache(options.tracedSceneBytes)}));
 }
 
 const RendererInfo& Renderer::info() const {
-  return impl_->device->info();
+  return impl_->devices.standard().info();
 }
 
 Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
                                   const Progress& progress) {
-  return measureShimmer(*impl_->device, impl_->traced, scene, spec, path, progress);
+  const auto device = impl_->devices.of(spec);
+  if (!device) return device.problems();
+  return measureShimmer(**device, impl_->traced, scene, spec, path, progress);
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles) {
-  return renderFrame(*impl_->device, impl_->traced, scene, spec, tiles);
+  const auto device = impl_->devices.of(spec);
+  if (!device) return device.problems();
+  return renderFrame(**device, impl_->traced, scene, spec, tiles);
 }
 
 } // namespace gnomon

@@ -37,10 +37,10 @@ struct RendererOptions {
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 
-/// Owns a device that draws. Everything but `info` only on the thread that made it.
+/// Owns what draws. Everything but `info` only on the thread that made it.
 class Renderer {
  public:
-  /// Over OpenGL, with a context of its own.
+  /// Over the devices that the options leave to choose from: see DeviceChoice.
   static Result<Renderer> create(const RendererOptions& options);
   /// Over any device. `tracedSceneBytes`: as in RendererOptions.
   explicit Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes = RendererOptions{}.tracedSceneBytes);
@@ -48,6 +48,7 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
+  /// Of the device that draws what doesn't name one.
   const RendererInfo& info() const;
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
@@ -63,6 +64,7 @@ class Renderer {
 
  private:
   struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -12,23 +12,25 @@ namespace gnomon {
 
 enum class Backend { automatic, egl, osmesa };
 
-/// Which graphics context to make.
+/// Which device draws, and by which graphics context.
 struct BackendOptions {
-  Backend backend = Backend::automatic; ///< automatic = EGL, then OSMesa
-  bool requireGpu = false;              ///< refuse software renderers
+  DeviceChoice device = DeviceChoice::auto_; ///< gl where another option names a context or a GPU
+  Backend backend = Backend::automatic;          ///< automatic = EGL, then OSMesa
+  bool requireGpu = false;                       ///< refuse software renderers
 };
 
-/// What the chosen graphics context is and can do.
+/// What the device that draws is and can do.
 struct RendererInfo {
-  std::string backend{};  ///< "egl" | "osmesa"
-  std::string platform{}; ///< "device" | "surfaceless" | "osmesa"
-  std::string vendor{};   ///< GL_VENDOR
-  std::string renderer{}; ///< GL_RENDERER
-  std::string version{};  ///< GL_VERSION
+  std::string backend{};  ///< "cpu" | "egl" | "osmesa"
+  std::string platform{}; ///< "cpu" | "device" | "surfaceless" | "osmesa"
+  std::string vendor{};   ///< GL_VENDOR; of a processor its maker
+  std::string renderer{}; ///< GL_RENDERER; of a processor its name
+  std::string version{};  ///< GL_VERSION; of a processor the instruction set that is used, e.g. "AVX2"
   bool software = false;  ///< true = no GPU
   int maxTextureSize = 0; ///< texels
   int maxSamples = 0;
-  std::string fingerprint{}; ///< changes whenever the same request could give other bytes
+  DeviceChoice device = DeviceChoice::gl; ///< cpu or gl
+  std::string fingerprint{};              ///< changes whenever the same request could give other bytes
 };
 
 struct CameraSummary {

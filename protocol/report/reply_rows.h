@@ -84,15 +84,16 @@ static_assert(kRowsAreComplete<SceneSummary>);
 
 template <>
 inline constexpr auto kRows<RendererInfo> = rows(
-    "RendererInfo", "The graphics context and what it can do.",
-    field("backend", &RendererInfo::backend, {.says = "egl or osmesa."}),
-    field("platform", &RendererInfo::platform, {.says = "device, surfaceless or osmesa."}),
-    field("vendor", &RendererInfo::vendor, {.says = "GL_VENDOR."}),
-    field("renderer", &RendererInfo::renderer, {.says = "GL_RENDERER."}),
-    field("version", &RendererInfo::version, {.says = "GL_VERSION."}),
+    "RendererInfo", "The device that draws and what it can do.",
+    field("backend", &RendererInfo::backend, {.says = "cpu, egl or osmesa."}),
+    field("platform", &RendererInfo::platform, {.says = "cpu, device, surfaceless or osmesa."}),
+    field("vendor", &RendererInfo::vendor, {.says = "GL_VENDOR; of a processor its maker."}),
+    field("renderer", &RendererInfo::renderer, {.says = "GL_RENDERER; of a processor its name."}),
+    field("version", &RendererInfo::version, {.says = "GL_VERSION; of a processor the instruction set that is used."}),
     field("software", &RendererInfo::software, {.says = "True = the CPU draws; there is no GPU."}),
     field("maxTextureSize", &RendererInfo::maxTextureSize, {.says = "Largest side of a texture.", .unit = "texels"}),
     field("maxSamples", &RendererInfo::maxSamples, {.says = "Most samples a pixel."}),
+    field("device", &RendererInfo::device, {.says = "What draws."}),
     field("fingerprint", &RendererInfo::fingerprint,
           {.says = "Changes whenever the same request could give other bytes: with the driver, the CPU's make and the "
                    "build."}));

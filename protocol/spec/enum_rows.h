@@ -163,6 +163,14 @@ inline constexpr std::array kSpellings<ToneMapping>{
 static_assert(spellsAll<ToneMapping>());
 
 template <>
+inline constexpr std::array kSpellings<DeviceChoice>{
+    spelling(DeviceChoice::auto_, "auto", "OpenGL on a GPU, or else the processor"),
+    spelling(DeviceChoice::cpu, "cpu", "the processor alone"),
+    spelling(DeviceChoice::gl, "gl", "OpenGL, by whatever driver there is"),
+};
+static_assert(spellsAll<DeviceChoice>());
+
+template <>
 inline constexpr std::array kSpellings<Antialiasing>{
     spelling(Antialiasing::none, "none", "one sample a pixel"),
     spelling(Antialiasing::msaa4x, "msaa4x", "four samples a pixel"),

@@ -138,6 +138,10 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("quality", &FrameSpec::quality,
           {.says = "A target for the shadows instead of settings: technique, filter, cascades and sizes are then "
                    "chosen to meet it."}),
+    field(
+        "device", &FrameSpec::device,
+        {.says = "What draws the frame, where the server has a choice. Both draw the same picture within rounding; the "
+                 "time differs."}),
     field("output", &FrameSpec::output, {.says = "Format and compression of the picture."}));
 static_assert(kRowsAreComplete<FrameSpec>);
 

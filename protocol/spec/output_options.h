@@ -28,6 +28,9 @@ enum class ImageFormat { png, exr };
 enum class ExrCompression { none, rle, zip, piz };
 enum class ExrPixelType { half, float_ };
 enum class ToneMapping { aces, none };
+
+/// What draws: a processor, or OpenGL.
+enum class DeviceChoice { auto_, cpu, gl };
 enum class Antialiasing { none, msaa4x };
 
 struct Output {

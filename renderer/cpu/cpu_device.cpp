@@ -1,25 +1,30 @@
 #include "renderer/cpu/cpu_device.h"
 
+#include <hwy/detect_targets.h>
 #include <hwy/targets.h>
 
+#include "renderer/core/fingerprint.h"
 #include "renderer/cpu/cpu_frame.h"
 
 namespace gnomon {
 namespace {
 
-/// The widest picture, atlas or tile; what the planner is told is the API's own limit.
+/// The largest side that the API takes; memory is what is bounded (protocol/spec/limits.h).
 constexpr int kLargestSide = 16384;
 
 RendererInfo rendererInfo() {
   RendererInfo info;
   info.backend = "cpu";
   info.platform = "cpu";
-  info.vendor = "Gnomon";
-  info.renderer = "Gnomon CPU";
-  info.version = hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
+  info.vendor = cpuMake();
+  info.renderer = cpuName();
+  const std::int64_t sets = hwy::SupportedTargets() & HWY_TARGETS;
+  info.version = hwy::TargetName(sets & -sets); // the lowest bit is the best one
   info.software = true;
   info.maxTextureSize = kLargestSide;
   info.maxSamples = 4;
+  info.device = DeviceChoice::cpu;
+  info.fingerprint = fingerprintOf(info);
   return info;
 }
 

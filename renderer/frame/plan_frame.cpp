@@ -57,6 +57,7 @@ Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const R
 
   PlanReport report;
   report.spec = frame->spec;
+  report.spec.device = device.device;
   if (!receivers.range.empty()) report.depthRange = {receivers.range.nearest, receivers.range.farthest};
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
   report.lights = lightReports(frame->spec, plan, errors, frame->view.eye, layered);

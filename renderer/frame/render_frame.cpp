@@ -24,6 +24,7 @@ Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const SceneP
   auto resolved = resolveFrame(*scene, spec);
   if (!resolved) return resolved.problems();
   if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
+  resolved->spec.device = device.info().device;
   const FrameSpec& effective = resolved->spec;
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
   const std::vector<int> layered = layeredLights(*resolved);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/core/fingerprint.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/fingerprint.h"
 #include "renderer/gl/gl.h"
 
 namespace gnomon::gl {

@@ -10,6 +10,19 @@
 
 namespace gnomon {
 
+std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec) {
+  std::vector<std::string> places;
+  if (spec.shadow.technique == ShadowTechnique::shadowVolume) places.emplace_back("/shadow/technique");
+  if (!spec.lights) return places;
+  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+    const std::optional<Shadow>& own = (*spec.lights)[i].shadow;
+    if (own && own->technique == ShadowTechnique::shadowVolume) {
+      places.push_back("/lights/" + std::to_string(i) + "/shadow/technique");
+    }
+  }
+  return places;
+}
+
 Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   ProblemList problems;
   for (const auto& [side, place] : {std::pair(spec.width, "/width"), std::pair(spec.height, "/height")}) {
@@ -24,6 +37,12 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   if (spec.atlas.size > device.maxTextureSize) {
     problems.add({ProblemCode::invalidValue, "/atlas/size", "The device has no textures as large as that.",
                   "at most " + std::to_string(device.maxTextureSize), std::to_string(spec.atlas.size)});
+  }
+  if (device.device == DeviceChoice::cpu) {
+    for (const std::string& place : placesOfShadowVolumes(spec)) {
+      problems.add({ProblemCode::unsupportedFeature, place, "The device `cpu` draws no shadow volumes, which are OpenGL's.",
+                    "another technique, or a server that draws by OpenGL", "shadowVolume"});
+    }
   }
   if (problems.empty()) return Done{};
   return std::move(problems).take();

@@ -8,6 +8,9 @@
 
 namespace gnomon {
 
+/// Where a spec, as it was asked for, names what only OpenGL draws. JSON Pointers.
+std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec);
+
 /// What only the device can refuse.
 Status checkDevice(const FrameSpec& spec, const RendererInfo& device);
 

@@ -112,6 +112,7 @@ bool drawsHybridMap(const ResolvedFrame& frame, const SceneView& scene, int ligh
   const FrameSpec& spec = frame.spec;
   if (!device.software) return true;
   if (std::any_of(spec.views.begin(), spec.views.end(), [](View view) { return traitsOf(view).tiles; })) return true;
+  if (device.device == DeviceChoice::cpu) return false; // its rays take less time than the map
   const double pixels = static_cast<double>(spec.width) * spec.height;
   const double map = static_cast<double>(scene.triangles) * (kCost.tileTriangle + kCost.outlines) +
                      texelsOf((*spec.lights)[static_cast<std::size_t>(light)], spec) * kCost.tileTexel +

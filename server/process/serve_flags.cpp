@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kDay = 86'400; // seconds
 
-// Every option but `page` needs a flag below; `backend` has two.
+// Every option but `page` needs a flag below; `backend` has three.
 static_assert(memberCount<ServeOptions>() == 19);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
@@ -31,6 +31,21 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
 }
 
 void addWhatDraws(CLI::App& serve, ServeOptions& options) {
+  serve
+      .add_option_function<std::string>(
+          "--device",
+          [&options](const std::string& name) {
+            options.backend.device = name == "cpu"  ? DeviceChoice::cpu
+                                     : name == "gl" ? DeviceChoice::gl
+                                                    : DeviceChoice::auto_;
+          },
+          "What draws; auto = OpenGL on a GPU, or else the processor, and requests may name another. cpu opens no "
+          "display and loads no driver")
+      ->envname("GNOMON_DEVICE")
+      ->check(CLI::IsMember({"auto", "cpu", "gl"}))
+      ->type_name("")
+      ->default_str("auto")
+      ->group("Renderer");
   serve
       .add_option_function<std::string>(
           "--backend",

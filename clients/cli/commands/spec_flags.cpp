@@ -94,6 +94,15 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
 }
 
 void addWhereFlags(CLI::App& command, WhereOptions& where) {
+  auto* device = command.add_option_function<std::string>(
+      "--device",
+      [&where](const std::string& name) {
+        where.backend.device = name == "cpu"  ? DeviceChoice::cpu
+                               : name == "gl" ? DeviceChoice::gl
+                                              : DeviceChoice::auto_;
+      },
+      "What draws; auto is OpenGL on a GPU, or else the processor");
+  device->check(CLI::IsMember({"auto", "cpu", "gl"}))->type_name("")->default_str("auto")->group("Where");
   auto* backend = command.add_option_function<std::string>(
       "--backend",
       [&where](const std::string& name) {
@@ -105,6 +114,7 @@ void addWhereFlags(CLI::App& command, WhereOptions& where) {
                   ->group("Where");
   command.add_option("--server", where.server, "Let this server do the work instead of this process")
       ->type_name("URL")
+      ->excludes(device)
       ->excludes(backend)
       ->excludes(gpu)
       ->group("Where");

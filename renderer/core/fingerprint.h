@@ -5,11 +5,14 @@
 
 #include "protocol/report/replies.h"
 
-namespace gnomon::gl {
+namespace gnomon {
 
 /// The CPU's vendor and family, and whether it knows SSE 4.2, e.g. "AuthenticAMD 25 sse4.2". Software renderers give
 /// other bytes on other makes, and the compressor of PNGs does without SSE 4.2.
 std::string cpuMake();
+
+/// The CPU's name as its maker gives it; empty where the processor tells none.
+std::string cpuName();
 
 /// The linker's hash over the code of this program, in hex (the GNU build id): changes with any source or compiler.
 /// With `library`: that of the loaded library whose file's name begins so; empty where none is loaded.
@@ -19,4 +22,4 @@ std::string buildId(std::string_view library = {});
 /// equal fingerprints are equal.
 std::string fingerprintOf(const RendererInfo& info);
 
-} // namespace gnomon::gl
+} // namespace gnomon

@@ -1,5 +1,6 @@
-#include "renderer/gl/fingerprint.h"
+#include "renderer/core/fingerprint.h"
 
+#include <array>
 #include <cstring>
 #include <elf.h>
 #include <link.h>
@@ -10,7 +11,7 @@
 #include <sys/utsname.h>
 #endif
 
-namespace gnomon::gl {
+namespace gnomon {
 namespace {
 
 std::string hexOf(std::span<const unsigned char> bytes) {
@@ -107,6 +108,26 @@ std::string cpuMake() {
 #endif
 }
 
+std::string cpuName() {
+#if defined(__x86_64__) || defined(__i386__)
+  constexpr unsigned kFirst = 0x80000002u, kLast = 0x80000004u;
+  if (__get_cpuid_max(0x80000000u, nullptr) < kLast) return {};
+  std::array<unsigned, 12> words{};
+  for (unsigned leaf = kFirst; leaf <= kLast; ++leaf) {
+    unsigned* at = &words[4 * (leaf - kFirst)];
+    __get_cpuid(leaf, at, at + 1, at + 2, at + 3);
+  }
+  const std::string name(reinterpret_cast<const char*>(words.data()), sizeof words);
+  const std::string_view trimmed = std::string_view(name).substr(0, name.find('\0'));
+  const std::size_t first = trimmed.find_first_not_of(' ');
+  return first == std::string_view::npos
+             ? ""
+             : std::string(trimmed.substr(first, trimmed.find_last_not_of(' ') + 1 - first));
+#else
+  return {};
+#endif
+}
+
 std::string fingerprintOf(const RendererInfo& info) {
   std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a, 64 bits
   for (const std::string& part : {info.renderer, info.version, cpuMake(), std::string(GNOMON_VERSION), buildId(),
@@ -118,4 +139,4 @@ std::string fingerprintOf(const RendererInfo& info) {
   return hex;
 }
 
-} // namespace gnomon::gl
+} // namespace gnomon

@@ -1,0 +1,86 @@
+#include "renderer/devices.h"
+
+#include <filesystem>
+
+#include "renderer/cpu/cpu_device.h"
+#include "renderer/passes/gl_device.h"
+#include "renderer/render.h"
+#include "renderer/resolve/check_frame.h"
+
+namespace gnomon {
+namespace {
+
+/// False where no kernel driver of a GPU shows a device file, so that no OpenGL driver need be loaded to find none.
+bool mayHaveGpu() {
+  std::error_code none;
+  for (const char* file : {"/dev/nvidiactl", "/dev/kfd", "/dev/dxg", "/dev/mali0"}) {
+    if (std::filesystem::exists(file, none)) return true;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", none)) {
+    if (entry.path().filename().string().starts_with("render")) return true;
+  }
+  return false;
+}
+
+/// An explicit context, or the wish for a GPU, is one for OpenGL.
+DeviceChoice askedDevice(const BackendOptions& backend) {
+  const bool namesContext = backend.backend != Backend::automatic || backend.requireGpu;
+  return backend.device == DeviceChoice::auto_ && namesContext ? DeviceChoice::gl : backend.device;
+}
+
+} // namespace
+
+struct Devices::Choice {
+  DeviceChoice device = DeviceChoice::auto_;
+  GlOptions gl;
+  CpuOptions cpu;
+};
+
+Devices::Devices(std::unique_ptr<Device> only) : only_(std::move(only)), standard_(only_.get()) {}
+
+Result<Devices> Devices::open(const RendererOptions& options) {
+  Devices devices;
+  const Choice choice{askedDevice(options.backend),
+                      {options.backend, options.gpuSceneBytes, options.tileCacheBytes},
+                      {options.tileCacheBytes}};
+  devices.choice_ = std::make_shared<const Choice>(choice);
+  if (choice.device == DeviceChoice::gl) {
+    auto made = createGlDevice(choice.gl);
+    if (!made) return made.problems();
+    devices.gl_ = std::move(*made);
+  } else if (choice.device == DeviceChoice::auto_ && mayHaveGpu()) {
+    GlOptions onGpu = choice.gl;
+    onGpu.backend.requireGpu = true;
+    if (auto made = createGlDevice(onGpu)) devices.gl_ = std::move(*made);
+  }
+  if (!devices.gl_) devices.cpu_ = createCpuDevice(choice.cpu);
+  devices.standard_ = devices.gl_ ? devices.gl_.get() : devices.cpu_.get();
+  return devices;
+}
+
+Result<Device*> Devices::of(const FrameSpec& spec) {
+  if (only_) return only_.get();
+  DeviceChoice wanted = spec.device;
+  if (wanted == DeviceChoice::auto_) {
+    const bool needsGl = choice_->device == DeviceChoice::auto_ && !placesOfShadowVolumes(spec).empty();
+    if (!needsGl) return standard_;
+    wanted = DeviceChoice::gl;
+  }
+  const char* name = wanted == DeviceChoice::cpu ? "cpu" : "gl";
+  if (choice_->device != DeviceChoice::auto_ && choice_->device != wanted) {
+    return Problem{ProblemCode::unsupportedFeature, "/device", "This renderer was started for one device only.",
+                   wanted == DeviceChoice::cpu ? "gl or auto" : "cpu or auto", name};
+  }
+  if (wanted == DeviceChoice::cpu) {
+    if (!cpu_) cpu_ = createCpuDevice(choice_->cpu);
+    return cpu_.get();
+  }
+  if (!gl_) {
+    auto made = createGlDevice(choice_->gl);
+    if (!made) return made.problems();
+    gl_ = std::move(*made);
+  }
+  return gl_.get();
+}
+
+} // namespace gnomon
