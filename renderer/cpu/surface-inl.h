@@ -7,9 +7,8 @@
 #endif
 
 #include "renderer/cpu/fragments-inl.h"
-#include "renderer/cpu/sampling-inl.h"
 #include "renderer/cpu/shared_functions-inl.h"
-#include "renderer/cpu/vertices-inl.h"
+#include "renderer/cpu/texture_spots-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -51,19 +50,6 @@ HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
   return select(directed, v * inversesqrt(select(directed, squared, 1.0f)), otherwise);
 }
 
-/// A vector of the primitive's own space, by the rows of a matrix.
-HWY_INLINE Float3 turned(const glm::vec4 (&rows)[3], const Float3& v) {
-  return {dot(Float3(glm::vec3(rows[0])), v), dot(Float3(glm::vec3(rows[1])), v), dot(Float3(glm::vec3(rows[2])), v)};
-}
-
-/// How the uses of a material's textures move coordinates: KHR_texture_transform.
-HWY_INLINE TextureSpot moved(const shared::MaterialData& material, std::size_t unit, const TextureSpot& spot) {
-  const glm::vec4& axes = material.uvAxes[unit];
-  const auto turn = [&](const Float2& v)
-                        HWY_ATTR { return Float2(v.x * axes.x + v.y * axes.z, v.x * axes.y + v.y * axes.w); };
-  return {turn(spot.uv) + Float2(glm::vec2(material.uvOffsets[unit])), turn(spot.right), turn(spot.up)};
-}
-
 /// What triangles of one instance show.
 class InstanceSurface {
  public:
@@ -81,11 +67,7 @@ class InstanceSurface {
             scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
         corners_(scene, slot_, triangle),
         sight_(sightThrough(scene.frame, fragments.place)) {
-    const Triangle local = corners_.triangle();
-    const auto& rows = placed_.relativeFromLocal;
-    triangle_.corner = turned(rows, local.corner) + Float3(glm::vec3(rows[0].w, rows[1].w, rows[2].w));
-    triangle_.edge1 = turned(rows, local.edge1);
-    triangle_.edge2 = turned(rows, local.edge2);
+    triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
     meeting_ = meetingOf(sight_, triangle_);
     findTextureSpots();
   }
@@ -116,21 +98,18 @@ class InstanceSurface {
     }
     if (!used[0] && !used[1]) return;
     steps_ = stepsOf(sight_, triangle_, meeting_);
-    constexpr std::size_t kOffsets[2] = {offsetof(VertexAttributes, uv0), offsetof(VertexAttributes, uv1)};
-    for (std::size_t set = 0; set < 2; ++set) {
-      if (!used[set]) continue;
-      spots_[set] = {corners_.pair(kOffsets[set], meeting_), corners_.moved(kOffsets[set], steps_.right),
-                     corners_.moved(kOffsets[set], steps_.up)};
+    for (int set = 0; set < 2; ++set) {
+      if (used[set]) spots_[set] = spotOf(corners_, meeting_, steps_, set);
     }
   }
 
-  HWY_INLINE TextureSpot spotOf(const TextureUse& use, std::size_t unit) const {
+  HWY_INLINE TextureSpot spotOfUse(const TextureUse& use, std::size_t unit) const {
     const TextureSpot& spot = spots_[use.texCoord == 0 ? 0 : 1];
     return use.transform ? moved(data_, unit, spot) : spot;
   }
   HWY_INLINE Texel texel(const TextureUse& use, std::size_t unit, bool srgb) const {
     if (use.image < 0) return {Float3(0.0f), Float(1.0f)};
-    return sampled(textures_.of(use.image, srgb), use, spotOf(use, unit), own_);
+    return sampled(textures_.of(use.image, srgb), use, spotOfUse(use, unit), own_);
   }
 
   HWY_INLINE Float3 shadingNormal(const Float3& face) const {
@@ -149,7 +128,7 @@ class InstanceSurface {
       const Float sign = corners_.number(offsetof(VertexAttributes, tangent) + 3 * sizeof(float), meeting_);
       return bentByTangent(n, tangent, sign, direction);
     }
-    const TextureSpot spot = spotOf(use, GNOMON_NORMAL_UNIT);
+    const TextureSpot spot = spotOfUse(use, GNOMON_NORMAL_UNIT);
     const auto movedPlace = [&](const Float2& step)
                                 HWY_ATTR { return triangle_.edge1 * step.x + triangle_.edge2 * step.y; };
     return bentBySteps(n, movedPlace(steps_.right), movedPlace(steps_.up), spot.right, spot.up, direction);
