@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace gnomon::cpu {
@@ -13,61 +12,66 @@ double linearOf(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Bytes of a channel as numbers, and back to the nearest byte.
+/// Bytes of a channel as numbers that can be averaged: 0 to 2^24; and back to the byte whose number is nearest by what
+/// it encodes.
 class ByteScale {
  public:
   explicit ByteScale(bool srgb) {
-    const auto number = [&](double byte) { return static_cast<float>(srgb ? linearOf(byte / 255.0) : byte / 255.0); };
-    for (std::size_t byte = 0; byte < 256; ++byte) numbers_[byte] = number(static_cast<double>(byte));
-    // Rounding happens where it is encoded.
-    for (std::size_t byte = 0; byte < 255; ++byte) ends_[byte] = number(static_cast<double>(byte) + 0.5);
-    ends_[255] = 2.0f;
+    const auto number = [&](double byte) { return (srgb ? linearOf(byte / 255.0) : byte / 255.0) * 0x1p24; };
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      numbers_[byte] = static_cast<std::uint32_t>(std::lround(number(static_cast<double>(byte))));
+      // Four rounded numbers may fall short by two where their mean is just between two bytes, which counts as the
+      // next.
+      ends_[byte] = static_cast<std::uint32_t>(std::lround(4.0 * number(static_cast<double>(byte) + 0.5))) - 2u;
+    }
     std::uint8_t byte = 0;
-    for (std::size_t i = 0; i < guesses_.size(); ++i) {
-      const float root = static_cast<float>(i) / static_cast<float>(guesses_.size() - 1);
-      while (root * root >= ends_[byte]) ++byte;
+    for (std::uint32_t i = 0; i < guesses_.size(); ++i) {
+      while (i << kGuessBits >= ends_[byte]) ++byte;
       guesses_[i] = byte;
     }
   }
 
-  float number(std::uint32_t byte) const { return numbers_[byte]; }
+  std::uint32_t number(std::uint32_t byte) const { return numbers_[byte]; }
 
-  /// `number`: 0..1.
-  std::uint32_t byte(float number) const {
-    std::uint32_t byte = guesses_[static_cast<std::size_t>(std::sqrt(number) * (kGuesses - 1))];
-    while (number >= ends_[byte]) ++byte;
-    return byte;
+  std::uint32_t byteOfFour(std::uint32_t sum) const {
+    const std::uint32_t guess = guesses_[sum >> kGuessBits];
+    return guess + (sum >= ends_[guess] ? 1 : 0);
   }
 
  private:
-  static constexpr int kGuesses = 1024;
-  std::array<float, 256> numbers_{};
-  std::array<float, 256> ends_{};                ///< numbers from here on are nearer to the next byte
-  std::array<std::uint8_t, kGuesses> guesses_{}; ///< by the number's square root: its byte or a lower one
+  static constexpr unsigned kGuessBits = 12; ///< so few that no two bytes end within one guess
+  std::array<std::uint32_t, 256> numbers_{};
+  std::array<std::uint32_t, 256> ends_{}; ///< four numbers that add up to this or more are nearer to the next byte
+  std::array<std::uint8_t, (std::size_t{1} << (26 - kGuessBits)) + 1> guesses_{}; ///< the sum's byte, or the one before
 };
 
 /// Which two texels of a row a texel of the next level lies between, and the second one's share.
 struct Between {
   int first = 0, second = 0;
-  float share = 0;
+  double share = 0;
 };
 
 std::vector<Between> betweenTexels(int from, int to) {
   std::vector<Between> all(static_cast<std::size_t>(to));
   for (int i = 0; i < to; ++i) {
-    const float place = (static_cast<float>(i) + 0.5f) * static_cast<float>(from) / static_cast<float>(to) - 0.5f;
+    const double place = (i + 0.5) * from / to - 0.5;
     const int first = static_cast<int>(std::floor(place));
-    all[static_cast<std::size_t>(i)] = {std::max(first, 0), std::min(first + 1, from - 1),
-                                        place - static_cast<float>(first)};
+    all[static_cast<std::size_t>(i)] = {std::max(first, 0), std::min(first + 1, from - 1), place - first};
   }
   return all;
+}
+
+/// The byte of each channel, from the scales of the first three and of the last.
+template <class Byte>
+std::uint32_t texelOf(const ByteScale& color, const ByteScale& alpha, const Byte& byte) {
+  return byte(color, 0) | byte(color, 8) << 8 | byte(color, 16) << 16 | byte(alpha, 24) << 24;
 }
 
 std::vector<std::uint32_t> halved(const TextureLevel& from, int width, int height, bool srgb) {
   static const ByteScale kLinear(false);
   static const ByteScale kSrgb(true);
-  const std::array<const ByteScale*, 4> scales{srgb ? &kSrgb : &kLinear, srgb ? &kSrgb : &kLinear,
-                                               srgb ? &kSrgb : &kLinear, &kLinear};
+  const ByteScale& color = srgb ? kSrgb : kLinear;
+  const bool exact = from.width == 2 * width && from.height == 2 * height;
   const std::vector<Between> across = betweenTexels(from.width, width);
   const std::vector<Between> down = betweenTexels(from.height, height);
   std::vector<std::uint32_t> to;
@@ -77,17 +81,14 @@ std::vector<std::uint32_t> halved(const TextureLevel& from, int width, int heigh
     const std::uint32_t* lower =
         from.texels + static_cast<std::size_t>(y.second) * static_cast<std::size_t>(from.width);
     for (const Between& x : across) {
-      std::uint32_t texel = 0;
-      for (unsigned channel = 0; channel < 4; ++channel) {
-        const ByteScale& scale = *scales[channel];
-        const auto number = [&](std::uint32_t from4) { return scale.number(from4 >> (8 * channel) & 255u); };
-        const auto row = [&](const std::uint32_t* texels) {
-          return number(texels[x.first]) * (1.0f - x.share) + number(texels[x.second]) * x.share;
-        };
-        const float mean = row(upper) * (1.0f - y.share) + row(lower) * y.share;
-        texel |= scale.byte(std::clamp(mean, 0.0f, 1.0f)) << (8 * channel);
-      }
-      to.push_back(texel);
+      const std::uint32_t a = upper[x.first], b = upper[x.second], c = lower[x.first], d = lower[x.second];
+      to.push_back(texelOf(color, kLinear, [&](const ByteScale& scale, unsigned shift) {
+        const auto number = [&](std::uint32_t texel) { return scale.number(texel >> shift & 255u); };
+        if (exact) return scale.byteOfFour(number(a) + number(b) + number(c) + number(d));
+        const double above = number(a) * (1.0 - x.share) + number(b) * x.share;
+        const double below = number(c) * (1.0 - x.share) + number(d) * x.share;
+        return scale.byteOfFour(static_cast<std::uint32_t>(4.0 * (above * (1.0 - y.share) + below * y.share)));
+      }));
     }
   }
   return to;

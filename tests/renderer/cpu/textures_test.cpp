@@ -46,6 +46,16 @@ TEST(CpuTextures, ATexelIsTheMeanOfFourInLinearLight) {
   }
 }
 
+TEST(CpuTextures, WhereASizeIsOddATexelIsMixedFromTheTwoAroundIt) {
+  const auto image = noise(5, 1);
+  const Pyramid pyramid = pyramidOf(*image, false);
+  const std::uint32_t* full = pyramid.levels[0].texels;
+  const glm::dvec4 first = 0.25 * texelOf(full[0], false) + 0.75 * texelOf(full[1], false);
+  const glm::dvec4 second = 0.75 * texelOf(full[3], false) + 0.25 * texelOf(full[4], false);
+  EXPECT_LT(glm::length(texelOf(pyramid.levels[1].texels[0], false) - first), 1.01 / 255);
+  EXPECT_LT(glm::length(texelOf(pyramid.levels[1].texels[1], false) - second), 1.01 / 255);
+}
+
 TEST(CpuTextures, AreMadeOnceWhoeverAsks) {
   const Textures textures({noise(256, 256), noise(8, 8)});
   EXPECT_EQ(textures.bytes(), 0u);
