@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -23,6 +24,12 @@ struct Layer {
   int width = 0;   ///< pixels
   int samples = 1; ///< a pixel: 1 to 4
 };
+
+inline constexpr auto kTints = [] {
+  using glm::vec3;
+  return std::array{GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
+}();
+static_assert(kTints.size() == GNOMON_LIGHT_TILES);
 
 /// What the lights of a frame are shadowed by.
 struct ShadowMaps {

@@ -78,50 +78,60 @@ inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask
   return load(shares);
 }
 
+/// Lanes that the light throws shadows on.
+HWY_INLINE Mask receivesShadow(const LightData& light, const Receiver& receiver) {
+  return (receiver.groupBit & Int(static_cast<std::int32_t>(light.shadowedGroups))) != Int(0);
+}
+
+/// By the light's visibility layer, which it has; otherwise as shadowVisibility.
+inline Float layerVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                             const Float3& toLight, const Mask& needed) {
+  const Mask receives = receivesShadow(light, receiver);
+  Float visibility = layerValue(maps.layers[light.visibilityLayer - 1], receiver, needed & receiver.shown & receives);
+  // Rays know which faces are turned away, shadow volumes don't.
+  if (light.layerOmitsTurnedFaces != 0u) visibility = select(isTurnedAway(receiver, toLight), 0.0f, visibility);
+  return select(receives, mix(1.0f, visibility, light.strength), 1.0f);
+}
+
+/// By the light's tiles; 1 where it has none. Otherwise as shadowVisibility.
+inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                           const Float3& toLight, const Mask& needed) {
+  Mask asked = needed & receiver.shown;
+  if (light.tileCount == 0u || none(asked)) return 1.0f;
+  const TileChoice choice = chooseTile(maps, light, receiver, toLight);
+  const Mask served = receivesShadow(light, receiver) & choice.covered;
+  asked = andNot(isTurnedAway(receiver, toLight), asked & served);
+  Float visibility = 0.0f;
+  for (int i = 0; i < static_cast<int>(light.tileCount) && any(asked); ++i) {
+    const Mask isFirst = choice.first == Int(i);
+    const Mask read = asked & (isFirst | (choice.second == Int(i)));
+    if (none(read)) continue;
+    const Float share = select(isFirst, 1.0f - choice.blend, choice.blend);
+    const Float lit = tileVisibility(maps, light, static_cast<int>(light.firstTile) + i, receiver, toLight, read);
+    visibility += select(read, share * lit, 0.0f);
+  }
+  visibility = mix(visibility, 1.0f, choice.fade);
+  return select(served, mix(1.0f, visibility, light.strength), 1.0f);
+}
+
 /// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes
 /// that are not `needed`, because no light arrives anyway, hold anything in 0 to 1.
 inline Float shadowVisibility(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight,
                               const Mask& needed) {
   const LightData& data = maps.lights[light];
-  const bool layered = data.visibilityLayer > 0u;
-  if (!layered && data.tileCount == 0u) return 1.0f;
-  Mask asked = needed & receiver.shown;
-  if (none(asked)) return 1.0f;
-  const Mask receives = (receiver.groupBit & Int(static_cast<std::int32_t>(data.shadowedGroups))) != Int(0);
-  asked = asked & receives;
-  const Mask turnedAway = isTurnedAway(receiver, toLight);
-  Float visibility = 0.0f;
-  if (layered) {
-    visibility = layerValue(maps.layers[data.visibilityLayer - 1], receiver, asked);
-    // Rays know which faces are turned away, shadow volumes don't.
-    if (data.layerOmitsTurnedFaces != 0u) visibility = select(turnedAway, 0.0f, visibility);
-    return select(receives, mix(1.0f, visibility, data.strength), 1.0f);
-  }
-  const TileChoice choice = chooseTile(maps, data, receiver, toLight);
-  asked = andNot(turnedAway, asked & choice.covered);
-  for (int i = 0; i < static_cast<int>(data.tileCount) && any(asked); ++i) {
-    const Mask isFirst = choice.first == Int(i);
-    const Mask served = asked & (isFirst | (choice.second == Int(i)));
-    if (none(served)) continue;
-    const Float share = select(isFirst, 1.0f - choice.blend, choice.blend);
-    const Float lit = tileVisibility(maps, data, static_cast<int>(data.firstTile) + i, receiver, toLight, served);
-    visibility += select(served, share * lit, 0.0f);
-  }
-  visibility = mix(visibility, 1.0f, choice.fade);
-  return select(receives & choice.covered, mix(1.0f, visibility, data.strength), 1.0f);
+  return data.visibilityLayer > 0u ? layerVisibility(maps, data, receiver, toLight, needed)
+                                   : mapVisibility(maps, data, receiver, toLight, needed);
 }
 
-/// The cascades from near to far, or a light's faces; white beyond.
+/// The cascades from near to far, or a light's faces; white beyond. Of a light that has tiles.
 inline Float3 cascadeTint(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight) {
-  using glm::vec3;
-  constexpr vec3 tints[GNOMON_LIGHT_TILES] = {GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
   const LightData& data = maps.lights[light];
   const TileChoice choice = chooseTile(maps, data, receiver, toLight);
   Float3 first(Float(1.0f));
   Float3 second(Float(1.0f));
   for (int i = 0; i < static_cast<int>(data.tileCount); ++i) {
-    first = select(choice.first == Int(i), Float3(tints[i]), first);
-    second = select(choice.second == Int(i), Float3(tints[i]), second);
+    first = select(choice.first == Int(i), Float3(kTints[i]), first);
+    second = select(choice.second == Int(i), Float3(kTints[i]), second);
   }
   const Float3 white(Float(1.0f));
   return select(choice.covered, mix(mix(first, second, choice.blend), white, choice.fade), white);

@@ -30,6 +30,8 @@ struct RandomMaps {
 };
 
 inline constexpr int kTestAtlas = 1024;
+/// That kernels are compared at.
+inline constexpr int kPoints = 100'000;
 
 RandomMaps randomMaps(std::mt19937& random, const MapsOptions& options);
 

@@ -19,8 +19,6 @@ using glm::vec4;
 using shared::LightData;
 using shared::TileData;
 
-namespace {
-
 bool isParallel(const TileData& tile) {
   return dot(vec3(tile.atlasFromRelative[3]), tile.axis) == 0.0f;
 }
@@ -38,11 +36,14 @@ vec3 movedReceiver(const LightData& light, const TileData& tile, const AskedPoin
   return receiver.relative + receiver.normal * offset;
 }
 
-vec2 comparedSlope(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
-  if (light.hasManualBias != 0u) return vec2(0.0f);
+vec2 receiverSlope(const TileData& tile, const AskedPoint& receiver, const vec3& lightPosition) {
   const vec2 across(dot(receiver.normal, tile.right), dot(receiver.normal, tile.up));
   if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis), -1e-4f);
-  return across / min(dot(receiver.normal, receiver.relative - light.position), -1e-6f);
+  return across / min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6f);
+}
+
+vec2 comparedSlope(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
+  return light.hasManualBias != 0u ? vec2(0.0f) : receiverSlope(tile, receiver, light.position);
 }
 
 float bendRoom(const LightData& light, const TileData& tile, const Lookup& at, vec2 slope, float reach) {
@@ -52,6 +53,8 @@ float bendRoom(const LightData& light, const TileData& tile, const Lookup& at, v
   const float most = 0.3f * (texel + abs(slope.x) + abs(slope.y));
   return max(min(0.1f * bent, most), 2e-4f * reach * bent);
 }
+
+namespace {
 
 /// The atlas, and the tile that is read.
 struct Reading {

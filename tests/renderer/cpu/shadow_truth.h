@@ -20,9 +20,15 @@ struct TileChoice {
   bool covered = false;
 };
 
-Lookup lookupIn(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& point);
-TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& point);
-float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& point);
-glm::vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& point);
+bool isParallel(const shared::TileData& tile);
+glm::vec3 movedReceiver(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
+glm::vec2 receiverSlope(const shared::TileData& tile, const AskedPoint& receiver, const glm::vec3& lightPosition);
+glm::vec2 comparedSlope(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
+float bendRoom(const shared::LightData& light, const shared::TileData& tile, const Lookup& at, glm::vec2 slope,
+               float reach);
+Lookup lookupIn(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
+TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& receiver);
+float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& receiver);
+glm::vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& receiver);
 
 } // namespace gnomon::cpu::truth

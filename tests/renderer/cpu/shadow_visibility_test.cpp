@@ -7,8 +7,6 @@
 namespace gnomon::cpu {
 namespace {
 
-constexpr int kPoints = 100'000;
-
 struct Case {
   const char* name;
   MapsOptions options;

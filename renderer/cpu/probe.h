@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/cpu/shadow_maps.h"
+#include "renderer/device/device.h"
+
+namespace gnomon::cpu {
+
+/// The share of a light that each point gets by the light's tiles, 0..1: FrameDrawing::probe. On all cores.
+std::vector<float> probedShares(const ShadowMaps& maps, const shared::FrameData& frame, int light,
+                                std::span<const ProbePoint> points);
+
+} // namespace gnomon::cpu

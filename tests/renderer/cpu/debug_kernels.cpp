@@ -1,0 +1,84 @@
+#include "tests/renderer/cpu/debug_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/debug_kernels.cpp"
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/caster_ids-inl.h"
+#include "renderer/cpu/certainty-inl.h"
+#include "renderer/cpu/map_footprints-inl.h"
+#include "tests/renderer/cpu/asked_points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+inline DebugLight debugLight(const DebugMaps& debug) {
+  return {debug.maps, debug.frame, 0, debug.casters, debug.slotNodes};
+}
+
+void debugValues(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points, glm::vec4* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    const DebugValue value = debugData(debugLight(debug), view, encoded, packet.receiver);
+    glm::vec3 colors[kLanes];
+    alignas(64) float alphas[kLanes];
+    storePoints(value.color, colors, packet.count);
+    store(value.alpha, alphas);
+    for (std::size_t i = 0; i < packet.count; ++i) out[first + i] = glm::vec4(colors[i], alphas[i]);
+  }
+}
+
+void grids(const DebugMaps& debug, const glm::vec3& shown, std::span<const AskedPoint> points, glm::vec3* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    storePoints(texelGrid(debugLight(debug), Float3(shown), packet.receiver), out + first, packet.count);
+  }
+}
+
+void footprints(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    storeFootprints(footprintsOf(debugLight(debug), packet.receiver), packet.receiver, packet.count, out + first);
+  }
+}
+
+void verdictNumbers(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    alignas(64) std::int32_t lanes[kLanes];
+    store(verdicts(debugLight(debug), packet.receiver, debug.outlines), lanes);
+    std::copy_n(lanes, packet.count, out + first);
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+
+HWY_EXPORT(debugValues);
+HWY_EXPORT(grids);
+HWY_EXPORT(footprints);
+HWY_EXPORT(verdictNumbers);
+
+void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points,
+                      glm::vec4* out) {
+  HWY_DYNAMIC_DISPATCH(debugValues)(debug, view, encoded, points, out);
+}
+
+void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<const AskedPoint> points,
+                      glm::vec3* out) {
+  HWY_DYNAMIC_DISPATCH(grids)(debug, shown, points, out);
+}
+
+void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out) {
+  HWY_DYNAMIC_DISPATCH(footprints)(debug, points, out);
+}
+
+void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
+  HWY_DYNAMIC_DISPATCH(verdictNumbers)(debug, points, out);
+}
+
+} // namespace gnomon::cpu
+#endif

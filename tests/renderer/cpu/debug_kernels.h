@@ -1,0 +1,28 @@
+#pragma once
+
+#include "protocol/spec/output_options.h"
+#include "renderer/device/device.h"
+#include "renderer/prepare/outlines.h"
+#include "tests/renderer/cpu/shadow_kernels.h"
+
+namespace gnomon::cpu {
+
+/// What views of light 0 are made from.
+struct DebugMaps {
+  const ShadowMaps& maps;
+  const shared::FrameData& frame;
+  std::span<const TileMap> casters = {};
+  std::span<const std::int32_t> slotNodes = {};
+  std::span<const TileOutlines> outlines = {};
+};
+
+// Sixteen points at a time; `points` and `out` are of one length, which may be any.
+
+void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points,
+                      glm::vec4* out);
+void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<const AskedPoint> points,
+                      glm::vec3* out);
+void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out);
+void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out);
+
+} // namespace gnomon::cpu
