@@ -147,7 +147,7 @@ void trace(const Eye& eye, std::span<const glm::vec2> places, std::span<SurfaceP
     query.rays[i] = cameraRay(eye.input.camera, eye.tree.anchor, eye.tree.bounds, size, glm::dvec2(places[i]));
     const CameraRay& ray = query.rays[i];
     lanes.active[i] = ray.meets ? -1 : 0;
-    setRay(packet.ray, i, ray.origin * eye.tree.scale, ray.direction, ray.length * eye.tree.scale);
+    setRay(packet.ray, i, glm::vec3(ray.origin * eye.tree.scale), ray.direction, ray.length * eye.tree.scale);
   }
   const auto intersect = [&] {
     std::fill_n(packet.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);

@@ -4,16 +4,12 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/core/instruction_sets.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 
 namespace gnomon {
 namespace {
-
-WayToLight wayAlong(const glm::dvec3& offset) {
-  const double length = glm::length(offset);
-  return {length > 0 ? offset / length : glm::dvec3(0), length};
-}
 
 /// Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014.
 std::uint64_t mixed(std::uint64_t z) {
@@ -31,16 +27,47 @@ std::uint32_t reversed(std::uint32_t bits) {
   return ((bits & 0x55555555u) << 1) | ((bits & 0xaaaaaaaau) >> 1);
 }
 
+/// The sine of up to an eighth of a turn, by its series to the last bit or two of a double: without branches or calls.
+inline double sineOf(double x) {
+  const double z = x * x;
+  return x * (1 + z * (-1.0 / 6 +
+                       z * (1.0 / 120 +
+                            z * (-1.0 / 5040 +
+                                 z * (1.0 / 362880 +
+                                      z * (-1.0 / 39916800 + z * (1.0 / 6227020800 + z * (-1.0 / 1307674368000))))))));
+}
+
+inline double cosineOf(double x) {
+  const double z = x * x;
+  return 1 + z * (-1.0 / 2 +
+                  z * (1.0 / 24 +
+                       z * (-1.0 / 720 +
+                            z * (1.0 / 40320 +
+                                 z * (-1.0 / 3628800 + z * (1.0 / 479001600 +
+                                                            z * (-1.0 / 87178291200 + z * (1.0 / 20922789888000))))))));
+}
+
 /// Area for area from the unit square onto the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and
 /// Square", Journal of Graphics Tools 1997).
-glm::dvec2 discFromSquare(const glm::dvec2& square) {
-  const glm::dvec2 p = 2.0 * square - 1.0;
-  if (p == glm::dvec2(0)) return p;
-  const double quarter = 0.25 * glm::pi<double>();
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const double radius = wide ? p.x : p.y;
-  const double angle = wide ? quarter * (p.y / p.x) : 2 * quarter - quarter * (p.x / p.y);
-  return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+[[gnu::always_inline]] inline glm::dvec2 discFromSquare(double x, double y) {
+  const double px = 2 * x - 1;
+  const double py = 2 * y - 1;
+  const bool wide = std::abs(px) > std::abs(py);
+  const double radius = wide ? px : py;
+  const double ratio = (wide ? py : px) / (radius == 0 ? 1.0 : radius);
+  const double angle = 0.25 * glm::pi<double>() * ratio; // from the x axis where it is wide, else from the y axis
+  const double along = radius * cosineOf(angle);
+  const double aside = radius * sineOf(angle);
+  return {wide ? along : aside, wide ? aside : along};
+}
+
+/// In the unit square: Hammersley's points (Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods",
+/// 1992, 3.2): shifted along x, scrambled in y, which leaves one in each of the `count` strips either way.
+glm::dvec2 squareSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed) {
+  constexpr double kUnit = 1.0 / 4294967296.0;
+  const double shift = static_cast<double>(seed >> 32) * kUnit;
+  return {(index + shift) / count,
+          (static_cast<double>(reversed(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
 }
 
 } // namespace
@@ -60,11 +87,6 @@ LightSource lightSource(const Light& light, const glm::dvec3& anchor) {
   return source;
 }
 
-WayToLight wayTo(const LightSource& light, const glm::dvec3& point) {
-  if (light.type == LightType::directional) return {-light.axis, HUGE_VAL};
-  return wayAlong(light.position - point);
-}
-
 LightDisc discFacing(const LightSource& light, const glm::dvec3& point) {
   const WayToLight way = wayTo(light, point);
   const glm::dvec3& n = way.direction;
@@ -80,31 +102,42 @@ LightDisc discFacing(const LightSource& light, const glm::dvec3& point) {
   return disc;
 }
 
-WayToLight wayTo(const LightDisc& disc, glm::dvec2 place) {
-  WayToLight way = wayAlong(disc.middle + disc.across * place.x + disc.up * place.y);
-  if (disc.atInfinity) way.length = HUGE_VAL;
-  return way;
-}
-
-bool reaches(const LightSource& light, const WayToLight& way) {
-  if (light.type == LightType::directional) return true;
-  if (!(way.length > 0 && way.length < light.range)) return false;
-  return light.type == LightType::point || glm::dot(light.axis, -way.direction) > light.cosOuter;
-}
-
-bool faces(const glm::vec3& normal, const WayToLight& way) {
-  constexpr double kLeastCosine = 1e-4; // as in renderer/shaders/common_shadow.glsl
-  return glm::dot(glm::dvec3(normal), way.direction) > kLeastCosine;
-}
-
 glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed) {
-  // Hammersley's points (Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", 1992, 3.2): shifted
-  // along x, scrambled in y, which leaves one in each of the `count` strips either way.
-  constexpr double kUnit = 1.0 / 4294967296.0;
-  const double shift = static_cast<double>(seed >> 32) * kUnit;
-  const double x = (index + shift) / count;
-  const double y = (static_cast<double>(reversed(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit;
-  return discFromSquare({x, y});
+  const glm::dvec2 square = squareSample(index, count, seed);
+  return discFromSquare(square.x, square.y);
+}
+
+namespace {
+
+/// Ways to the places of the disc that these of the unit square become.
+GNOMON_FOR_EACH_INSTRUCTION_SET void waysToAll(const LightDisc& disc, const double (&x)[kLanes],
+                                               const double (&y)[kLanes], const glm::dvec3& normal, SampleWays& ways) {
+  const double infinite = disc.atInfinity ? HUGE_VAL : 0.0;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const glm::dvec2 place = discFromSquare(x[i], y[i]);
+    const glm::dvec3 offset = disc.middle + disc.across * place.x + disc.up * place.y;
+    const double length = std::sqrt(glm::dot(offset, offset));
+    const glm::dvec3 direction = offset / (length > 0 ? length : 1.0);
+    ways.direction[0][i] = direction.x;
+    ways.direction[1][i] = direction.y;
+    ways.direction[2][i] = direction.z;
+    ways.length[i] = length + infinite;
+    ways.cosine[i] = glm::dot(direction, normal);
+  }
+}
+
+} // namespace
+
+void waysTo(const LightDisc& disc, std::uint32_t first, std::uint32_t count, std::uint64_t seed,
+            const glm::dvec3& normal, SampleWays& ways) {
+  double x[kLanes];
+  double y[kLanes];
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const glm::dvec2 square = squareSample(first + i, count, seed);
+    x[i] = square.x;
+    y[i] = square.y;
+  }
+  waysToAll(disc, x, y, normal, ways);
 }
 
 std::uint64_t seedOf(const SurfacePoint& point) {

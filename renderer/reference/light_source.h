@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
@@ -28,7 +30,15 @@ struct WayToLight {
   double length = 0;       ///< infinite for directional lights
 };
 
-WayToLight wayTo(const LightSource& light, const glm::dvec3& point);
+inline WayToLight wayAlong(const glm::dvec3& offset) {
+  const double length = glm::length(offset);
+  return {length > 0 ? offset / length : glm::dvec3(0), length};
+}
+
+inline WayToLight wayTo(const LightSource& light, const glm::dvec3& point) {
+  if (light.type == LightType::directional) return {-light.axis, HUGE_VAL};
+  return wayAlong(light.position - point);
+}
 
 /// A light's disc, turned to face a point.
 struct LightDisc {
@@ -40,15 +50,30 @@ struct LightDisc {
 
 LightDisc discFacing(const LightSource& light, const glm::dvec3& point);
 
-/// The way from the point to a place on the disc; `place` lies in the unit disc.
-WayToLight wayTo(const LightDisc& disc, glm::dvec2 place);
+/// Rays from a point to places all over a light's disc, a coordinate after the other.
+struct SampleWays {
+  double direction[3][kLanes];
+  double length[kLanes];
+  double cosine[kLanes]; ///< of the direction and `normal`
+};
+
+/// The ways to places `first` .. `first` + kLanes of the disc (discSample). `normal`: of the point's surface.
+void waysTo(const LightDisc& disc, std::uint32_t first, std::uint32_t count, std::uint64_t seed,
+            const glm::dvec3& normal, SampleWays& ways);
 
 /// Whether the light shines as far as the end of this way, and in its direction (KHR_lights_punctual).
-bool reaches(const LightSource& light, const WayToLight& way);
+inline bool reaches(const LightSource& light, const WayToLight& way) {
+  if (light.type == LightType::directional) return true;
+  if (!(way.length > 0 && way.length < light.range)) return false;
+  return light.type == LightType::point || glm::dot(light.axis, -way.direction) > light.cosOuter;
+}
 
 /// Whether a surface of this normal (unit length, on the eye's side) takes light from there. A face along the light to
 /// within the renderer's stored normals is turned away, as it is when frames are shaded.
-bool faces(const glm::vec3& normal, const WayToLight& way);
+inline bool faces(const glm::vec3& normal, const WayToLight& way) {
+  constexpr double kLeastCosine = 1e-4; // as in renderer/shaders/common_shadow.glsl
+  return glm::dot(glm::dvec3(normal), way.direction) > kLeastCosine;
+}
 
 /// Number `index` of `count` places in the unit disc, spread evenly over its area for any count. `seed` shifts them.
 glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed);

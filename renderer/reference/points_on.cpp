@@ -105,8 +105,7 @@ void setTriangle(const TracedScene::Tree& tree, const PlacedTriangle& of, unsign
 }
 
 void find(const TracedScene::Tree& tree, const Sight& sight, std::span<const glm::vec2> places,
-          std::span<const PlacedTriangle> triangles, std::span<SurfacePoint> points) {
-  Meetings m{};
+          std::span<const PlacedTriangle> triangles, Meetings& m, std::span<SurfacePoint> points) {
   for (unsigned i = 0; i < places.size(); ++i) {
     m.placeX[i] = places[i].x;
     m.placeY[i] = places[i].y;
@@ -114,12 +113,12 @@ void find(const TracedScene::Tree& tree, const Sight& sight, std::span<const glm
   }
   meetAll(sight, m);
   for (unsigned i = 0; i < places.size(); ++i) {
-    points[i] = {};
-    if (triangles[i].instance == kNoSurface) continue;
-    points[i] = {{m.position[0][i], m.position[1][i], m.position[2][i]},
-                 {m.normal[0][i], m.normal[1][i], m.normal[2][i]},
-                 triangles[i].instance,
-                 triangles[i].triangle};
+    const PlacedTriangle& on = triangles[i];
+    points[i] = on.instance == kNoSurface ? SurfacePoint{}
+                                          : SurfacePoint{{m.position[0][i], m.position[1][i], m.position[2][i]},
+                                                         {m.normal[0][i], m.normal[1][i], m.normal[2][i]},
+                                                         on.instance,
+                                                         on.triangle};
   }
 }
 
@@ -129,9 +128,11 @@ void pointsOn(const TraceInput& input, std::span<const glm::vec2> places, std::s
               std::span<SurfacePoint> points) {
   const TracedScene::Tree& tree = input.traced.tree();
   const Sight sight = sightOf(input);
+  Meetings meetings{};
   for (std::size_t first = 0; first < places.size(); first += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, places.size() - first);
-    find(tree, sight, places.subspan(first, count), triangles.subspan(first, count), points.subspan(first, count));
+    find(tree, sight, places.subspan(first, count), triangles.subspan(first, count), meetings,
+         points.subspan(first, count));
   }
 }
 

@@ -11,11 +11,11 @@ namespace gnomon {
 inline constexpr unsigned kLanes = 16; ///< rays that are traced together
 
 /// Sets lane `lane` of a packet; all in the units of the tree (TracedScene::Tree::scale).
-inline void setRay(RTCRay16& packet, unsigned lane, const glm::dvec3& origin, const glm::dvec3& direction,
+inline void setRay(RTCRay16& packet, unsigned lane, const glm::vec3& origin, const glm::dvec3& direction,
                    double length) {
-  packet.org_x[lane] = static_cast<float>(origin.x);
-  packet.org_y[lane] = static_cast<float>(origin.y);
-  packet.org_z[lane] = static_cast<float>(origin.z);
+  packet.org_x[lane] = origin.x;
+  packet.org_y[lane] = origin.y;
+  packet.org_z[lane] = origin.z;
   packet.dir_x[lane] = static_cast<float>(direction.x);
   packet.dir_y[lane] = static_cast<float>(direction.y);
   packet.dir_z[lane] = static_cast<float>(direction.z);

@@ -8,21 +8,12 @@ namespace gnomon {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHalfUnit = 0x1p-24; ///< what rounding to a float changes at most, relative to the value
 
 /// How far two planes and a point in one of them may lie apart and yet be the same: the vertices of both were rounded
 /// when the file was written and when they were placed, which moves a plane by as much within its triangle (Higham,
 /// "Accuracy and Stability of Numerical Algorithms", 2.1 and 3.1), and twice as much a triangle's length beyond it.
 double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest) {
   return 8 * kHalfUnit * glm::dot(glm::abs(normal), largest);
-}
-
-/// Where a ray is started for Embree: the point, moved off its surface by what is lost at most when it becomes a float
-/// (after Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019). It
-/// only spares candidates: `meets` decides.
-glm::dvec3 startOf(const SurfacePoint& from) {
-  const glm::dvec3 normal(from.normal);
-  return from.position + normal * (2 * kHalfUnit * glm::dot(glm::abs(normal), glm::abs(from.position)));
 }
 
 double sumOf(const glm::dvec3& v) {
@@ -78,22 +69,15 @@ void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
   filterCandidates(*call, [&](const Candidate& hit) { return opacityOf(query, hit) > 0.5; });
 }
 
-LightQuery queryFor(const Casters& casters, std::span<const RayToLight> rays, RTCFilterFunctionN filter) {
+LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFunctionN filter) {
   LightQuery query;
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   query.context.filter = filter;
   query.casters = &casters;
-  query.rays = rays;
+  query.rays = rays.rays;
   query.through.fill(1);
   return query;
-}
-
-void setRays(const Casters& casters, std::span<const RayToLight> rays, RTCRay16& packet) {
-  const double scale = casters.tree.scale;
-  for (unsigned i = 0; i < rays.size(); ++i) {
-    setRay(packet, i, startOf(*rays[i].from) * scale, rays[i].way.direction, rays[i].way.length * scale);
-  }
 }
 
 } // namespace
@@ -159,35 +143,32 @@ bool surelyMeets(const RayToLight& ray, const Triangle& caster, double rounding)
   return beyond * beyond > unsure * unsure * squared;
 }
 
-std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const RayToLight> rays) {
+std::array<float, kLanes> sharesThrough(const Casters& casters, RaysToLight& rays) {
   LightQuery query = queryFor(casters, rays, keepOpaque);
-  RTCRay16 packet;
-  setRays(casters, rays, packet);
-  const Lanes lanes = firstLanes(rays.size());
-  rtcOccluded16(lanes.active.data(), casters.tree.rays.get(), &query.context, &packet);
+  const Lanes lanes = firstLanes(rays.count);
+  rtcOccluded16(lanes.active.data(), casters.tree.rays.get(), &query.context, &rays.packet.ray);
   std::array<float, kLanes> shares{};
-  for (unsigned i = 0; i < rays.size(); ++i) shares[i] = packet.tfar[i] < 0 ? 0.0f : query.through[i];
+  for (unsigned i = 0; i < rays.count; ++i) shares[i] = rays.packet.ray.tfar[i] < 0 ? 0.0f : query.through[i];
+  rays.count = 0;
   return shares;
 }
 
-std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const RayToLight> rays) {
+std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays) {
   LightQuery query = queryFor(casters, rays, keepHalfOpaque);
-  RTCRayHit16 packet;
-  setRays(casters, rays, packet.ray);
-  std::fill_n(packet.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
-  const Lanes lanes = firstLanes(rays.size());
-  rtcIntersect16(lanes.active.data(), casters.tree.rays.get(), &query.context, &packet);
+  RTCHit16& hits = rays.packet.hit;
+  std::fill_n(hits.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
+  const Lanes lanes = firstLanes(rays.count);
+  rtcIntersect16(lanes.active.data(), casters.tree.rays.get(), &query.context, &rays.packet);
   std::array<float, kLanes> distances{};
-  for (unsigned i = 0; i < rays.size(); ++i) {
-    if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-      distances[i] = std::numeric_limits<float>::infinity();
-      continue;
-    }
-    const Receiver receiver = receiverAt(casters.tree, casters.eye, *rays[i].from);
-    const Triangle caster = casters.tree.triangle(packet.hit.geomID[i], packet.hit.primID[i]);
-    distances[i] =
-        static_cast<float>(meets({receiver, rays[i].way.direction, rays[i].way.length}, caster).value_or(kInfinity));
+  for (unsigned i = 0; i < rays.count; ++i) {
+    distances[i] = std::numeric_limits<float>::infinity();
+    if (hits.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const auto& [from, way] = rays.rays[i];
+    const ShadowRay ray{receiverAt(casters.tree, casters.eye, *from), way.direction, way.length};
+    const Triangle caster = casters.tree.triangle(hits.geomID[i], hits.primID[i]);
+    distances[i] = static_cast<float>(meets(ray, caster).value_or(kInfinity));
   }
+  rays.count = 0;
   return distances;
 }
 

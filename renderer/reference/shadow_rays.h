@@ -12,6 +12,8 @@
 
 namespace gnomon {
 
+inline constexpr double kHalfUnit = 0x1p-24; ///< what rounding to a float changes at most, relative to the value
+
 /// A point of a triangle as the start of rays.
 struct Receiver {
   glm::dvec3 position{0};
@@ -38,6 +40,29 @@ struct RayToLight {
   WayToLight way;
 };
 
+/// Where Embree starts a point's rays, in the units of the tree: moved off the surface by what is lost at most when it
+/// becomes a float (after Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
+/// Gems, 2019). It only spares candidates: `meets` decides.
+inline glm::vec3 startOf(const TracedScene::Tree& tree, const SurfacePoint& from) {
+  const glm::dvec3 normal(from.normal);
+  const double lost = 2 * kHalfUnit * glm::dot(glm::abs(normal), glm::abs(from.position));
+  return glm::vec3((from.position + normal * lost) * tree.scale);
+}
+
+/// Up to kLanes rays, as Embree takes them and as its filters need them.
+struct RaysToLight {
+  RTCRayHit16 packet;
+  std::array<RayToLight, kLanes> rays{};
+  unsigned count = 0;
+
+  /// `start`: startOf(tree, from). REQUIRES: fewer than kLanes so far.
+  void add(const TracedScene::Tree& tree, const SurfacePoint& from, const glm::vec3& start, const WayToLight& way) {
+    setRay(packet.ray, count, start, way.direction, way.length * tree.scale);
+    rays[count] = {&from, way};
+    ++count;
+  }
+};
+
 /// How an instance stops light.
 enum class Opacity : std::uint8_t { none, full, byAlpha };
 
@@ -50,11 +75,12 @@ struct Casters {
   double rounding = 0; ///< roundingIn(tree)
 };
 
-/// The share of the light that comes through, for up to kLanes rays.
-std::array<float, kLanes> sharesThrough(const Casters& casters, std::span<const RayToLight> rays);
+/// The share of the light that comes through, for each ray; then there are none.
+std::array<float, kLanes> sharesThrough(const Casters& casters, RaysToLight& rays);
 
-/// Metres to the nearest caster that lets through less than half, for up to kLanes rays; infinity where none does.
-std::array<float, kLanes> blockersOf(const Casters& casters, std::span<const RayToLight> rays);
+/// Metres to the nearest caster that lets through less than half, for each ray; infinity where none does. Then there
+/// are none.
+std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays);
 
 /// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
 /// it does not rise over the plane of the receiver, or the receiver's triangle lies in its plane, or it lies behind

@@ -31,30 +31,29 @@ class RayQueue {
  public:
   RayQueue(const Casters& casters, std::span<float> sums) : casters_(casters), sums_(sums) {}
 
-  void add(const RayToLight& ray, std::size_t point) {
-    rays_[count_] = ray;
-    points_[count_] = point;
-    if (++count_ == kLanes) trace();
+  void add(const SurfacePoint& from, const glm::vec3& start, const WayToLight& way, std::size_t point) {
+    points_[rays_.count] = point;
+    rays_.add(casters_.tree, from, start, way);
+    if (rays_.count == kLanes) trace();
   }
 
   void trace() {
-    const std::array<float, kLanes> shares = sharesThrough(casters_, std::span(rays_).first(count_));
-    for (std::size_t i = 0; i < count_; ++i) sums_[points_[i]] += shares[i];
-    count_ = 0;
+    const unsigned count = rays_.count;
+    const std::array<float, kLanes> shares = sharesThrough(casters_, rays_);
+    for (std::size_t i = 0; i < count; ++i) sums_[points_[i]] += shares[i];
   }
 
  private:
   const Casters& casters_;
   std::span<float> sums_;
-  std::array<RayToLight, kLanes> rays_{};
+  RaysToLight rays_;
   std::array<std::size_t, kLanes> points_{};
-  std::size_t count_ = 0;
 };
 
-/// Whether a way leads off the surface, to its normal's side. What a float normal cannot say, the triangle does.
-bool leavesSurface(const Casters& casters, const SurfacePoint& point, const glm::dvec3& direction) {
-  constexpr double kUnsure = 0x1p-20; // of a cosine
-  const double cosine = glm::dot(direction, glm::dvec3(point.normal));
+/// Whether a way leads off the surface, to its normal's side. `cosine`: of the way and the point's normal; what a float
+/// normal cannot say, the triangle does.
+bool leavesSurface(const Casters& casters, const SurfacePoint& point, const glm::dvec3& direction, double cosine) {
+  constexpr double kUnsure = 0x1p-20;
   if (std::abs(cosine) > kUnsure) return cosine > 0;
   return glm::dot(direction, receiverAt(casters.tree, casters.eye, point).normal) > 0;
 }
@@ -64,9 +63,15 @@ void addSamples(const LightSource& source, const Casters& casters, const Surface
                 std::size_t index, RayQueue& queue) {
   const std::uint64_t seed = seedOf(point);
   const LightDisc disc = discFacing(source, point.position);
-  for (std::uint32_t k = 0; k < samples; ++k) {
-    const WayToLight way = wayTo(disc, discSample(k, samples, seed));
-    if (leavesSurface(casters, point, way.direction)) queue.add({&point, way}, index);
+  const glm::dvec3 normal(point.normal);
+  const glm::vec3 start = startOf(casters.tree, point);
+  SampleWays ways;
+  for (std::uint32_t first = 0; first < samples; first += kLanes) {
+    waysTo(disc, first, samples, seed, normal, ways);
+    for (std::uint32_t k = 0; k < std::min(kLanes, samples - first); ++k) {
+      const WayToLight way{{ways.direction[0][k], ways.direction[1][k], ways.direction[2][k]}, ways.length[k]};
+      if (leavesSurface(casters, point, way.direction, ways.cosine[k])) queue.add(point, start, way, index);
+    }
   }
 }
 
@@ -137,7 +142,7 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, 
     if (hasSize()) {
       addSamples(state_->source, state_->casters, point, rays, i, queue);
     } else {
-      queue.add({&point, way}, i);
+      queue.add(point, startOf(state_->casters.tree, point), way, i);
     }
   }
   queue.trace();
@@ -146,13 +151,13 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, 
 }
 
 void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const {
-  std::array<RayToLight, kLanes> rays;
+  const TracedScene::Tree& tree = state_->casters.tree;
+  RaysToLight rays;
   std::array<std::size_t, kLanes> of{};
-  std::size_t count = 0;
   const auto trace = [&] {
-    const std::array<float, kLanes> found = blockersOf(state_->casters, std::span(rays).first(count));
+    const unsigned count = rays.count;
+    const std::array<float, kLanes> found = blockersOf(state_->casters, rays);
     for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
-    count = 0;
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const WayToLight way = wayTo(state_->source, points[i].position);
@@ -160,9 +165,9 @@ void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::sp
       distances[i] = *plain == 0 ? 0 : std::numeric_limits<float>::infinity();
       continue;
     }
-    rays[count] = {&points[i], way};
-    of[count] = i;
-    if (++count == kLanes) trace();
+    of[rays.count] = i;
+    rays.add(tree, points[i], startOf(tree, points[i]), way);
+    if (rays.count == kLanes) trace();
   }
   trace();
 }

@@ -1,7 +1,9 @@
 #include "renderer/reference/light_source.h"
 
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 #include <set>
 
 namespace gnomon {
@@ -26,6 +28,56 @@ TEST(LightSamples, FillTheDiscEvenlyForAnyCount) {
       EXPECT_LT(glm::length(sum / double(count)), 1.5 / std::sqrt(double(count)) / 2);
     }
   }
+}
+
+/// Shirley and Chiu's map with the library's sines.
+glm::dvec2 mapped(glm::dvec2 square) {
+  const glm::dvec2 p = 2.0 * square - 1.0;
+  if (p == glm::dvec2(0)) return p;
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const double angle = wide ? std::atan(1) * p.y / p.x : 2 * std::atan(1) - std::atan(1) * p.x / p.y;
+  return (wide ? p.x : p.y) * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+TEST(LightSamples, LieWhereTheMapOfTheUnitSquarePutsThem) {
+  EXPECT_TRUE(rc::check([] {
+    const auto count = *rc::gen::inRange<std::uint32_t>(1, 1000);
+    const auto index = *rc::gen::inRange<std::uint32_t>(0, count);
+    // Index 0 lies at the square's lowest row but for the seed's lower half, at its left side but for the upper half.
+    const auto seed = *rc::gen::oneOf(
+        rc::gen::arbitrary<std::uint64_t>(),
+        rc::gen::element<std::uint64_t>(0, ~0ull, 0x8000000080000000ull, 0x800000007fffffffull, 0x80000000ull));
+    std::uint32_t reversed = 0;
+    for (int bit = 0; bit < 32; ++bit) reversed |= ((index >> bit) & 1u) << (31 - bit);
+    const glm::dvec2 square((index + double(seed >> 32) / 4294967296.0) / count,
+                            (double(reversed ^ std::uint32_t(seed)) + 0.5) / 4294967296.0);
+    RC_ASSERT(glm::length(discSample(index, count, seed) - mapped(square)) < 1e-15);
+  }));
+}
+
+TEST(LightSamples, WaysLeadToTheSamplesOfTheDisc) {
+  EXPECT_TRUE(rc::check([] {
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    const auto count = *rc::gen::inRange<std::uint32_t>(1, 50);
+    const auto first = *rc::gen::inRange<std::uint32_t>(0, count);
+    const double far = *rc::gen::element(1.0, 1e-6, 1e9);
+    LightSource light;
+    light.type = *rc::gen::element(LightType::directional, LightType::point);
+    light.axis = glm::normalize(glm::dvec3(1, -2, 0.5));
+    light.position = glm::dvec3(3, 4, -5) * far;
+    light.radius = *rc::gen::element(0.01, 1.0);
+    const LightDisc disc = discFacing(light, {far, 0, 2 * far});
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 1, -0.2));
+    SampleWays ways;
+    waysTo(disc, first, count, seed, normal, ways);
+    for (std::uint32_t k = 0; k < std::min(kLanes, count - first); ++k) {
+      const glm::dvec2 place = discSample(first + k, count, seed);
+      const WayToLight way = wayAlong(disc.middle + disc.across * place.x + disc.up * place.y);
+      RC_ASSERT(glm::dvec3(ways.direction[0][k], ways.direction[1][k], ways.direction[2][k]) == way.direction);
+      RC_ASSERT(ways.length[k] == (disc.atInfinity ? HUGE_VAL : way.length));
+      RC_ASSERT(ways.cosine[k] == glm::dot(way.direction, normal));
+    }
+  }));
 }
 
 TEST(LightSamples, SeedsDifferFromPointToPointAndStayForOne) {
