@@ -30,12 +30,6 @@ std::vector<std::uint32_t> PicturePoints::besideMasks() const {
   return pixelsWhere(grid_, masks_, [](std::uint8_t /*least*/, std::uint8_t most) { return most != 0; });
 }
 
-glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position) {
-  const auto x = static_cast<float>(pixel % static_cast<std::size_t>(grid.width));
-  const auto row = static_cast<float>(pixel / static_cast<std::size_t>(grid.width));
-  return {x + position.x, static_cast<float>(grid.height) - (row + position.y)};
-}
-
 std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels) {
   std::vector<glm::vec2> places;
   places.reserve(pixels.size() * grid.samples());
@@ -43,14 +37,6 @@ std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::ui
     for (const glm::vec2 position : grid.positions) places.push_back(placeIn(grid, pixel, position));
   }
   return places;
-}
-
-std::uint16_t unorm16(float share) {
-  return static_cast<std::uint16_t>(double{std::clamp(share, 0.0f, 1.0f) * 65535.0f} + 0.5);
-}
-
-std::uint8_t unorm8(float share) {
-  return static_cast<std::uint8_t>(double{std::clamp(share, 0.0f, 1.0f) * 255.0f} + 0.5);
 }
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -22,14 +23,23 @@ struct SampleGrid {
 };
 
 /// Where rays go through, as firstHits takes it: from the picture's upper left corner.
-glm::vec2 placeIn(const SampleGrid& grid, std::size_t pixel, glm::vec2 position);
+inline glm::vec2 placeIn(const SampleGrid& grid, std::uint32_t pixel, glm::vec2 position) {
+  const auto width = static_cast<std::uint32_t>(grid.width);
+  const auto x = static_cast<float>(pixel % width);
+  const auto row = static_cast<float>(pixel / width);
+  return {x + position.x, static_cast<float>(grid.height) - (row + position.y)};
+}
 
 /// Every sample of the given pixels, pixel by pixel.
 std::vector<glm::vec2> samplesOf(const SampleGrid& grid, std::span<const std::uint32_t> pixels);
 
 /// A share 0..1 as 16-bit textures hold it, and as 8-bit ones do.
-std::uint16_t unorm16(float share);
-std::uint8_t unorm8(float share);
+inline std::uint16_t unorm16(float share) {
+  return static_cast<std::uint16_t>(double{std::clamp(share, 0.0f, 1.0f) * 65535.0f} + 0.5);
+}
+inline std::uint8_t unorm8(float share) {
+  return static_cast<std::uint8_t>(double{std::clamp(share, 0.0f, 1.0f) * 255.0f} + 0.5);
+}
 
 /// The points that a picture's samples show, for rays that go on from there. Pixels are numbered as in SampleGrid.
 class PicturePoints {

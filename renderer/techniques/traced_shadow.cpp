@@ -39,9 +39,9 @@ void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
   for (int y = block.y; y < top; y += kSquare) {
     for (int x = block.x; x < right; x += kSquare) {
       for (int row = y; row < std::min(y + kSquare, top); ++row) {
-        for (int column = x; column < std::min(x + kSquare, right); ++column) {
-          each(static_cast<std::uint32_t>(row * grid.width + column));
-        }
+        const auto first = static_cast<std::uint32_t>(row * grid.width + x);
+        const auto last = first + static_cast<std::uint32_t>(std::min(kSquare, right - x));
+        for (std::uint32_t pixel = first; pixel < last; ++pixel) each(pixel);
       }
     }
   }
@@ -54,8 +54,9 @@ class ShadowTracing {
       : points_(points),
         light_(rays, light),
         samples_(samples),
-        values_(grid().pixels() * places()),
-        shares_(grid().pixels()),
+        places_(grid().samples()),
+        values_(grid().pixels() * places_, std::uint16_t{65535}),
+        shares_(grid().pixels(), std::uint8_t{255}),
         away_(grid().pixels()),
         exact_(grid().pixels()) {}
 
@@ -82,9 +83,9 @@ class ShadowTracing {
       std::vector<float> found(hits.size());
       light_.visibility(hits, samples_, found);
       for (std::size_t i = 0; i < piece.size(); ++i) {
-        const auto own = std::span(found).subspan(i * places(), places());
+        const auto own = std::span(found).subspan(i * places_, places_);
         std::transform(own.begin(), own.end(), valuesOf(piece[i]), unorm16);
-        const float mean = std::accumulate(own.begin(), own.end(), 0.0f) / static_cast<float>(places());
+        const float mean = std::accumulate(own.begin(), own.end(), 0.0f) / static_cast<float>(places_);
         changed[first + i] = unorm8(mean) != shares_[piece[i]] ? 1 : 0;
         shares_[piece[i]] = unorm8(mean);
         exact_[piece[i]] = 1;
@@ -132,23 +133,26 @@ class ShadowTracing {
   std::vector<std::uint16_t> takeValues() { return std::move(values_); }
 
  private:
-  void setLit(std::uint32_t pixel) {
-    shares_[pixel] = 255;
-    std::fill_n(valuesOf(pixel), places(), std::uint16_t{65535});
+  void set(std::uint32_t pixel, float share) {
+    std::uint16_t* values = valuesOf(pixel);
+    *values = unorm16(share);
+    for (std::size_t i = 1; i < places_; ++i) values[i] = *values;
+    shares_[pixel] = unorm8(share);
   }
 
+  /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
     std::uint64_t unsure = 0;
     Pixels pixels;
     pixels.reserve(kPixels);
     forEachPixel(grid(), block, [&](std::uint32_t pixel) {
       const Verdict verdict = verdicts.empty() ? Verdict::unsure : verdicts[pixel];
-      if (verdict == Verdict::unsure) ++unsure;
-      if (verdict == Verdict::turnedAway) away_[pixel] = 1;
-      if (verdict == Verdict::lit || (verdict == Verdict::unsure && !points_.showsSurface(pixel))) {
-        setLit(pixel);
-      } else if (verdict == Verdict::unsure) {
-        pixels.push_back(pixel);
+      if (verdict == Verdict::unsure) {
+        ++unsure;
+        if (points_.showsSurface(pixel)) pixels.push_back(pixel);
+      } else if (verdict != Verdict::lit) {
+        set(pixel, 0);
+        away_[pixel] = verdict == Verdict::turnedAway ? 1 : 0;
       }
     });
     if (!pixels.empty()) traceDrawn(pixels);
@@ -161,21 +165,18 @@ class ShadowTracing {
     std::vector<std::uint8_t> away(pixels.size());
     light_.visibility(drawn, samples_, found, away);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      std::fill_n(valuesOf(pixels[i]), places(), unorm16(found[i]));
-      shares_[pixels[i]] = unorm8(found[i]);
+      set(pixels[i], found[i]);
       away_[pixels[i]] = away[i];
     }
   }
 
   const SampleGrid& grid() const { return points_.grid(); }
-  std::size_t places() const { return grid().samples(); }
-  std::vector<std::uint16_t>::iterator valuesOf(std::uint32_t pixel) {
-    return values_.begin() + static_cast<std::ptrdiff_t>(pixel * places());
-  }
+  std::uint16_t* valuesOf(std::uint32_t pixel) { return values_.data() + pixel * places_; }
 
   const PicturePoints& points_;
   TracedLight light_;
   int samples_;
+  std::size_t places_; ///< samples of a pixel
   std::vector<std::uint16_t> values_;
   std::vector<std::uint8_t> shares_; ///< 0..255, one a pixel: the mean of its samples
   std::vector<std::uint8_t> away_;   ///< one a pixel; 1 = what was drawn there is turned away from the light
