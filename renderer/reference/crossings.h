@@ -1,0 +1,69 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "renderer/core/aabb.h"
+#include "renderer/reference/ray_packet.h"
+#include "renderer/reference/trace.h"
+#include "renderer/reference/tree.h"
+
+/// Camera rays and triangles in double precision, kLanes at a time and a coordinate after the other, so that loops over
+/// the lanes become vectors. Metres, relative to the scene's anchor.
+namespace gnomon {
+
+/// The camera for many rays: the line through a place of the picture begins at origin + ndc * spread and leads along
+/// forward + ndc * slope, a step of one metre of view depth.
+struct Sight {
+  glm::dvec3 origin{0};
+  glm::dvec3 forward{0}, right{0}, up{0};
+  glm::dvec2 size{1}; ///< of the picture, pixels
+  glm::dvec2 spread{0}, slope{0};
+};
+
+Sight sightOf(const TraceInput& input);
+
+struct Places {
+  float x[kLanes], y[kLanes]; ///< pixels from the upper left corner
+};
+
+struct Lines {
+  double origin[3][kLanes];
+  double direction[3][kLanes];
+};
+
+/// The line through each place, from the eye; orthographic: from beside it.
+void setLines(const Sight& sight, const Places& places, Lines& lines);
+
+/// What is left of lines between two view depths and in a box.
+struct Stretches {
+  double length[kLanes]; ///< view depth from where it begins to the far end; infinite where nothing ends it
+  int meets[kLanes];     ///< -1, or 0 where nothing is left
+};
+
+/// Moves the lines' origins to where they come between `near` and `far`, and close to what they look for in `box`: so
+/// the distance of the eye takes nothing from its precision.
+void enter(const Aabb& box, double near, double far, Lines& lines, Stretches& stretches);
+
+struct Crossings {
+  float a[3][kLanes], b[3][kLanes], c[3][kLanes]; ///< corners, in the tree's units
+  double u[kLanes],
+      v[kLanes];         ///< where the line crosses, as crossing() finds it; before: where it runs along the plane
+  double facing[kLanes]; ///< more than 0 where the line leads along the triangle's normal
+  double position[3][kLanes];
+  float normal[3][kLanes]; ///< unit length, against the line; zero where the triangle has no area
+
+  /// `hit`: a triangle of the tree.
+  void setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& hit);
+  void setNothing(unsigned lane);
+  SurfacePoint point(unsigned lane, const PlacedTriangle& hit) const {
+    return {{position[0][lane], position[1][lane], position[2][lane]},
+            {normal[0][lane], normal[1][lane], normal[2][lane]},
+            hit.instance,
+            hit.triangle};
+  }
+};
+
+/// Crosses each line with its triangle. `scale`: of the tree.
+void cross(const Lines& lines, double scale, Crossings& crossings);
+
+} // namespace gnomon
