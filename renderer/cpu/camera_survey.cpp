@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "renderer/core/parallel.h"
+#include "renderer/cpu/material_holes.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/survey_slots.h"
 
@@ -98,7 +99,9 @@ void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, De
   const std::vector<glm::mat4> clip =
       clipFromLocal(camera.scene, clipFromView(camera.camera) * viewFromRelative(camera.camera));
   const std::vector<RasterDraw> draws = rasterDraws(camera.scene, DrawUse::survey, keep);
-  triangles += raster({camera.scene.scene, camera.scene.slots, clip, draws, camera.holes}, DepthRange::reversed, buffer,
+  const MaterialHoles material({camera.scene, camera.textures, clip, glm::ivec2(buffer.width, buffer.height)});
+  const Holes* holes = camera.coverage != nullptr ? camera.coverage : &material;
+  triangles += raster({camera.scene.scene, camera.scene.slots, clip, draws, holes}, DepthRange::reversed, buffer,
                       camera.scratch);
 }
 

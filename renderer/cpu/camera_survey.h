@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/cpu/raster.h"
+#include "renderer/cpu/textures.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {
@@ -22,7 +23,8 @@ struct CameraRaster {
   const FrameScene& scene;
   const CameraView& camera;
   std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
-  const Holes* holes = nullptr;        ///< of masked materials; null where the scene has none
+  const Textures& textures;
+  Holes* coverage = nullptr; ///< asked instead of the materials where they have holes
   RasterScratch& scratch;
 };
 

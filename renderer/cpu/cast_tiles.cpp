@@ -4,6 +4,8 @@
 
 #include "protocol/base/elapsed.h"
 #include "renderer/cpu/camera_survey.h"
+#include "renderer/cpu/material_holes.h"
+#include "renderer/cpu/moments.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -21,11 +23,15 @@ std::vector<glm::mat4> tileFromLocal(const FrameScene& scene, const ShadowTile& 
   return matrices;
 }
 
-std::uint64_t rasterCasters(const CastInput& input, const ShadowTile& tile, const TileCasters& casters,
-                            DepthBuffer& buffer) {
+std::uint64_t rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& light,
+                            const TileCasters& casters, DepthBuffer& buffer) {
   const std::vector<glm::mat4> clip = tileFromLocal(input.scene, tile);
+  const MaterialHoles holes({input.scene, input.textures, clip, glm::ivec2(tile.rect.width, tile.rect.height),
+                             glm::ivec2(tile.rect.x, tile.rect.y),
+                             light.shadow->blendedCasters == BlendedCasters::dither});
   const std::vector<RasterDraw> draws = rasterDraws(input.scene, casters.use, casters.slots);
-  return raster({input.scene.scene, input.scene.slots, clip, draws}, DepthRange::clamped, buffer, input.scratch);
+  return raster({input.scene.scene, input.scene.slots, clip, draws, &holes}, DepthRange::clamped, buffer,
+                input.scratch);
 }
 
 } // namespace
@@ -51,7 +57,8 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
     }
     auto made = std::make_shared<RasteredTile>();
     made->depths = emptyBuffer(tile.rect.width, tile.rect.height, samples, DepthRange::clamped, false);
-    facts.casterTriangles = rasterCasters(input, tile, casters, made->depths);
+    facts.casterTriangles = rasterCasters(input, tile, light, casters, made->depths);
+    if (isBlurred(tile)) made->moments = blurredMoments(made->depths, momentBlur(tile));
     facts.culledTriangles = input.scene.view.triangles - facts.casterTriangles;
     store.keep(key, made);
     cast.tiles[i] = std::move(made);
@@ -62,7 +69,8 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
 
 DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const Light& light) {
   DepthBuffer buffer = emptyBuffer(tile.rect.width, tile.rect.height, 1, DepthRange::clamped, true);
-  rasterCasters(input, tile, castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes), buffer);
+  const TileCasters casters = castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes);
+  rasterCasters(input, tile, light, casters, buffer);
   return buffer;
 }
 

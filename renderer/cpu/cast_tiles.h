@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/cpu/raster.h"
+#include "renderer/cpu/textures.h"
 #include "renderer/cpu/tile_store.h"
 #include "renderer/device/facts.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -15,6 +16,7 @@ namespace gnomon::cpu {
 /// What the tiles of a frame are cast from. All of it outlives the call.
 struct CastInput {
   const FrameScene& scene;
+  const Textures& textures;
   const ShadowPlan& plan;
   const FrameSpec& spec; ///< effective
   std::span<const NodeSwitches> nodes;

@@ -2,7 +2,8 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
-#include "renderer/cpu/show_view.h"
+#include "renderer/cpu/probe.h"
+#include "renderer/device/shader_data.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
 
@@ -30,11 +31,12 @@ CpuFrame::CpuFrame(Shared& shared, const FrameWork& work)
 }
 
 CameraRaster CpuFrame::camera() const {
-  return {scene_, work_.frame.view, work_.frame.nodes, nullptr, shared_.scratch};
+  return {scene_, work_.frame.view, work_.frame.nodes, *cached_.textures, nullptr, shared_.scratch};
 }
 
 CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
-  return {scene_, plan, work_.frame.spec, work_.frame.nodes, cached_.id, work_.frame.scene, shared_.scratch};
+  return {scene_,     *cached_.textures, plan,           work_.frame.spec, work_.frame.nodes,
+          cached_.id, work_.frame.scene, shared_.scratch};
 }
 
 Result<ReceiverDepths> CpuFrame::survey() {
@@ -97,6 +99,24 @@ std::vector<TileMap> tileMaps(const ShadowPlan& plan, const CastTiles& cast) {
   return maps;
 }
 
+/// The lights and tiles of a frame as kernels read them.
+class ShownLights {
+ public:
+  ShownLights(const ShowInput& input, const std::vector<LitLight>& lights, const CastTiles& cast)
+      : lights_(lightData(lights)),
+        tiles_(tileData(input.plan)),
+        maps_(tileMaps(input.plan, cast)),
+        atlas_(input.plan.atlasWidth, input.plan.atlasHeight) {}
+
+  ShadowMaps maps(std::span<const Layer> layers) const { return {lights_, tiles_, maps_, atlas_, layers}; }
+
+ private:
+  std::vector<shared::LightData> lights_;
+  std::vector<shared::TileData> tiles_;
+  std::vector<TileMap> maps_;
+  glm::vec2 atlas_;
+};
+
 /// The nearest depth of each texel, put into the atlas row by row from the bottom.
 void addDepths(const ShadowTile& tile, const DepthBuffer& depths, const Rect& of, std::vector<float>& out) {
   for (int y = 0; y < tile.rect.height; ++y) {
@@ -143,22 +163,52 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   }
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
-  std::vector<LitLight> own;
-  if (request.fullStrength) own = atFullStrength({input.lights.begin(), input.lights.end()});
-  const std::vector<shared::LightData> lights =
-      lightData(request.fullStrength ? std::span<const LitLight>(own) : input.lights);
-  const std::vector<shared::TileData> tiles = tileData(input.plan);
-  const std::vector<TileMap> maps = tileMaps(input.plan, cast_);
+  const bool full = request.fullStrength;
+  const ShownLights lights(input,
+                           full ? atFullStrength({input.lights.begin(), input.lights.end()})
+                                : std::vector<LitLight>(input.lights.begin(), input.lights.end()),
+                           cast_);
   const auto exact = layers_.find(samples);
   const std::vector<Layer> layers = exact == layers_.end() ? std::vector<Layer>{} : exact->second.layers(shown);
-  const ShadowMaps shadows{lights, tiles, maps, glm::vec2(input.plan.atlasWidth, input.plan.atlasHeight), layers};
-  const ShowJob job{
-      scene_,          shown, shadows, input.lightLists, request.view, request.encoded, work_.frame.spec.toneMapping,
-      input.debugLight};
+  const ShadowMaps maps = lights.maps(layers);
+  ShowJob job = jobOf(input, shown, maps);
+  job.view = request.view;
+  job.encoded = request.encoded;
+  std::vector<DepthBuffer> numbered;
+  std::vector<TileMap> casters;
+  if (request.view == View::casterIds && input.planned != nullptr) {
+    const std::span<const ShadowTile> tiles(input.plan.tiles);
+    numbered.resize(tiles.size());
+    casters.resize(tiles.size());
+    const Light& light = (*work_.frame.spec.lights)[static_cast<std::size_t>(input.planned->light)];
+    for (int i = 0; i < input.planned->tileCount; ++i) {
+      const auto at = static_cast<std::size_t>(input.planned->firstTile + i);
+      if (tiles[at].rect.width <= 0) continue;
+      numbered[at] = numberedTile(castInput(input.plan), tiles[at], light);
+      casters[at] = {tiles[at].rect, &numbered[at], {}};
+    }
+  }
+  const std::vector<std::int32_t> nodes = slotNodes();
+  job.casters = casters;
+  job.slotNodes = nodes;
   pictures_.push_back(showView(job, request.opaque));
   endPass("view", 0);
   facts_.passes.back().view = request.view;
   return Done{};
+}
+
+ShowJob CpuFrame::jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const {
+  ShowJob job{scene_, *cached_.textures, shown, maps, input.lightLists};
+  job.toneMapping = work_.frame.spec.toneMapping;
+  job.debugLight = input.debugLight;
+  return job;
+}
+
+std::vector<std::int32_t> CpuFrame::slotNodes() const {
+  std::vector<std::int32_t> nodes;
+  nodes.reserve(scene_.slots.size());
+  for (const Slot& slot : scene_.slots) nodes.push_back(geometry_.instances[slot.instance].node);
+  return nodes;
 }
 
 Status CpuFrame::show(const ShowInput& input) {
@@ -168,12 +218,15 @@ Status CpuFrame::show(const ShowInput& input) {
   return Done{};
 }
 
-Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput&) {
-  return std::vector<MapFootprint>{};
+Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
+  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  const ShadowMaps maps = lights.maps({});
+  return mapFootprints(jobOf(input, surfaces(1), maps));
 }
 
-Result<std::vector<float>> CpuFrame::probe(const ShowInput&, std::span<const ProbePoint>) {
-  return std::vector<float>{};
+Result<std::vector<float>> CpuFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {
+  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  return probedShares(lights.maps({}), scene_.frame, input.debugLight, points);
 }
 
 Image CpuFrame::picture(std::size_t index) {

@@ -8,7 +8,7 @@
 #include "renderer/cpu/cast_tiles.h"
 #include "renderer/cpu/exact_layers.h"
 #include "renderer/cpu/scene_cache.h"
-#include "renderer/cpu/shadow_maps.h"
+#include "renderer/cpu/show_view.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {
@@ -40,6 +40,8 @@ class CpuFrame : public FrameDrawing {
   const DepthBuffer& surfaces(int samples);
   Status needLayers(int samples);
   Status showOne(const ShowInput& input, const ViewRequest& request);
+  ShowJob jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const;
+  std::vector<std::int32_t> slotNodes() const; ///< of each slot's instance
   Image atlasPicture(const ShowInput& input, const ViewRequest& request) const;
   void endPass(const char* name, std::uint64_t triangles);
 

@@ -73,7 +73,7 @@ std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey&
   if (std::none_of(slots.begin(), slots.end(), [](std::uint8_t slot) { return slot != 0; })) return {};
   Coverage coverage(scene.width, scene.height);
   CameraRaster covering = camera;
-  covering.holes = &coverage;
+  covering.coverage = &coverage;
   Survey masked;
   masked.visible = std::move(slots);
   std::uint64_t triangles = 0;

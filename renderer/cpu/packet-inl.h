@@ -6,6 +6,7 @@
 #define GNOMON_CPU_PACKET_INL_H
 #endif
 
+#include "renderer/cpu/raster.h"
 #include "renderer/cpu/show_view.h"
 #include "renderer/cpu/surface-inl.h"
 
@@ -22,6 +23,23 @@ struct SampleMeans {
   alignas(64) float x[16] = {}, y[16] = {};
 };
 
+HWY_INLINE SampleMeans sampleMeans(int samples) {
+  SampleMeans means;
+  const std::span<const glm::ivec2> places = samplePlaces(samples);
+  for (std::size_t set = 1; set < std::size_t{1} << samples; ++set) {
+    glm::vec2 sum(0);
+    int count = 0;
+    for (std::size_t s = 0; s < places.size(); ++s) {
+      if ((set >> s & 1u) == 0) continue;
+      sum += glm::vec2(places[s]);
+      ++count;
+    }
+    means.x[set] = sum.x / (256.0f * static_cast<float>(count));
+    means.y[set] = sum.y / (256.0f * static_cast<float>(count));
+  }
+  return means;
+}
+
 HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squareX, int squareY,
                            const SampleMeans& means) {
   const std::size_t left = list.count - first;
@@ -37,8 +55,8 @@ HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squa
   return packet;
 }
 
-HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Packet& packet) {
-  Surface surface = surfaceOf(scene, packet.fragments);
+HWY_INLINE Surface surfaceOf(const ShowJob& job, const Packet& packet) {
+  Surface surface = surfaceOf(job.scene, job.textures, packet.fragments);
   surface.receiver.samples = packet.samples;
   return surface;
 }

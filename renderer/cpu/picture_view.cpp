@@ -1,34 +1,16 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE \
   "renderer/cpu/picture_view.cpp" // NOLINT: Highway's foreach_target.h includes this file again
-#include "renderer/cpu/picture_view.h"
-
 #include <hwy/foreach_target.h>
 
+#include "renderer/cpu/debug_light-inl.h"
 #include "renderer/cpu/packet-inl.h"
-#include "renderer/cpu/raster.h"
 #include "renderer/cpu/shading-inl.h"
 #include "renderer/cpu/shadow_visibility-inl.h"
+#include "renderer/cpu/view_squares.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
-
-HWY_INLINE SampleMeans sampleMeans(int samples) {
-  SampleMeans means;
-  const std::span<const glm::ivec2> places = samplePlaces(samples);
-  for (std::size_t set = 1; set < std::size_t{1} << samples; ++set) {
-    glm::vec2 sum(0);
-    int count = 0;
-    for (std::size_t s = 0; s < places.size(); ++s) {
-      if ((set >> s & 1u) == 0) continue;
-      sum += glm::vec2(places[s]);
-      ++count;
-    }
-    means.x[set] = sum.x / (256.0f * static_cast<float>(count));
-    means.y[set] = sum.y / (256.0f * static_cast<float>(count));
-  }
-  return means;
-}
 
 HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Surface& surface) {
   const auto visibility =
@@ -46,9 +28,17 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Sur
 }
 
 HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
-  const Surface surface = surfaceOf(job.scene, packet);
+  const Surface surface = surfaceOf(job, packet);
   const Float3 radiance = radianceOf(job, packet, surface);
-  return pictureOf(job.scene.frame, packet.fragments.shown, radiance, job.toneMapping, job.encoded).rgb;
+  const Float3 shown = pictureOf(job.scene.frame, packet.fragments.shown, radiance, job.toneMapping, job.encoded).rgb;
+  const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
+  if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);
+  if (job.view != View::cascades) return shown;
+  const Float grey = along(glm::vec3(0.2126f, 0.7152f, 0.0722f), shown);
+  if (!hasTiles(debug)) return Float3(grey);
+  const Float3 toLight =
+      towardsLight(job.maps.lights[static_cast<std::size_t>(job.debugLight)], surface.receiver.relative);
+  return cascadeTint(job.maps, job.debugLight, surface.receiver, toLight) * grey;
 }
 
 void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {

@@ -11,9 +11,19 @@ CachedScene& SceneCache::of(const std::shared_ptr<const Scene>& scene) {
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front().cached;
   }
+  auto textures = texturesOf(*scene);
   entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
-  entries_.push_front({scene, {++scenes_}});
+  entries_.push_front({scene, {++scenes_, std::move(textures)}});
   return entries_.front().cached;
+}
+
+/// Scenes that share their images are poses of one.
+std::shared_ptr<Textures> SceneCache::texturesOf(const Scene& scene) const {
+  for (const Entry& entry : entries_) {
+    const auto other = entry.scene.lock();
+    if (other && !scene.images.empty() && other->images == scene.images) return entry.cached.textures;
+  }
+  return std::make_shared<Textures>(scene.images);
 }
 
 } // namespace gnomon::cpu

@@ -3,13 +3,14 @@
 #include <list>
 #include <memory>
 
-#include "renderer/scene/scene.h"
+#include "renderer/cpu/textures.h"
 
 namespace gnomon::cpu {
 
 /// What frames of one scene share beside it.
 struct CachedScene {
   std::uint64_t id = 0; ///< no other scene's
+  std::shared_ptr<Textures> textures;
 };
 
 /// Of the scenes drawn lately. What belongs to a scene that is gone goes with the next one that comes.
@@ -23,6 +24,8 @@ class SceneCache {
     std::weak_ptr<const Scene> scene;
     CachedScene cached;
   };
+  std::shared_ptr<Textures> texturesOf(const Scene& scene) const;
+
   std::list<Entry> entries_; ///< most recently used first
   std::uint64_t scenes_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "renderer/core/parallel.h"
-#include "renderer/cpu/picture_view.h"
+#include "renderer/cpu/view_squares.h"
 #include "renderer/device/view_image.h"
 
 namespace gnomon::cpu {
@@ -60,47 +60,64 @@ void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vect
   }
 }
 
-/// Calls `write(colors, x, y)` for every square of the picture.
-template <class Write>
-void forEachSquare(const ShowJob& job, const Write& write) {
+/// Calls `each(list, x, y)` with the fragments of every square of the picture.
+template <class Each>
+void forEachSquare(const ShowJob& job, const Each& each) {
   const auto across = static_cast<std::size_t>((job.scene.width + kTileSide - 1) / kTileSide);
   const auto up = static_cast<std::size_t>((job.scene.height + kTileSide - 1) / kTileSide);
   forEachPiece(across * up, 8, [&](std::size_t first, std::size_t last) {
     FragmentList list;
-    TileColors colors;
     for (std::size_t i = first; i < last; ++i) {
       const int x = static_cast<int>(i % across) * kTileSide;
       const int y = static_cast<int>(i / across) * kTileSide;
       listFragments(job.buffer, x, y, list);
-      pictureSquare(job, list, x, y, colors);
-      write(colors, x, y);
+      each(list, x, y);
     }
   });
+}
+
+template <class T, class Convert>
+void fill(const ShowJob& job, Image& image, const Convert& convert) {
+  const bool picture = traitsOf(job.view).source == ViewSource::picture;
+  std::vector<T> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                        image.channels.size());
+  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
+    TileColors colors;
+    picture ? pictureSquare(job, list, x, y, colors) : dataSquare(job, list, x, y, colors);
+    writeSquare(colors, x, y, image, pixels, convert);
+  });
+  image.pixels = std::move(pixels);
 }
 
 } // namespace
 
 Image showView(const ShowJob& job, bool opaque) {
-  Image image{job.scene.width, job.scene.height, channelsOf(job.view, job.encoded, opaque), {}};
-  const std::size_t values =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * image.channels.size();
-  if (!job.encoded) {
-    std::vector<float> pixels(values);
-    forEachSquare(job, [&](const TileColors& colors, int x, int y) {
-      writeSquare(colors, x, y, image, pixels, [](float value, std::size_t) { return value; });
-    });
-    image.pixels = std::move(pixels);
-    return image;
-  }
   static const SrgbBytes srgb;
-  const bool picture = traitsOf(job.view).source == ViewSource::picture;
-  std::vector<std::uint8_t> pixels(values);
-  forEachSquare(job, [&](const TileColors& colors, int x, int y) {
-    writeSquare(colors, x, y, image, pixels,
-                [&](float value, std::size_t c) { return picture && c < 3 ? srgb.of(value) : unormByte(value); });
-  });
-  image.pixels = std::move(pixels);
+  Image image{job.scene.width, job.scene.height, channelsOf(job.view, job.encoded, opaque), {}};
+  if (!job.encoded) {
+    fill<float>(job, image, [](float value, std::size_t) { return value; });
+  } else if (traitsOf(job.view).source == ViewSource::picture) {
+    fill<std::uint8_t>(job, image,
+                       [](float value, std::size_t c) { return c < 3 ? srgb.of(value) : unormByte(value); });
+  } else {
+    fill<std::uint8_t>(job, image, [](float value, std::size_t) { return unormByte(value); });
+  }
   return image;
+}
+
+std::vector<MapFootprint> mapFootprints(const ShowJob& job) {
+  std::vector<MapFootprint> footprints(static_cast<std::size_t>(job.scene.width) *
+                                       static_cast<std::size_t>(job.scene.height));
+  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
+    std::array<MapFootprint, kTilePixels> found;
+    footprintSquare(job, list, x, y, found.data());
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const int row = job.scene.height - 1 - y - rowOf(list.pixel[i]);
+      footprints[static_cast<std::size_t>(row) * static_cast<std::size_t>(job.scene.width) +
+                 static_cast<std::size_t>(x + columnOf(list.pixel[i]))] = found[i];
+    }
+  });
+  return footprints;
 }
 
 } // namespace gnomon::cpu

@@ -9,6 +9,8 @@
 #include "renderer/cpu/depth_buffer.h"
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/shadow_maps.h"
+#include "renderer/cpu/textures.h"
+#include "renderer/device/device.h"
 #include "renderer/image/image.h"
 
 /// A view's picture from the triangles that its samples show: everything else comes from the triangles again.
@@ -17,17 +19,23 @@ namespace gnomon::cpu {
 /// What a view is made from. All of it outlives the call.
 struct ShowJob {
   const FrameScene& scene;
+  const Textures& textures;
   const DepthBuffer& buffer; ///< numbered; data has one sample a pixel
   const ShadowMaps& maps;
   std::span<const std::uint32_t> lightLists; ///< prepare/light_lists.h; empty = every light may reach every pixel
   View view = View::color;
   bool encoded = true; ///< as in ViewRequest
   ToneMapping toneMapping = ToneMapping::aces;
-  int debugLight = -1; ///< what views of one light show; -1 = there is none
+  int debugLight = -1;                          ///< what views of one light show; -1 = there is none
+  std::span<const TileMap> casters = {};        ///< view casterIds: parallel to the maps', numbered, a sample a texel
+  std::span<const std::int32_t> slotNodes = {}; ///< view casterIds: the node of each slot
 };
 
 /// The picture, first row on top, on all cores. `opaque`: as in ViewRequest.
 Image showView(const ShowJob& job, bool opaque);
+
+/// FrameDrawing::footprints of the job's light; its surfaces have one sample a pixel.
+std::vector<MapFootprint> mapFootprints(const ShowJob& job);
 
 /// Pixels along a side of the squares that are shown at a time.
 inline constexpr int kTileSide = 16;
