@@ -64,6 +64,7 @@ class Packet {
     rtcInitIntersectContext(&query_.context);
     query_.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query_.eye = &eye;
+    setAllRays(packet_.ray);
     Places at{};
     for (unsigned i = 0; i < places.size(); ++i) {
       at.x[i] = places[i].x;

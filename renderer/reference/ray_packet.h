@@ -5,10 +5,20 @@
 #include <embree3/rtcore.h>
 #include <glm/glm.hpp>
 #include <limits>
+#include <numeric>
 
 namespace gnomon {
 
 inline constexpr unsigned kLanes = 16; ///< rays that are traced together
+
+/// What setRay leaves as it is: the same for all rays.
+inline void setAllRays(RTCRay16& packet) {
+  std::fill_n(packet.tnear, kLanes, 0.0f);
+  std::fill_n(packet.time, kLanes, 0.0f);
+  std::fill_n(packet.mask, kLanes, ~0u);
+  std::iota(packet.id, packet.id + kLanes, 0u);
+  std::fill_n(packet.flags, kLanes, 0u);
+}
 
 /// Sets lane `lane` of a packet; all in the units of the tree (TracedScene::Tree::scale).
 inline void setRay(RTCRay16& packet, unsigned lane, const glm::vec3& origin, const glm::dvec3& direction,
@@ -19,13 +29,8 @@ inline void setRay(RTCRay16& packet, unsigned lane, const glm::vec3& origin, con
   packet.dir_x[lane] = static_cast<float>(direction.x);
   packet.dir_y[lane] = static_cast<float>(direction.y);
   packet.dir_z[lane] = static_cast<float>(direction.z);
-  packet.tnear[lane] = 0;
   packet.tfar[lane] =
       length <= std::numeric_limits<float>::max() ? static_cast<float>(length) : std::numeric_limits<float>::infinity();
-  packet.time[lane] = 0;
-  packet.mask[lane] = ~0u;
-  packet.id[lane] = lane;
-  packet.flags[lane] = 0;
 }
 
 /// Which rays of a packet are traced: -1, or 0 for those that are not.

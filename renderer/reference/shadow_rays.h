@@ -55,6 +55,8 @@ struct RaysToLight {
   std::array<RayToLight, kLanes> rays{};
   unsigned count = 0;
 
+  RaysToLight() { setAllRays(packet.ray); }
+
   /// `start`: startOf(tree, from). REQUIRES: fewer than kLanes so far.
   void add(const TracedScene::Tree& tree, const SurfacePoint& from, const glm::vec3& start, const WayToLight& way) {
     setRay(packet.ray, count, start, way.direction, way.length * tree.scale);

@@ -46,9 +46,11 @@ void placeVertices(Tree& tree) {
   tree.scale = scaleFor(tree);
   std::size_t count = 0;
   for (const Instance& instance : tree.view->instances) {
+    const Primitive& primitive = tree.scene->primitives[static_cast<std::size_t>(instance.primitive)];
     tree.firstPosition.push_back(count);
+    tree.firstIndex.push_back(primitive.firstIndex);
     tree.mirrored.push_back(glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0 ? 1 : 0);
-    count += tree.scene->primitives[static_cast<std::size_t>(instance.primitive)].vertexCount;
+    count += primitive.vertexCount;
   }
   tree.positions.reserve(count + 1);
   forEachVertex(tree, [&](const glm::dvec3& p) {
@@ -141,7 +143,8 @@ const SceneView& TracedScene::view() const {
 
 std::size_t TracedScene::bytes() const {
   return static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
-         tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->mirrored.capacity();
+         tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
+         tree_->mirrored.capacity();
 }
 
 } // namespace gnomon

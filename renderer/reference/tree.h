@@ -35,6 +35,7 @@ struct TracedScene::Tree {
   double scale = 1;
   std::vector<glm::vec3> positions;       ///< times `scale`; one more at the end: Embree reads 16 bytes at once
   std::vector<std::size_t> firstPosition; ///< of each instance
+  std::vector<std::size_t> firstIndex;    ///< of each instance, into the scene's
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   Aabb bounds;                            ///< of the placed triangles, metres
   std::atomic<std::int64_t> embreeBytes = 0;
@@ -51,7 +52,7 @@ struct TracedScene::Tree {
   }
   /// Its corners' places among the positions of its instance.
   const std::uint32_t* corners(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
-    return &scene->indices[primitive(instanceIndex).firstIndex + 3 * std::size_t{triangleIndex}];
+    return &scene->indices[firstIndex[instanceIndex] + 3 * std::size_t{triangleIndex}];
   }
   Triangle triangle(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
     const std::uint32_t* corner = corners(instanceIndex, triangleIndex);

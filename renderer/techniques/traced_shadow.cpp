@@ -145,8 +145,9 @@ class ShadowTracing {
     std::uint64_t unsure = 0;
     Pixels pixels;
     pixels.reserve(kPixels);
+    const bool judged = !verdicts.empty();
     forEachPixel(grid(), block, [&](std::uint32_t pixel) {
-      const Verdict verdict = verdicts.empty() ? Verdict::unsure : verdicts[pixel];
+      const Verdict verdict = judged ? verdicts[pixel] : Verdict::unsure;
       if (verdict == Verdict::unsure) {
         ++unsure;
         if (points_.showsSurface(pixel)) pixels.push_back(pixel);
