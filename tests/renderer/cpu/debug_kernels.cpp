@@ -7,6 +7,7 @@
 #include "renderer/cpu/caster_ids-inl.h"
 #include "renderer/cpu/certainty-inl.h"
 #include "renderer/cpu/map_footprints-inl.h"
+#include "renderer/cpu/receivers-inl.h"
 #include "tests/renderer/cpu/asked_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,6 +52,41 @@ void verdictNumbers(const DebugMaps& debug, std::span<const AskedPoint> points, 
   }
 }
 
+void receivers(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* out) {
+  for (std::size_t first = 0; first < shown.triangles.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, shown.triangles.size() - first);
+    alignas(64) std::uint32_t triangles[kLanes];
+    alignas(64) float x[kLanes] = {}, y[kLanes] = {};
+    std::fill_n(triangles, kLanes, kNoNumber);
+    for (std::size_t i = 0; i < count; ++i) {
+      triangles[i] = shown.triangles[first + i];
+      x[i] = shown.places[first + i].x;
+      y[i] = shown.places[first + i].y;
+    }
+    Fragments fragments;
+    fragments.triangle = load(triangles);
+    fragments.shown = fragments.triangle != Int(static_cast<std::int32_t>(kNoNumber));
+    fragments.place = {load(x), load(y)};
+    const Receiver receiver = receiversOf(scene, fragments);
+    glm::vec3 relative[kLanes], normal[kLanes];
+    alignas(64) float depth[kLanes];
+    alignas(64) std::uint32_t group[kLanes];
+    storePoints(receiver.relative, relative, kLanes);
+    storePoints(receiver.normal, normal, kLanes);
+    store(receiver.viewDepth, depth);
+    store(receiver.groupBit, group);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (triangles[i] == kNoNumber) continue;
+      AskedPoint& point = out[first + i];
+      point.relative = relative[i];
+      point.normal = normal[i];
+      point.viewDepth = depth[i];
+      point.groupBit = group[i];
+      point.place = {x[i], y[i]};
+    }
+  }
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -61,6 +97,7 @@ HWY_EXPORT(debugValues);
 HWY_EXPORT(grids);
 HWY_EXPORT(footprints);
 HWY_EXPORT(verdictNumbers);
+HWY_EXPORT(receivers);
 
 void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points,
                       glm::vec4* out) {
@@ -78,6 +115,10 @@ void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> point
 
 void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
   HWY_DYNAMIC_DISPATCH(verdictNumbers)(debug, points, out);
+}
+
+void receiversByLanes(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* out) {
+  HWY_DYNAMIC_DISPATCH(receivers)(scene, shown, out);
 }
 
 } // namespace gnomon::cpu

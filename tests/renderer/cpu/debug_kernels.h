@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocol/spec/output_options.h"
+#include "renderer/cpu/frame_scene.h"
 #include "renderer/device/device.h"
 #include "renderer/prepare/outlines.h"
 #include "tests/renderer/cpu/shadow_kernels.h"
@@ -24,5 +25,14 @@ void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<
                       glm::vec3* out);
 void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out);
 void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out);
+
+/// Places of the picture, pixels from the lower left corner, and the triangles that they show.
+struct ShownPlaces {
+  std::span<const std::uint32_t> triangles; ///< kNoNumber: nothing
+  std::span<const glm::vec2> places;
+};
+
+/// receiversOf; `toLight` is left alone, and all of those that show nothing.
+void receiversByLanes(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* out);
 
 } // namespace gnomon::cpu
