@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/block_strips.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/shadow/depth_range.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "renderer/core/block_strips.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/tile_size.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "renderer/core/block_strips.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/shadow/depth_range.h"
 
 namespace gnomon {
