@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "renderer/shadow/atlas_packer.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/fit.h"

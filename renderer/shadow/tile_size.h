@@ -1,10 +1,15 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "protocol/spec/shadow_options.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/core/rect.h"
 #include "renderer/shadow/fit.h"
 #include "renderer/shadow/shadow_plan.h"
 
+/// Texels: how many a light asks for, how many it gets, and where in the atlas its tiles lie.
 namespace gnomon {
 
 /// Texels below which a tile is mostly border: a smaller one is raised to it, with a note in the plan, and none is
@@ -23,5 +28,38 @@ Sphere reachOf(const ShadowCaster& light);
 /// without an end, and where the camera stands within its reach; else the diameter of the circle around the picture of
 /// the sphere that it reaches, no more than the larger side; 0 where that is out of view. Rounded up.
 int lightSize(const ShadowCaster& light, const CameraView& view, int frameWidth, int frameHeight);
+
+/// Tiles of one light: all of them or none get into the atlas.
+struct TileRequest {
+  int light = 0; ///< stable name of the light; a lower one is kept in preference to a higher
+  int tileCount = 0;
+  int size = 0; ///< texels along a side, a power of two
+  ShadowImportance importance = ShadowImportance::high;
+};
+
+/// The size that each request gets so that all fit into a square of `atlasSide` texels (a power of two); 0 = refused.
+/// While they don't fit, a request of the least importance is halved: of those the one with the largest tiles, of
+/// equals the one with the highest light. Only where none of them can shrink does the next importance yield. Where even
+/// tiles of kSmallestTile don't fit, the highest light of the least importance is refused and the others start anew.
+/// What is left over in the end goes back to the halved ones, the most important first.
+std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlasSide);
+
+/// One square to place.
+struct TileSquare {
+  int light = 0;
+  int cascade = 0;
+  int size = 0; ///< texels, a power of two
+};
+
+struct AtlasLayout {
+  int width = 0; ///< texels, powers of two: the least area that holds the squares; 0 without any
+  int height = 0;
+  std::vector<Rect> rects; ///< in the order of the squares
+};
+
+/// Places squares whose sides are powers of two, without waste: sorted by size, light and cascade, along a Z-order
+/// curve (Morton, 1966), on which a square of s x s texels is any aligned run of s^2. The order of `squares` changes
+/// nothing.
+AtlasLayout packSquares(std::span<const TileSquare> squares);
 
 } // namespace gnomon

@@ -1,5 +1,3 @@
-#include "renderer/shadow/atlas_packer.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <gmock/gmock.h>
