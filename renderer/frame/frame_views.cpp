@@ -1,11 +1,133 @@
 #include "renderer/frame/frame_views.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "protocol/spec/traits.h"
-#include "renderer/frame/measured_shadow.h"
+#include "renderer/reference/error_measures.h"
+#include "renderer/reference/shadow_edges.h"
+#include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
+
+Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
+                                     std::vector<float> shown) {
+  const FrameSpec& spec = frame.spec;
+  std::vector<int> lights;
+  int samples = kReferenceSamples;
+  if (light >= 0) {
+    lights.push_back(light);
+    samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
+  }
+  const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
+  auto truth = traceReference(input, lights, samples);
+  if (!truth) return truth.problems();
+  const auto errors = measureErrors(*truth, std::span(&shown, lights.size()));
+  return MeasuredShadow{std::move(*truth), std::move(shown), errors};
+}
+
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+constexpr Rgb kFalseShadow{255, 30, 30};
+constexpr Rgb kFalseLight{40, 110, 255};
+constexpr float kFarthest = 16; ///< pixels at the end of the heat map
+
+Image imageOf(const MeasuredShadow& measured, std::vector<std::string> channels) {
+  return {measured.truth.width, measured.truth.height, std::move(channels), {}};
+}
+
+std::vector<float> visibilityOf(const MeasuredShadow& measured) {
+  return measured.truth.lights.empty() ? std::vector<float>(measured.shown.size(), 1.0f)
+                                       : measured.truth.lights[0].visibility;
+}
+
+std::vector<float> differenceOf(const MeasuredShadow& measured) {
+  std::vector<float> difference(measured.shown.size(), 0.0f);
+  if (measured.truth.lights.empty()) return difference;
+  const LightReference& light = measured.truth.lights[0];
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    if (light.receiver[i] != 0) difference[i] = measured.shown[i] - light.visibility[i];
+  }
+  return difference;
+}
+
+std::vector<float> distancesOf(const MeasuredShadow& measured) {
+  return measured.truth.lights.empty() ? std::vector<float>(measured.shown.size(), -1.0f)
+                                       : edgeDistances(measured.truth, 0, measured.shown);
+}
+
+std::uint8_t byteOf(float share) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
+}
+
+/// What is seen in the picture, as grey from `darkest` to `lightest`, so that no color is lost on it.
+std::vector<std::uint8_t> dimmed(const Image& color, float darkest, float lightest) {
+  const auto& from = std::get<std::vector<std::uint8_t>>(color.pixels);
+  const std::size_t step = color.channels.size();
+  std::vector<std::uint8_t> grey;
+  grey.reserve(from.size() / step * 3);
+  for (std::size_t i = 0; i < from.size(); i += step) {
+    const float luma = (0.2126f * from[i] + 0.7152f * from[i + 1] + 0.0722f * from[i + 2]) / 255.0f;
+    grey.insert(grey.end(), 3, byteOf(darkest + (lightest - darkest) * luma));
+  }
+  return grey;
+}
+
+void paint(std::vector<std::uint8_t>& pixels, std::size_t at, const Rgb& color) {
+  std::copy(color.begin(), color.end(), pixels.begin() + static_cast<std::ptrdiff_t>(at * 3));
+}
+
+void paintErrors(const MeasuredShadow& measured, std::vector<std::uint8_t>& pixels) {
+  if (measured.truth.lights.empty()) return;
+  const LightReference& light = measured.truth.lights[0];
+  for (std::size_t i = 0; i < measured.shown.size(); ++i) {
+    const bool lit = isLit(measured.shown[i]);
+    if (light.receiver[i] == 0 || lit == isLit(light.visibility[i])) continue;
+    paint(pixels, i, lit ? kFalseLight : kFalseShadow);
+  }
+}
+
+void paintDistances(const MeasuredShadow& measured, std::vector<std::uint8_t>& pixels) {
+  const std::vector<float> distances = distancesOf(measured);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i] < 0) continue;
+    const glm::vec3 color = shared::heat(distances[i] / kFarthest);
+    paint(pixels, i, {byteOf(color.r), byteOf(color.g), byteOf(color.b)});
+  }
+}
+
+} // namespace
+
+Image errorNumbers(const MeasuredShadow& measured, View view) {
+  Image image = imageOf(measured, {"Y"});
+  image.pixels = view == View::reference ? visibilityOf(measured)
+                 : view == View::error   ? differenceOf(measured)
+                                         : distancesOf(measured);
+  return image;
+}
+
+Image referencePicture(const MeasuredShadow& measured) {
+  Image image = imageOf(measured, {"Y"});
+  const std::vector<float> visibility = visibilityOf(measured);
+  std::vector<std::uint8_t> grey(visibility.size());
+  std::transform(visibility.begin(), visibility.end(), grey.begin(), byteOf);
+  image.pixels = std::move(grey);
+  return image;
+}
+
+Image errorPicture(const MeasuredShadow& measured, View view, const Image& color) {
+  Image image = imageOf(measured, {"R", "G", "B"});
+  const bool errors = view == View::error;
+  // Edges in the right place are black, and shall be seen.
+  std::vector<std::uint8_t> pixels = errors ? dimmed(color, 0.1f, 0.55f) : dimmed(color, 0.25f, 0.7f);
+  errors ? paintErrors(measured, pixels) : paintDistances(measured, pixels);
+  image.pixels = std::move(pixels);
+  return image;
+}
+
 namespace {
 
 bool comparesWithRays(View view) {

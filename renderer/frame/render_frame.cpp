@@ -5,7 +5,6 @@
 #include "protocol/spec/traits.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
-#include "renderer/frame/measured_shadow.h"
 #include "renderer/frame/predicted_displacement.h"
 #include "renderer/prepare/light_lists.h"
 #include "renderer/resolve/check_frame.h"
