@@ -10,7 +10,7 @@
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
-#include "clients/cli/terminal/evaluation_table.h"
+#include "clients/cli/terminal/result_text.h"
 #include "protocol/evaluation/evaluation_json.h"
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"

@@ -6,7 +6,7 @@
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/terminal/messages.h"
-#include "clients/cli/terminal/summary_text.h"
+#include "clients/cli/terminal/result_text.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/terminal/summary_text.h"
+#include "clients/cli/terminal/result_text.h"
 
 namespace gnomon::cli {
 namespace {

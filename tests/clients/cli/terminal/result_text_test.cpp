@@ -1,4 +1,4 @@
-#include "clients/cli/terminal/evaluation_table.h"
+#include "clients/cli/terminal/result_text.h"
 
 #include <gtest/gtest.h>
 #include <sstream>
