@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -9,8 +10,12 @@
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene.h"
 
-/// What a file hangs on its nodes: cameras, and lights (KHR_lights_punctual).
+/// What a file hangs on its nodes: cameras, lights (KHR_lights_punctual), and copies of meshes
+/// (EXT_mesh_gpu_instancing).
 namespace gnomon {
+
+struct AccessorView;
+struct LoadContext;
 
 /// A camera as it hangs on a node: not placed.
 struct FileCamera {
@@ -47,5 +52,21 @@ std::optional<FileLight> lightAt(const gltf::Model& model, std::size_t node, Fin
 
 /// Nothing where it needs a direction and the matrix leaves it none.
 std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLight light);
+
+/// The copies that EXT_mesh_gpu_instancing makes of a node's mesh.
+struct Instancing {
+  std::uint64_t count = 0;
+  const AccessorView* translations = nullptr; ///< nullptr = none
+  const AccessorView* rotations = nullptr;
+  const AccessorView* scales = nullptr;
+
+  /// Where the copy stands, relative to the node. Nothing where its rotation has no direction or a number is not
+  /// finite.
+  std::optional<glm::dmat4> nodeFromCopy(std::size_t copy) const;
+};
+
+/// The instancing of a node that has it; nothing, and perhaps a problem, otherwise. The
+/// accessors must outlive the result.
+std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node);
 
 } // namespace gnomon

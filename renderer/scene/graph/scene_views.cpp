@@ -4,7 +4,6 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/graph/attachments.h"
-#include "renderer/scene/graph/instancing.h"
 
 namespace gnomon {
 
