@@ -1,0 +1,68 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/lanes_kernels.cpp" // NOLINT: included again for each instruction set
+#include "tests/renderer/cpu/lanes_kernels.h"
+
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/lanes-inl.h"
+#include "tests/renderer/cpu/lanes_cases.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+using Number = Float;
+using Whole = Int;
+
+void laneCases(const NumberTable& in, NumberTable& out) {
+  for (std::size_t row = 0; row < in.rows; row += kLanes) {
+    const Float a = load(in.column(0) + row), b = load(in.column(1) + row), c = load(in.column(2) + row);
+    const Int i = truncated(a * kWholeScale), j = truncated(b * kWholeScale);
+    std::size_t column = 0;
+#define GNOMON_STORE_CASE(name, share, expression) store(expression, out.column(column++) + row);
+    GNOMON_LANE_CASES(GNOMON_STORE_CASE)
+#undef GNOMON_STORE_CASE
+  }
+}
+
+void laneGroups(const NumberTable& in, NumberTable& out) {
+  for (std::size_t row = 0; row < in.rows; row += kLanes) {
+    const Float a = load(in.column(0) + row), b = load(in.column(1) + row);
+    const Mask less = a < b;
+    const auto put = [&](LaneGroupColumn column, const Float& value)
+                         HWY_ATTR { store(value, out.column(column) + row); };
+    put(kBits, Float(static_cast<float>(bitsOf(less))));
+    put(kAny, any(less) ? 1.0f : 0.0f);
+    put(kAll, all(less) ? 1.0f : 0.0f);
+    put(kNone, none(less) ? 1.0f : 0.0f);
+    put(kAgain, select(maskOf(bitsOf(less)), a, b));
+    put(kFirst, select(firstLanes(row / kLanes % 17), a, b));
+    put(kGathered, gather(in.column(0) + row, Int(15) - laneNumbers()));
+    put(kNumber, toFloat(laneNumbers()));
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+
+HWY_EXPORT(laneCases);
+HWY_EXPORT(laneGroups);
+
+NumberTable casesByLanes(const NumberTable& in) {
+#define GNOMON_COUNT_CASE(name, share, expression) +1
+  NumberTable out(in.rows, std::size_t{0 GNOMON_LANE_CASES(GNOMON_COUNT_CASE)});
+#undef GNOMON_COUNT_CASE
+  HWY_DYNAMIC_DISPATCH(laneCases)(in, out);
+  return out;
+}
+
+NumberTable groupsByLanes(const NumberTable& in) {
+  NumberTable out(in.rows, kLaneGroupColumns);
+  HWY_DYNAMIC_DISPATCH(laneGroups)(in, out);
+  return out;
+}
+
+} // namespace gnomon::cpu
+#endif
