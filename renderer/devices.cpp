@@ -53,7 +53,11 @@ Result<Devices> Devices::open(const RendererOptions& options) {
     onGpu.backend.requireGpu = true;
     if (auto made = createGlDevice(onGpu)) devices.gl_ = std::move(*made);
   }
-  if (!devices.gl_) devices.cpu_ = createCpuDevice(choice.cpu);
+  if (!devices.gl_) {
+    auto made = createCpuDevice(choice.cpu);
+    if (!made) return made.problems();
+    devices.cpu_ = std::move(*made);
+  }
   devices.standard_ = devices.gl_ ? devices.gl_.get() : devices.cpu_.get();
   return devices;
 }
@@ -71,16 +75,13 @@ Result<Device*> Devices::of(const FrameSpec& spec) {
     return Problem{ProblemCode::unsupportedFeature, "/device", "This renderer was started for one device only.",
                    wanted == DeviceChoice::cpu ? "gl or auto" : "cpu or auto", name};
   }
-  if (wanted == DeviceChoice::cpu) {
-    if (!cpu_) cpu_ = createCpuDevice(choice_->cpu);
-    return cpu_.get();
-  }
-  if (!gl_) {
-    auto made = createGlDevice(choice_->gl);
+  std::unique_ptr<Device>& device = wanted == DeviceChoice::cpu ? cpu_ : gl_;
+  if (!device) {
+    auto made = wanted == DeviceChoice::cpu ? createCpuDevice(choice_->cpu) : createGlDevice(choice_->gl);
     if (!made) return made.problems();
-    gl_ = std::move(*made);
+    device = std::move(*made);
   }
-  return gl_.get();
+  return device.get();
 }
 
 } // namespace gnomon

@@ -12,6 +12,15 @@ namespace {
 /// The largest side that the API takes; memory is what is bounded (protocol/spec/limits.h).
 constexpr int kLargestSide = 16384;
 
+bool runsKernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_cpu_init();
+  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
+#else
+  return true;
+#endif
+}
+
 RendererInfo rendererInfo() {
   RendererInfo info;
   info.backend = "cpu";
@@ -45,8 +54,12 @@ class CpuDevice : public Device {
 
 } // namespace
 
-std::unique_ptr<Device> createCpuDevice(const CpuOptions& options) {
-  return std::make_unique<CpuDevice>(options);
+Result<std::unique_ptr<Device>> createCpuDevice(const CpuOptions& options) {
+  if (!runsKernels()) {
+    return Problem{ProblemCode::backend, "", "This processor lacks instructions that the device `cpu` is made of.",
+                   "SSE4.2, AES and PCLMULQDQ", cpuName()};
+  }
+  return std::unique_ptr<Device>(std::make_unique<CpuDevice>(options));
 }
 
 } // namespace gnomon

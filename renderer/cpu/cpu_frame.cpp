@@ -2,6 +2,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
+#include "renderer/cpu/map_queries.h"
 #include "renderer/cpu/probe.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/device/view_image.h"
@@ -221,7 +222,7 @@ Status CpuFrame::show(const ShowInput& input) {
 Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
   const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
   const ShadowMaps maps = lights.maps({});
-  return mapFootprints(jobOf(input, surfaces(1), maps));
+  return mapFootprints({scene_, surfaces(1), maps, input.debugLight});
 }
 
 Result<std::vector<float>> CpuFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {

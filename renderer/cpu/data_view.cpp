@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "renderer/cpu/caster_ids-inl.h"
-#include "renderer/cpu/map_footprints-inl.h"
 #include "renderer/cpu/packet-inl.h"
 #include "renderer/cpu/shadow_visibility-inl.h"
 #include "renderer/cpu/view_squares.h"
@@ -59,15 +58,6 @@ void dataSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, Ti
   }
 }
 
-void footprintSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, MapFootprint* footprints) {
-  const SampleMeans means = sampleMeans(1);
-  const DebugLight debug = debugLightOf(job);
-  for (std::size_t i = 0; i < list.count; i += kLanes) {
-    const Receiver receiver = surfaceOf(job, packetAt(list, i, x, y, means)).receiver;
-    storeFootprints(footprintsOf(debug, receiver), receiver, std::min(kLanes, list.count - i), footprints + i);
-  }
-}
-
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -76,7 +66,6 @@ namespace gnomon::cpu {
 namespace {
 
 HWY_EXPORT(dataSquareOn);
-HWY_EXPORT(footprintSquareOn);
 
 /// The layer that says something even where no pixel's centre shows a surface, whose rim a ray may meet all the same.
 const Layer* layerOf(const ShowJob& job) {
@@ -113,10 +102,6 @@ void fillBackground(const ShowJob& job, int x, int y, TileColors& colors) {
 void dataSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
   fillBackground(job, x, y, colors);
   HWY_DYNAMIC_DISPATCH(dataSquareOn)(job, list, x, y, colors);
-}
-
-void footprintSquare(const ShowJob& job, const FragmentList& list, int x, int y, MapFootprint* footprints) {
-  HWY_DYNAMIC_DISPATCH(footprintSquareOn)(job, list, x, y, footprints);
 }
 
 } // namespace gnomon::cpu

@@ -105,19 +105,4 @@ Image showView(const ShowJob& job, bool opaque) {
   return image;
 }
 
-std::vector<MapFootprint> mapFootprints(const ShowJob& job) {
-  std::vector<MapFootprint> footprints(static_cast<std::size_t>(job.scene.width) *
-                                       static_cast<std::size_t>(job.scene.height));
-  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
-    std::array<MapFootprint, kTilePixels> found;
-    footprintSquare(job, list, x, y, found.data());
-    for (std::size_t i = 0; i < list.count; ++i) {
-      const int row = job.scene.height - 1 - y - rowOf(list.pixel[i]);
-      footprints[static_cast<std::size_t>(row) * static_cast<std::size_t>(job.scene.width) +
-                 static_cast<std::size_t>(x + columnOf(list.pixel[i]))] = found[i];
-    }
-  });
-  return footprints;
-}
-
 } // namespace gnomon::cpu

@@ -10,7 +10,6 @@
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/shadow_maps.h"
 #include "renderer/cpu/textures.h"
-#include "renderer/device/device.h"
 #include "renderer/image/image.h"
 
 /// A view's picture from the triangles that its samples show: everything else comes from the triangles again.
@@ -33,9 +32,6 @@ struct ShowJob {
 
 /// The picture, first row on top, on all cores. `opaque`: as in ViewRequest.
 Image showView(const ShowJob& job, bool opaque);
-
-/// FrameDrawing::footprints of the job's light; its surfaces have one sample a pixel.
-std::vector<MapFootprint> mapFootprints(const ShowJob& job);
 
 /// Pixels along a side of the squares that are shown at a time.
 inline constexpr int kTileSide = 16;

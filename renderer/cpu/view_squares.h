@@ -11,7 +11,4 @@ void pictureSquare(const ShowJob& job, const FragmentList& list, int x, int y, T
 /// The numbers of a view of source `data`.
 void dataSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors);
 
-/// One a fragment.
-void footprintSquare(const ShowJob& job, const FragmentList& list, int x, int y, MapFootprint* footprints);
-
 } // namespace gnomon::cpu
