@@ -44,27 +44,28 @@ void sieveGroup(const RasterInput& input, const RasterView& view, std::span<cons
   for (const RasterDraw& draw : draws) sieve(input, view, draw, corners, group.triangles);
 }
 
-template <DepthRange range>
+template <DepthRange range, int samples>
 HWY_INLINE void rasterEntries(const RasterView& view, const RasterScratch& scratch, int square, const Holes* holes,
                               DepthBuffer& target) {
-  const std::span<const glm::ivec2> places = samplePlaces(view.samples);
   for (const RasterScratch::Group& group : scratch.groups) {
     const auto first = group.firstEntry[static_cast<std::size_t>(square)];
     const auto last = group.firstEntry[static_cast<std::size_t>(square) + 1];
     for (std::uint32_t i = first; i < last; ++i) {
       const RasterTriangle& triangle = group.triangles[group.entries[i]];
       const SquareSpan span = spanIn(view, triangle, square % view.squaresAcross, square / view.squaresAcross);
-      for (std::size_t s = 0; s < places.size(); ++s) {
-        rasterSample<range>(triangle, span, static_cast<int>(s), places[s], target, holes);
-      }
+      rasterTriangle<range, samples>(triangle, span, target, holes);
     }
   }
 }
 
 void rasterSquare(const RasterView& view, const RasterScratch& scratch, int square, const Holes* holes,
                   DepthBuffer& target) {
-  view.range == DepthRange::reversed ? rasterEntries<DepthRange::reversed>(view, scratch, square, holes, target)
-                                     : rasterEntries<DepthRange::clamped>(view, scratch, square, holes, target);
+  const auto rasterAt = [&]<DepthRange range>() HWY_ATTR {
+    view.samples == 1 ? rasterEntries<range, 1>(view, scratch, square, holes, target)
+                      : rasterEntries<range, 4>(view, scratch, square, holes, target);
+  };
+  view.range == DepthRange::reversed ? rasterAt.template operator()<DepthRange::reversed>()
+                                     : rasterAt.template operator()<DepthRange::clamped>();
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

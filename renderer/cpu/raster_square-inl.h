@@ -14,31 +14,43 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// A side of a triangle: at pixel (x, y) its value is first + a x + b y, and a sample is inside where that is not
-/// negative. A value stands for the floor of the edge function over 256, from which steps of whole pixels, 256 a and
-/// 256 b, lose nothing. (Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988.)
+/// A side of a triangle: at sample s of pixel (x, y) its value is first[s] + a x + b y, and the sample is inside where
+/// that is not negative. A value stands for the floor of the edge function over 256, from which steps of whole pixels,
+/// 256 a and 256 b, lose nothing. (Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988.)
+template <int samples>
 struct Side {
-  std::int64_t first = 0;
   std::int64_t a = 0, b = 0;
+  std::int64_t first[samples] = {};
+  std::int64_t greatest = 0; ///< of a block's samples, besides a x + b y of its first pixel
+  std::int64_t least = 0;
 };
 
-HWY_INLINE Side sideOf(const Corner& from, const Corner& to, const glm::ivec2& sample) {
-  const std::int64_t a = std::int64_t{from.y} - to.y;
-  const std::int64_t b = std::int64_t{to.x} - from.x;
+template <int samples>
+HWY_INLINE Side<samples> sideOf(const Corner& from, const Corner& to, const glm::ivec2* places) {
+  Side<samples> side;
+  side.a = std::int64_t{from.y} - to.y;
+  side.b = std::int64_t{to.x} - from.x;
   // Corners go round counter-clockwise, y up: a left side goes down, an upper one to the left.
-  const bool ownsSamples = a > 0 || (a == 0 && b < 0);
-  const std::int64_t value = a * (sample.x - from.x) + b * (sample.y - from.y) - (ownsSamples ? 0 : 1);
-  return {value >> 8, a, b};
+  const bool ownsSamples = side.a > 0 || (side.a == 0 && side.b < 0);
+  for (int s = 0; s < samples; ++s) {
+    const std::int64_t value = side.a * (places[s].x - from.x) + side.b * (places[s].y - from.y);
+    side.first[s] = (value - (ownsSamples ? 0 : 1)) >> 8;
+  }
+  const auto [low, high] = std::minmax_element(side.first, side.first + samples);
+  constexpr std::int64_t kSteps = kBlockSide - 1;
+  side.greatest = *high + kSteps * (std::max<std::int64_t>(side.a, 0) + std::max<std::int64_t>(side.b, 0));
+  side.least = *low + kSteps * (std::min<std::int64_t>(side.a, 0) + std::min<std::int64_t>(side.b, 0));
+  return side;
 }
 
-/// Depth at the samples of pixels.
+/// Depth on the picture, in pixels from its lower left corner.
 struct DepthPlane {
-  double first = 0; ///< at pixel (0, 0)
+  double first = 0;
   double dx = 0, dy = 0;
   float least = 0, most = 0; ///< of the corners
 };
 
-HWY_INLINE DepthPlane depthPlane(const RasterTriangle& triangle, const glm::ivec2& sample) {
+HWY_INLINE DepthPlane depthPlane(const RasterTriangle& triangle) {
   const auto& [p, q, r] = triangle.corners;
   const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
   const double qz = static_cast<double>(q.z) - p.z, rz = static_cast<double>(r.z) - p.z;
@@ -46,7 +58,7 @@ HWY_INLINE DepthPlane depthPlane(const RasterTriangle& triangle, const glm::ivec
   DepthPlane plane;
   plane.dx = (qz * ry - rz * qy) * scale;
   plane.dy = (rz * qx - qz * rx) * scale;
-  plane.first = p.z + (plane.dx * (sample.x - p.x) + plane.dy * (sample.y - p.y)) / kSubpixels;
+  plane.first = p.z - (plane.dx * p.x + plane.dy * p.y) / kSubpixels;
   plane.least = std::min({p.z, q.z, r.z});
   plane.most = std::max({p.z, q.z, r.z});
   return plane;
@@ -56,55 +68,67 @@ struct SquareSpan {
   int x0, y0, x1, y1; ///< blocks; the last ones belong to it
 };
 
-/// Adds one sample of a triangle.
-template <DepthRange range>
-HWY_INLINE void rasterSample(const RasterTriangle& triangle, const SquareSpan& span, int sampleIndex,
-                             const glm::ivec2& sample, DepthBuffer& target, const Holes* holes) {
+/// Adds the samples of a triangle in a span of blocks.
+template <DepthRange range, int samples>
+HWY_INLINE void rasterTriangle(const RasterTriangle& triangle, const SquareSpan& span, DepthBuffer& target,
+                               const Holes* holes) {
+  const glm::ivec2* places = samplePlaces(samples).data();
   const auto& c = triangle.corners;
-  const Side sides[3] = {sideOf(c[0], c[1], sample), sideOf(c[1], c[2], sample), sideOf(c[2], c[0], sample)};
-  const DepthPlane plane = depthPlane(triangle, sample);
-  const Int lane = laneNumbers();
-  const Int laneX = lane & Int(kBlockSide - 1);
-  const Int laneY = shiftRight<2>(lane);
+  const Side<samples> sides[3] = {sideOf<samples>(c[0], c[1], places), sideOf<samples>(c[1], c[2], places),
+                                  sideOf<samples>(c[2], c[0], places)};
+  const DepthPlane plane = depthPlane(triangle);
+  const Int laneX = laneNumbers() & Int(kBlockSide - 1);
+  const Int laneY = shiftRight<2>(laneNumbers());
   Int within[3];
-  std::int64_t most[3]; // what a block adds to its first pixel's value, at most
   for (int i = 0; i < 3; ++i) {
     within[i] = laneX * Int(static_cast<std::int32_t>(sides[i].a)) + laneY * Int(static_cast<std::int32_t>(sides[i].b));
-    most[i] = (kBlockSide - 1) * (std::max<std::int64_t>(sides[i].a, 0) + std::max<std::int64_t>(sides[i].b, 0));
   }
   const Float depthWithin =
       toFloat(laneX) * static_cast<float>(plane.dx) + toFloat(laneY) * static_cast<float>(plane.dy);
-  const bool numbered = !target.triangles.empty();
+  double depthFirst[samples];
+  for (int s = 0; s < samples; ++s) {
+    depthFirst[s] = plane.first + (plane.dx * places[s].x + plane.dy * places[s].y) / kSubpixels;
+  }
+  float* const depths = target.depths.data();
+  std::uint32_t* const numbers = target.triangles.empty() ? nullptr : target.triangles.data();
   // Beyond it a value's sign can't change within a block.
   constexpr std::int64_t kFar = std::int64_t{1} << 28;
   for (int row = span.y0; row <= span.y1; ++row) {
     for (int column = span.x0; column <= span.x1; ++column) {
       const std::int64_t x = column * kBlockSide, y = row * kBlockSide;
       std::int64_t value[3];
-      bool outside = false;
+      bool touched = true;
+      bool covered = true;
       for (int i = 0; i < 3; ++i) {
-        value[i] = sides[i].first + sides[i].a * x + sides[i].b * y;
-        outside = outside || value[i] + most[i] < 0;
+        value[i] = sides[i].a * x + sides[i].b * y;
+        touched = touched && value[i] + sides[i].greatest >= 0;
+        covered = covered && value[i] + sides[i].least >= 0;
       }
-      if (outside) continue;
-      Int signs(0);
-      for (int i = 0; i < 3; ++i) {
-        signs = signs | (within[i] + Int(static_cast<std::int32_t>(std::clamp(value[i], -kFar, kFar))));
+      if (!touched) continue;
+      const double depthAt = plane.dx * static_cast<double>(x) + plane.dy * static_cast<double>(y);
+      for (int s = 0; s < samples; ++s) {
+        Float depth = clamp(depthWithin + Float(static_cast<float>(depthFirst[s] + depthAt)), plane.least, plane.most);
+        if constexpr (range == DepthRange::clamped) depth = clamp(depth, 0.0f, 1.0f);
+        const std::size_t at = target.blockAt(column, row, s);
+        const Float before = load(depths + at);
+        Mask shows = range == DepthRange::reversed ? depth > before : depth < before;
+        if (!covered) {
+          Int signs(0);
+          for (int i = 0; i < 3; ++i) {
+            const std::int64_t first = std::clamp(value[i] + sides[i].first[s], -kFar, kFar);
+            signs = signs | (within[i] + Int(static_cast<std::int32_t>(first)));
+          }
+          shows = shows & (signs >= Int(0));
+        }
+        if (none(shows)) continue;
+        if (triangle.holed) {
+          shows = maskOf(holes->filled(triangle.number, !triangle.turned, column, row, s, bitsOf(shows)));
+        }
+        store(select(shows, depth, before), depths + at);
+        if (numbers == nullptr) continue;
+        const Int number(static_cast<std::int32_t>(triangle.number));
+        store(select(shows, number, load(numbers + at)), numbers + at);
       }
-      const double first = plane.first + plane.dx * static_cast<double>(x) + plane.dy * static_cast<double>(y);
-      Float depth = clamp(depthWithin + Float(static_cast<float>(first)), plane.least, plane.most);
-      if constexpr (range == DepthRange::clamped) depth = clamp(depth, 0.0f, 1.0f);
-      const std::size_t at = target.blockAt(column, row, sampleIndex);
-      const Float before = load(&target.depths[at]);
-      Mask shows = (signs >= Int(0)) & (range == DepthRange::reversed ? depth > before : depth < before);
-      if (none(shows)) continue;
-      if (triangle.holed) {
-        shows = maskOf(holes->filled(triangle.number, !triangle.turned, column, row, sampleIndex, bitsOf(shows)));
-      }
-      store(select(shows, depth, before), &target.depths[at]);
-      if (!numbered) continue;
-      const Int number(static_cast<std::int32_t>(triangle.number));
-      store(select(shows, number, load(&target.triangles[at])), &target.triangles[at]);
     }
   }
 }
