@@ -1,6 +1,7 @@
 #include "renderer/cpu/camera_survey.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 
 #include "renderer/core/parallel.h"
@@ -41,33 +42,50 @@ std::vector<glm::mat4> clipFromLocal(const FrameScene& scene, const glm::dmat4& 
 
 namespace {
 
-/// Depths of a block, reversed: 0 = nothing.
+/// Depths of a survey block, reversed, as the bits of floats, which go up as these do: 0 = nothing.
 struct Depths {
-  float nearest = 0;
-  float farthest = 2;
-  bool open = false;
+  std::uint32_t nearest = 0;
+  std::uint32_t least = ~0u;            ///< 0 = some sample shows nothing
+  std::uint32_t farthestMinusOne = ~0u; ///< where nothing is, one less than 0
 
-  void add(float depth) {
-    nearest = std::max(nearest, depth);
-    farthest = depth > 0 ? std::min(farthest, depth) : farthest;
-    open = open || depth == 0;
+  void add(const float* depths, int count) {
+    for (int i = 0; i < count; ++i) {
+      const auto bits = std::bit_cast<std::uint32_t>(depths[i]);
+      nearest = std::max(nearest, bits);
+      least = std::min(least, bits);
+      farthestMinusOne = std::min(farthestMinusOne, bits - 1);
+    }
   }
 };
+
+DepthSpan spanOf(const CameraView& camera, const Depths& depths) {
+  if (depths.nearest == 0) return {};
+  const auto depthOf = [&](std::uint32_t bits) {
+    return static_cast<float>(viewDepthOf(camera, std::bit_cast<float>(bits)));
+  };
+  return {depthOf(depths.nearest), depthOf(depths.farthestMinusOne + 1), depths.least == 0};
+}
 
 /// Of a row of survey blocks, the `row`th from the top.
 std::vector<Depths> rowDepths(const DepthBuffer& buffer, const ReceiverDepths& grid, int row) {
   std::vector<Depths> blocks(static_cast<std::size_t>(grid.columns));
-  const int below = std::min((row + 1) * grid.blockSize, buffer.height);
-  for (int fromTop = row * grid.blockSize; fromTop < below; ++fromTop) {
-    const int y = buffer.height - 1 - fromTop;
+  const int highest = buffer.height - 1 - row * grid.blockSize;
+  const int whole = buffer.width / kBlockSide * kBlockSide;
+  for (int y = std::max(highest + 1 - grid.blockSize, 0); y <= highest;) {
+    const bool wholeRows = y % kBlockSide == 0 && y + kBlockSide - 1 <= highest;
     for (int x = 0; x < buffer.width; x += kBlockSide) {
       Depths& block = blocks[static_cast<std::size_t>(x / grid.blockSize)];
-      const int last = std::min(kBlockSide, buffer.width - x);
-      for (int s = 0; s < buffer.samples; ++s) {
-        const float* depths = &buffer.depths[buffer.at(x, y, s)];
-        for (int i = 0; i < last; ++i) block.add(depths[i]);
+      if (wholeRows && x < whole) {
+        block.add(&buffer.depths[buffer.at(x, y)], kBlockPlaces * buffer.samples);
+        continue;
+      }
+      for (int line = y; line < (wholeRows ? y + kBlockSide : y + 1); ++line) {
+        for (int s = 0; s < buffer.samples; ++s) {
+          block.add(&buffer.depths[buffer.at(x, line, s)], std::min(kBlockSide, buffer.width - x));
+        }
       }
     }
+    y += wholeRows ? kBlockSide : 1;
   }
   return blocks;
 }
@@ -78,12 +96,7 @@ ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) 
   grid.blocks.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
   forEach(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
     const std::vector<Depths> depths = rowDepths(buffer, grid, static_cast<int>(row));
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      if (depths[i].nearest <= 0) continue;
-      grid.blocks[row * depths.size() + i] = {static_cast<float>(viewDepthOf(camera, depths[i].nearest)),
-                                              static_cast<float>(viewDepthOf(camera, depths[i].farthest)),
-                                              depths[i].open};
-    }
+    for (std::size_t i = 0; i < depths.size(); ++i) grid.blocks[row * depths.size() + i] = spanOf(camera, depths[i]);
   });
   for (const DepthSpan& span : grid.blocks) {
     if (span.empty()) continue;
@@ -107,13 +120,13 @@ void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, De
 
 } // namespace
 
-Survey surveyScene(const CameraRaster& camera, int samples) {
+Survey surveyScene(const CameraRaster& camera, int samples, DepthBuffer storage) {
   const FrameScene& scene = camera.scene;
   const SurveyInput input{scene.scene, scene.view, scene.geometry, camera.camera, camera.nodes};
   const std::vector<std::uint8_t> inView = slotsInView(input);
   std::vector<std::uint8_t> drawn = firstToDraw(input, inView);
   Survey survey;
-  survey.buffer = emptyBuffer(scene.width, scene.height, samples, DepthRange::reversed, true);
+  survey.buffer = emptyBuffer(scene.width, scene.height, samples, DepthRange::reversed, true, std::move(storage));
   addSlots(camera, drawn, survey.buffer, survey.triangles);
   survey.receivers = depthBlocks(camera.camera, survey.buffer);
   if (drawn != inView) {

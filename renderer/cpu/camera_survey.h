@@ -29,8 +29,9 @@ struct CameraRaster {
 };
 
 /// Rasters everything in view that is not surely hidden. Of many triangles the nearest are rastered first, so that what
-/// they hide need not be. `samples`: 1 or 4 a pixel.
-Survey surveyScene(const CameraRaster& raster, int samples);
+/// they hide need not be. `samples`: 1 or 4 a pixel; `storage`: a buffer that nothing needs any more, whose memory is
+/// used.
+Survey surveyScene(const CameraRaster& raster, int samples, DepthBuffer storage = {});
 
 /// The same surfaces at another number of samples; adds the triangles drawn.
 DepthBuffer rasterVisible(const CameraRaster& raster, const Survey& survey, int samples, std::uint64_t& triangles);

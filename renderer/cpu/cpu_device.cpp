@@ -39,7 +39,7 @@ RendererInfo rendererInfo() {
 
 class CpuDevice : public Device {
  public:
-  explicit CpuDevice(const CpuOptions& options) : shared_{{}, cpu::TileStore(options.tileBytes), {}} {}
+  explicit CpuDevice(const CpuOptions& options) : shared_{{}, cpu::TileStore(options.tileBytes), {}, {}} {}
 
   const RendererInfo& info() const override { return info_; }
 

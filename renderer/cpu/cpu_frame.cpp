@@ -1,5 +1,7 @@
 #include "renderer/cpu/cpu_frame.h"
 
+#include <utility>
+
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
 #include "renderer/cpu/map_queries.h"
@@ -31,6 +33,10 @@ CpuFrame::CpuFrame(Shared& shared, const FrameWork& work)
   endStage("upload");
 }
 
+CpuFrame::~CpuFrame() {
+  shared_.storage[survey_.buffer.samples] = std::move(survey_.buffer);
+}
+
 CameraRaster CpuFrame::camera() const {
   return {scene_, work_.frame.view, work_.frame.nodes, *cached_.textures, nullptr, shared_.scratch};
 }
@@ -42,7 +48,8 @@ CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
 
 Result<ReceiverDepths> CpuFrame::survey() {
   passStart_ = Clock::now();
-  survey_ = surveyScene(camera(), work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1);
+  const int samples = work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+  survey_ = surveyScene(camera(), samples, std::exchange(shared_.storage[samples], {}));
   if (!survey_.receivers.range.empty()) {
     scene_.frame.depthRange.x = survey_.receivers.range.nearest;
     scene_.frame.depthRange.y = survey_.receivers.range.farthest;

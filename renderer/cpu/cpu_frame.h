@@ -18,12 +18,14 @@ struct Shared {
   SceneCache scenes;
   TileStore tiles;
   RasterScratch scratch;
+  std::map<int, DepthBuffer> storage; ///< of earlier frames' surfaces, by samples a pixel: memory to be used again
 };
 
 /// A frame, drawn by the processor: one stage after the other, each keeping what the later ones read.
 class CpuFrame : public FrameDrawing {
  public:
   CpuFrame(Shared& shared, const FrameWork& work);
+  ~CpuFrame() override;
 
   Result<ReceiverDepths> survey() override;
   Status cast(const ShadowPlan& plan, TileUse tiles) override;

@@ -25,10 +25,12 @@ std::vector<std::uint32_t> shownTriangles(const DepthBuffer& surfaces) {
   std::vector<std::uint32_t> shown(width * static_cast<std::size_t>(surfaces.height) * samples);
   forEachPiece(static_cast<std::size_t>(surfaces.height), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
-      for (std::size_t x = 0; x < width; ++x) {
-        for (std::size_t s = 0; s < samples; ++s) {
-          shown[(y * width + x) * samples + s] =
-              surfaces.triangles[surfaces.at(static_cast<int>(x), static_cast<int>(y), static_cast<int>(s))];
+      std::uint32_t* out = &shown[y * width * samples];
+      for (std::size_t x = 0; x < width; x += kBlockSide) {
+        const std::uint32_t* numbers = &surfaces.triangles[surfaces.at(static_cast<int>(x), static_cast<int>(y))];
+        const std::size_t columns = std::min<std::size_t>(kBlockSide, width - x);
+        for (std::size_t i = 0; i < columns; ++i) {
+          for (std::size_t s = 0; s < samples; ++s) *out++ = numbers[s * kBlockPlaces + i];
         }
       }
     }

@@ -180,11 +180,16 @@ std::span<const glm::ivec2> samplePlaces(int samples) {
   return samples == 1 ? std::span<const glm::ivec2>(kCentre) : std::span<const glm::ivec2>(kStandardPattern);
 }
 
-DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered) {
-  DepthBuffer buffer{width, height, samples, {}, {}};
+DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage) {
+  DepthBuffer buffer{width, height, samples, std::move(storage.depths), std::move(storage.triangles)};
   const std::size_t count = buffer.blocks() * static_cast<std::size_t>(samples) * kBlockPlaces;
-  buffer.depths.assign(count, range == DepthRange::reversed ? 0.0f : 1.0f);
-  if (numbered) buffer.triangles.assign(count, kNoNumber);
+  buffer.depths.resize(count);
+  buffer.triangles.resize(numbered ? count : 0);
+  constexpr std::size_t kPiece = 1u << 16;
+  forEachPiece(count, kPiece, [&](std::size_t first, std::size_t last) {
+    std::fill(&buffer.depths[first], buffer.depths.data() + last, range == DepthRange::reversed ? 0.0f : 1.0f);
+    if (numbered) std::fill(&buffer.triangles[first], buffer.triangles.data() + last, kNoNumber);
+  });
   return buffer;
 }
 

@@ -86,7 +86,7 @@ std::span<const glm::ivec2> samplePlaces(int samples);
 /// were drawn: those of the draws.
 std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch);
 
-/// A buffer of that size in which nothing is.
-DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered);
+/// A buffer of that size in which nothing is. `storage`: one that nothing needs any more, whose memory is used.
+DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage = {});
 
 } // namespace gnomon::cpu
