@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 Result<std::vector<Bytes>> picturesBy(Backend backend) {
-  auto renderer = Renderer::create({.backend = {backend, false}});
+  auto renderer = Renderer::create({.backend = {.backend = backend}});
   if (!renderer) return renderer.problems();
   std::vector<Bytes> pictures;
   for (const char* name : {"long_row", "mask_leaf", "normal_mapped"}) {
@@ -32,7 +32,7 @@ TEST(Backends, H5_EglAndOsMesaDrawTheSameBytes) {
   const auto again = picturesBy(Backend::egl);
   ASSERT_TRUE(again);
   EXPECT_EQ(*egl, *again);
-  const auto info = Renderer::create({.backend = {Backend::egl, false}});
+  const auto info = Renderer::create({.backend = {.backend = Backend::egl}});
   if (!info->info().software) GTEST_SKIP() << "EGL has a GPU; software draws other bytes";
   EXPECT_EQ(*egl, *osmesa);
 }
