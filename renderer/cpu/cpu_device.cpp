@@ -1,7 +1,11 @@
 #include "renderer/cpu/cpu_device.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
 #include <hwy/detect_targets.h>
 #include <hwy/targets.h>
+#include <vector>
 
 #include "renderer/core/fingerprint.h"
 #include "renderer/cpu/cpu_frame.h"
@@ -21,14 +25,42 @@ bool runsKernels() {
 #endif
 }
 
-RendererInfo rendererInfo() {
+/// As GNOMON_CPU_TARGET spells it.
+std::string spelledTarget(std::int64_t target) {
+  std::string name = hwy::TargetName(target);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name;
+}
+
+/// The instruction set of the kernels from now on, for the whole process: the best one that the processor knows, or
+/// that which GNOMON_CPU_TARGET names.
+Result<std::int64_t> chosenTarget() {
+  hwy::DisableTargets(0);
+  std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets(); // the best one first
+  std::erase_if(targets, [](std::int64_t target) { return (target & (HWY_EMU128 | HWY_SCALAR)) != 0; });
+  const char* wanted = std::getenv("GNOMON_CPU_TARGET");
+  if (!wanted || !*wanted) return targets.front();
+  const auto found = std::find_if(targets.begin(), targets.end(),
+                                  [wanted](std::int64_t target) { return spelledTarget(target) == wanted; });
+  if (found == targets.end()) {
+    std::string known;
+    for (const std::int64_t target : targets) known += (known.empty() ? "" : ", ") + spelledTarget(target);
+    return Problem{ProblemCode::backend, "", "GNOMON_CPU_TARGET names no instruction set that this processor knows.",
+                   known, std::string(wanted).substr(0, 64)};
+  }
+  std::int64_t better = 0;
+  std::for_each(targets.begin(), found, [&better](std::int64_t target) { better |= target; });
+  hwy::DisableTargets(better);
+  return *found;
+}
+
+RendererInfo rendererInfo(std::int64_t target) {
   RendererInfo info;
   info.backend = "cpu";
   info.platform = "cpu";
   info.vendor = cpuMake();
   info.renderer = cpuName();
-  const std::int64_t sets = hwy::SupportedTargets() & HWY_TARGETS;
-  info.version = hwy::TargetName(sets & -sets); // the lowest bit is the best one
+  info.version = hwy::TargetName(target);
   info.software = true;
   info.maxTextureSize = kLargestSide;
   info.maxSamples = 4;
@@ -39,7 +71,8 @@ RendererInfo rendererInfo() {
 
 class CpuDevice : public Device {
  public:
-  explicit CpuDevice(const CpuOptions& options) : shared_{{}, cpu::TileStore(options.tileBytes), {}, {}} {}
+  CpuDevice(const CpuOptions& options, std::int64_t target)
+      : info_(rendererInfo(target)), shared_{{}, cpu::TileStore(options.tileBytes), {}, {}} {}
 
   const RendererInfo& info() const override { return info_; }
 
@@ -48,7 +81,7 @@ class CpuDevice : public Device {
   }
 
  private:
-  RendererInfo info_ = rendererInfo();
+  RendererInfo info_;
   cpu::Shared shared_;
 };
 
@@ -59,7 +92,9 @@ Result<std::unique_ptr<Device>> createCpuDevice(const CpuOptions& options) {
     return Problem{ProblemCode::backend, "", "This processor lacks instructions that the device `cpu` is made of.",
                    "SSE4.2, AES and PCLMULQDQ", cpuName()};
   }
-  return std::unique_ptr<Device>(std::make_unique<CpuDevice>(options));
+  const auto target = chosenTarget();
+  if (!target) return target.problems();
+  return std::unique_ptr<Device>(std::make_unique<CpuDevice>(options, *target));
 }
 
 } // namespace gnomon

@@ -1,0 +1,53 @@
+#include "renderer/cpu/cpu_device.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <set>
+#include <strings.h>
+
+namespace gnomon {
+namespace {
+
+/// The renderer's information where the environment pins the kernels to `target`, or nothing ("").
+Result<RendererInfo> pinned(const char* target) {
+  setenv("GNOMON_CPU_TARGET", target, 1);
+  const auto device = createCpuDevice({});
+  unsetenv("GNOMON_CPU_TARGET");
+  if (!device) return device.problems();
+  return (*device)->info();
+}
+
+TEST(CpuDevice, APinnedInstructionSetIsNamedAndInTheFingerprint) {
+  std::set<std::string> fingerprints;
+  std::set<std::string> names;
+  for (const char* target : {"sse4", "avx2", "avx3", "neon"}) {
+    const auto info = pinned(target);
+    if (!info) continue; // this processor lacks it
+    EXPECT_EQ(strcasecmp(info->version.c_str(), target), 0) << info->version;
+    fingerprints.insert(info->fingerprint);
+    names.insert(info->version);
+  }
+  EXPECT_FALSE(names.empty());
+  EXPECT_EQ(fingerprints.size(), names.size());
+}
+
+TEST(CpuDevice, WithoutAPinItTakesTheBestSetAgain) {
+  const auto free = pinned("");
+  ASSERT_TRUE(free);
+  for (const char* target : {"sse4", "neon"}) (void)pinned(target);
+  const auto again = pinned("");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->version, free->version);
+}
+
+TEST(CpuDevice, AnUnknownInstructionSetIsAProblemThatListsTheKnownOnes) {
+  const auto info = pinned("mmx");
+  ASSERT_FALSE(info);
+  const Problem& problem = info.problems().front();
+  EXPECT_EQ(problem.code, ProblemCode::backend);
+  EXPECT_EQ(problem.actual, "mmx");
+  EXPECT_TRUE(problem.limit.ends_with("sse4") || problem.limit.ends_with("neon")) << problem.limit;
+}
+
+} // namespace
+} // namespace gnomon
