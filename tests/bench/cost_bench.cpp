@@ -101,7 +101,8 @@ int main(int argc, char** argv) {
       "Of the picture, 16 to 9; 1280 when absent");
   CLI11_PARSE(app, argc, argv);
 
-  auto renderer = gnomon::Renderer::create({});
+  // OpenGL, which the floors are drawn by.
+  auto renderer = gnomon::Renderer::create({.backend = {.device = gnomon::DeviceChoice::gl}});
   if (!renderer) {
     std::cerr << renderer.problems().front().detail << '\n';
     return 1;

@@ -10,6 +10,7 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/bench/depth_floor.h"
+#include "tests/bench/median.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {
@@ -19,11 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 struct Size {
@@ -54,8 +50,9 @@ std::vector<Row>& rows() {
 /// Bytes of shadow atlases that the renderer keeps: none, so that each request casts its shadows, or the default.
 std::size_t tileCacheBytes = 0;
 
+/// OpenGL, which the floor is drawn by.
 Renderer& renderer() {
-  static Renderer made = *Renderer::create({.backend = {}, .tileCacheBytes = tileCacheBytes});
+  static Renderer made = *Renderer::create({.backend = {.device = DeviceChoice::gl}, .tileCacheBytes = tileCacheBytes});
   return made;
 }
 
