@@ -41,9 +41,7 @@ int addBody(testing::GlbBuilder& builder) {
       {{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", builder.addIndices(indices)}});
 }
 
-} // namespace
-
-ScenePtr bodiesScene(int side) {
+testing::GlbBuilder bodies(int side) {
   testing::GlbBuilder builder = testing::plane();
   builder.json["nodes"][0]["scale"] = {0.5 * kFloor, 1, 0.5 * kFloor};
   const int body = addBody(builder);
@@ -65,7 +63,17 @@ ScenePtr bodiesScene(int side) {
                    {"camera", lens},
                    {"translation", {0, 24, 42}},
                    {"rotation", {-std::sin(down), 0, 0, std::cos(down)}}});
-  auto scene = loadScene(builder.bundle());
+  return builder;
+}
+
+} // namespace
+
+Bytes bodiesGlb(int side) {
+  return bodies(side).glb();
+}
+
+ScenePtr bodiesScene(int side) {
+  auto scene = loadScene(bodies(side).bundle());
   if (!scene) throw std::runtime_error(scene.problems().front().detail);
   return *scene;
 }

@@ -9,4 +9,7 @@ namespace gnomon::bench {
 /// camera node called "camera".
 ScenePtr bodiesScene(int side);
 
+/// The same as a file.
+Bytes bodiesGlb(int side);
+
 } // namespace gnomon::bench

@@ -42,25 +42,10 @@ CostSeries againstCascades(const json& spec) {
   return series;
 }
 
-/// Lamps on both sides of the city's street, which runs along z from the camera at 97 m.
-json lamps(int count) {
-  json lights = json::array();
-  for (int i = 0; i < count; ++i) {
-    const double along = (i + 0.5) / count;
-    lights.push_back({{"type", "spot"},
-                      {"position", {i % 2 == 0 ? 3.2 : -3.2, 7.0, 92.0 - 150.0 * along}},
-                      {"direction", {i % 2 == 0 ? -0.35 : 0.35, -1.0, 0.15}},
-                      {"range", 25},
-                      {"outerConeDegrees", 50},
-                      {"intensity", 300}});
-  }
-  return lights;
-}
-
 CostSeries againstSpots(const json& spec) {
   CostSeries series{"spots", "Cost against the number of shadowed spots", "spots", true, {}};
   for (const int count : {1, 4, 16, 64}) {
-    series.points.push_back(inTheCity(std::to_string(count), count, spec, {{"lights", lamps(count)}}));
+    series.points.push_back(inTheCity(std::to_string(count), count, spec, {{"lights", cityLamps(count)}}));
   }
   return series;
 }
@@ -103,6 +88,20 @@ CostSeries againstTriangles(const json& spec) {
 }
 
 } // namespace
+
+json cityLamps(int count) {
+  json lights = json::array();
+  for (int i = 0; i < count; ++i) {
+    const double along = (i + 0.5) / count;
+    lights.push_back({{"type", "spot"},
+                      {"position", {i % 2 == 0 ? 3.2 : -3.2, 7.0, 92.0 - 150.0 * along}},
+                      {"direction", {i % 2 == 0 ? -0.35 : 0.35, -1.0, 0.15}},
+                      {"range", 25},
+                      {"outerConeDegrees", 50},
+                      {"intensity", 300}});
+  }
+  return lights;
+}
 
 std::vector<CostSeries> costSeries(const json& spec) {
   const json all = merged(spec, {{"camera", {{"node", "camera"}}}});

@@ -26,6 +26,9 @@ struct CostSeries {
   std::vector<CostPoint> points;
 };
 
+/// Lights of a spec: lamps on both sides of the city's street, which runs along z from the camera at 97 m.
+nlohmann::json cityLamps(int count);
+
 /// Cascades, shadowed spots, tile sizes, filters (all that the protocol knows) and triangles. `spec` holds what every
 /// request has in common: picture size and antialiasing.
 std::vector<CostSeries> costSeries(const nlohmann::json& spec);

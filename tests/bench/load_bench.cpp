@@ -15,6 +15,7 @@
 
 #include "renderer/image/image_codec.h"
 #include "renderer/scene/gltf_loader.h"
+#include "tests/bench/process_status.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {
@@ -63,28 +64,17 @@ double bytesOf(const SceneBundle& bundle) {
   return bytes;
 }
 
-/// A line of this process's status, bytes: "VmRSS:" is memory in use, "VmHWM:" the most since the last reset.
-double statusBytes(const std::string& line) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  double kibibytes = 0;
-  while (status >> word) {
-    if (word == line && status >> kibibytes) return kibibytes * 1024;
-  }
-  return 0;
-}
-
 /// In this process. Nothing where the model is refused.
 std::optional<Load> loaded(const SceneBundle& bundle) {
   malloc_trim(0);                                // what is free already would not be counted again
   std::ofstream("/proc/self/clear_refs") << "5"; // VmHWM starts again, proc(5)
-  const double before = statusBytes("VmRSS:");
+  const double before = statusBytes("self", "VmRSS:");
   const auto begin = std::chrono::steady_clock::now();
   const auto scene = loadGltf(bundle, kLimits);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
   if (!scene) return std::nullopt;
   const SceneSummary& summary = (*scene)->summary;
-  return Load{time.count(), statusBytes("VmHWM:") - before, static_cast<double>(summary.memoryBytes),
+  return Load{time.count(), statusBytes("self", "VmHWM:") - before, static_cast<double>(summary.memoryBytes),
               static_cast<double>(summary.triangles)};
 }
 

@@ -1,22 +1,16 @@
 #include "tests/bench/measure.h"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "protocol/json/json_codec.h"
 #include "tests/bench/depth_floor.h"
+#include "tests/bench/median.h"
 
 namespace gnomon::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A point while its rounds go on.
 struct Running {
