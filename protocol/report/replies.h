@@ -15,8 +15,8 @@ enum class Backend { automatic, egl, osmesa };
 /// Which device draws, and by which graphics context.
 struct BackendOptions {
   DeviceChoice device = DeviceChoice::auto_; ///< gl where another option names a context or a GPU
-  Backend backend = Backend::automatic;          ///< automatic = EGL, then OSMesa
-  bool requireGpu = false;                       ///< refuse software renderers
+  Backend backend = Backend::automatic;      ///< automatic = EGL, then OSMesa
+  bool requireGpu = false;                   ///< refuse software renderers
 };
 
 /// What the device that draws is and can do.

@@ -72,7 +72,7 @@ struct FrameSpec {
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color}; ///< at least one, each once
   Debug debug;
-  std::optional<Quality> quality;                ///< technique, cascades, sizes and filters are chosen so that it holds
+  std::optional<Quality> quality;            ///< technique, cascades, sizes and filters are chosen so that it holds
   DeviceChoice device = DeviceChoice::auto_; ///< effective: what drew
   Output output;
 

@@ -40,7 +40,8 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   }
   if (device.device == DeviceChoice::cpu) {
     for (const std::string& place : placesOfShadowVolumes(spec)) {
-      problems.add({ProblemCode::unsupportedFeature, place, "The device `cpu` draws no shadow volumes, which are OpenGL's.",
+      problems.add({ProblemCode::unsupportedFeature, place,
+                    "The device `cpu` draws no shadow volumes, which are OpenGL's.",
                     "another technique, or a server that draws by OpenGL", "shadowVolume"});
     }
   }

@@ -53,12 +53,14 @@ Result<Survey> surveyScene(const PassInputs& inputs, int samples) {
   gl::apply(clear);
   target->clearDepth(0.0f);
 
-  std::vector<std::uint8_t> drawn = firstToDraw({inputs.scene, inputs.view, inputs.geometry, inputs.camera, inputs.nodes}, survey.inView);
+  std::vector<std::uint8_t> drawn =
+      firstToDraw({inputs.scene, inputs.view, inputs.geometry, inputs.camera, inputs.nodes}, survey.inView);
   if (const Status first = drawDepth(inputs, drawn, target->id(), survey); !first) return first.problems();
   auto blocks = depthBlocks(inputs, survey.depth, samples);
   if (!blocks) return blocks.problems();
   if (drawn != survey.inView) {
-    const std::vector<std::uint8_t> rest = unhiddenBoxes(inputs.camera, *blocks, inputs.geometry.slotBounds, without(survey.inView, drawn));
+    const std::vector<std::uint8_t> rest =
+        unhiddenBoxes(inputs.camera, *blocks, inputs.geometry.slotBounds, without(survey.inView, drawn));
     if (const Status second = drawDepth(inputs, rest, target->id(), survey); !second) return second.problems();
     std::transform(drawn.begin(), drawn.end(), rest.begin(), drawn.begin(), std::bit_or<>());
     blocks = depthBlocks(inputs, survey.depth, samples);
