@@ -20,12 +20,10 @@ BoxTaps boxTaps(float texels) {
   const int reach = static_cast<int>(std::ceil(texels)) / stride + 1;
   BoxTaps taps;
   taps.stride = static_cast<std::size_t>(stride);
-  float sum = 0;
   for (int i = -reach; i <= reach; ++i) {
     taps.weights.push_back(std::clamp(texels + 1.0f - static_cast<float>(std::abs(i * stride)), 0.0f, 1.0f));
-    sum += taps.weights.back();
+    taps.sum += taps.weights.back();
   }
-  for (float& weight : taps.weights) weight /= sum;
   // Ends that weigh nothing are not read.
   while (taps.weights.size() > 1 && taps.weights.front() == 0.0f) {
     taps.weights.erase(taps.weights.begin());

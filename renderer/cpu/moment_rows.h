@@ -5,10 +5,12 @@
 
 namespace gnomon::cpu {
 
-/// One direction of a box blur: texels `stride` apart, the middle one in the middle, and what each weighs; 1 together.
+/// One direction of a box blur: texels `stride` apart, the middle one in the middle, and what each weighs. Most weigh
+/// 1, which rounds nothing; moments bear little.
 struct BoxTaps {
   std::size_t stride = 1;
   std::vector<float> weights; ///< an odd number of them
+  float sum = 0;              ///< of the weights
 
   /// Texels to each side.
   std::size_t reach() const { return weights.size() / 2 * stride; }

@@ -64,7 +64,7 @@ void blurAlongRows(const DepthBuffer& depths, const MomentBlur& blur, const BoxT
         for (std::size_t i = 0; i < taps.weights.size(); ++i) {
           sum = mulAdd(load(row.moments[m].data() + x + i * taps.stride), taps.weights[i], sum);
         }
-        store(sum, out.row(m, y) + x);
+        store(sum / taps.sum, out.row(m, y) + x);
       }
     }
   }
@@ -78,7 +78,7 @@ HWY_INLINE Float blurredUp(const MomentPlanes& rows, const BoxTaps& taps, std::s
     sum = mulAdd(load(rows.row(moment, std::clamp(at, 0, rows.height - 1)) + x), weight, sum);
     at += static_cast<int>(taps.stride);
   }
-  return sum;
+  return sum / taps.sum;
 }
 
 void blurUp(const MomentPlanes& rows, const BoxTaps& taps, int width, int firstRow, int lastRow, glm::vec4* out) {
