@@ -73,12 +73,17 @@ Status CpuFrame::cast(const ShadowPlan& plan, TileUse tiles) {
 }
 
 const DepthBuffer& CpuFrame::surfaces(int samples) {
-  if (samples == survey_.buffer.samples) return survey_.buffer;
+  if (samples == survey_.buffer.samples) {
+    facts_.shadedTriangles += surveyShown_ ? 0 : survey_.triangles;
+    surveyShown_ = true;
+    return survey_.buffer;
+  }
   const auto found = otherSurfaces_.find(samples);
   if (found != otherSurfaces_.end()) return found->second;
   passStart_ = Clock::now();
   std::uint64_t triangles = 0;
   const auto made = otherSurfaces_.emplace(samples, rasterVisible(camera(), survey_, samples, triangles));
+  facts_.shadedTriangles += triangles;
   endPass("surfaces", triangles);
   return made.first->second;
 }
@@ -254,7 +259,23 @@ void CpuFrame::endStage(std::string name) {
   stageStart_ = Clock::now();
 }
 
+namespace {
+
+std::uint64_t bytesOf(const DepthBuffer& buffer) {
+  return buffer.depths.size() * sizeof(float) + buffer.triangles.size() * sizeof(std::uint32_t);
+}
+
+std::uint64_t bytesOf(const Image& image) {
+  return std::visit([](const auto& pixels) { return pixels.size() * sizeof(pixels[0]); }, image.pixels);
+}
+
+} // namespace
+
 Result<FrameFacts> CpuFrame::finish() {
+  facts_.memory.scene = cached_.textures->bytes();
+  facts_.memory.targets = bytesOf(survey_.buffer);
+  for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
+  for (const Image& image : pictures_) facts_.memory.targets += bytesOf(image);
   return std::move(facts_);
 }
 

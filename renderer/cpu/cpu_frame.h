@@ -56,6 +56,7 @@ class CpuFrame : public FrameDrawing {
   Survey survey_;
   CastTiles cast_;
   std::map<int, DepthBuffer> otherSurfaces_; ///< by samples a pixel, where they aren't the survey's
+  bool surveyShown_ = false;                 ///< its surfaces are those of a view
   std::map<int, ExactLayers> layers_;        ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;
