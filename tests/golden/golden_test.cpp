@@ -1,5 +1,6 @@
 // Every tests/golden/NAME.json is a case: a scene, a request that any client could send, and how far the picture may be
-// from NAME.png. To accept new pictures, run with GNOMON_GOLDEN_UPDATE=1 and look at what changed.
+// from NAME.png; `cpuTolerance`, with its reason, where the CPU device may be farther off. To accept new pictures, run
+// with GNOMON_GOLDEN_UPDATE=1 and look at what changed.
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "renderer/render.h"
 #include "tests/support/compare_images.h"
 #include "tests/support/files.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon {
 namespace {
@@ -17,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kCases = GNOMON_GOLDEN_CASES;
 const fs::path kScenes = GNOMON_TEST_SCENES;
-const fs::path kResults = GNOMON_GOLDEN_RESULTS;
+const fs::path kResults =
+    fs::path(GNOMON_GOLDEN_RESULTS) / (testing::testedDevice() == DeviceChoice::cpu ? "cpu" : "gl");
 
 std::vector<std::string> caseNames() {
   std::vector<std::string> names;
@@ -33,7 +36,7 @@ Bytes renderCase(const Json& golden) {
   EXPECT_TRUE(spec) << spec.problems().front().pointer << ' ' << spec.problems().front().detail;
   const auto scene = loadScene({testing::readFile(kScenes / (golden.at("scene").get<std::string>() + ".glb")), {}});
   EXPECT_TRUE(scene) << scene.problems().front().detail;
-  auto renderer = Renderer::create({});
+  auto renderer = Renderer::create({.backend = testing::testedBackend()});
   EXPECT_TRUE(renderer) << renderer.problems().front().detail;
   if (!spec || !scene || !renderer) return {};
   const auto frame = renderer->render(*scene, *spec);
@@ -52,14 +55,16 @@ TEST_P(Golden, LooksAsItDid) {
   const Bytes png = renderCase(golden);
   ASSERT_FALSE(png.empty());
   const fs::path reference = kCases / (GetParam() + ".png");
-  if (std::getenv("GNOMON_GOLDEN_UPDATE") != nullptr) testing::writeFile(reference, png);
+  const bool drawnAnew = std::getenv("GNOMON_GOLDEN_UPDATE") != nullptr && testing::testedDevice() == DeviceChoice::gl;
+  if (drawnAnew) testing::writeFile(reference, png);
   ASSERT_TRUE(fs::exists(reference)) << "no reference picture; run with GNOMON_GOLDEN_UPDATE=1 and look at it";
 
   const Image expected = decoded(testing::readFile(reference));
   const Image actual = decoded(png);
   const testing::ImageDifference difference = testing::compareImages(expected, actual);
   ASSERT_TRUE(difference.sameSize);
-  const Json& tolerance = golden.at("tolerance");
+  const bool ownTolerance = testing::testedDevice() == DeviceChoice::cpu && golden.contains("cpuTolerance");
+  const Json& tolerance = golden.at(ownTolerance ? "cpuTolerance" : "tolerance");
   const bool close =
       difference.max <= tolerance.at("max").get<int>() && difference.mean <= tolerance.at("mean").get<double>();
   if (!close) {

@@ -5,6 +5,7 @@
 
 #include "protocol/evaluation/evaluation_json.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon {
 namespace {
@@ -173,7 +174,7 @@ TEST(Evaluate, H13_TilesThatAreKeptDoNotMakeLaterRoundsCheaper) {
   ASSERT_TRUE(spec);
   std::vector<std::uint64_t> casters;
   std::thread([&] { // a context of its own needs a thread of its own
-    auto renderer = Renderer::create({});
+    auto renderer = Renderer::create({.backend = testing::testedBackend()});
     ASSERT_TRUE(renderer);
     for (const TileUse use : {TileUse::kept, TileUse::drawnAnew, TileUse::drawnAnew, TileUse::kept}) {
       const auto frame = renderer->render(box, *spec, use);

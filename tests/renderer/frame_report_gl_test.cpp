@@ -5,6 +5,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon {
 namespace {
@@ -78,18 +79,24 @@ TEST(FrameReports, PassesTilesAndLightsAddUp) {
   const FrameReport& report = frame.report;
   std::vector<std::string> names;
   std::uint64_t drawCalls = 0;
+  const bool gl = testing::testedDevice() == DeviceChoice::gl;
   std::map<std::string, const PassReport*> passes;
   for (const PassReport& pass : report.passes) {
     names.push_back(pass.pass);
     passes[pass.pass] = &pass;
     drawCalls += pass.drawCalls;
     EXPECT_GE(pass.cpuMilliseconds, 0);
-    ASSERT_TRUE(pass.gpuMilliseconds) << "no timer in the driver";
-    EXPECT_GT(*pass.gpuMilliseconds, 0) << pass.pass;
-    EXPECT_LT(*pass.gpuMilliseconds, 60'000) << pass.pass;
+    ASSERT_EQ(pass.gpuMilliseconds.has_value(), gl) << "OpenGL alone has a timer of its own";
+    if (gl) {
+      EXPECT_GT(*pass.gpuMilliseconds, 0) << pass.pass;
+      EXPECT_LT(*pass.gpuMilliseconds, 60'000) << pass.pass;
+    }
     EXPECT_EQ(pass.view.has_value(), pass.pass == "view");
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"survey", "shadow", "surfaces", "surfaces", "view", "view"}));
+  // The processor shows the surfaces that its survey found, and looks anew only at another number of samples.
+  const std::vector<std::string> byGl = {"survey", "shadow", "surfaces", "surfaces", "view", "view"};
+  const std::vector<std::string> byCpu = {"survey", "shadow", "view", "surfaces", "view"};
+  EXPECT_EQ(names, gl ? byGl : byCpu);
   EXPECT_EQ(report.counts.drawCalls, drawCalls);
   EXPECT_EQ(passes["shadow"]->triangles, report.counts.casterTriangles);
   EXPECT_EQ(passes["survey"]->triangles, report.counts.surveyedTriangles);
@@ -105,12 +112,12 @@ TEST(FrameReports, PassesTilesAndLightsAddUp) {
       cpu += tile.cpuMilliseconds.value_or(0);
       gpu += tile.gpuMilliseconds.value_or(0);
       EXPECT_EQ(tile.cpuMilliseconds.has_value(), tile.tile[2] > 0);
-      EXPECT_EQ(tile.gpuMilliseconds.has_value(), tile.tile[2] > 0);
+      EXPECT_EQ(tile.gpuMilliseconds.has_value(), gl && tile.tile[2] > 0);
     }
     EXPECT_EQ(light.casterTriangles, sums.casterTriangles);
     EXPECT_EQ(light.drawCalls, sums.drawCalls);
     EXPECT_NEAR(light.cpuMilliseconds.value(), cpu, 1e-9);
-    EXPECT_NEAR(light.gpuMilliseconds.value(), gpu, 1e-9);
+    EXPECT_NEAR(light.gpuMilliseconds.value_or(0), gpu, 1e-9);
     triangles += light.casterTriangles;
   }
   EXPECT_EQ(triangles, report.counts.casterTriangles);
@@ -121,6 +128,13 @@ TEST(FrameReports, MemoryIsCountedInBytes) {
       renderJson(testing::generatedScene("box_on_plane"), R"({"width":96,"height":64,"lights":[{"sun":{}}]})");
   const MemoryReport& memory = frame.report.memory;
   EXPECT_EQ(memory.atlas, 4u * static_cast<unsigned>(frame.report.atlasSize[0] * frame.report.atlasSize[1]));
+  if (testing::testedDevice() == DeviceChoice::cpu) {
+    // 4 samples of depth and triangle, and one picture of 3 or 4 bytes; vertices are read where the scene has them.
+    EXPECT_GE(memory.targets, 96u * 64u * (4 * (4 + 4) + 3));
+    EXPECT_LE(memory.targets, 96u * 64u * (4 * (4 + 4) + 4));
+    EXPECT_EQ(memory.scene, 0u) << "without textures";
+    return;
+  }
   // 4 samples of depth (4 bytes) and surface (16 bytes), and one picture of 4 bytes.
   EXPECT_EQ(memory.targets, 96u * 64u * (4 * (4 + 16) + 4));
   EXPECT_GT(memory.scene, 24u * 12u) << "the box's vertices alone";

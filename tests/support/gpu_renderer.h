@@ -1,7 +1,9 @@
 #pragma once
 
+#include "renderer/cpu/cpu_device.h"
 #include "renderer/passes/gl_device.h"
 #include "renderer/render.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon::testing {
 
@@ -20,9 +22,11 @@ class ClaimsToBeAGpu : public Device {
   RendererInfo info_;
 };
 
-/// A renderer that keeps no tiles, so that counts don't depend on other cases, and draws every hybrid shadow's map.
+/// A renderer by the tested device that keeps no tiles, so that counts don't depend on other cases, and draws every
+/// hybrid shadow's map.
 inline Result<Renderer> gpuRenderer() {
-  auto device = createGlDevice({.backend = {}, .tileBytes = 0});
+  auto device = testedDevice() == DeviceChoice::cpu ? createCpuDevice({.tileBytes = 0})
+                                                    : createGlDevice({.backend = {}, .tileBytes = 0});
   if (!device) return device.problems();
   return Renderer(std::make_unique<ClaimsToBeAGpu>(std::move(*device)));
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "tests/renderer/techniques/traced_frame.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon {
 namespace {
@@ -85,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ExactTechniques,
                          });
 
 TEST(HybridShadow, TheMapDecidesMostPixels) {
+  GNOMON_NEEDS_GL("the processor's rays take less time than a map, and decide alone");
   const Frame frame = renderJson(generatedScene("box_on_plane"), shadowSpec(kSun, "hybrid"));
   EXPECT_LT(*frame.report.lights[0].tracedPixels, 320u * 180u / 10);
   EXPECT_GT(*frame.report.lights[0].tracedPixels, 0u);
@@ -96,7 +98,7 @@ TEST(HybridShadow, WhereRaysCostLessTheyDecideAloneAndTheReportSaysSo) {
   std::optional<Frame> alone;
   // A context of its own needs a thread of its own.
   std::thread([&] {
-    auto automatic = Renderer::create({});
+    auto automatic = Renderer::create({.backend = testing::testedBackend()});
     ASSERT_TRUE(automatic);
     if (!automatic->info().software) return;
     auto frame = automatic->render(scene, *decodeFrameSpec(spec));
