@@ -47,13 +47,14 @@ void sieveGroup(const RasterInput& input, const RasterView& view, std::span<cons
 template <DepthRange range, int samples>
 HWY_INLINE void rasterEntries(const RasterView& view, const RasterScratch& scratch, int square, const Holes* holes,
                               DepthBuffer& target) {
+  const std::uint64_t wanted = view.wanted(static_cast<std::size_t>(square));
   for (const RasterScratch::Group& group : scratch.groups) {
     const auto first = group.firstEntry[static_cast<std::size_t>(square)];
     const auto last = group.firstEntry[static_cast<std::size_t>(square) + 1];
     for (std::uint32_t i = first; i < last; ++i) {
       const RasterTriangle& triangle = group.triangles[group.entries[i]];
       const SquareSpan span = spanIn(view, triangle, square % view.squaresAcross, square / view.squaresAcross);
-      rasterTriangle<range, samples>(triangle, span, target, holes);
+      if ((span.marks() & wanted) != 0) rasterTriangle<range, samples>(triangle, span, wanted, target, holes);
     }
   }
 }
@@ -82,8 +83,9 @@ constexpr std::array<glm::ivec2, 1> kCentre{glm::ivec2(128, 128)};
 constexpr std::array<glm::ivec2, 4> kStandardPattern{glm::ivec2(96, 32), glm::ivec2(224, 96), glm::ivec2(32, 160),
                                                      glm::ivec2(160, 224)};
 
-RasterView viewOf(const DepthBuffer& target, DepthRange range) {
+RasterView viewOf(const DepthBuffer& target, DepthRange range, const TexelMarks* only) {
   RasterView view;
+  view.only = only;
   view.width = target.width;
   view.height = target.height;
   view.samples = target.samples;
@@ -140,13 +142,39 @@ void forEachSquare(const RasterView& view, const RasterTriangle& triangle, const
   const int x0 = across.first / kSquareSide, x1 = across.last / kSquareSide;
   const int y0 = up.first / kSquareSide, y1 = up.last / kSquareSide;
   const bool few = (x1 - x0 + 1) * (y1 - y0 + 1) <= 2;
+  const auto isWanted = [&](int x, int y, std::size_t square) {
+    if (view.only == nullptr) return true;
+    const auto block = [](int pixel, int of) {
+      return std::clamp(pixel - of * kSquareSide, 0, kSquareSide - 1) / kMarkSide;
+    };
+    return (view.only->in(square)&blockBits(block(across.first, x), block(across.last, x), block(up.first, y),
+                                            block(up.last, y))) != 0;
+  };
   constexpr std::int64_t kSide = std::int64_t{kSquareSide} * kSubpixels;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
+      const auto square = static_cast<std::uint32_t>(y * view.squaresAcross + x);
+      if (!isWanted(x, y, square)) continue;
       const glm::i64vec2 least(x * kSide, y * kSide);
-      if (few || mayTouch(triangle, least, least + kSide)) {
-        each(static_cast<std::uint32_t>(y * view.squaresAcross + x));
-      }
+      if (few || mayTouch(triangle, least, least + kSide)) each(square);
+    }
+  }
+}
+
+/// Of a square, those that are wanted.
+void emptyBlocks(const RasterView& view, std::size_t square, DepthBuffer& target) {
+  const auto across = static_cast<std::size_t>(view.squaresAcross);
+  constexpr int kBlocks = kSquareSide / kBlockSide;
+  const int firstColumn = static_cast<int>(square % across) * kBlocks,
+            firstRow = static_cast<int>(square / across) * kBlocks;
+  const std::uint64_t wanted = view.wanted(square);
+  const float empty = view.range == DepthRange::reversed ? 0.0f : 1.0f;
+  for (int row = 0; row < std::min(kBlocks, target.blocksUp() - firstRow); ++row) {
+    for (int column = 0; column < std::min(kBlocks, target.blocksAcross() - firstColumn); ++column) {
+      if ((wanted >> (8 * (row / 2) + column / 2) & 1u) == 0) continue;
+      std::fill_n(
+          target.depths.begin() + static_cast<std::ptrdiff_t>(target.blockAt(firstColumn + column, firstRow + row)),
+          static_cast<std::size_t>(target.samples) * kBlockPlaces, empty);
     }
   }
 }
@@ -180,6 +208,12 @@ std::span<const glm::ivec2> samplePlaces(int samples) {
   return samples == 1 ? std::span<const glm::ivec2>(kCentre) : std::span<const glm::ivec2>(kStandardPattern);
 }
 
+DepthBuffer unfilledBuffer(int width, int height, int samples, DepthBuffer storage) {
+  DepthBuffer buffer{width, height, samples, std::move(storage.depths), {}};
+  buffer.depths.resize(buffer.blocks() * static_cast<std::size_t>(samples) * kBlockPlaces);
+  return buffer;
+}
+
 DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage) {
   DepthBuffer buffer{width, height, samples, std::move(storage.depths), std::move(storage.triangles)};
   const std::size_t count = buffer.blocks() * static_cast<std::size_t>(samples) * kBlockPlaces;
@@ -194,7 +228,7 @@ DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bo
 }
 
 std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch) {
-  const RasterView view = viewOf(target, range);
+  const RasterView view = viewOf(target, range, input.only);
   const std::vector<std::size_t> starts = groupsOf(input);
   scratch.groups.resize(starts.size() - 1);
   forEach(scratch.groups.size(), [&](std::size_t i) {
@@ -203,6 +237,8 @@ std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& ta
     sortIntoSquares(view, scratch.groups[i]);
   });
   forEach(static_cast<std::size_t>(view.squaresAcross) * static_cast<std::size_t>(view.squaresUp), [&](std::size_t i) {
+    if (view.wanted(i) == 0) return;
+    if (input.only != nullptr) emptyBlocks(view, i, target);
     HWY_DYNAMIC_DISPATCH(rasterSquare)(view, scratch, static_cast<int>(i), input.holes, target);
   });
   std::uint64_t triangles = 0;

@@ -8,6 +8,7 @@
 
 #include "renderer/cpu/depth_buffer.h"
 #include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/texel_marks.h"
 #include "renderer/prepare/draw_list.h"
 
 /// Triangles to depths and triangle numbers, on all cores.
@@ -42,6 +43,7 @@ struct RasterInput {
   std::span<const glm::mat4> clipFromLocal; ///< one an instance
   std::span<const RasterDraw> draws;        ///< of triangles at one depth, that of the earlier draw is shown
   const Holes* holes = nullptr;             ///< asked where draws are holed
+  const TexelMarks* only = nullptr;         ///< the blocks that are wanted, of the target's size; null = all
 };
 
 /// How depths are compared, and what lies before the first or behind the last.
@@ -65,7 +67,7 @@ struct RasterTriangle {
 };
 
 /// Pixels along a side of the squares of the picture that are rastered at a time.
-inline constexpr int kSquareSide = 64;
+inline constexpr int kSquareSide = kMarkSquare;
 
 /// What frames leave to the next ones, so that memory is touched once.
 struct RasterScratch {
@@ -82,9 +84,14 @@ struct RasterScratch {
 /// standard pattern of four, which drivers of OpenGL share. REQUIRES: 1 or 4.
 std::span<const glm::ivec2> samplePlaces(int samples);
 
-/// Adds to `target`, which has its size and samples and is filled with the farthest depth. Gives the triangles that
-/// were drawn: those of the draws.
+/// Adds to `target`, which has its size and samples and is filled with the farthest depth. Where input.only wants some
+/// blocks, these are emptied first, whatever they held, and the others are left as they are; the target has no numbers
+/// then. A block comes out the same whichever others are wanted. Gives the triangles that were drawn: those of the
+/// draws.
 std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch);
+
+/// A buffer of that size whose depths hold anything, without numbers. `storage`: as below.
+DepthBuffer unfilledBuffer(int width, int height, int samples, DepthBuffer storage = {});
 
 /// A buffer of that size in which nothing is. `storage`: one that nothing needs any more, whose memory is used.
 DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage = {});

@@ -66,12 +66,16 @@ HWY_INLINE DepthPlane depthPlane(const RasterTriangle& triangle) {
 
 struct SquareSpan {
   int x0, y0, x1, y1; ///< blocks; the last ones belong to it
-};
 
-/// Adds the samples of a triangle in a span of blocks.
+  /// As TexelMarks has them.
+  HWY_INLINE std::uint64_t marks() const { return blockBits(x0 >> 1 & 7, x1 >> 1 & 7, y0 >> 1 & 7, y1 >> 1 & 7); }
+};
+static_assert(kMarkSide == 2 * kBlockSide);
+
+/// Adds the samples of a triangle in a span of blocks, of those that are `wanted`: see TexelMarks.
 template <DepthRange range, int samples>
-HWY_INLINE void rasterTriangle(const RasterTriangle& triangle, const SquareSpan& span, DepthBuffer& target,
-                               const Holes* holes) {
+HWY_INLINE void rasterTriangle(const RasterTriangle& triangle, const SquareSpan& span, std::uint64_t wanted,
+                               DepthBuffer& target, const Holes* holes) {
   const glm::ivec2* places = samplePlaces(samples).data();
   const auto& c = triangle.corners;
   const Side<samples> sides[3] = {sideOf<samples>(c[0], c[1], places), sideOf<samples>(c[1], c[2], places),
@@ -94,7 +98,9 @@ HWY_INLINE void rasterTriangle(const RasterTriangle& triangle, const SquareSpan&
   // Beyond it a value's sign can't change within a block.
   constexpr std::int64_t kFar = std::int64_t{1} << 28;
   for (int row = span.y0; row <= span.y1; ++row) {
+    const auto wantedHere = static_cast<unsigned>(wanted >> 8 * (row >> 1 & 7));
     for (int column = span.x0; column <= span.x1; ++column) {
+      if ((wantedHere >> (column >> 1 & 7) & 1u) == 0) continue;
       const std::int64_t x = column * kBlockSide, y = row * kBlockSide;
       std::int64_t value[3];
       bool touched = true;

@@ -23,6 +23,10 @@ struct RasterView {
   glm::ivec2 lastSample{0};
   int squaresAcross = 0;
   int squaresUp = 0;
+  const TexelMarks* only = nullptr; ///< as RasterInput's
+
+  /// The blocks of a square that are wanted, as TexelMarks has them.
+  std::uint64_t wanted(std::size_t square) const { return only == nullptr ? ~std::uint64_t{0} : only->in(square); }
 
   glm::dvec2 middle() const { return glm::dvec2(width, height) * (0.5 * kSubpixels); } ///< 1/256 of a pixel
   glm::dvec2 guard() const { return kGuard / (0.5 * glm::dvec2(width, height)); }      ///< in clip space, times w

@@ -261,5 +261,75 @@ TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
   EXPECT_EQ(buffer.triangles[buffer.at(8, 8)], kClusterTriangles);
 }
 
+/// Depths that no triangle has.
+DepthBuffer poisoned(int width, int height, int samples) {
+  DepthBuffer buffer = unfilledBuffer(width, height, samples);
+  std::fill(buffer.depths.begin(), buffer.depths.end(), -7.0f);
+  return buffer;
+}
+
+TEST(Raster, WantedBlocksAreThoseOfTheWholePictureAndTheOthersStayAsTheyWere) {
+  Random random(11);
+  const std::vector<Mesh> meshes{net(random, 60, 1.0), net(random, 3, 40.0), net(random, 9, 3000.0)};
+  onEachInstructionSet([&] {
+    for (const Mesh& mesh : meshes) {
+      for (const int samples : {1, 4}) {
+        const int width = 203, height = 150;
+        const DepthBuffer whole = drawn(mesh, width, height, samples, DepthRange::clamped);
+        TexelMarks marks(width, height);
+        for (int i = 0; i < 6; ++i) {
+          const int x = static_cast<int>(random() % width), y = static_cast<int>(random() % height);
+          marks.mark(x, y, x + static_cast<int>(random() % 40), y + static_cast<int>(random() % 9));
+        }
+        DepthBuffer some = poisoned(width, height, samples);
+        RasterInput input = mesh.input();
+        input.only = &marks;
+        RasterScratch scratch;
+        EXPECT_EQ(raster(input, DepthRange::clamped, some, scratch), mesh.scene.welded.size() / 3);
+        int wrong = 0;
+        for (int y = 0; y < height; ++y) {
+          for (int x = 0; x < width; ++x) {
+            for (int s = 0; s < samples; ++s) {
+              const float expected = marks.any(x, y, x, y) ? whole.depths[whole.at(x, y, s)] : -7.0f;
+              wrong += some.depths[some.at(x, y, s)] != expected ? 1 : 0;
+            }
+          }
+        }
+        EXPECT_EQ(wrong, 0);
+      }
+    }
+  });
+}
+
+TEST(TexelMarks, HoldTheBlocksOfWhatWasMarked) {
+  Random random(5);
+  for (int round = 0; round < 200; ++round) {
+    const int width = 1 + static_cast<int>(random() % 300), height = 1 + static_cast<int>(random() % 300);
+    TexelMarks marks(width, height);
+    EXPECT_FALSE(marks.any());
+    const auto corner = [&] { return static_cast<int>(random() % 400) - 50; };
+    int x0 = corner(), y0 = corner(), x1 = corner(), y1 = corner();
+    if (x1 < x0) std::swap(x0, x1);
+    if (y1 < y0) std::swap(y0, y1);
+    marks.mark(x0, y0, x1, y1);
+    const auto blockOf = [](int texel) { return texel >= 0 ? texel / kMarkSide : -1; };
+    for (int i = 0; i < 200; ++i) {
+      const int x = static_cast<int>(random()) % width, y = static_cast<int>(random()) % height;
+      if (x < 0 || y < 0) continue;
+      const bool meant = x1 >= 0 && y1 >= 0 && x0 < width && y0 < height && blockOf(x) >= blockOf(std::max(x0, 0)) &&
+                         blockOf(x) <= blockOf(std::min(x1, width - 1)) && blockOf(y) >= blockOf(std::max(y0, 0)) &&
+                         blockOf(y) <= blockOf(std::min(y1, height - 1));
+      EXPECT_EQ(marks.any(x, y, x, y), meant);
+    }
+    TexelMarks all(width, height);
+    all.markAll();
+    TexelMarks rest = all.without(marks);
+    rest.add(marks);
+    EXPECT_FALSE(all.without(rest).any());
+    EXPECT_TRUE(all.any(width - 1, height - 1, width + 90, height + 90));
+    EXPECT_FALSE(all.any(width, 0, width + 9, 9));
+  }
+}
+
 } // namespace
 } // namespace gnomon::cpu
