@@ -59,7 +59,8 @@ Result<ReceiverDepths> CpuFrame::survey() {
   return survey_.receivers;
 }
 
-Status CpuFrame::cast(const ShadowPlan& plan, TileUse tiles) {
+Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
+  const ShadowPlan& plan = input.plan;
   passStart_ = Clock::now();
   TileStore none(0);
   cast_ = castTiles(castInput(plan), tiles == TileUse::kept ? shared_.tiles : none);

@@ -28,7 +28,7 @@ class CpuFrame : public FrameDrawing {
   ~CpuFrame() override;
 
   Result<ReceiverDepths> survey() override;
-  Status cast(const ShadowPlan& plan, TileUse tiles) override;
+  Status cast(const ShowInput& input, TileUse tiles) override;
   Status show(const ShowInput& input) override;
   Result<std::vector<MapFootprint>> footprints(const ShowInput& input) override;
   Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) override;

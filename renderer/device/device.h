@@ -72,9 +72,10 @@ class FrameDrawing {
 
   /// What the camera sees.
   virtual Result<ReceiverDepths> survey() = 0;
-  /// The plan's tiles, drawn or taken over from an earlier frame.
-  virtual Status cast(const ShadowPlan& plan, TileUse tiles) = 0;
-  /// Lights the surfaces and makes every view of `input`.
+  /// The tiles of `input.plan`, drawn or taken over from an earlier frame: at least what the views of `input` read of
+  /// them.
+  virtual Status cast(const ShowInput& input, TileUse tiles) = 0;
+  /// Lights the surfaces and makes every view of `input`, which is that of cast.
   virtual Status show(const ShowInput& input) = 0;
   /// What the map of `input.debugLight`, which has one, does at each pixel; first row on top. After show.
   virtual Result<std::vector<MapFootprint>> footprints(const ShowInput& input) = 0;

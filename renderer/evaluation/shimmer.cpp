@@ -126,8 +126,9 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
   probed.plan = planShadows(
       planInput(frame, view, *receivers, mappedLights(frame, view, device.info()), device.info().maxTextureSize));
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
-  if (const Status cast = drawing.cast(probed.plan, TileUse::kept); !cast) return cast.problems();
   const auto lights = litLights(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
+  const ShowInput nothing{.plan = probed.plan, .lights = lights};
+  if (const Status cast = drawing.cast(nothing, TileUse::kept); !cast) return cast.problems();
   for (Watched& light : watched) {
     const auto visibility = drawing.probe({.plan = probed.plan, .lights = lights, .debugLight = light.light},
                                           probesOf(frame, anchorOf(view), light));

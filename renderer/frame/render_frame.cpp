@@ -46,13 +46,13 @@ Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const SceneP
                                                          : std::vector<std::uint32_t>{};
   const auto subject = debugSubject(effective, plan, layered);
   if (!subject) return subject.problems();
-  drawing.endStage("plan");
-
-  if (const Status cast = drawing.cast(plan, tiles); !cast) return cast.problems();
-  drawing.endStage("shadow");
-
   const FrameViews views(effective);
   const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
+  drawing.endStage("plan");
+
+  if (const Status cast = drawing.cast(show, tiles); !cast) return cast.problems();
+  drawing.endStage("shadow");
+
   if (const Status shown = drawing.show(show); !shown) return shown.problems();
   drawing.endStage("shade");
 

@@ -59,9 +59,9 @@ Result<ReceiverDepths> GlFrame::survey() {
   return survey_.receivers;
 }
 
-Status GlFrame::cast(const ShadowPlan& plan, TileUse tiles) {
+Status GlFrame::cast(const ShowInput& input, TileUse tiles) {
   TileCache none(0);
-  auto atlas = castShadows(inputs_, plan, work_.frame.spec, tiles == TileUse::kept ? shared_.tiles : none);
+  auto atlas = castShadows(inputs_, input.plan, work_.frame.spec, tiles == TileUse::kept ? shared_.tiles : none);
   if (!atlas) return atlas.problems();
   atlas_ = std::move(*atlas);
   draws_ = atlas_.drawCalls > 0; // none where every tile was kept

@@ -24,7 +24,7 @@ class GlFrame : public FrameDrawing {
   GlFrame(GlShared& shared, const FrameWork& work);
 
   Result<ReceiverDepths> survey() override;
-  Status cast(const ShadowPlan& plan, TileUse tiles) override;
+  Status cast(const ShowInput& input, TileUse tiles) override;
   Status show(const ShowInput& input) override;
   Result<std::vector<MapFootprint>> footprints(const ShowInput& input) override;
   Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) override;

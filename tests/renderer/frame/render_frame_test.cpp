@@ -62,10 +62,10 @@ class FakeDrawing : public FrameDrawing {
     return boxDepths(work_.frame.view, work_.frame.spec.width, work_.frame.spec.height, geometry.slotBounds, all);
   }
 
-  Status cast(const ShadowPlan& plan, TileUse) override {
+  Status cast(const ShowInput& input, TileUse) override {
     asked_.calls.emplace_back("cast");
-    asked_.tiles = plan.tiles.size();
-    facts_.tiles.resize(plan.tiles.size());
+    asked_.tiles = input.plan.tiles.size();
+    facts_.tiles.resize(input.plan.tiles.size());
     for (TileFacts& tile : facts_.tiles) tile.casterTriangles = 2;
     return Done{};
   }
