@@ -1,5 +1,6 @@
 #include "renderer/cpu/cast_tiles.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
@@ -23,15 +24,48 @@ std::vector<glm::mat4> tileFromLocal(const FrameScene& scene, const ShadowTile& 
   return matrices;
 }
 
-std::uint64_t rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& light,
-                            const TileCasters& casters, DepthBuffer& buffer) {
+std::uint64_t trianglesOf(const FrameScene& scene, std::span<const RasterDraw> draws) {
+  std::uint64_t triangles = 0;
+  for (const RasterDraw& draw : draws) triangles += scene.slots[draw.slot].triangles;
+  return triangles;
+}
+
+/// The draws that may touch texels of `wanted`.
+std::vector<RasterDraw> drawsInto(const CastInput& input, const ShadowTile& tile, const TexelMarks& wanted,
+                                  std::vector<RasterDraw> draws) {
+  const auto misses = [&](const RasterDraw& draw) {
+    const Aabb clip = clipBox(tile.space, lightSpaceBox(tile.space, input.scene.geometry.slotBounds[draw.slot]));
+    if (clip.empty()) return false;
+    const auto texel = [](double at, int size) {
+      return static_cast<int>(std::clamp((at * 0.5 + 0.5) * size, -2.0, size + 2.0));
+    };
+    // Corners are rounded as they are rastered, by far less than a texel.
+    return !wanted.any(texel(clip.min.x, tile.rect.width) - 1, texel(clip.min.y, tile.rect.height) - 1,
+                       texel(clip.max.x, tile.rect.width) + 1, texel(clip.max.y, tile.rect.height) + 1);
+  };
+  std::erase_if(draws, misses);
+  return draws;
+}
+
+/// `only`: as RasterInput's.
+void rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& light,
+                   std::span<const RasterDraw> draws, const TexelMarks* only, DepthBuffer& buffer) {
   const std::vector<glm::mat4> clip = tileFromLocal(input.scene, tile);
   const MaterialHoles holes({input.scene, input.textures, clip, glm::ivec2(tile.rect.width, tile.rect.height),
                              glm::ivec2(tile.rect.x, tile.rect.y),
                              light.shadow->blendedCasters == BlendedCasters::dither});
-  const std::vector<RasterDraw> draws = rasterDraws(input.scene, casters.use, casters.slots);
-  return raster({input.scene.scene, input.scene.slots, clip, draws, &holes}, DepthRange::clamped, buffer,
-                input.scratch);
+  raster({input.scene.scene, input.scene.slots, clip, draws, &holes, only}, DepthRange::clamped, buffer, input.scratch);
+}
+
+/// What goes into a tile of which an earlier frame does not have all.
+void addCasters(const CastInput& input, std::span<const RasterDraw> draws, TileFacts& facts) {
+  facts.reused = false;
+  facts.casterTriangles = trianglesOf(input.scene, draws);
+  facts.culledTriangles = input.scene.view.triangles - facts.casterTriangles;
+}
+
+void addTime(TileFacts& facts, double milliseconds) {
+  facts.time = WorkTime{(facts.time ? facts.time->cpuMilliseconds : 0.0) + milliseconds};
 }
 
 } // namespace
@@ -41,36 +75,61 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
   const std::vector<const Light*> lightOf = lightsOfTiles(input.plan, *input.spec.lights);
   CastTiles cast;
   cast.tiles.resize(tiles.size());
+  cast.casters.resize(tiles.size());
   cast.facts.resize(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const ShadowTile& tile = tiles[i];
     if (tile.rect.width <= 0) continue;
     const auto start = std::chrono::steady_clock::now();
-    const Light& light = *lightOf[i];
-    const TileCasters casters = castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes);
-    const int samples = input.spec.atlas.samples;
-    const TileKey key = tileKey(input.sceneId, input.view, tile, light, casters, samples);
     TileFacts& facts = cast.facts[i];
+    cast.casters[i] = castersInto(tile, *lightOf[i], input.scene.view, input.scene.geometry, input.nodes);
+    const int samples = input.spec.atlas.samples;
+    const TileKey key = tileKey(input.sceneId, input.view, tile, *lightOf[i], cast.casters[i], samples);
     if ((cast.tiles[i] = store.find(key))) {
       facts.reused = true;
       continue;
     }
-    auto made = std::make_shared<RasteredTile>();
-    made->depths = emptyBuffer(tile.rect.width, tile.rect.height, samples, DepthRange::clamped, false);
-    facts.casterTriangles = rasterCasters(input, tile, light, casters, made->depths);
-    if (isBlurred(tile)) made->moments = blurredMoments(made->depths, momentBlur(tile));
-    facts.culledTriangles = input.scene.view.triangles - facts.casterTriangles;
-    store.keep(key, made);
-    cast.tiles[i] = std::move(made);
-    facts.time = WorkTime{millisecondsSince(start)};
+    cast.tiles[i] = std::make_shared<RasteredTile>();
+    cast.tiles[i]->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples);
+    cast.tiles[i]->made = TexelMarks(tile.rect.width, tile.rect.height);
+    store.keep(key, cast.tiles[i]);
+    addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
+    addTime(facts, millisecondsSince(start));
   }
   return cast;
+}
+
+std::vector<TexelMarks> noTexels(const ShadowPlan& plan) {
+  std::vector<TexelMarks> marks;
+  for (const ShadowTile& tile : plan.tiles) marks.emplace_back(tile.rect.width, tile.rect.height);
+  return marks;
+}
+
+void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTiles& cast) {
+  const std::vector<const Light*> lightOf = lightsOfTiles(input.plan, *input.spec.lights);
+  for (std::size_t i = 0; i < cast.tiles.size(); ++i) {
+    if (cast.tiles[i] == nullptr || !read[i].any()) continue;
+    const ShadowTile& tile = input.plan.tiles[i];
+    RasteredTile& made = *cast.tiles[i];
+    TexelMarks wanted = read[i];
+    if (isBlurred(tile)) wanted.markAll();
+    wanted = wanted.without(made.made);
+    if (!wanted.any()) continue;
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<RasterDraw> draws = rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots);
+    addCasters(input, draws, cast.facts[i]);
+    draws = drawsInto(input, tile, wanted, std::move(draws));
+    rasterCasters(input, tile, *lightOf[i], draws, &wanted, made.depths);
+    made.made.add(wanted);
+    if (isBlurred(tile)) made.moments = blurredMoments(made.depths, momentBlur(tile));
+    addTime(cast.facts[i], millisecondsSince(start));
+  }
 }
 
 DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const Light& light) {
   DepthBuffer buffer = emptyBuffer(tile.rect.width, tile.rect.height, 1, DepthRange::clamped, true);
   const TileCasters casters = castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes);
-  rasterCasters(input, tile, light, casters, buffer);
+  rasterCasters(input, tile, light, rasterDraws(input.scene, casters.use, casters.slots), nullptr, buffer);
   return buffer;
 }
 

@@ -9,6 +9,7 @@
 #include "renderer/cpu/textures.h"
 #include "renderer/cpu/tile_store.h"
 #include "renderer/device/facts.h"
+#include "renderer/prepare/tile_casters.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {
@@ -26,12 +27,20 @@ struct CastInput {
 };
 
 struct CastTiles {
-  std::vector<std::shared_ptr<const RasteredTile>> tiles; ///< one a tile of the plan; null where it has no texels
-  std::vector<TileFacts> facts;                           ///< parallel
+  std::vector<std::shared_ptr<RasteredTile>> tiles; ///< one a tile of the plan; null where it has no texels
+  std::vector<TileCasters> casters;                 ///< parallel
+  std::vector<TileFacts> facts;                     ///< parallel
 };
 
-/// Tiles that the store has are taken from it, and it keeps the new ones.
+/// Tiles that the store has are taken from it, and it keeps the new ones; these have no texels yet.
 CastTiles castTiles(const CastInput& input, TileStore& store);
+
+/// Nothing of each tile.
+std::vector<TexelMarks> noTexels(const ShadowPlan& plan);
+
+/// Rasters what is to be read and was not made yet. `read`: one a tile. A texel is the same whichever others are made
+/// with it, before it or after it.
+void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTiles& cast);
 
 /// The tile's casters once more, with the number of the triangle nearest to the light in each texel; one sample a
 /// texel.

@@ -1,11 +1,13 @@
 #include "renderer/cpu/cpu_frame.h"
 
+#include <set>
 #include <utility>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
 #include "renderer/cpu/map_queries.h"
 #include "renderer/cpu/probe.h"
+#include "renderer/cpu/read_texels.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
@@ -57,20 +59,6 @@ Result<ReceiverDepths> CpuFrame::survey() {
   facts_.surveyedTriangles = survey_.triangles;
   endPass("survey", survey_.triangles);
   return survey_.receivers;
-}
-
-Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
-  const ShadowPlan& plan = input.plan;
-  passStart_ = Clock::now();
-  TileStore none(0);
-  cast_ = castTiles(castInput(plan), tiles == TileUse::kept ? shared_.tiles : none);
-  facts_.tiles = cast_.facts;
-  if (plan.atlasWidth == 0) return Done{};
-  std::uint64_t triangles = 0;
-  for (const TileFacts& tile : cast_.facts) triangles += tile.casterTriangles;
-  for (const auto& tile : cast_.tiles) facts_.memory.atlas += tile ? tile->bytes() : 0;
-  endPass("shadow", triangles);
-  return Done{};
 }
 
 const DepthBuffer& CpuFrame::surfaces(int samples) {
@@ -131,6 +119,57 @@ class ShownLights {
   glm::vec2 atlas_;
 };
 
+} // namespace
+
+Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
+  passStart_ = Clock::now();
+  TileStore none(0);
+  const ShadowPlan& plan = input.plan;
+  cast_ = castTiles(castInput(plan), tiles == TileUse::kept ? shared_.tiles : none);
+  facts_.tiles = cast_.facts;
+  if (plan.atlasWidth == 0) return Done{};
+  for (const ViewRequest& request : input.views) {
+    if (traitsOf(request.view).shadowed) surfaces(samplesOf(request));
+  }
+  passStart_ = Clock::now();
+  makeTexels(plan, readBy(input));
+  std::uint64_t triangles = 0;
+  for (const TileFacts& tile : cast_.facts) triangles += tile.casterTriangles;
+  for (const auto& tile : cast_.tiles) facts_.memory.atlas += tile ? tile->bytes() : 0;
+  endPass("shadow", triangles);
+  return Done{};
+}
+
+/// The texels that views read of the plan's tiles, for each tile.
+std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
+  std::vector<TexelMarks> read = noTexels(input.plan);
+  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  const ShadowMaps maps = lights.maps({});
+  std::set<int> done;
+  for (const ViewRequest& request : input.views) {
+    if (request.view == View::atlas) {
+      for (TexelMarks& tile : read) tile.markAll();
+    } else if (request.view == View::tile) {
+      read[static_cast<std::size_t>(input.tile - input.plan.tiles.data())].markAll();
+    } else if (traitsOf(request.view).shadowed && done.insert(samplesOf(request)).second) {
+      markReadTexels({scene_, surfaces(samplesOf(request)), maps, input.lightLists, input.debugLight}, read);
+    }
+  }
+  return read;
+}
+
+void CpuFrame::makeTexels(const ShadowPlan& plan, std::span<const TexelMarks> read) {
+  cpu::makeTexels(castInput(plan), read, cast_);
+  facts_.tiles = cast_.facts;
+}
+
+int CpuFrame::samplesOf(const ViewRequest& request) const {
+  const bool averaged = traitsOf(request.view).source == ViewSource::picture && request.antialiased;
+  return averaged ? survey_.buffer.samples : 1;
+}
+
+namespace {
+
 /// The nearest depth of each texel, put into the atlas row by row from the bottom.
 void addDepths(const ShadowTile& tile, const DepthBuffer& depths, const Rect& of, std::vector<float>& out) {
   for (int y = 0; y < tile.rect.height; ++y) {
@@ -170,8 +209,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
     pictures_.push_back(atlasPicture(input, request));
     return Done{};
   }
-  const bool averaged = traits.source == ViewSource::picture && request.antialiased;
-  const int samples = averaged ? survey_.buffer.samples : 1;
+  const int samples = samplesOf(request);
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
@@ -239,7 +277,13 @@ Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
 }
 
 Result<std::vector<float>> CpuFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {
-  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  std::vector<TexelMarks> read = noTexels(input.plan);
+  {
+    const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+    markProbed(lights.maps({}), scene_.frame, input.debugLight, points, read);
+  }
+  makeTexels(input.plan, read);
+  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_); // moments lie elsewhere now
   return probedShares(lights.maps({}), scene_.frame, input.debugLight, points);
 }
 

@@ -41,6 +41,9 @@ class CpuFrame : public FrameDrawing {
   CastInput castInput(const ShadowPlan& plan) const;
   const DepthBuffer& surfaces(int samples);
   Status needLayers(int samples);
+  int samplesOf(const ViewRequest& request) const; ///< a pixel
+  std::vector<TexelMarks> readBy(const ShowInput& input);
+  void makeTexels(const ShadowPlan& plan, std::span<const TexelMarks> read);
   Status showOne(const ShowInput& input, const ViewRequest& request);
   ShowJob jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const;
   std::vector<std::int32_t> slotNodes() const; ///< of each slot's instance

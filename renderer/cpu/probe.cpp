@@ -7,6 +7,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/cpu/debug_light-inl.h"
+#include "renderer/cpu/read_texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -56,6 +57,16 @@ void probeShares(const ShadowMaps& maps, const shared::FrameData& frame, int lig
   }
 }
 
+void markPoints(const ShadowMaps& maps, const shared::FrameData& frame, int light, std::span<const ProbePoint> points,
+                std::span<TexelMarks> marks) {
+  const LightData& data = maps.lights[light];
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, points.size() - first);
+    const Receiver receiver = receiverOf(frame, points.subspan(first, count));
+    markMapReads(maps, data, receiver, towardsLight(data, receiver.relative), marks);
+  }
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -64,6 +75,7 @@ namespace gnomon::cpu {
 namespace {
 
 HWY_EXPORT(probeShares);
+HWY_EXPORT(markPoints);
 
 constexpr std::size_t kPointsAPiece = 1024;
 
@@ -76,6 +88,13 @@ std::vector<float> probedShares(const ShadowMaps& maps, const shared::FrameData&
     HWY_DYNAMIC_DISPATCH(probeShares)(maps, frame, light, points.subspan(first, last - first), shares.data() + first);
   });
   return shares;
+}
+
+void markProbed(const ShadowMaps& maps, const shared::FrameData& frame, int light, std::span<const ProbePoint> points,
+                std::span<TexelMarks> marks) {
+  forEachPiece(points.size(), kPointsAPiece, [&](std::size_t first, std::size_t last) {
+    HWY_DYNAMIC_DISPATCH(markPoints)(maps, frame, light, points.subspan(first, last - first), marks);
+  });
 }
 
 } // namespace gnomon::cpu

@@ -32,8 +32,6 @@ HWY_INLINE Receiver instanceReceivers(const FrameScene& scene, std::uint32_t ins
   const Float3 offset(rows[0].w, rows[1].w, rows[2].w);
   const Sight sight = sightThrough(scene.frame, fragments.place);
   const Meeting meeting = meetingOf(sight, {turned(local.corner) + offset, turned(local.edge1), turned(local.edge2)});
-  const Float squared = dot(meeting.normal, meeting.normal);
-  const Mask directed = (squared > 1e-36f) & (squared < 1e36f);
   Receiver receiver;
   receiver.shown = fragments.shown;
   receiver.relative = sight.origin + sight.way * meeting.depth;
@@ -41,8 +39,10 @@ HWY_INLINE Receiver instanceReceivers(const FrameScene& scene, std::uint32_t ins
   receiver.groupBit = Int(1 << static_cast<int>(placed.normalFromLocal[0].w));
   receiver.place = fragments.place;
   receiver.samples = 1;
-  const Float3 toEye = -sight.way;
-  const Float3 face = select(directed, meeting.normal * inversesqrt(select(directed, squared, 1.0f)), normalize(toEye));
+  // As surfaces have them, to the bit: what is marked for these receivers is read for those.
+  const Float3 toEye = scene.frame.forward.w > 0.0f ? directionOf(-receiver.relative, -sight.way)
+                                                    : Float3(-glm::vec3(scene.frame.forward));
+  const Float3 face = directionOf(meeting.normal, toEye);
   receiver.normal = select(dot(face, toEye) < 0.0f, -face, face);
   return receiver;
 }

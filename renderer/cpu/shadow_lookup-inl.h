@@ -83,6 +83,12 @@ HWY_INLINE Lookup lookupIn(const LightData& light, const TileData& tile, const R
   return at;
 }
 
+/// Texels of the tile.
+HWY_INLINE Float2 placeIn(const ShadowMaps& maps, const TileMap& map, const Lookup& at) {
+  const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
+  return Float2(at.coordinate.x, at.coordinate.y) * Float2(maps.atlasTexels) - corner;
+}
+
 /// How the tile's depth changes on the receivers' planes with each texel.
 HWY_INLINE Float2 receiverSlope(const TileData& tile, const Receiver& receiver, const glm::vec3& lightPosition) {
   const Float2 across(along(tile.right, receiver.normal), along(tile.up, receiver.normal));

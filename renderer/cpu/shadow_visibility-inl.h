@@ -25,8 +25,7 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
   Lookup at = lookupIn(light, tile, receiver, toLight);
   const Mask read = asked & at.inside;
   if (none(read)) return 1.0f;
-  const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
-  const Float2 place = Float2(at.coordinate.x, at.coordinate.y) * Float2(maps.atlasTexels) - corner;
+  const Float2 place = placeIn(maps, map, at);
   if (GNOMON_READS_MOMENTS(light.filterKind)) {
     return select(at.inside, momentVisibility(map, place, momentDepth(tile, at), light.filterKind), 1.0f);
   }
@@ -93,25 +92,41 @@ inline Float layerVisibility(const ShadowMaps& maps, const LightData& light, con
   return select(receives, mix(1.0f, visibility, light.strength), 1.0f);
 }
 
+/// Which of a light's tiles are looked up for which lanes.
+struct MapReads {
+  TileChoice choice;
+  Mask served; ///< lanes whose shadow the tiles know
+  Mask asked;  ///< of these, the ones that texels are read for
+
+  /// Lanes that read the light's tile `index`.
+  HWY_INLINE Mask of(int index) const { return asked & ((choice.first == Int(index)) | (choice.second == Int(index))); }
+};
+
+/// Of a light that has tiles.
+HWY_INLINE MapReads mapReads(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                             const Float3& toLight, const Mask& needed) {
+  MapReads reads;
+  reads.choice = chooseTile(maps, light, receiver, toLight);
+  reads.served = receivesShadow(light, receiver) & reads.choice.covered;
+  reads.asked = andNot(isTurnedAway(receiver, toLight), needed & receiver.shown & reads.served);
+  return reads;
+}
+
 /// By the light's tiles; 1 where it has none. Otherwise as shadowVisibility.
 inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
                            const Float3& toLight, const Mask& needed) {
-  Mask asked = needed & receiver.shown;
-  if (light.tileCount == 0u || none(asked)) return 1.0f;
-  const TileChoice choice = chooseTile(maps, light, receiver, toLight);
-  const Mask served = receivesShadow(light, receiver) & choice.covered;
-  asked = andNot(isTurnedAway(receiver, toLight), asked & served);
+  if (light.tileCount == 0u || none(needed & receiver.shown)) return 1.0f;
+  const MapReads reads = mapReads(maps, light, receiver, toLight, needed);
   Float visibility = 0.0f;
-  for (int i = 0; i < static_cast<int>(light.tileCount) && any(asked); ++i) {
-    const Mask isFirst = choice.first == Int(i);
-    const Mask read = asked & (isFirst | (choice.second == Int(i)));
+  for (int i = 0; i < static_cast<int>(light.tileCount) && any(reads.asked); ++i) {
+    const Mask read = reads.of(i);
     if (none(read)) continue;
-    const Float share = select(isFirst, 1.0f - choice.blend, choice.blend);
+    const Float share = select(reads.choice.first == Int(i), 1.0f - reads.choice.blend, reads.choice.blend);
     const Float lit = tileVisibility(maps, light, static_cast<int>(light.firstTile) + i, receiver, toLight, read);
     visibility += select(read, share * lit, 0.0f);
   }
-  visibility = mix(visibility, 1.0f, choice.fade);
-  return select(served, mix(1.0f, visibility, light.strength), 1.0f);
+  visibility = mix(visibility, 1.0f, reads.choice.fade);
+  return select(reads.served, mix(1.0f, visibility, light.strength), 1.0f);
 }
 
 /// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes

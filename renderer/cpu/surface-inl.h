@@ -43,13 +43,6 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   return s;
 }
 
-/// Unit length; `otherwise` where it has no direction.
-HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
-  const Float squared = dot(v, v);
-  const Mask directed = (squared > 1e-36f) & (squared < 1e36f);
-  return select(directed, v * inversesqrt(select(directed, squared, 1.0f)), otherwise);
-}
-
 /// What triangles of one instance show.
 class InstanceSurface {
  public:

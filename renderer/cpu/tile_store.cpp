@@ -9,7 +9,7 @@ std::size_t RasteredTile::bytes() const {
          moments.size() * sizeof(glm::vec4);
 }
 
-std::shared_ptr<const RasteredTile> TileStore::find(const TileKey& key) {
+std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
   const auto found =
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
   if (found == entries_.end()) return nullptr;
@@ -17,11 +17,12 @@ std::shared_ptr<const RasteredTile> TileStore::find(const TileKey& key) {
   return found->tile;
 }
 
-void TileStore::keep(const TileKey& key, std::shared_ptr<const RasteredTile> tile) {
-  bytes_ += tile->bytes();
-  entries_.push_front({key, std::move(tile)});
+void TileStore::keep(const TileKey& key, std::shared_ptr<RasteredTile> tile) {
+  const std::size_t bytes = tile->bytes();
+  bytes_ += bytes;
+  entries_.push_front({key, std::move(tile), bytes});
   while (!entries_.empty() && bytes_ > budgetBytes_) {
-    bytes_ -= entries_.back().tile->bytes();
+    bytes_ -= entries_.back().bytes;
     entries_.pop_back();
   }
 }

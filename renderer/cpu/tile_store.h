@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "renderer/cpu/depth_buffer.h"
+#include "renderer/cpu/texel_marks.h"
 #include "renderer/prepare/tile_casters.h"
 
 namespace gnomon::cpu {
 
-/// One tile of the plan, rastered: its texels alone, from its own lowest corner.
+/// One tile of the plan: its texels alone, from its own lowest corner. Those that were never read are never rastered.
 struct RasteredTile {
   DepthBuffer depths;
+  TexelMarks made;                ///< the others hold anything
   std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty where its light's filter reads none
 
-  std::size_t bytes() const;
+  std::size_t bytes() const; ///< with what is not made yet, moments not
 };
 
 /// The tiles of the last frames, so that one that was rastered before need not be again. The least recently used are
@@ -25,13 +27,14 @@ class TileStore {
   explicit TileStore(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
   /// Null where it is not kept.
-  std::shared_ptr<const RasteredTile> find(const TileKey& key);
-  void keep(const TileKey& key, std::shared_ptr<const RasteredTile> tile);
+  std::shared_ptr<RasteredTile> find(const TileKey& key);
+  void keep(const TileKey& key, std::shared_ptr<RasteredTile> tile);
 
  private:
   struct Entry {
     TileKey key;
-    std::shared_ptr<const RasteredTile> tile;
+    std::shared_ptr<RasteredTile> tile;
+    std::size_t bytes = 0;
   };
 
   std::size_t budgetBytes_;

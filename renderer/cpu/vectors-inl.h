@@ -103,6 +103,13 @@ HWY_INLINE Float3 select(const Mask& where, const Float3& yes, const Float3& no)
   return {select(where, yes.x, no.x), select(where, yes.y, no.y), select(where, yes.z, no.z)};
 }
 
+/// Unit length; `otherwise` where it has no direction.
+HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
+  const Float squared = dot(v, v);
+  const Mask directed = (squared > 1e-36f) & (squared < 1e36f);
+  return select(directed, v * inversesqrt(select(directed, squared, 1.0f)), otherwise);
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif
