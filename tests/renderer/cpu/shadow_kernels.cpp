@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow_kernels.cpp"
 #include <hwy/foreach_target.h>
 
+#include "renderer/cpu/read_texels-inl.h"
 #include "renderer/cpu/shadow_visibility-inl.h"
 #include "tests/renderer/cpu/asked_points-inl.h"
 
@@ -16,6 +17,13 @@ void visibilities(const ShadowMaps& maps, std::span<const AskedPoint> points, fl
     alignas(64) float lanes[kLanes];
     store(shadowVisibility(maps, 0, packet.receiver, packet.toLight, packet.receiver.shown), lanes);
     std::copy_n(lanes, packet.count, out + first);
+  }
+}
+
+void marked(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks) {
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const PointPacket packet = pointPacket(points, first);
+    markMapReads(maps, maps.lights[0], packet.receiver, packet.toLight, marks);
   }
 }
 
@@ -34,10 +42,15 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 
 HWY_EXPORT(visibilities);
+HWY_EXPORT(marked);
 HWY_EXPORT(tints);
 
 void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out) {
   HWY_DYNAMIC_DISPATCH(visibilities)(maps, points, out);
+}
+
+void markByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks) {
+  HWY_DYNAMIC_DISPATCH(marked)(maps, points, marks);
 }
 
 void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {

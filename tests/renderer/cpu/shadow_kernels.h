@@ -4,6 +4,7 @@
 #include <span>
 
 #include "renderer/cpu/shadow_maps.h"
+#include "renderer/cpu/texel_marks.h"
 
 namespace gnomon::cpu {
 
@@ -22,6 +23,8 @@ struct AskedPoint {
 
 /// shadowVisibility of light 0.
 void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out);
+/// markMapReads of light 0.
+void markByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks);
 /// cascadeTint of light 0.
 void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out);
 

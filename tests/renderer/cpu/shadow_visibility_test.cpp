@@ -173,6 +173,61 @@ TEST(ShadowVisibility, LayersAreReadPixelByPixel) {
   }
 }
 
+/// Puts something else into every texel that is not marked.
+void poison(RandomMaps& maps, const std::vector<TexelMarks>& marks, float depth, float moment) {
+  for (std::size_t i = 0; i < maps.depths.size(); ++i) {
+    DepthBuffer& depths = maps.depths[i];
+    for (int y = 0; y < depths.height; ++y) {
+      for (int x = 0; x < depths.width; ++x) {
+        if (marks[i].any(x, y, x, y)) continue;
+        for (int s = 0; s < depths.samples; ++s) depths.depths[depths.at(x, y, s)] = depth;
+        if (maps.moments[i].empty()) continue;
+        maps.moments[i][static_cast<std::size_t>(y) * static_cast<std::size_t>(depths.width) +
+                        static_cast<std::size_t>(x)] = glm::vec4(moment);
+      }
+    }
+  }
+}
+
+TEST(ReadTexels, NothingButMarkedTexelsIsEverRead) {
+  for (const Case& each : kCases) {
+    SCOPED_TRACE(each.name);
+    std::mt19937 random(17);
+    const RandomMaps original = randomMaps(random, each.options);
+    const std::vector<AskedPoint> points = randomPoints(random, original, 200);
+    onEachInstructionSet([&] {
+      std::vector<float> expected(points.size());
+      visibilitiesByLanes(original.view(), points, expected.data());
+      std::vector<TexelMarks> marks;
+      for (const TileMap& map : original.maps) marks.emplace_back(map.rect.width, map.rect.height);
+      markByLanes(original.view(), points, marks);
+      EXPECT_TRUE(marks[0].any() || marks[1].any());
+      int marked = 0, texels = 0;
+      for (const TexelMarks& tile : marks) {
+        for (int i = 0; i < tile.width() * tile.height(); ++i) {
+          const int x = i % tile.width(), y = i / tile.width();
+          marked += tile.any(x, y, x, y) ? 1 : 0;
+          ++texels;
+        }
+      }
+      if (each.options.filterKind == GNOMON_FILTER_KERNEL) {
+        EXPECT_LT(marked, texels / 4) << "far fewer than all";
+      }
+      for (const float depth : {-1.0f, 2.0f}) {
+        RandomMaps poisoned = original;
+        poison(poisoned, marks, depth, 1e6f * depth);
+        for (std::size_t i = 0; i < poisoned.maps.size(); ++i) {
+          poisoned.maps[i].depths = &poisoned.depths[i];
+          poisoned.maps[i].moments = poisoned.moments[i];
+        }
+        std::vector<float> seen(points.size());
+        visibilitiesByLanes(poisoned.view(), points, seen.data());
+        EXPECT_EQ(seen, expected);
+      }
+    });
+  }
+}
+
 TEST(CascadeTint, LanesGiveWhatTheShadersText) {
   for (const int type : {GNOMON_DIRECTIONAL, GNOMON_POINT}) {
     std::mt19937 random(11);
