@@ -57,9 +57,8 @@ void rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& 
   raster({input.scene.scene, input.scene.slots, clip, draws, &holes, only}, DepthRange::clamped, buffer, input.scratch);
 }
 
-/// What goes into a tile of which an earlier frame does not have all.
+/// What goes into a tile that no earlier frame has left.
 void addCasters(const CastInput& input, std::span<const RasterDraw> draws, TileFacts& facts) {
-  facts.reused = false;
   facts.casterTriangles = trianglesOf(input.scene, draws);
   facts.culledTriangles = input.scene.view.triangles - facts.casterTriangles;
 }
@@ -90,7 +89,8 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
       continue;
     }
     cast.tiles[i] = std::make_shared<RasteredTile>();
-    cast.tiles[i]->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples);
+    const std::size_t bytes = DepthBuffer{tile.rect.width, tile.rect.height, samples}.places() * sizeof(float);
+    cast.tiles[i]->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, store.room(bytes));
     cast.tiles[i]->made = TexelMarks(tile.rect.width, tile.rect.height);
     store.keep(key, cast.tiles[i]);
     addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
@@ -117,7 +117,6 @@ void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTi
     if (!wanted.any()) continue;
     const auto start = std::chrono::steady_clock::now();
     std::vector<RasterDraw> draws = rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots);
-    addCasters(input, draws, cast.facts[i]);
     draws = drawsInto(input, tile, wanted, std::move(draws));
     rasterCasters(input, tile, *lightOf[i], draws, &wanted, made.depths);
     made.made.add(wanted);

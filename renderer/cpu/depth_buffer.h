@@ -36,12 +36,14 @@ struct DepthBuffer {
   int width = 0; ///< places; those beyond it, to the end of the last block, are rastered and mean nothing
   int height = 0;
   int samples = 1; ///< a place: 1 or 4
-  std::vector<float, Unfilled<float>> depths;
-  std::vector<std::uint32_t> triangles; ///< parallel to depths; empty = not asked for
+  std::vector<float, Unfilled<float>> depths{};
+  std::vector<std::uint32_t> triangles{}; ///< parallel to depths; empty = not asked for
 
   int blocksAcross() const { return (width + kBlockSide - 1) / kBlockSide; }
   int blocksUp() const { return (height + kBlockSide - 1) / kBlockSide; }
   std::size_t blocks() const { return static_cast<std::size_t>(blocksAcross()) * static_cast<std::size_t>(blocksUp()); }
+  /// Values of all samples.
+  std::size_t places() const { return blocks() * static_cast<std::size_t>(samples) * kBlockPlaces; }
 
   /// Where the 16 places of a block lie: that many values of a sample follow each other, row by row.
   std::size_t blockAt(int column, int row, int sample = 0) const {

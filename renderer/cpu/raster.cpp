@@ -210,7 +210,10 @@ std::span<const glm::ivec2> samplePlaces(int samples) {
 
 DepthBuffer unfilledBuffer(int width, int height, int samples, DepthBuffer storage) {
   DepthBuffer buffer{width, height, samples, std::move(storage.depths), {}};
-  buffer.depths.resize(buffer.blocks() * static_cast<std::size_t>(samples) * kBlockPlaces);
+  // What was there need not be copied.
+  buffer.depths.clear();
+  if (buffer.depths.capacity() < buffer.places()) buffer.depths = {};
+  buffer.depths.resize(buffer.places());
   return buffer;
 }
 

@@ -1,7 +1,6 @@
 #include "renderer/cpu/texel_marks.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace gnomon::cpu {
 
@@ -33,10 +32,9 @@ bool TexelMarks::any() const {
   return std::any_of(squares_.begin(), squares_.end(), [](std::uint64_t square) { return square != 0; });
 }
 
-void TexelMarks::mark(int x0, int y0, int x1, int y1) {
+void TexelMarks::markRest(int x0, int y0, int x1, int y1) {
   forEachSquare(x0, y0, x1, y1, [&](std::size_t square, std::uint64_t bits) {
     const std::atomic_ref<std::uint64_t> own(squares_[square]);
-    // Most are marked already, and looking costs less than marking.
     if ((own.load(std::memory_order_relaxed) & bits) != bits) own.fetch_or(bits, std::memory_order_relaxed);
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,7 +43,10 @@ class TexelMarks {
   bool any() const;
 
   /// The same texels, and what shares a block with them. From several threads at once.
-  void mark(int x0, int y0, int x1, int y1);
+  void mark(int x0, int y0, int x1, int y1) {
+    // Most are marked already, and looking costs less than marking.
+    if (!areMarked(x0, y0, x1, y1)) markRest(x0, y0, x1, y1);
+  }
   void markAll();
 
   void add(const TexelMarks& other);
@@ -50,6 +54,16 @@ class TexelMarks {
   TexelMarks without(const TexelMarks& other) const;
 
  private:
+  /// Of texels in one square; false where they lie in several.
+  bool areMarked(int x0, int y0, int x1, int y1) {
+    if (x0 < 0 || y0 < 0 || x1 >= width_ || y1 >= height_) return false;
+    if ((x0 ^ x1) >= kMarkSquare || (y0 ^ y1) >= kMarkSquare) return false;
+    const auto square = static_cast<std::size_t>(y0 / kMarkSquare * across_ + x0 / kMarkSquare);
+    const std::uint64_t bits =
+        blockBits(x0 / kMarkSide % 8, x1 / kMarkSide % 8, y0 / kMarkSide % 8, y1 / kMarkSide % 8);
+    return (std::atomic_ref(squares_[square]).load(std::memory_order_relaxed) & bits) == bits;
+  }
+  void markRest(int x0, int y0, int x1, int y1);
   template <class Each>
   void forEachSquare(int x0, int y0, int x1, int y1, const Each& each) const;
 

@@ -17,14 +17,23 @@ std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
   return found->tile;
 }
 
-void TileStore::keep(const TileKey& key, std::shared_ptr<RasteredTile> tile) {
-  const std::size_t bytes = tile->bytes();
-  bytes_ += bytes;
-  entries_.push_front({key, std::move(tile), bytes});
-  while (!entries_.empty() && bytes_ > budgetBytes_) {
-    bytes_ -= entries_.back().bytes;
+DepthBuffer TileStore::room(std::size_t bytes) {
+  DepthBuffer storage;
+  while (!entries_.empty() && bytes_ + bytes > budgetBytes_) {
+    Entry& last = entries_.back();
+    if (last.tile.use_count() == 1) storage = std::move(last.tile->depths);
+    bytes_ -= last.bytes;
     entries_.pop_back();
   }
+  return storage;
+}
+
+void TileStore::keep(const TileKey& key, std::shared_ptr<RasteredTile> tile) {
+  const std::size_t bytes = tile->bytes();
+  room(bytes);
+  if (bytes_ + bytes > budgetBytes_) return;
+  bytes_ += bytes;
+  entries_.push_front({key, std::move(tile), bytes});
 }
 
 } // namespace gnomon::cpu

@@ -28,6 +28,9 @@ class TileStore {
 
   /// Null where it is not kept.
   std::shared_ptr<RasteredTile> find(const TileKey& key);
+  /// Drops what has to go so that `bytes` more may be kept. Gives a buffer of what was dropped, whose memory may be
+  /// used again; an empty one where none was.
+  DepthBuffer room(std::size_t bytes);
   void keep(const TileKey& key, std::shared_ptr<RasteredTile> tile);
 
  private:

@@ -20,7 +20,7 @@ struct TileFacts {
   std::uint64_t casterTriangles = 0;
   std::uint64_t culledTriangles = 0;
   std::size_t drawCalls = 0;
-  bool reused = false;            ///< an earlier frame's tile serves; nothing was drawn
+  bool reused = false;            ///< an earlier frame's tile serves; at most texels that none has read were added
   std::optional<WorkTime> time{}; ///< absent where nothing was drawn
 };
 
