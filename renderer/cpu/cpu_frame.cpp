@@ -48,7 +48,22 @@ CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
           cached_.id, work_.frame.scene, shared_.scratch};
 }
 
+Status CpuFrame::needHoles() {
+  std::vector<TextureImage> holes;
+  for (const int image : alphaImages(*work_.scene, view_)) holes.push_back({image, true});
+  return cached_.textures->need(holes);
+}
+
+Status CpuFrame::needTextures() {
+  std::vector<int> materials;
+  for (std::size_t i = 0; i < scene_.slots.size(); ++i) {
+    if (survey_.visible[i] != 0) materials.push_back(scene_.slots[i].material);
+  }
+  return cached_.textures->need(textureImages(*work_.scene, materials));
+}
+
 Result<ReceiverDepths> CpuFrame::survey() {
+  if (const Status made = needHoles(); !made) return made.problems();
   passStart_ = Clock::now();
   const int samples = work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
   survey_ = surveyScene(camera(), samples, std::exchange(shared_.storage[samples], {}));
@@ -213,6 +228,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
+  if (const Status made = needTextures(); !made) return made.problems();
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
   const bool full = request.fullStrength;

@@ -40,6 +40,8 @@ class CpuFrame : public FrameDrawing {
   CameraRaster camera() const;
   CastInput castInput(const ShadowPlan& plan) const;
   const DepthBuffer& surfaces(int samples);
+  Status needHoles();    ///< textures that tell where surfaces have holes
+  Status needTextures(); ///< of all that may be seen
   Status needLayers(int samples);
   int samplesOf(const ViewRequest& request) const; ///< a pixel
   std::vector<TexelMarks> readBy(const ShowInput& input);

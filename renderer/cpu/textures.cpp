@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/core/parallel.h"
+
 namespace gnomon::cpu {
 namespace {
 
@@ -112,14 +114,28 @@ Pyramid pyramidOf(const Image& image, bool srgb) {
   return pyramid;
 }
 
-Textures::Textures(std::vector<std::shared_ptr<const Image>> images)
+Textures::Textures(SceneImages images)
     : images_(std::move(images)), made_(std::make_unique<Made[]>(2 * images_.size())) {}
 
+Status Textures::need(std::span<const TextureImage> wanted) const {
+  std::vector<TextureImage> missing;
+  std::vector<int> images;
+  for (const TextureImage& each : wanted) {
+    if (madeOf(each.image, each.srgb).ready.load(std::memory_order_acquire) != nullptr) continue;
+    missing.push_back(each);
+    if (images.empty() || images.back() != each.image) images.push_back(each.image);
+  }
+  if (missing.empty()) return Done{};
+  if (Status decoded = decodeImages(images_, images); !decoded) return decoded;
+  forEach(missing.size(), [&](std::size_t i) { make(missing[i].image, missing[i].srgb); });
+  return Done{};
+}
+
 const Pyramid& Textures::make(int image, bool srgb) const {
-  Made& made = made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)];
+  Made& made = madeOf(image, srgb);
   const std::lock_guard lock(made.making);
   if (!made.pyramid) {
-    made.pyramid = std::make_unique<const Pyramid>(pyramidOf(*images_[static_cast<std::size_t>(image)], srgb));
+    made.pyramid = std::make_unique<const Pyramid>(pyramidOf(images_[static_cast<std::size_t>(image)]->pixels(), srgb));
     for (const auto& level : made.pyramid->owned) bytes_ += level.size() * sizeof(level[0]);
     made.ready.store(made.pyramid.get(), std::memory_order_release);
   }

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/texture_images.h"
 
 namespace gnomon::cpu {
 
@@ -28,15 +29,17 @@ struct Pyramid {
 /// The smaller levels average in linear light where the image is sRGB, as OpenGL's do. The image outlives the pyramid.
 Pyramid pyramidOf(const Image& image, bool srgb);
 
-/// A scene's textures, each made when it is first asked for, from any thread. The images outlive it.
+/// A scene's textures, each made when it is first needed, from any thread.
 class Textures {
  public:
-  explicit Textures(std::vector<std::shared_ptr<const Image>> images);
+  explicit Textures(SceneImages images);
 
-  /// REQUIRES: an index into Scene::images.
+  /// Makes these now, in parallel. The problems of images that can't be decoded.
+  Status need(std::span<const TextureImage> wanted) const;
+
+  /// REQUIRES: an index into Scene::images, of an image that can be decoded.
   const Pyramid& of(int image, bool srgb) const {
-    const Made& made = made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)];
-    const Pyramid* pyramid = made.ready.load(std::memory_order_acquire);
+    const Pyramid* pyramid = madeOf(image, srgb).ready.load(std::memory_order_acquire);
     return pyramid != nullptr ? *pyramid : make(image, srgb);
   }
 
@@ -50,9 +53,10 @@ class Textures {
     std::unique_ptr<const Pyramid> pyramid;
   };
 
+  Made& madeOf(int image, bool srgb) const { return made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)]; }
   const Pyramid& make(int image, bool srgb) const;
 
-  std::vector<std::shared_ptr<const Image>> images_;
+  SceneImages images_;
   std::unique_ptr<Made[]> made_; ///< two an image: linear and sRGB
   mutable std::atomic<std::size_t> bytes_{0};
 };

@@ -82,23 +82,6 @@ Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
   return Done{};
 }
 
-/// What is handed to the library: a file, and another one for its alpha where that is read on its own.
-struct Essential {
-  Bytes picture;
-  Bytes alpha{};
-};
-
-Result<Essential> essentialOf(codec::Format format, EncodedBytes encoded) {
-  if (format == codec::Format::webp) {
-    auto webp = essentialWebp(encoded);
-    if (!webp) return std::move(webp).problems();
-    return Essential{std::move(webp->color), std::move(webp->alpha)};
-  }
-  auto picture = format == codec::Format::png ? essentialPng(encoded) : essentialJpeg(encoded);
-  if (!picture) return std::move(picture).problems();
-  return Essential{*std::move(picture)};
-}
-
 } // namespace
 
 Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType) {
@@ -133,25 +116,41 @@ Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
   return unsupportedImage("The image is no PNG, JPEG or WebP.");
 }
 
-Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
+Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
   const auto size = imageSize(encoded);
   if (!size) return size.problems();
   if (auto status = checkSize(*size, maxSide, maxPixels); !status) return std::move(status).problems();
   const codec::Format format = *formatOf(encoded);
-  const auto essential = essentialOf(format, encoded);
-  if (!essential) return essential.problems();
+  if (format == codec::Format::webp) {
+    auto webp = essentialWebp(encoded);
+    if (!webp) return std::move(webp).problems();
+    return CheckedImage{format, *size, std::move(webp->color), std::move(webp->alpha)};
+  }
+  auto picture = format == codec::Format::png ? essentialPng(encoded) : essentialJpeg(encoded);
+  if (!picture) return std::move(picture).problems();
+  return CheckedImage{format, *size, *std::move(picture)};
+}
+
+Result<Image> decodeImage(const CheckedImage& image) {
   auto codec = imageCodec();
   if (!codec) return std::move(codec).problems();
-  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) * 4);
+  const auto [width, height] = image.size;
+  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   std::string message;
-  const auto decodeWith = [&](auto decode, const Bytes& file) {
-    return decode(format, file.data(), file.size(), size->width, size->height, rgba.data(), sinkInto(message));
+  const auto decodeWith = [&, width = width, height = height](auto decode, const Bytes& file) {
+    return decode(image.format, file.data(), file.size(), width, height, rgba.data(), sinkInto(message));
   };
-  if (!decodeWith((*codec)->decode, essential->picture) ||
-      (!essential->alpha.empty() && !decodeWith((*codec)->decodeAlpha, essential->alpha))) {
+  if (!decodeWith((*codec)->decode, image.picture) ||
+      (!image.alpha.empty() && !decodeWith((*codec)->decodeAlpha, image.alpha))) {
     return failure(ProblemCode::malformed, "The image could not be decoded", message);
   }
-  return Image{size->width, size->height, {"R", "G", "B", "A"}, std::move(rgba)};
+  return Image{width, height, {"R", "G", "B", "A"}, std::move(rgba)};
+}
+
+Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
+  const auto checked = checkImage(encoded, maxSide, maxPixels);
+  if (!checked) return checked.problems();
+  return decodeImage(*checked);
 }
 
 void warmImageCodec() {

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/output_options.h"
+#include "renderer/image/codec_table.h"
 #include "renderer/image/image.h"
 
 namespace gnomon {
@@ -32,8 +34,22 @@ Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compr
 /// Size of a PNG, JPEG or still WebP, told by its signature and header; anything else is unsupportedFeature.
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
 
-/// Decodes a PNG, JPEG or still WebP to 8-bit RGBA, refusing before any pixel is decoded when it is larger than
-/// `maxSide` a side or `maxPixels` in all.
+/// An encoded image whose header and structure hold, with nothing but what its pixels depend on.
+struct CheckedImage {
+  codec::Format format = codec::Format::png;
+  ImageSize size;
+  Bytes picture;
+  Bytes alpha{}; ///< of a WebP with alpha, which is read on its own; else empty
+};
+
+/// Checks a PNG, JPEG or still WebP without decoding a pixel. Refuses what is larger than `maxSide` a side or
+/// `maxPixels` in all.
+Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
+
+/// Decodes it to 8-bit RGBA.
+Result<Image> decodeImage(const CheckedImage& image);
+
+/// Both in turn.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
 
 /// Loads the image library now, so that the first picture does not wait for it. Safe from any thread.

@@ -1,5 +1,8 @@
 #include "renderer/passes/gl_device.h"
 
+#include <numeric>
+#include <vector>
+
 #include "renderer/gl/context.h"
 #include "renderer/passes/gl_frame.h"
 
@@ -13,7 +16,11 @@ class GlDevice : public Device {
 
   const RendererInfo& info() const override { return context_->info(); }
 
+  /// Uploading a scene takes all of its images.
   Result<std::unique_ptr<FrameDrawing>> begin(const FrameWork& work) override {
+    std::vector<int> images(work.scene->images.size());
+    std::iota(images.begin(), images.end(), 0);
+    if (const Status decoded = decodeImages(work.scene->images, images); !decoded) return decoded.problems();
     return std::unique_ptr<FrameDrawing>(std::make_unique<GlFrame>(shared_, work));
   }
 

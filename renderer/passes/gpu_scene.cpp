@@ -54,7 +54,7 @@ class TextureUpload {
   int texture(int image, bool srgb) {
     const auto [found, added] = textures_.try_emplace({image, srgb}, static_cast<int>(gpu_.textures.size()));
     if (added) {
-      const Image& source = *scene_.images[static_cast<std::size_t>(image)];
+      const Image& source = scene_.images[static_cast<std::size_t>(image)]->pixels();
       const int levels = gl::fullLevels(source.width, source.height);
       gl::Texture made({srgb ? static_cast<GLenum>(GL_SRGB8_ALPHA8) : static_cast<GLenum>(GL_RGBA8), source.width,
                         source.height, levels, 0},

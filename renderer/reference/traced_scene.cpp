@@ -6,6 +6,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/reference/tree.h"
+#include "renderer/scene/texture_images.h"
 
 namespace gnomon {
 namespace {
@@ -116,6 +117,10 @@ TracedScene::~TracedScene() = default;
 
 Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int index) {
   try {
+    const SceneView& view = scene->scenes[static_cast<std::size_t>(index)];
+    if (Status decoded = decodeImages(scene->images, alphaImages(*scene, view)); !decoded) {
+      return std::move(decoded).problems();
+    }
     auto tree = std::make_unique<Tree>();
     tree->view = &scene->scenes[static_cast<std::size_t>(index)];
     tree->scene = std::move(scene);

@@ -11,7 +11,7 @@
 #include "protocol/report/replies.h"
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
-#include "renderer/image/image.h"
+#include "renderer/scene/scene_image.h"
 
 namespace gnomon {
 
@@ -159,7 +159,8 @@ struct Deformation;
 struct Motion;
 class PoseCache;
 
-/// A loaded glTF file, shared between threads: immutable but for `poses`, which locks itself. At least one scene.
+/// A loaded glTF file, shared between threads: immutable but for `poses` and `images`, which lock
+/// themselves. At least one scene.
 struct Scene {
   std::vector<glm::vec3> positions;         ///< of all primitives
   std::vector<VertexAttributes> attributes; ///< parallel to positions
@@ -167,14 +168,14 @@ struct Scene {
   std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
-  std::vector<Material> materials;                  ///< at least one (the default material)
-  std::vector<std::shared_ptr<const Image>> images; ///< 8-bit RGBA
-  std::vector<SceneNode> nodes;                     ///< as the file numbers them
-  std::shared_ptr<const Deformation> deformation;   ///< of skins and morph targets; nullptr = nothing deforms
-  std::shared_ptr<const Motion> motion;             ///< of animations; nullptr = nothing moves
-  std::shared_ptr<PoseCache> poses;                 ///< the last poses asked for; beside motion
-  std::vector<SceneView> scenes;                    ///< the file's, and then all of them again for each variant
-  std::vector<std::string> variants;                ///< names of the file's material variants
+  std::vector<Material> materials;                ///< at least one (the default material)
+  SceneImages images;                             ///< decoded when a frame needs them
+  std::vector<SceneNode> nodes;                   ///< as the file numbers them
+  std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
+  std::shared_ptr<const Motion> motion;           ///< of animations; nullptr = nothing moves
+  std::shared_ptr<PoseCache> poses;               ///< the last poses asked for; beside motion
+  std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
+  std::vector<std::string> variants;              ///< names of the file's material variants
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it
 };

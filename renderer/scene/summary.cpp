@@ -56,10 +56,7 @@ MemorySummary memoryOf(const Scene& scene) {
   MemorySummary memory;
   memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
   memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded) + bytesIn(scene.clusters);
-  for (const auto& image : scene.images) {
-    memory.images +=
-        std::uint64_t{4} * static_cast<std::uint64_t>(image->width) * static_cast<std::uint64_t>(image->height);
-  }
+  for (const auto& image : scene.images) memory.images += image->bytes();
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
   memory.structure = bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes);
   for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();

@@ -33,8 +33,9 @@ void requireWithin(const Scene& scene, const Limits& limits) {
   fuzz::require(!scene.scenes.empty(), "a scene that loads has a scene");
   fuzz::require(scene.summary.triangles <= limits.maxTriangles, "no more triangles than the limit");
   for (const auto& image : scene.images) {
-    fuzz::require(image->width <= limits.maxImageSide && image->height <= limits.maxImageSide,
+    fuzz::require(image->width() <= limits.maxImageSide && image->height() <= limits.maxImageSide,
                   "images within the limit");
+    if (const Status decoded = image->decode(); !decoded) fuzz::requireSound(decoded.problems());
   }
 }
 

@@ -50,17 +50,6 @@ std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material
   return slots;
 }
 
-/// Puts the place in the glTF on problems of the codec, which knows only bytes.
-Problems located(Problems problems, const std::string& pointer) {
-  for (Problem& problem : problems) {
-    problem.pointer = pointer;
-    if (problem.code == ProblemCode::malformed || problem.code == ProblemCode::invalidValue) {
-      problem.code = ProblemCode::invalidScene;
-    }
-  }
-  return problems;
-}
-
 void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, const Limits& limits,
                 Findings& findings) {
   std::int64_t pixels = 0;
@@ -69,7 +58,7 @@ void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, c
     const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
     auto size = imageSize(document.images[static_cast<std::size_t>(image)].view());
     if (!size) {
-      findings.take(located(std::move(size).problems(), pointer));
+      findings.take(locatedImageProblems(std::move(size).problems(), pointer));
       continue;
     }
     const std::string actual = std::to_string(size->width) + " x " + std::to_string(size->height);
@@ -92,20 +81,21 @@ void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, c
 
 } // namespace
 
-std::vector<std::shared_ptr<const Image>> loadImages(const GltfDocument& document, const Limits& limits,
-                                                     std::vector<Material>& materials, Findings& findings) {
+SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
+                       Findings& findings) {
   const std::map<int, int> slots = usedImages(document, materials, findings);
   checkSizes(document, slots, limits, findings);
-  std::vector<std::shared_ptr<const Image>> images;
+  SceneImages images;
   if (findings.refused()) return images;
   for (const auto& [image, slot] : slots) {
     if (slot < 0) continue;
-    auto decoded = decodeImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide,
-                               limits.maxImagePixels);
-    if (decoded) {
-      images.push_back(std::make_shared<const Image>(*std::move(decoded)));
+    const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
+    auto checked =
+        checkImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide, limits.maxImagePixels);
+    if (checked) {
+      images.push_back(std::make_shared<const SceneImage>(*std::move(checked), pointer));
     } else {
-      findings.take(located(std::move(decoded).problems(), pointerTo("/images", static_cast<std::size_t>(image))));
+      findings.take(locatedImageProblems(std::move(checked).problems(), pointer));
     }
   }
   for (Material& material : materials) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "protocol/spec/limits.h"
@@ -10,9 +9,10 @@
 
 namespace gnomon {
 
-/// Decodes the images that the materials use, after the sizes of all of them have been held against the limits,
-/// and points the materials' textures at them. A texture in a format that is not supported is left out with a warning.
-std::vector<std::shared_ptr<const Image>> loadImages(const GltfDocument& document, const Limits& limits,
-                                                     std::vector<Material>& materials, Findings& findings);
+/// Takes over the images that the materials use, still encoded, after the sizes of all of them and the structure of
+/// each have been checked, and points the materials' textures at them. A texture in a format that is not supported is
+/// left out with a warning.
+SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
+                       Findings& findings);
 
 } // namespace gnomon

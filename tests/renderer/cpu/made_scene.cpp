@@ -31,7 +31,8 @@ void MadeScene::place(const std::vector<Material>& materials, std::vector<std::s
   const auto number = [&] { return spread(generator_); };
   const auto vector = [&] { return glm::vec3(number(), number(), number()); };
   scene_.materials = materials;
-  scene_.images = std::move(images);
+  scene_.images.clear();
+  for (const auto& image : images) scene_.images.push_back(std::make_shared<const SceneImage>(*image));
   textures_ = std::make_unique<Textures>(scene_.images);
   for (std::size_t i = 0; i < materials.size(); ++i) {
     Primitive primitive;

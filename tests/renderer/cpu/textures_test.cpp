@@ -56,8 +56,14 @@ TEST(CpuTextures, WhereASizeIsOddATexelIsMixedFromTheTwoAroundIt) {
   EXPECT_LT(glm::length(texelOf(pyramid.levels[1].texels[1], false) - second), 1.01 / 255);
 }
 
+SceneImages noises(std::initializer_list<int> sides) {
+  SceneImages images;
+  for (const int side : sides) images.push_back(std::make_shared<const SceneImage>(*noise(side, side)));
+  return images;
+}
+
 TEST(CpuTextures, AreMadeOnceWhoeverAsks) {
-  const Textures textures({noise(256, 256), noise(8, 8)});
+  const Textures textures(noises({256, 8}));
   EXPECT_EQ(textures.bytes(), 0u);
   std::vector<const Pyramid*> found(4);
   std::vector<std::thread> threads;
@@ -66,6 +72,24 @@ TEST(CpuTextures, AreMadeOnceWhoeverAsks) {
   for (const Pyramid* pyramid : found) EXPECT_EQ(pyramid, found[0]);
   EXPECT_EQ(textures.bytes(), (256u * 256u - 1u) / 3u * 4u);
   EXPECT_NE(&textures.of(0, false), found[0]);
+}
+
+TEST(CpuTextures, AreMadeAheadWhereTheyAreNeededAndTellOfBrokenImages) {
+  SceneImages images = noises({16, 8});
+  const CheckedImage broken{codec::Format::png, {4, 4}, Bytes(60, 0)};
+  images.push_back(std::make_shared<const SceneImage>(broken, "/images/7"));
+  const Textures textures(images);
+  const std::vector<TextureImage> sound{{0, false}, {0, true}, {1, true}};
+  ASSERT_TRUE(textures.need(sound));
+  const std::size_t bytes = textures.bytes();
+  EXPECT_EQ(bytes, 4u * (2 * (16u * 16u - 1u) / 3u + (8u * 8u - 1u) / 3u));
+  (void)textures.of(1, true);
+  ASSERT_TRUE(textures.need(sound));
+  EXPECT_EQ(textures.bytes(), bytes) << "nothing is made twice";
+  const Status missed = textures.need(std::vector<TextureImage>{{1, true}, {2, false}});
+  ASSERT_FALSE(missed);
+  EXPECT_EQ(missed.problems().front().code, ProblemCode::invalidScene);
+  EXPECT_EQ(missed.problems().front().pointer, "/images/7");
 }
 
 /// Coordinates from -3 to 3, and steps from a 30th of a texel to more than the whole texture.

@@ -104,10 +104,10 @@ TEST(Materials, ReadsTexturesWithTheirSampler) {
   EXPECT_EQ(material.normalScale, 0.5f);
   EXPECT_EQ(material.occlusionStrength, 0.25f);
   ASSERT_EQ(scene.images.size(), 1u);
-  EXPECT_EQ(scene.images[0]->width, 3);
-  EXPECT_EQ(scene.images[0]->height, 2);
-  EXPECT_EQ(std::get<0>(scene.images[0]->pixels).size(), 24u) << "RGBA";
-  EXPECT_EQ(std::get<0>(scene.images[0]->pixels)[0], 200);
+  EXPECT_EQ(scene.images[0]->width(), 3);
+  EXPECT_EQ(scene.images[0]->height(), 2);
+  EXPECT_EQ(std::get<0>(scene.images[0]->pixels().pixels).size(), 24u) << "RGBA";
+  EXPECT_EQ(std::get<0>(scene.images[0]->pixels().pixels)[0], 200);
 }
 
 TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
@@ -120,7 +120,7 @@ TEST(Materials, DecodesOnlyTheImagesThatAreUsed) {
   ASSERT_EQ(scene.images.size(), 2u);
   EXPECT_EQ(onlyMaterial(scene).baseColor->image, 0);
   EXPECT_EQ(onlyMaterial(scene).emissive->image, 1);
-  EXPECT_EQ(std::get<0>(scene.images[1]->pixels)[0], 20);
+  EXPECT_EQ(std::get<0>(scene.images[1]->pixels().pixels)[0], 20);
 }
 
 TEST(Materials, LeavesOutTexturesInOtherFormats) {
@@ -167,10 +167,10 @@ TEST(Materials, WebpWinsOverTheFallback) {
     const Scene scene = load(builder);
     EXPECT_THAT(scene.summary.warnings, IsEmpty());
     ASSERT_EQ(scene.images.size(), 1u);
-    EXPECT_EQ(std::get<0>(scene.images[0]->pixels), pixel) << "straight alpha";
+    EXPECT_EQ(std::get<0>(scene.images[0]->pixels().pixels), pixel) << "straight alpha";
   }
   builder.json["textures"][0] = {{"source", 0}, {"extensions", {{"EXT_texture_webp", json::object()}}}};
-  EXPECT_EQ(std::get<0>(load(builder).images.at(0)->pixels)[0], 10) << "the extension names no image";
+  EXPECT_EQ(std::get<0>(load(builder).images.at(0)->pixels().pixels)[0], 10) << "the extension names no image";
 }
 
 TEST(Materials, RefusesWebpThatIsBrokenAnimatedOrTooLarge) {

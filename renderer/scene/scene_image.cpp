@@ -1,0 +1,66 @@
+#include "renderer/scene/scene_image.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "renderer/core/parallel.h"
+
+namespace gnomon {
+
+SceneImage::SceneImage(CheckedImage file, std::string pointer)
+    : size_(file.size),
+      bytes_(std::max(
+          std::uint64_t{4} * static_cast<std::uint64_t>(size_.width) * static_cast<std::uint64_t>(size_.height),
+          std::uint64_t{file.picture.size() + file.alpha.size()})),
+      pointer_(std::move(pointer)),
+      file_(std::move(file)) {}
+
+SceneImage::SceneImage(Image decoded)
+    : size_{decoded.width, decoded.height},
+      bytes_(std::get<std::vector<std::uint8_t>>(decoded.pixels).size()),
+      decoded_(std::move(decoded)) {}
+
+const Result<Image>& SceneImage::decoded() const {
+  std::call_once(once_, [this] {
+    if (decoded_) return;
+    decoded_ = decodeImage(*file_);
+    file_.reset();
+  });
+  return *decoded_;
+}
+
+Status SceneImage::decode() const {
+  try {
+    const Result<Image>& image = decoded();
+    if (image) return Done{};
+    return locatedImageProblems(image.problems(), pointer_);
+  } catch (const std::bad_alloc&) {
+    return Problem{ProblemCode::tooLarge, pointer_, "There is not enough memory for this image."};
+  }
+}
+
+Problems locatedImageProblems(Problems problems, const std::string& pointer) {
+  for (Problem& problem : problems) {
+    problem.pointer = pointer;
+    if (problem.code == ProblemCode::malformed || problem.code == ProblemCode::invalidValue) {
+      problem.code = ProblemCode::invalidScene;
+    }
+  }
+  return problems;
+}
+
+Status decodeImages(const SceneImages& images, std::span<const int> indices) {
+  std::vector<Problems> found(indices.size());
+  forEach(indices.size(), [&](std::size_t i) {
+    if (const Status done = images[static_cast<std::size_t>(indices[i])]->decode(); !done) found[i] = done.problems();
+  });
+  ProblemList all;
+  for (Problems& problems : found) {
+    for (Problem& problem : problems) all.add(std::move(problem));
+  }
+  if (all.empty()) return Done{};
+  return std::move(all).take();
+}
+
+} // namespace gnomon

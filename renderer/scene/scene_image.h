@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "renderer/image/image.h"
+#include "renderer/image/image_codec.h"
+
+namespace gnomon {
+
+/// A picture of a scene's file, whose size and structure have been checked. Its pixels are decoded when they are first
+/// asked for: once, from any thread; the encoded bytes are gone then.
+class SceneImage {
+ public:
+  /// `pointer`: its place in the file, for problems.
+  SceneImage(CheckedImage file, std::string pointer);
+  /// One that needs no decoding: 8-bit RGBA.
+  explicit SceneImage(Image decoded);
+
+  int width() const { return size_.width; }
+  int height() const { return size_.height; }
+  /// The most that it takes: its pixels, or its file where that is larger.
+  std::uint64_t bytes() const { return bytes_; }
+
+  /// Decodes it now, if that has not been done. A problem, at its place in the file, where its data are broken.
+  Status decode() const;
+  /// 8-bit RGBA. REQUIRES: decode() gives no problem.
+  const Image& pixels() const { return *decoded(); }
+
+ private:
+  const Result<Image>& decoded() const;
+
+  ImageSize size_;
+  std::uint64_t bytes_ = 0;
+  std::string pointer_;
+  mutable std::once_flag once_;
+  mutable std::optional<CheckedImage> file_;
+  mutable std::optional<Result<Image>> decoded_;
+};
+
+/// Puts the place in the glTF on problems of the codec, which knows only bytes.
+Problems locatedImageProblems(Problems problems, const std::string& pointer);
+
+using SceneImages = std::vector<std::shared_ptr<const SceneImage>>;
+
+/// Decodes those with these indices, in parallel. The problems of all, in their order.
+Status decodeImages(const SceneImages& images, std::span<const int> indices);
+
+} // namespace gnomon

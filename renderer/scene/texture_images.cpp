@@ -1,0 +1,47 @@
+#include "renderer/scene/texture_images.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+template <class T>
+std::vector<T> eachOnce(std::vector<T> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+} // namespace
+
+bool readsAlpha(const Material& material) {
+  return material.alphaMode != AlphaMode::opaque && !material.uniformAlpha && material.baseColor &&
+         material.baseColor->image >= 0;
+}
+
+std::vector<int> alphaImages(const Scene& scene, const SceneView& view) {
+  std::vector<int> images;
+  for (const Instance& instance : view.instances) {
+    const Material& material = scene.materials[static_cast<std::size_t>(materialOf(scene, instance))];
+    if (readsAlpha(material)) images.push_back(material.baseColor->image);
+  }
+  return eachOnce(std::move(images));
+}
+
+std::vector<TextureImage> textureImages(const Scene& scene, std::span<const int> materials) {
+  std::vector<TextureImage> images;
+  const auto add = [&](const std::optional<TextureUse>& use, bool srgb) {
+    if (use && use->image >= 0) images.push_back({use->image, srgb});
+  };
+  for (const int index : materials) {
+    const Material& material = scene.materials[static_cast<std::size_t>(index)];
+    add(material.baseColor, true);
+    add(material.metallicRoughness, material.specularGlossiness.has_value());
+    add(material.normal, false);
+    add(material.occlusion, false);
+    add(material.emissive, true);
+  }
+  return eachOnce(std::move(images));
+}
+
+} // namespace gnomon

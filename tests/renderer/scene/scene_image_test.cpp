@@ -1,0 +1,96 @@
+#include "renderer/scene/scene_image.h"
+
+#include <gmock/gmock.h>
+#include <thread>
+
+#include "renderer/image/png_encode.h"
+#include "renderer/scene/texture_images.h"
+#include "tests/renderer/scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+Bytes pngOf(int side, std::uint8_t value) {
+  Image image{side, side, {"R", "G", "B"}, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * side * side), value)};
+  auto encoded = encodePng(image, 0);
+  EXPECT_TRUE(encoded);
+  return *std::move(encoded);
+}
+
+/// Its structure holds, its pixels don't.
+Bytes brokenPng(int side) {
+  Bytes png = pngOf(side, 9);
+  png[png.size() - 20] ^= 0xff; // in the pixels, or their checksum
+  return png;
+}
+
+std::shared_ptr<const SceneImage> imageOf(const Bytes& png, const std::string& pointer) {
+  auto checked = checkImage(png, 64, 4096);
+  EXPECT_TRUE(checked);
+  return std::make_shared<const SceneImage>(*std::move(checked), pointer);
+}
+
+TEST(SceneImage, KnowsItsSizeAndDecodesOnceForAllThreads) {
+  const auto image = imageOf(pngOf(20, 7), "/images/0");
+  EXPECT_EQ(image->width(), 20);
+  EXPECT_EQ(image->height(), 20);
+  EXPECT_EQ(image->bytes(), 20u * 20u * 4u);
+  std::vector<const Image*> seen(8);
+  {
+    std::vector<std::jthread> threads;
+    for (const Image*& each : seen) threads.emplace_back([&each, &image] { each = &image->pixels(); });
+  }
+  EXPECT_THAT(seen, ::testing::Each(&image->pixels()));
+  EXPECT_EQ(std::get<0>(image->pixels().pixels)[0], 7);
+}
+
+TEST(SceneImage, CountsAFileThatIsLargerThanItsPixels) {
+  const auto image = imageOf(pngOf(1, 7), "/images/0");
+  EXPECT_GT(image->bytes(), 4u);
+}
+
+TEST(SceneImage, TellsOfBrokenPixelsEachTimeTheyAreAskedFor) {
+  const SceneImages images{imageOf(pngOf(2, 1), "/images/0"), imageOf(brokenPng(3), "/images/1"),
+                           imageOf(brokenPng(4), "/images/5")};
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<int> all{0, 1, 2};
+    const Status decoded = decodeImages(images, all);
+    ASSERT_FALSE(decoded);
+    EXPECT_THAT(decoded.problems(), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/1"),
+                                                ProblemAt(ProblemCode::invalidScene, "/images/5")));
+  }
+  EXPECT_TRUE(decodeImages(images, std::vector<int>{0}));
+}
+
+TEST(TextureImages, AreThoseOfTheMaterialsOnceForEachColorSpace) {
+  Scene scene;
+  scene.materials.resize(3);
+  scene.materials[0].baseColor = TextureUse{.image = 4};
+  scene.materials[0].normal = TextureUse{.image = 4};
+  scene.materials[1].emissive = TextureUse{.image = 4};
+  scene.materials[1].metallicRoughness = TextureUse{.image = 2};
+  scene.materials[2].occlusion = TextureUse{.image = 1};
+  EXPECT_THAT(textureImages(scene, std::vector<int>{1, 0, 1}),
+              ElementsAre(TextureImage{2, false}, TextureImage{4, false}, TextureImage{4, true}));
+  EXPECT_THAT(textureImages(scene, {}), IsEmpty());
+}
+
+TEST(TextureImages, HolesAreReadOfMasksAndBlendsOnly) {
+  Scene scene;
+  scene.materials.resize(4);
+  for (int i = 0; i < 4; ++i) scene.materials[static_cast<std::size_t>(i)].baseColor = TextureUse{.image = i};
+  scene.materials[1].alphaMode = AlphaMode::mask;
+  scene.materials[2].alphaMode = AlphaMode::blend;
+  scene.materials[3].alphaMode = AlphaMode::blend;
+  scene.materials[3].uniformAlpha = true;
+  scene.primitives.resize(1);
+  SceneView view;
+  for (const int material : {2, 0, 1, 3, 2}) view.instances.emplace_back().material = material;
+  EXPECT_THAT(alphaImages(scene, view), ElementsAre(1, 2));
+}
+
+} // namespace
+} // namespace gnomon
