@@ -10,6 +10,8 @@
 #include "renderer/image/codec_loader.h"
 #include "renderer/image/exr_layout.h"
 #include "renderer/image/image_container.h"
+#include "renderer/image/jpeg_decode.h"
+#include "renderer/image/png_decode.h"
 
 namespace gnomon {
 namespace {
@@ -132,18 +134,24 @@ Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSi
 }
 
 Result<Image> decodeImage(const CheckedImage& image) {
-  auto codec = imageCodec();
-  if (!codec) return std::move(codec).problems();
   const auto [width, height] = image.size;
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   std::string message;
-  const auto decodeWith = [&, width = width, height = height](auto decode, const Bytes& file) {
-    return decode(image.format, file.data(), file.size(), width, height, rgba.data(), sinkInto(message));
-  };
-  if (!decodeWith((*codec)->decode, image.picture) ||
-      (!image.alpha.empty() && !decodeWith((*codec)->decodeAlpha, image.alpha))) {
-    return failure(ProblemCode::malformed, "The image could not be decoded", message);
+  if (image.format == codec::Format::png) {
+    message = decodePng(image.picture, image.size, rgba.data());
+  } else if (image.format == codec::Format::jpeg) {
+    message = decodeJpeg(image.picture, image.size, rgba.data());
+  } else {
+    auto codec = imageCodec();
+    if (!codec) return std::move(codec).problems();
+    const auto decodeWith = [&, width = width, height = height](auto decode, const Bytes& file) {
+      return decode(image.format, file.data(), file.size(), width, height, rgba.data(), sinkInto(message));
+    };
+    const bool done = decodeWith((*codec)->decode, image.picture) &&
+                      (image.alpha.empty() || decodeWith((*codec)->decodeAlpha, image.alpha));
+    if (!done && message.empty()) message = "its reader says nothing more";
   }
+  if (!message.empty()) return failure(ProblemCode::malformed, "The image could not be decoded", message);
   return Image{width, height, {"R", "G", "B", "A"}, std::move(rgba)};
 }
 

@@ -135,9 +135,8 @@ Bytes assemblePng(const PngFormat& format, std::span<const PngStripe> stripes) {
   constexpr std::size_t kOtherChunks = 256; // more than they take
   std::size_t size = kOtherChunks;
   for (const PngStripe& stripe : stripes) size += stripe.chunk.size();
-  Bytes file;
+  Bytes file(kSignature.begin(), kSignature.end());
   file.reserve(size);
-  append(file, kSignature);
   appendChunk(file, "IHDR", headerOf(format));
   appendChunk(file, "gAMA", kGamma);
   appendChunk(file, "sRGB", kIntent);

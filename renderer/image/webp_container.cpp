@@ -124,7 +124,7 @@ void appendLittleEndian(Bytes& bytes, std::size_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i & 0xff));
 }
 
-void appendChunk(Bytes& bytes, std::string_view type, EncodedBytes payload) {
+void appendRiffChunk(Bytes& bytes, std::string_view type, EncodedBytes payload) {
   bytes.insert(bytes.end(), type.begin(), type.end());
   appendLittleEndian(bytes, payload.size(), 4);
   bytes.insert(bytes.end(), payload.begin(), payload.end());
@@ -136,13 +136,13 @@ Bytes fileOf(const Bytes& chunks) {
   Bytes content(kForm.begin(), kForm.end());
   content.insert(content.end(), chunks.begin(), chunks.end());
   Bytes file;
-  appendChunk(file, "RIFF", content);
+  appendRiffChunk(file, "RIFF", content);
   return file;
 }
 
 Bytes pictureChunk(const StillWebp& still) {
   Bytes chunk;
-  appendChunk(chunk, still.lossless ? "VP8L" : "VP8 ", still.bitstream);
+  appendRiffChunk(chunk, still.lossless ? "VP8L" : "VP8 ", still.bitstream);
   return chunk;
 }
 
@@ -151,8 +151,8 @@ Bytes withLossyAlpha(const StillWebp& still) {
   appendLittleEndian(header, static_cast<std::size_t>(still.size.width - 1), 3);
   appendLittleEndian(header, static_cast<std::size_t>(still.size.height - 1), 3);
   Bytes chunks;
-  appendChunk(chunks, "VP8X", header);
-  appendChunk(chunks, "ALPH", still.alpha);
+  appendRiffChunk(chunks, "VP8X", header);
+  appendRiffChunk(chunks, "ALPH", still.alpha);
   const Bytes picture = pictureChunk(still);
   chunks.insert(chunks.end(), picture.begin(), picture.end());
   return fileOf(chunks);

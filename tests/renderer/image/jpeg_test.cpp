@@ -46,6 +46,37 @@ TEST(DecodeJpeg, ReadsColourAndGreyBaselineAndProgressive) {
   }
 }
 
+TEST(DecodeJpeg, PixelsAreThoseOfOpenImageIO) {
+  for (const bool progressive : {false, true}) {
+    for (const char* subsampling : {"4:4:4", "4:2:2", "4:2:0"}) {
+      OIIO::ImageSpec spec(61, 43, 3, OIIO::TypeUInt8);
+      spec.attribute("compression", "jpeg:80");
+      spec.attribute("jpeg:progressive", progressive ? 1 : 0);
+      spec.attribute("jpeg:subsampling", subsampling);
+      std::vector<std::uint8_t> pixels(61 * 43 * 3);
+      std::uint32_t random = 1;
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        random = random * 1664525u + 1013904223u;
+        pixels[i] = static_cast<std::uint8_t>((i / 7 + (random >> 26)) & 255u);
+      }
+      std::vector<unsigned char> bytes;
+      OIIO::Filesystem::IOVecOutput out(bytes);
+      const auto output = OIIO::ImageOutput::create("jpeg");
+      ASSERT_TRUE(output && output->set_ioproxy(&out) && output->open("jpg", spec) &&
+                  output->write_image(OIIO::TypeUInt8, pixels.data()) && output->close());
+      OIIO::Filesystem::IOMemReader in(bytes.data(), bytes.size());
+      const auto input = OIIO::ImageInput::create("jpeg");
+      OIIO::ImageSpec read;
+      ASSERT_TRUE(input && input->set_ioproxy(&in) && input->open("jpg", read) &&
+                  input->read_image(0, 0, 0, 3, OIIO::TypeUInt8, pixels.data()));
+      const auto image = decodeImage(bytes, 64, 4096);
+      ASSERT_TRUE(image) << image.problems().front().detail;
+      const auto& rgba = std::get<std::vector<std::uint8_t>>(image->pixels);
+      for (std::size_t i = 0; i < pixels.size(); ++i) ASSERT_EQ(rgba[i / 3 * 4 + i % 3], pixels[i]) << subsampling;
+    }
+  }
+}
+
 TEST(DecodeJpeg, RefusesEveryTruncation) {
   for (const bool progressive : {false, true}) {
     const Bytes whole = makeJpeg(9, 9, {200, 100, 50}, progressive);

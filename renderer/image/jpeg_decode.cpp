@@ -1,0 +1,69 @@
+#include "renderer/image/jpeg_decode.h"
+
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>
+#include <jpeglib.h>
+
+namespace gnomon {
+namespace {
+
+/// libjpeg reports errors by leaving its functions, which C++ must not see: only plain data lives between.
+struct JpegErrors {
+  jpeg_error_mgr base;
+  std::jmp_buf leave;
+  std::array<char, JMSG_LENGTH_MAX> message;
+};
+
+[[noreturn]] void leaveWithMessage(j_common_ptr codec) {
+  auto* errors = reinterpret_cast<JpegErrors*>(codec->err);
+  codec->err->format_message(codec, errors->message.data());
+  std::longjmp(errors->leave, 1);
+}
+
+void leaveAtWarning(j_common_ptr codec, int level) {
+  if (level < 0) leaveWithMessage(codec);
+}
+
+constexpr JDIMENSION kRowsAtOnce = 16; ///< read at a time
+
+/// False with a message in `errors`.
+bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes essential, const ImageSize& size,
+              std::uint8_t* rgba) {
+  if (setjmp(errors.leave) != 0) return false; // NOLINT(cert-err52-cpp): the library knows no other way
+  jpeg_create_decompress(&codec);
+  jpeg_mem_src(&codec, essential.data(), essential.size());
+  jpeg_read_header(&codec, TRUE);
+  const auto width = static_cast<JDIMENSION>(size.width);
+  const auto height = static_cast<JDIMENSION>(size.height);
+  if (codec.image_width != width || codec.image_height != height) {
+    std::snprintf(errors.message.data(), errors.message.size(), "its header contradicts itself");
+    return false;
+  }
+  codec.out_color_space = JCS_EXT_RGBA;
+  jpeg_start_decompress(&codec);
+  while (codec.output_scanline < height) {
+    std::array<JSAMPROW, kRowsAtOnce> rows{};
+    for (JDIMENSION i = 0; i < kRowsAtOnce; ++i) rows[i] = rgba + std::size_t{4} * width * (codec.output_scanline + i);
+    jpeg_read_scanlines(&codec, rows.data(), std::min(kRowsAtOnce, height - codec.output_scanline));
+  }
+  jpeg_finish_decompress(&codec);
+  return true;
+}
+
+} // namespace
+
+std::string decodeJpeg(EncodedBytes essential, const ImageSize& size, std::uint8_t* rgba) {
+  jpeg_decompress_struct codec{};
+  JpegErrors errors{};
+  codec.err = jpeg_std_error(&errors.base);
+  errors.base.error_exit = leaveWithMessage;
+  errors.base.emit_message = leaveAtWarning;
+  const bool done = readInto(codec, errors, essential, size, rgba);
+  jpeg_destroy_decompress(&codec);
+  return done ? std::string() : std::string(errors.message.data());
+}
+
+} // namespace gnomon

@@ -1,0 +1,154 @@
+// "Portable Network Graphics (PNG) Specification", W3C.
+#include "renderer/image/png_decode.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <libdeflate.h>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "renderer/image/png_rows.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kSignatureBytes = 8;
+constexpr std::size_t kFrameBytes = 12;
+
+struct PngChunk {
+  std::string_view type;
+  EncodedBytes data;
+};
+
+/// What the file says of its pixels, and where they are.
+struct Contents {
+  PngPixels pixels;
+  bool interlaced = false;
+  std::vector<EncodedBytes> compressed;
+};
+
+/// The chunks of a file whose lengths hold; nothing where a checksum is wrong.
+std::optional<std::vector<PngChunk>> chunksOf(EncodedBytes file) {
+  std::vector<PngChunk> chunks;
+  for (std::size_t at = kSignatureBytes; at < file.size();) {
+    const std::size_t length = bigEndian(file, at, 4);
+    const EncodedBytes checked = file.subspan(at + 4, 4 + length);
+    if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(file, at + 8 + length, 4)) return std::nullopt;
+    chunks.push_back({{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)});
+    at += kFrameBytes + length;
+  }
+  return chunks;
+}
+
+/// The spec's table 11.1.
+bool isAllowed(const PngPixels& pixels) {
+  const int depth = pixels.bitDepth;
+  const bool byte = depth == 8 || depth == 16;
+  switch (pixels.colorType) {
+    case 0:
+      return byte || depth == 1 || depth == 2 || depth == 4;
+    case 3:
+      return depth == 1 || depth == 2 || depth == 4 || depth == 8;
+    case 2:
+    case 4:
+    case 6:
+      return byte;
+    default:
+      return false;
+  }
+}
+
+void readPalette(EncodedBytes colors, PngPixels& pixels) {
+  pixels.palette.assign(256, {0, 0, 0, 255});
+  for (std::size_t i = 0; i < std::min<std::size_t>(colors.size() / 3, 256); ++i) {
+    std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, pixels.palette[i].begin());
+  }
+}
+
+void readTransparency(EncodedBytes values, PngPixels& pixels) {
+  if (pixels.colorType == 3) {
+    for (std::size_t i = 0; i < std::min(values.size(), pixels.palette.size()); ++i) pixels.palette[i][3] = values[i];
+  }
+  const std::size_t channels = pixels.colorType == 0 ? 1 : pixels.colorType == 2 ? 3 : 0;
+  if (channels == 0 || values.size() != 2 * channels) return;
+  std::array<std::uint16_t, 3> color{};
+  const std::uint32_t mask = (1u << pixels.bitDepth) - 1;
+  for (std::size_t i = 0; i < channels; ++i) color[i] = static_cast<std::uint16_t>(bigEndian(values, 2 * i, 2) & mask);
+  pixels.transparent = color;
+}
+
+/// What is wrong; empty = nothing.
+std::string read(const std::vector<PngChunk>& chunks, Contents& contents) {
+  PngPixels& pixels = contents.pixels;
+  for (const PngChunk& chunk : chunks) {
+    const bool before = contents.compressed.empty();
+    if (chunk.type == "IHDR") {
+      if (&chunk != &chunks.front() || chunk.data.size() != 13) return "its header is not where it belongs";
+      pixels.bitDepth = chunk.data[8];
+      pixels.colorType = chunk.data[9];
+      if (!isAllowed(pixels) || chunk.data[10] != 0 || chunk.data[11] != 0 || chunk.data[12] > 1) {
+        return "its header asks for what PNG does not have";
+      }
+      contents.interlaced = chunk.data[12] == 1;
+    } else if (chunk.type == "PLTE" && before && pixels.colorType == 3) {
+      if (chunk.data.empty() || chunk.data.size() % 3 != 0 || chunk.data.size() > 768) return "its palette is broken";
+      readPalette(chunk.data, pixels);
+    } else if (chunk.type == "tRNS" && before) {
+      readTransparency(chunk.data, pixels);
+    } else if (chunk.type == "IDAT") {
+      contents.compressed.push_back(chunk.data);
+    }
+  }
+  if (pixels.colorType == 3 && pixels.palette.empty()) return "it has no palette";
+  return contents.compressed.empty() ? "it has no pixels" : "";
+}
+
+/// Pixels that are stored together: every `step`th of the picture from `first` on, in both directions.
+struct Pass {
+  std::size_t firstX, firstY, stepX, stepY;
+};
+constexpr std::array<Pass, 1> kWhole{{{0, 0, 1, 1}}};
+constexpr std::array<Pass, 7> kAdam7{
+    {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
+
+constexpr std::size_t stepsIn(std::size_t size, std::size_t first, std::size_t step) {
+  return size > first ? (size - first + step - 1) / step : 0;
+}
+
+} // namespace
+
+std::string decodePng(EncodedBytes essential, const ImageSize& size, std::uint8_t* rgba) {
+  const auto chunks = chunksOf(essential);
+  if (!chunks) return "a checksum is wrong";
+  Contents contents;
+  if (std::string wrong = read(*chunks, contents); !wrong.empty()) return wrong;
+  const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
+  const std::size_t bits = contents.pixels.bits();
+  const std::size_t pixelBytes = std::max<std::size_t>(bits / 8, 1);
+  InflatedRows rows(contents.compressed);
+  std::vector<std::uint8_t> line(4 * width);
+  const std::span<const Pass> passes = contents.interlaced ? std::span<const Pass>(kAdam7) : kWhole;
+  for (const Pass& pass : passes) {
+    const std::size_t columns = stepsIn(width, pass.firstX, pass.stepX);
+    const std::size_t lines = columns > 0 ? stepsIn(height, pass.firstY, pass.stepY) : 0;
+    rows.begin((columns * bits + 7) / 8, pixelBytes, lines);
+    for (std::size_t i = 0; i < lines; ++i) {
+      const std::uint8_t* row = rows.next();
+      if (row == nullptr) return rows.wrong();
+      std::uint8_t* to = rgba + 4 * width * (pass.firstY + i * pass.stepY);
+      if (pass.stepX == 1) {
+        expandRow(contents.pixels, row, columns, to);
+        continue;
+      }
+      expandRow(contents.pixels, row, columns, line.data());
+      for (std::size_t x = 0; x < columns; ++x) {
+        std::memcpy(to + 4 * (pass.firstX + x * pass.stepX), &line[4 * x], 4);
+      }
+    }
+  }
+  return {};
+}
+
+} // namespace gnomon
