@@ -32,8 +32,9 @@ Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Rende
 
 Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                             ProgressLine& progress) {
-  // The encoder's libraries load while the scene and the graphics context do.
-  const std::jthread warming(warmEncoders);
+  // The libraries of EXRs load while the scene and the graphics context do.
+  std::jthread warming;
+  if (spec.output.format == ImageFormat::exr) warming = std::jthread(warmEncoders);
 
   progress.stage("loading the scene");
   const auto loadStart = std::chrono::steady_clock::now();
