@@ -69,36 +69,67 @@ std::uint32_t texelOf(const ByteScale& color, const ByteScale& alpha, const Byte
   return byte(color, 0) | byte(color, 8) << 8 | byte(color, 16) << 16 | byte(alpha, 24) << 24;
 }
 
-std::vector<std::uint32_t> halved(const TextureLevel& from, int width, int height, bool srgb) {
-  static const ByteScale kLinear(false);
-  static const ByteScale kSrgb(true);
-  const ByteScale& color = srgb ? kSrgb : kLinear;
-  const bool exact = from.width == 2 * width && from.height == 2 * height;
-  const std::vector<Between> across = betweenTexels(from.width, width);
-  const std::vector<Between> down = betweenTexels(from.height, height);
-  std::vector<std::uint32_t> to;
-  to.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+/// Rows of a level in which texels are the means of four.
+void meanRows(const TextureLevel& from, const ByteScale& color, const ByteScale& alpha, std::size_t first,
+              std::size_t last, std::uint32_t* to) {
+  const auto width = static_cast<std::size_t>(from.width / 2);
+  for (std::size_t y = first; y < last; ++y) {
+    const std::uint32_t* upper = from.texels + 4 * y * width;
+    const std::uint32_t* lower = upper + 2 * width;
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t a = upper[2 * x], b = upper[2 * x + 1], c = lower[2 * x], d = lower[2 * x + 1];
+      to[y * width + x] = texelOf(color, alpha, [&](const ByteScale& scale, unsigned shift) {
+        const auto number = [&](std::uint32_t texel) { return scale.number(texel >> shift & 255u); };
+        return scale.byteOfFour(number(a) + number(b) + number(c) + number(d));
+      });
+    }
+  }
+}
+
+/// The same where a side is odd.
+void mixedRows(const TextureLevel& from, const ByteScale& color, const ByteScale& alpha,
+               std::span<const Between> across, std::span<const Between> down, std::uint32_t* to) {
   for (const Between& y : down) {
     const std::uint32_t* upper = from.texels + static_cast<std::size_t>(y.first) * static_cast<std::size_t>(from.width);
     const std::uint32_t* lower =
         from.texels + static_cast<std::size_t>(y.second) * static_cast<std::size_t>(from.width);
     for (const Between& x : across) {
       const std::uint32_t a = upper[x.first], b = upper[x.second], c = lower[x.first], d = lower[x.second];
-      to.push_back(texelOf(color, kLinear, [&](const ByteScale& scale, unsigned shift) {
+      *to++ = texelOf(color, alpha, [&](const ByteScale& scale, unsigned shift) {
         const auto number = [&](std::uint32_t texel) { return scale.number(texel >> shift & 255u); };
-        if (exact) return scale.byteOfFour(number(a) + number(b) + number(c) + number(d));
         const double above = number(a) * (1.0 - x.share) + number(b) * x.share;
         const double below = number(c) * (1.0 - x.share) + number(d) * x.share;
         return scale.byteOfFour(static_cast<std::uint32_t>(4.0 * (above * (1.0 - y.share) + below * y.share)));
-      }));
+      });
     }
+  }
+}
+
+std::vector<std::uint32_t> halved(const TextureLevel& from, int width, int height, bool srgb, Cores cores) {
+  static const ByteScale kLinear(false);
+  static const ByteScale kSrgb(true);
+  const ByteScale& color = srgb ? kSrgb : kLinear;
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  std::vector<std::uint32_t> to(columns * rows);
+  if (from.width != 2 * width || from.height != 2 * height) {
+    mixedRows(from, color, kLinear, betweenTexels(from.width, width), betweenTexels(from.height, height), to.data());
+    return to;
+  }
+  const auto mean = [&](std::size_t first, std::size_t last) {
+    meanRows(from, color, kLinear, first, last, to.data());
+  };
+  constexpr std::size_t kPieceTexels = 1 << 14;
+  if (cores == Cores::one || to.size() <= kPieceTexels) {
+    mean(0, rows);
+  } else {
+    forEachPiece(rows, std::max<std::size_t>(kPieceTexels / columns, 1), mean);
   }
   return to;
 }
 
 } // namespace
 
-Pyramid pyramidOf(const Image& image, bool srgb) {
+Pyramid pyramidOf(const Image& image, bool srgb, Cores cores) {
   Pyramid pyramid;
   pyramid.srgb = srgb;
   const auto& pixels = std::get<std::vector<std::uint8_t>>(image.pixels);
@@ -108,7 +139,7 @@ Pyramid pyramidOf(const Image& image, bool srgb) {
     const TextureLevel& from = pyramid.levels.back();
     const int width = std::max(from.width / 2, 1);
     const int height = std::max(from.height / 2, 1);
-    pyramid.owned.push_back(halved(from, width, height, srgb));
+    pyramid.owned.push_back(halved(from, width, height, srgb, cores));
     pyramid.levels.push_back({pyramid.owned.back().data(), width, height});
   }
   return pyramid;
@@ -127,15 +158,16 @@ Status Textures::need(std::span<const TextureImage> wanted) const {
   }
   if (missing.empty()) return Done{};
   if (Status decoded = decodeImages(images_, images); !decoded) return decoded;
-  forEach(missing.size(), [&](std::size_t i) { make(missing[i].image, missing[i].srgb); });
+  for (const TextureImage& each : missing) make(each.image, each.srgb, Cores::all);
   return Done{};
 }
 
-const Pyramid& Textures::make(int image, bool srgb) const {
+const Pyramid& Textures::make(int image, bool srgb, Cores cores) const {
   Made& made = madeOf(image, srgb);
   const std::lock_guard lock(made.making);
   if (!made.pyramid) {
-    made.pyramid = std::make_unique<const Pyramid>(pyramidOf(images_[static_cast<std::size_t>(image)]->pixels(), srgb));
+    made.pyramid =
+        std::make_unique<const Pyramid>(pyramidOf(images_[static_cast<std::size_t>(image)]->pixels(), srgb, cores));
     for (const auto& level : made.pyramid->owned) bytes_ += level.size() * sizeof(level[0]);
     made.ready.store(made.pyramid.get(), std::memory_order_release);
   }

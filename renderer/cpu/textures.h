@@ -26,21 +26,24 @@ struct Pyramid {
   std::vector<std::vector<std::uint32_t>> owned; ///< what the others point to
 };
 
+/// Whether work is shared out. One core alone where a parallel loop is running already.
+enum class Cores { one, all };
+
 /// The smaller levels average in linear light where the image is sRGB, as OpenGL's do. The image outlives the pyramid.
-Pyramid pyramidOf(const Image& image, bool srgb);
+Pyramid pyramidOf(const Image& image, bool srgb, Cores cores = Cores::one);
 
 /// A scene's textures, each made when it is first needed, from any thread.
 class Textures {
  public:
   explicit Textures(SceneImages images);
 
-  /// Makes these now, in parallel. The problems of images that can't be decoded.
+  /// Makes these now, in parallel; outside of any parallel loop. The problems of images that can't be decoded.
   Status need(std::span<const TextureImage> wanted) const;
 
   /// REQUIRES: an index into Scene::images, of an image that can be decoded.
   const Pyramid& of(int image, bool srgb) const {
     const Pyramid* pyramid = madeOf(image, srgb).ready.load(std::memory_order_acquire);
-    return pyramid != nullptr ? *pyramid : make(image, srgb);
+    return pyramid != nullptr ? *pyramid : make(image, srgb, Cores::one);
   }
 
   /// What the textures that were made take beside the images.
@@ -54,7 +57,7 @@ class Textures {
   };
 
   Made& madeOf(int image, bool srgb) const { return made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)]; }
-  const Pyramid& make(int image, bool srgb) const;
+  const Pyramid& make(int image, bool srgb, Cores cores) const;
 
   SceneImages images_;
   std::unique_ptr<Made[]> made_; ///< two an image: linear and sRGB

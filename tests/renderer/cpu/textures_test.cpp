@@ -46,6 +46,15 @@ TEST(CpuTextures, ATexelIsTheMeanOfFourInLinearLight) {
   }
 }
 
+TEST(CpuTextures, AreTheSameByManyCores) {
+  for (const glm::ivec2& size : {glm::ivec2(512, 256), glm::ivec2(300, 500)}) {
+    const auto image = noise(size.x, size.y);
+    for (const bool srgb : {false, true}) {
+      EXPECT_EQ(pyramidOf(*image, srgb, Cores::all).owned, pyramidOf(*image, srgb, Cores::one).owned);
+    }
+  }
+}
+
 TEST(CpuTextures, WhereASizeIsOddATexelIsMixedFromTheTwoAroundIt) {
   const auto image = noise(5, 1);
   const Pyramid pyramid = pyramidOf(*image, false);
