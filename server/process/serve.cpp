@@ -143,11 +143,6 @@ int serve(const ServeOptions& options) {
   raiseDescriptorLimit();
   boundHeaps();
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
-  std::thread warming(warmEncoders);
-  struct Joiner {
-    std::thread& thread;
-    ~Joiner() { thread.join(); }
-  } const joiner{warming};
 
   Limits limits;
   limits.maxSceneBytes = options.maxSceneBytes;
