@@ -133,9 +133,14 @@ int main(int argc, char** argv) {
   app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
   app.add_option("--repeats", repeats, "Timed frames of each variant that is not filtered ahead")
       ->check(CLI::Range(1, 100));
+  std::string device = "auto";
+  app.add_option("--device", device, "What draws: cpu, gl, or auto as gnomon chooses")
+      ->check(CLI::IsMember({"auto", "cpu", "gl"}));
   CLI11_PARSE(app, argc, argv);
 
-  auto renderer = Renderer::create({});
+  auto renderer = Renderer::create({.backend = {.device = device == "cpu"  ? DeviceChoice::cpu
+                                                          : device == "gl" ? DeviceChoice::gl
+                                                                           : DeviceChoice::auto_}});
   if (!renderer) {
     std::cerr << renderer.problems().front().detail << '\n';
     return 1;
