@@ -1,5 +1,5 @@
 // Holds shadows that other renderers drew against the exact ones, and Gnomon's own beside them: the same camera, the
-// same pixels, the same measures. Prints JSON. other_renderers/ says who calls it.
+// same pixels, the same measures. Gnomon draws by each of its devices. Prints JSON. other_renderers/ says who calls it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -111,14 +111,35 @@ double millisecondsOf(Renderer& renderer, const ScenePtr& scene, const FrameSpec
   return whole;
 }
 
-/// Medians of whole frames that are not encoded, their tiles drawn anew. The specs take turns, so that what slows the
+/// A renderer for one device alone.
+struct OwnDevice {
+  std::string name; ///< cpu, gl
+  Renderer renderer;
+};
+
+/// A frame that was asked for, and what drew it.
+struct OwnFrame {
+  Renderer* renderer;
+  FrameSpec spec;
+};
+
+/// Those that this machine has.
+std::vector<OwnDevice> ownDevices() {
+  std::vector<OwnDevice> devices;
+  for (const auto& [name, choice] : {std::pair{"cpu", DeviceChoice::cpu}, std::pair{"gl", DeviceChoice::gl}}) {
+    if (auto made = Renderer::create({.backend = {.device = choice}})) devices.push_back({name, std::move(*made)});
+  }
+  if (devices.empty()) throw Failure("No device can be opened.\n");
+  return devices;
+}
+
+/// Medians of whole frames that are not encoded, their tiles drawn anew. The frames take turns, so that what slows the
 /// machine for a while slows each of them; the first turn, which compiles, is not counted.
-std::vector<double> millisecondsOf(Renderer& renderer, const ScenePtr& scene, const std::vector<FrameSpec>& specs,
-                                   int repeats) {
-  std::vector<std::vector<double>> times(specs.size());
+std::vector<double> millisecondsOf(const ScenePtr& scene, const std::vector<OwnFrame>& frames, int repeats) {
+  std::vector<std::vector<double>> times(frames.size());
   for (int turn = 0; turn <= repeats; ++turn) {
-    for (std::size_t i = 0; i < specs.size(); ++i) {
-      const double milliseconds = millisecondsOf(renderer, scene, specs[i]);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const double milliseconds = millisecondsOf(*frames[i].renderer, scene, frames[i].spec);
       if (turn > 0) times[i].push_back(milliseconds);
     }
   }
@@ -127,23 +148,26 @@ std::vector<double> millisecondsOf(Renderer& renderer, const ScenePtr& scene, co
   return medians;
 }
 
-nlohmann::json ownRows(Renderer& renderer, const ScenePtr& scene, const nlohmann::json& spec, const Reference& truth,
-                       int repeats) {
+nlohmann::json ownRows(std::vector<OwnDevice>& devices, const ScenePtr& scene, const nlohmann::json& spec,
+                       const Reference& truth, int repeats) {
   nlohmann::json refused = nlohmann::json::array();
   nlohmann::json rows = nlohmann::json::array();
-  std::vector<FrameSpec> drawn;
-  for (const Way& way : ways()) {
-    const FrameSpec asked = specOf(spec, way.shadow);
-    auto frame = renderer.render(scene, shadowSpec(asked));
-    if (!frame) { // shadow volumes serve no masked casters
-      refused.push_back({{"name", way.name}, {"refused", frame.problems().front().detail}});
-      continue;
+  std::vector<OwnFrame> drawn;
+  for (OwnDevice& device : devices) {
+    for (const Way& way : ways()) {
+      const FrameSpec asked = specOf(spec, way.shadow);
+      auto frame = device.renderer.render(scene, shadowSpec(asked));
+      if (!frame) { // shadow volumes serve no masked casters, and are OpenGL's alone
+        refused.push_back({{"name", way.name}, {"device", device.name}, {"refused", frame.problems().front().detail}});
+        continue;
+      }
+      rows.push_back(rowOf(way.name, truth, std::get<std::vector<float>>(frame->images.front().image.pixels)));
+      rows.back()["device"] = device.name;
+      rows.back()["texels"] = texelsOf(frame->report);
+      drawn.push_back({&device.renderer, asked});
     }
-    rows.push_back(rowOf(way.name, truth, std::get<std::vector<float>>(frame->images.front().image.pixels)));
-    rows.back()["texels"] = texelsOf(frame->report);
-    drawn.push_back(asked);
   }
-  const std::vector<double> milliseconds = millisecondsOf(renderer, scene, drawn, repeats);
+  const std::vector<double> milliseconds = millisecondsOf(scene, drawn, repeats);
   for (std::size_t i = 0; i < drawn.size(); ++i) rows[i]["milliseconds"] = milliseconds[i];
   rows.insert(rows.end(), refused.begin(), refused.end());
   return rows;
@@ -171,14 +195,17 @@ int run(const std::string& sceneFile, const std::string& specFile, const std::ve
     others.emplace_back(each.substr(0, split), std::move(*picture));
   }
 
-  auto renderer = orFail(Renderer::create({}));
-  nlohmann::json out = {
-      {"device", renderer.info().renderer},        {"width", truth.reference.width},
-      {"height", truth.reference.height},          {"coverageDiffers", worst.coverage},
-      {"surfaceDiffers", worst.surface},           {"surfaceOffset", worst.offset},
-      {"receivers", receiversOf(truth.reference)}, {"receiversLeftOut", receivers - receiversOf(truth.reference)}};
+  std::vector<OwnDevice> devices = ownDevices();
+  nlohmann::json out = {{"width", truth.reference.width},
+                        {"height", truth.reference.height},
+                        {"coverageDiffers", worst.coverage},
+                        {"surfaceDiffers", worst.surface},
+                        {"surfaceOffset", worst.offset},
+                        {"receivers", receiversOf(truth.reference)},
+                        {"receiversLeftOut", receivers - receiversOf(truth.reference)}};
+  for (const OwnDevice& device : devices) out["devices"][device.name] = device.renderer.info().renderer;
   for (const auto& [name, picture] : others) out["others"].push_back(rowOf(name, truth.reference, picture.shown));
-  out["own"] = ownRows(renderer, scene, spec, truth.reference, repeats);
+  out["own"] = ownRows(devices, scene, spec, truth.reference, repeats);
   std::cout << out.dump(1) << '\n';
   return 0;
 }

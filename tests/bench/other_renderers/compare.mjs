@@ -59,7 +59,7 @@ async function compare(browser, one) {
     pictures[i] = path.join(work, `${one.name}.${i}.f32`);
     fs.writeFileSync(pictures[i], pixels);
   });
-  const { own, others, device, ...about } = measured(one, pictures);
+  const { own, others, devices, ...about } = measured(one, pictures);
   const theirs = others.map(({ name, metrics }) => {
     const { name: settings, texels, normalBiasTexels } = kSettings[name];
     return {
@@ -67,11 +67,11 @@ async function compare(browser, one) {
       milliseconds: drawn[name].milliseconds,
     };
   });
-  const ours = own.map(({ name, texels, refused, metrics, milliseconds }) => (
-    { renderer: 'Gnomon', settings: name, texels, refused, metrics, milliseconds }));
+  const ours = own.map(({ name, device, texels, refused, metrics, milliseconds }) => (
+    { renderer: `Gnomon, ${device}`, settings: name, texels, refused, metrics, milliseconds }));
   const { name, says, scene } = one;
   const rows = [...ours, ...leastWrong(theirs)];
-  return { device, revision, graphics, result: { name, says, scene, ...about, rows } };
+  return { devices, revision, graphics, result: { name, says, scene, ...about, rows } };
 }
 
 fs.mkdirSync(work, { recursive: true });
@@ -80,8 +80,8 @@ const browser = await startBrowser({ executable, scenes });
 const report = { cores: os.cpus().length, chromium: browser.version, cases: [] };
 try {
   for (const one of casesOf()) {
-    const { device, revision, graphics, result } = await compare(browser, one);
-    Object.assign(report, { gnomon: { device }, threejs: { revision, graphics } });
+    const { devices, revision, graphics, result } = await compare(browser, one);
+    Object.assign(report, { gnomon: { devices }, threejs: { revision, graphics } });
     report.cases.push(result);
     console.error(one.name);
   }

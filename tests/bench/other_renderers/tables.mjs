@@ -12,7 +12,7 @@ function rowText({ renderer, settings, texels, metrics, milliseconds, normalBias
 }
 
 function commonTable({ rows }) {
-  const unit = rows.find(({ settings }) => settings === 'hard map').milliseconds;
+  const unit = rows.find(({ settings }) => settings === 'hard map').milliseconds; // of the first device
   const drawn = rows.filter(({ refused }) => !refused);
   return ['| renderer | settings | texels, 2^20 | misclassified % | false shadow % | false lit % | interior % '
     + '| edges off, px | time, x Gnomon\'s hard map |', '|---|---|---|---|---|---|---|---|---|',
@@ -20,7 +20,8 @@ function commonTable({ rows }) {
 }
 
 const kColumns = {
-  Gnomon: ['default settings', 'hard map', 'hybrid', 'shadowVolume'],
+  'Gnomon, cpu': ['default settings', 'hard map', 'hybrid'],
+  'Gnomon, gl': ['default settings', 'hard map', 'hybrid', 'shadowVolume'],
   'three.js': ['DirectionalLight as constructed', 'DirectionalLight, box around the scene', 'DirectionalLight tuned',
     'SunLight as constructed', 'SunLight tuned'],
 };
@@ -31,6 +32,7 @@ function hardTable(cases) {
   const lines = cases.map(({ name, rows }) => {
     const cells = columns.map((column) => {
       const row = rows.find((each) => each.renderer === column.renderer && each.settings === column.settings);
+      if (!row) return '-'; // the machine has no such device
       return row.refused ? 'refused' : percent(row.metrics.misclassified);
     });
     return `| ${name} | ${cells.join(' | ')} |`;
@@ -53,7 +55,8 @@ function alignmentText(cases) {
 export function markdownOf(report) {
   const [common, ...hard] = report.cases;
   const graphics = report.threejs.graphics.includes('SwiftShader') ? 'SwiftShader' : report.threejs.graphics;
-  const about = `Gnomon on ${report.gnomon.device}; three.js r${report.threejs.revision} in headless Chromium `
+  const devices = Object.entries(report.gnomon.devices).map(([name, by]) => `${name} is ${by}`).join(', ');
+  const about = `Gnomon by its devices (${devices}); three.js r${report.threejs.revision} in headless Chromium `
     + `${report.chromium.split('.')[0]}, WebGL 2 on ${graphics}; both on ${report.cores} cores. ${common.says}, `
     + `${common.width} x ${common.height}, antialiasing none:`;
   return `# Against another renderer
