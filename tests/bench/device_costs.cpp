@@ -53,11 +53,19 @@ CostRow warm(const DeviceRun& run, const BenchScene& scene, const Setting& setti
              const Bytes& glb) {
   const auto floor = floorOf(run, glb, specOf(scene, setting, 0), setting.samples);
   std::vector<std::function<double(int)>> calls;
-  for (Served& each : served) {
-    calls.emplace_back([&](int round) { return each.connection->draw(each.scene, specOf(scene, setting, round)); });
+  std::vector<std::vector<double>> processor(served.size());
+  for (std::size_t i = 0; i < served.size(); ++i) {
+    calls.emplace_back([&, i](int round) {
+      const Served& each = served[i];
+      const double before = each.server->processorMilliseconds();
+      const double time = each.connection->draw(each.scene, specOf(scene, setting, round));
+      processor[i].push_back(each.server->processorMilliseconds() - before);
+      return time;
+    });
   }
   if (floor) calls.emplace_back([&](int) { return floor->draw(); });
-  CostRow row{scene.name, setting.name, "ms", mediansInTurns(run.rounds, calls), {}};
+  CostRow row{scene.name, setting.name, "ms", mediansInTurns(run.rounds, calls), {}, {}};
+  for (const std::vector<double>& times : processor) row.processor.push_back(median(times));
   if (floor) {
     row.floor = row.devices.back();
     row.devices.pop_back();
@@ -77,7 +85,7 @@ CostRow cold(const DeviceRun& run, const BenchScene& scene) {
       return renderMilliseconds({run.program, device}, {scene.file.string(), "--spec", request, "-o", picture});
     });
   }
-  CostRow row{scene.name, "cold, exact", "ms", mediansInTurns(run.rounds / 3 + 1, calls), {}};
+  CostRow row{scene.name, "cold, exact", "ms", mediansInTurns(run.rounds / 3 + 1, calls), {}, {}};
   std::filesystem::remove(picture);
   std::filesystem::remove(request);
   return row;
@@ -117,7 +125,7 @@ std::vector<CostRow> costsOf(const DeviceRun& run, const BenchScene& scene) {
   std::vector<CostRow> rows;
   std::vector<Served> served = serve(run, glb);
   for (const Setting& setting : settings()) rows.push_back(warm(run, scene, setting, served, glb));
-  CostRow memory{scene.name, "peak memory", "MiB", {}, {}};
+  CostRow memory{scene.name, "peak memory", "MiB", {}, {}, {}};
   for (const Served& each : served) memory.devices.push_back(each.server->peakBytes() / (1 << 20));
   served.clear();
   rows.push_back(cold(run, scene));

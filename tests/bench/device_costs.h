@@ -33,7 +33,8 @@ struct CostRow {
   std::string setting;
   std::string unit;
   std::vector<double> devices;
-  std::optional<double> floor; ///< the bare depth-only draw through OpenGL, where there is one and it is meant
+  std::vector<double> processor; ///< time of all threads for the same frames; empty = not measured
+  std::optional<double> floor;   ///< the bare depth-only draw through OpenGL, where there is one and it is meant
 };
 
 /// Each call once a round, in turn, so that noise meets all; a first round, which warms up, does not count. Medians.

@@ -27,6 +27,9 @@ std::string rowText(const DeviceRun& run, const CostRow& row) {
   std::string out = "| " + row.scene + " | " + row.setting + ", " + row.unit;
   for (const double value : row.devices) out += " | " + printed(value, value < 100 && row.unit == "ms" ? 1 : 0);
   if (run.devices.size() > 1) out += " | **" + printed(row.devices[1] / row.devices[0], 1) + "**";
+  for (std::size_t i = 0; i < run.devices.size(); ++i) {
+    out += " | " + (i < row.processor.size() ? printed(row.processor[i], 0) : "");
+  }
   if (run.devices.size() > 1) out += " | " + (row.floor ? printed(row.devices[0] / *row.floor, 2) : "");
   return out + " |\n";
 }
@@ -101,10 +104,14 @@ std::string aboutText(const DeviceRun& run, const std::vector<std::string>& name
 constexpr const char* kMeanings =
     "`exact`: `hybrid`, no antialiasing. `shadow map`: PCF 5, 4 tiles of 2048 x 2048 texels, no antialiasing. "
     "`defaults`: nothing but camera and sun, so 4x antialiasing. `cold`: `gnomon render` from the start of its process "
-    "to its end, files in the page cache. `peak memory`: VmHWM of the server after its warm frames. No frame is asked "
-    "for twice, so "
-    "no tile of an earlier one fits. The floor is a bare depth-only draw of the triangles in view through OpenGL, "
-    "without shading, shadows or PNG, with as many samples.";
+    "to its end, files in the page cache. `processor time`: of all "
+    "threads of the server together, which other work on the machine changes less. `peak memory`: VmHWM of the server "
+    "after its warm frames. Frames differ "
+    "from the ones before, so that none of their tiles fits. The floor is a bare depth-only draw of the triangles in "
+    "view through OpenGL, "
+    "without shading, shadows or PNG, with as many samples.\n\n"
+    "To measure again, on a quiet machine:\n\n```sh\nbuild/release/bin/bench_devices --output FOLDER\n"
+    "tests/bench/to_readme.py devices FOLDER/devices.md README.md\n```";
 
 int bench(DeviceRun run, const std::vector<BenchScene>& scenes, const FactScenes& factScenes, bool facts,
           const fs::path& folder) {
@@ -117,7 +124,9 @@ int bench(DeviceRun run, const std::vector<BenchScene>& scenes, const FactScenes
   if (!gl) run.devices.pop_back();
 
   std::vector<CostRow> rows;
-  std::string table = headOf(run, "scene | what", run.devices.size() > 1 ? " | gl / cpu | cpu / floor" : "");
+  std::string columns = run.devices.size() > 1 ? " | gl / cpu" : "";
+  for (const std::string& device : run.devices) columns += " | " + device + ": processor time, ms";
+  std::string table = headOf(run, "scene | what", columns + (run.devices.size() > 1 ? " | cpu / floor" : ""));
   for (const BenchScene& scene : scenes) {
     for (CostRow& row : costsOf(run, scene)) {
       table += rowText(run, row);

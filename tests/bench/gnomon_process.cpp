@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fcntl.h>
 #include <httplib.h>
 #include <sched.h>
@@ -149,6 +150,13 @@ Server::~Server() {
 
 double Server::peakBytes() const {
   return statusBytes(std::to_string(process_), "VmHWM:");
+}
+
+double Server::processorMilliseconds() const {
+  clockid_t clock;
+  timespec time{};
+  if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 double renderMilliseconds(const Program& program, std::vector<std::string> arguments) {

@@ -47,6 +47,7 @@ class Server {
   const std::string& origin() const { return origin_; } ///< "http://127.0.0.1:PORT"
   double readyMilliseconds() const { return ready_; }   ///< from the process's start to the first 200 of /readyz
   double peakBytes() const;                             ///< most memory in use so far
+  double processorMilliseconds() const;                 ///< of all of its threads so far
 
  private:
   int process_ = 0;
