@@ -40,7 +40,7 @@ void TexelMarks::markRest(int x0, int y0, int x1, int y1) {
 }
 
 void TexelMarks::markAll() {
-  mark(0, 0, width_ - 1, height_ - 1);
+  markRest(0, 0, width_ - 1, height_ - 1);
 }
 
 void TexelMarks::add(const TexelMarks& other) {

@@ -42,7 +42,7 @@ class TexelMarks {
   bool any(int x0, int y0, int x1, int y1) const;
   bool any() const;
 
-  /// The same texels, and what shares a block with them. From several threads at once.
+  /// The same texels, and what shares a block with them. From several threads at once. REQUIRES: x0 <= x1, y0 <= y1.
   void mark(int x0, int y0, int x1, int y1) {
     // Most are marked already, and looking costs less than marking.
     if (!areMarked(x0, y0, x1, y1)) markRest(x0, y0, x1, y1);

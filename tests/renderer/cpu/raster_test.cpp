@@ -329,6 +329,9 @@ TEST(TexelMarks, HoldTheBlocksOfWhatWasMarked) {
     EXPECT_TRUE(all.any(width - 1, height - 1, width + 90, height + 90));
     EXPECT_FALSE(all.any(width, 0, width + 9, 9));
   }
+  TexelMarks none(0, 0);
+  none.markAll();
+  EXPECT_FALSE(none.any());
 }
 
 } // namespace
