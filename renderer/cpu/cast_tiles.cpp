@@ -88,10 +88,12 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
       facts.reused = true;
       continue;
     }
-    cast.tiles[i] = std::make_shared<RasteredTile>();
-    const std::size_t bytes = DepthBuffer{tile.rect.width, tile.rect.height, samples}.places() * sizeof(float);
-    cast.tiles[i]->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, store.room(bytes));
-    cast.tiles[i]->made = TexelMarks(tile.rect.width, tile.rect.height);
+    auto made = std::make_shared<RasteredTile>();
+    made->blurred = isBlurred(tile);
+    made->made = TexelMarks(tile.rect.width, tile.rect.height);
+    made->depths = {tile.rect.width, tile.rect.height, samples};
+    made->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, store.room(made->bytes()));
+    cast.tiles[i] = std::move(made);
     store.keep(key, cast.tiles[i]);
     addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
     addTime(facts, millisecondsSince(start));

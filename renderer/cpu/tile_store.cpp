@@ -5,8 +5,8 @@
 namespace gnomon::cpu {
 
 std::size_t RasteredTile::bytes() const {
-  return depths.depths.size() * sizeof(float) + depths.triangles.size() * sizeof(std::uint32_t) +
-         moments.size() * sizeof(glm::vec4);
+  const auto texels = static_cast<std::size_t>(depths.width) * static_cast<std::size_t>(depths.height);
+  return depths.places() * sizeof(float) + (blurred ? texels * sizeof(glm::vec4) : 0);
 }
 
 std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
@@ -21,7 +21,7 @@ DepthBuffer TileStore::room(std::size_t bytes) {
   DepthBuffer storage;
   while (!entries_.empty() && bytes_ + bytes > budgetBytes_) {
     Entry& last = entries_.back();
-    if (last.tile.use_count() == 1) storage = std::move(last.tile->depths);
+    if (last.tile.use_count() == 1 && last.bytes == bytes) storage = std::move(last.tile->depths);
     bytes_ -= last.bytes;
     entries_.pop_back();
   }

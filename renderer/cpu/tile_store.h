@@ -15,9 +15,10 @@ namespace gnomon::cpu {
 struct RasteredTile {
   DepthBuffer depths;
   TexelMarks made;                ///< the others hold anything
-  std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty where its light's filter reads none
+  bool blurred = false;           ///< its light's filter reads moments
+  std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty until they are read
 
-  std::size_t bytes() const; ///< with what is not made yet, moments not
+  std::size_t bytes() const; ///< with what is not made yet
 };
 
 /// The tiles of the last frames, so that one that was rastered before need not be again. The least recently used are
@@ -28,8 +29,8 @@ class TileStore {
 
   /// Null where it is not kept.
   std::shared_ptr<RasteredTile> find(const TileKey& key);
-  /// Drops what has to go so that `bytes` more may be kept. Gives a buffer of what was dropped, whose memory may be
-  /// used again; an empty one where none was.
+  /// Drops what has to go so that a tile of `bytes` may be kept. Gives the buffer of one as large that was dropped, so
+  /// that its memory may be used again; an empty one where none was.
   DepthBuffer room(std::size_t bytes);
   void keep(const TileKey& key, std::shared_ptr<RasteredTile> tile);
 
