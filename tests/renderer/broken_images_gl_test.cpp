@@ -1,0 +1,60 @@
+#include <gmock/gmock.h>
+
+#include "renderer/image/png_encode.h"
+#include "tests/renderer/frame_fixture.h"
+
+namespace gnomon {
+namespace {
+
+/// A plane of one metre with a texture whose header and structure hold, and whose pixels don't.
+testing::GlbBuilder brokenPlane(const char* alphaMode) {
+  const Image grey{8, 8, {"R", "G", "B"}, std::vector<std::uint8_t>(8 * 8 * 3, 128)};
+  Bytes png = *encodePng(grey, 1);
+  png[png.size() - 20] ^= 0xff; // of the pixels, or their checksum
+  testing::GlbBuilder plane = testing::plane();
+  plane.add("images", {{"bufferView", plane.addView(png)}, {"mimeType", "image/png"}});
+  plane.add("textures", {{"source", 0}});
+  plane.add("materials", {{"alphaMode", alphaMode}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  plane.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return plane;
+}
+
+std::string specOn(const char* device, const char* target) {
+  return R"({"width":32,"height":32,"camera":{"eye":[0,7,0],"up":[0,0,-1],"target":)" + std::string(target) +
+         R"(},"device":")" + device + "\"}";
+}
+
+/// Drawn by the device that the spec names.
+Result<Frame> rendered(const ScenePtr& scene, const std::string& spec) {
+  static Renderer renderer = *Renderer::create(RendererOptions{});
+  const auto decoded = decodeFrameSpec(spec);
+  if (!decoded) return decoded.problems();
+  return renderer.render(scene, *decoded);
+}
+
+constexpr const char* kDown = "[0,0,0]";
+constexpr const char* kUp = "[0,14,0]";
+
+TEST(BrokenImages, AreAProblemOfTheFirstFrameThatNeedsThem) {
+  for (const char* alphaMode : {"OPAQUE", "MASK"}) {
+    const ScenePtr scene = testing::sceneOf(brokenPlane(alphaMode));
+    for (const char* device : {"cpu", "gl"}) {
+      for (int i = 0; i < 2; ++i) {
+        const auto frame = rendered(scene, specOn(device, kDown));
+        ASSERT_FALSE(frame) << device;
+        ASSERT_EQ(frame.problems().size(), 1u) << device;
+        EXPECT_EQ(frame.problems()[0].code, ProblemCode::invalidScene);
+        EXPECT_EQ(frame.problems()[0].pointer, "/images/0");
+      }
+    }
+  }
+}
+
+TEST(BrokenImages, DoNotMatterWhereTheProcessorNeedNotReadThem) {
+  const ScenePtr scene = testing::sceneOf(brokenPlane("OPAQUE"));
+  const auto frame = rendered(scene, specOn("cpu", kUp));
+  EXPECT_TRUE(frame) << frame.problems().front().detail;
+}
+
+} // namespace
+} // namespace gnomon
