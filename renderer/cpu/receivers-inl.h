@@ -35,7 +35,7 @@ HWY_INLINE Receiver instanceReceivers(const FrameScene& scene, std::uint32_t ins
   Receiver receiver;
   receiver.shown = fragments.shown;
   receiver.relative = sight.origin + sight.way * meeting.depth;
-  receiver.viewDepth = meeting.depth;
+  receiver.viewDepth = asSurveyed(scene.frame, meeting.depth);
   receiver.groupBit = Int(1 << static_cast<int>(placed.normalFromLocal[0].w));
   receiver.place = fragments.place;
   receiver.samples = 1;

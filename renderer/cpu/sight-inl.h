@@ -33,6 +33,13 @@ HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& plac
   return sight;
 }
 
+/// The view depth of what the survey saw. Its corners lie on a grid, so it may miss by a little; but what is shown lies
+/// in the range that tiles are fitted to.
+HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDepth) {
+  const glm::vec4& range = frame.depthRange;
+  return range.x < range.y ? clamp(viewDepth, range.x, range.y) : viewDepth;
+}
+
 /// A triangle: a corner, and from there to the other two.
 struct Triangle {
   Float3 corner; ///< as Sight::origin

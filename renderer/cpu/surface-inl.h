@@ -69,7 +69,7 @@ class InstanceSurface {
     Surface s;
     s.receiver.shown = fragments.shown;
     s.receiver.relative = sight_.origin + sight_.way * meeting_.depth;
-    s.receiver.viewDepth = meeting_.depth;
+    s.receiver.viewDepth = asSurveyed(frame_, meeting_.depth);
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
     s.receiver.place = fragments.place;
     const Float3 toEye =

@@ -103,11 +103,13 @@ HWY_INLINE Float3 select(const Mask& where, const Float3& yes, const Float3& no)
   return {select(where, yes.x, no.x), select(where, yes.y, no.y), select(where, yes.z, no.z)};
 }
 
-/// Unit length; `otherwise` where it has no direction.
+/// Unit length; `otherwise` where it has no direction. Of any size: squares of triangles a million kilometres wide are
+/// no floats.
 HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
-  const Float squared = dot(v, v);
-  const Mask directed = (squared > 1e-36f) & (squared < 1e36f);
-  return select(directed, v * inversesqrt(select(directed, squared, 1.0f)), otherwise);
+  const Float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
+  const Mask directed = (largest > 1e-37f) & (largest < 1e37f);
+  const Float3 scaled = v * (1.0f / select(directed, largest, 1.0f));
+  return select(directed, scaled * inversesqrt(select(directed, dot(scaled, scaled), 1.0f)), otherwise);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE
