@@ -14,15 +14,21 @@ TEST(Etag, IsStrongForPicturesAndWeakForReports) {
 TEST(Etag, TellsEverythingApart) {
   FrameSpec wider;
   wider.width = 1281;
+  FrameSpec byCpu;
+  byCpu.device = DeviceChoice::cpu;
+  FrameSpec byGl;
+  byGl.device = DeviceChoice::gl;
   const std::set<std::string> tags{frameEtag("id", {}, "f", {}),
                                    frameEtag("di", {}, "f", {}),
                                    frameEtag("id", {}, "g", {}),
                                    frameEtag("id", wider, "f", {}),
+                                   frameEtag("id", byCpu, "f", {}),
+                                   frameEtag("id", byGl, "f", {}),
                                    frameEtag("id", {}, "f", {ReplyForm::image, ImageFormat::exr}),
                                    frameEtag("id", {}, "f", {ReplyForm::multipart, ImageFormat::png}),
                                    frameEtag("id", {}, "f", {ReplyForm::multipart, ImageFormat::exr}),
                                    frameEtag("id", {}, "f", {ReplyForm::json, ImageFormat::png})};
-  EXPECT_EQ(tags.size(), 8u);
+  EXPECT_EQ(tags.size(), 10u);
 }
 
 TEST(Etag, IsTheSameForTheSame) {
