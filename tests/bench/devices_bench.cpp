@@ -97,8 +97,13 @@ std::string aboutText(const DeviceRun& run, const std::vector<std::string>& name
   std::string out = "Medians of " + std::to_string(run.rounds) +
                     " warm frames, 1280 x 720, over HTTP on a kept connection, PNG included; the devices take turns.";
   for (const std::string& name : names) out += " " + name + ".";
-  return out + " " + std::to_string(std::thread::hardware_concurrency()) + " cores. Load average before " + loadBefore +
-         ", after " + load() + ", this run's own included.";
+  const unsigned cores = std::thread::hardware_concurrency();
+  out += " " + std::to_string(cores) + " cores. Load average before " + loadBefore + ", after " + load() +
+         ", this run's own included.";
+  if (std::stod(loadBefore) > 0.5 * cores) {
+    out += " Other work went on: ratios and processor times say more here than milliseconds.";
+  }
+  return out;
 }
 
 constexpr const char* kMeanings =
