@@ -101,7 +101,9 @@ std::string aboutText(const DeviceRun& run, const std::vector<std::string>& name
   out += " " + std::to_string(cores) + " cores. Load average before " + loadBefore + ", after " + load() +
          ", this run's own included.";
   if (std::stod(loadBefore) > 0.5 * cores) {
-    out += " Other work went on: ratios and processor times say more here than milliseconds.";
+    out +=
+        " Other work went on: ratios of the devices and processor times say more here than milliseconds, and the "
+        "figures of cores and clients say nothing.";
   }
   return out;
 }
