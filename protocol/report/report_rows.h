@@ -54,7 +54,8 @@ inline constexpr auto kRows<TileReport> = replyRows(
     field("culledTriangles", &TileReport::culledTriangles,
           {.says = "Triangles not drawn, because they can't shadow anything that this tile serves."}),
     field("reused", &TileReport::reused,
-          {.says = "True = the tile of an earlier frame is used, and nothing was drawn into it for this one."}),
+          {.says = "True = the tile of an earlier frame is used: nothing was drawn into it for this one, but for "
+                   "texels that no frame had read before."}),
     field("drawCalls", &TileReport::drawCalls, {.says = "Draw calls into this tile."}),
     field("cpuMilliseconds", &TileReport::cpuMilliseconds,
           {.says = "CPU time of drawing its casters; for the first tile also of finding all casters and clearing the "
