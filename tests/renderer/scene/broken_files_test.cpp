@@ -96,13 +96,17 @@ struct Answers {
 
   void add(const SceneBundle& bundle, const std::string& name) {
     const auto scene = loadGltf(bundle, quickLimits());
-    if (scene) {
+    Problems problems = scene ? Problems{} : scene.problems();
+    for (const auto& image : scene ? (*scene)->images : SceneImages{}) {
+      if (const Status decoded = image->decode(); !decoded) problems = decoded.problems();
+    }
+    if (scene && problems.empty()) {
       ++loaded;
       return;
     }
     ++refused;
-    ASSERT_FALSE(scene.problems().empty()) << name;
-    for (const Problem& problem : scene.problems()) {
+    ASSERT_FALSE(problems.empty()) << name;
+    for (const Problem& problem : problems) {
       EXPECT_NE(problem.code, ProblemCode::internal) << name << " " << problem.pointer << " " << problem.detail;
     }
   }
