@@ -124,9 +124,8 @@ void expectNothingKept(std::size_t before, std::size_t largest) {
 
 /// What `breakModel` does to each model: answered soundly, and nothing of it is kept.
 void expectSurvived(const std::vector<Model>& all, const std::function<void(const Model&, Answers&)>& breakModel) {
-  const Limits limits = quickLimits();
   for (const Model& model : all) {
-    (void)loadGltf(model.bundle, limits);
+    Answers().add(model.bundle, model.name); // loads what decoding needs
     const std::size_t before = heldBytes();
     Answers answers;
     breakModel(model, answers);
