@@ -11,6 +11,7 @@ NAMES = ("box_on_plane", "normal_mapped", "multi_scene", "leaves", "lights", "ci
 CUTS = 6
 CHANGES = 6
 ROUNDS = 6
+SLACK = 4 << 20  # bytes: what the allocator's arenas still grow by, of a server that has hardly more than its code in memory
 
 
 def mended(glb):
@@ -57,7 +58,7 @@ class BrokenUploads(ServerTest):
             self.assertEqual(self.a_round(), refused)
         after = self.server.resident_bytes()
         print(f"resident: {before >> 20} MiB before, {after >> 20} MiB after {ROUNDS * len(NAMES) * (CUTS + CHANGES)} uploads")
-        self.assertLess(after, before * 1.05)
+        self.assertLess(after, before + max(before * 0.05, SLACK))
 
     def test_a_limit_is_quoted(self):
         limits = self.server.get("/v1/capabilities").json()["limits"]

@@ -93,9 +93,10 @@ TEST(FrameReports, PassesTilesAndLightsAddUp) {
     }
     EXPECT_EQ(pass.view.has_value(), pass.pass == "view");
   }
-  // The processor shows the surfaces that its survey found, and looks anew only at another number of samples.
+  // The processor shows the surfaces that its survey found, and looks anew only at another number of samples: before it
+  // casts, because it casts what these read.
   const std::vector<std::string> byGl = {"survey", "shadow", "surfaces", "surfaces", "view", "view"};
-  const std::vector<std::string> byCpu = {"survey", "shadow", "view", "surfaces", "view"};
+  const std::vector<std::string> byCpu = {"survey", "surfaces", "shadow", "view", "view"};
   EXPECT_EQ(names, gl ? byGl : byCpu);
   EXPECT_EQ(report.counts.drawCalls, drawCalls);
   EXPECT_EQ(passes["shadow"]->triangles, report.counts.casterTriangles);
