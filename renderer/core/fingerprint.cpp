@@ -111,7 +111,7 @@ std::string cpuMake() {
 std::string cpuName() {
 #if defined(__x86_64__) || defined(__i386__)
   constexpr unsigned kFirst = 0x80000002u, kLast = 0x80000004u;
-  if (__get_cpuid_max(0x80000000u, nullptr) < kLast) return {};
+  if (static_cast<unsigned>(__get_cpuid_max(0x80000000u, nullptr)) < kLast) return {};
   std::array<unsigned, 12> words{};
   for (unsigned leaf = kFirst; leaf <= kLast; ++leaf) {
     unsigned* at = &words[4 * (leaf - kFirst)];
