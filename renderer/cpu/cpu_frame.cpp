@@ -119,7 +119,7 @@ std::vector<TileMap> tileMaps(const ShadowPlan& plan, const CastTiles& cast) {
 /// The lights and tiles of a frame as kernels read them.
 class ShownLights {
  public:
-  ShownLights(const ShowInput& input, const std::vector<LitLight>& lights, const CastTiles& cast)
+  ShownLights(const ShowInput& input, std::span<const LitLight> lights, const CastTiles& cast)
       : lights_(lightData(lights)),
         tiles_(tileData(input.plan)),
         maps_(tileMaps(input.plan, cast)),
@@ -158,7 +158,7 @@ Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
 /// The texels that views read of the plan's tiles, for each tile.
 std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
   std::vector<TexelMarks> read = noTexels(input.plan);
-  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  const ShownLights lights(input, input.lights, cast_);
   const ShadowMaps maps = lights.maps({});
   std::set<int> done;
   for (const ViewRequest& request : input.views) {
@@ -231,34 +231,19 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (const Status made = needTextures(); !made) return made.problems();
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
-  const bool full = request.fullStrength;
-  const ShownLights lights(input,
-                           full ? atFullStrength({input.lights.begin(), input.lights.end()})
-                                : std::vector<LitLight>(input.lights.begin(), input.lights.end()),
-                           cast_);
+  std::vector<LitLight> full;
+  if (request.fullStrength) full = atFullStrength({input.lights.begin(), input.lights.end()});
+  const ShownLights lights(input, request.fullStrength ? std::span<const LitLight>(full) : input.lights, cast_);
   const auto exact = layers_.find(samples);
   const std::vector<Layer> layers = exact == layers_.end() ? std::vector<Layer>{} : exact->second.layers(shown);
   const ShadowMaps maps = lights.maps(layers);
   ShowJob job = jobOf(input, shown, maps);
   job.view = request.view;
   job.encoded = request.encoded;
-  std::vector<DepthBuffer> numbered;
-  std::vector<TileMap> casters;
-  if (request.view == View::casterIds && input.planned != nullptr) {
-    const std::span<const ShadowTile> tiles(input.plan.tiles);
-    numbered.resize(tiles.size());
-    casters.resize(tiles.size());
-    const Light& light = (*work_.frame.spec.lights)[static_cast<std::size_t>(input.planned->light)];
-    for (int i = 0; i < input.planned->tileCount; ++i) {
-      const auto at = static_cast<std::size_t>(input.planned->firstTile + i);
-      if (tiles[at].rect.width <= 0) continue;
-      numbered[at] = numberedTile(castInput(input.plan), tiles[at], light);
-      casters[at] = {tiles[at].rect, &numbered[at], {}};
-    }
-  }
-  const std::vector<std::int32_t> nodes = slotNodes();
-  job.casters = casters;
-  job.slotNodes = nodes;
+  ShownCasters casters;
+  if (request.view == View::casterIds) casters = shownCasters(input);
+  job.casters = casters.maps;
+  job.slotNodes = casters.slotNodes;
   pictures_.push_back(showView(job, request.opaque));
   endPass("view", 0);
   facts_.passes.back().view = request.view;
@@ -272,11 +257,21 @@ ShowJob CpuFrame::jobOf(const ShowInput& input, const DepthBuffer& shown, const 
   return job;
 }
 
-std::vector<std::int32_t> CpuFrame::slotNodes() const {
-  std::vector<std::int32_t> nodes;
-  nodes.reserve(scene_.slots.size());
-  for (const Slot& slot : scene_.slots) nodes.push_back(geometry_.instances[slot.instance].node);
-  return nodes;
+ShownCasters CpuFrame::shownCasters(const ShowInput& input) const {
+  ShownCasters casters;
+  for (const Slot& slot : scene_.slots) casters.slotNodes.push_back(geometry_.instances[slot.instance].node);
+  if (input.planned == nullptr) return casters;
+  const std::span<const ShadowTile> tiles(input.plan.tiles);
+  casters.numbered.resize(tiles.size());
+  casters.maps.resize(tiles.size());
+  const Light& light = (*work_.frame.spec.lights)[static_cast<std::size_t>(input.planned->light)];
+  for (int i = 0; i < input.planned->tileCount; ++i) {
+    const auto at = static_cast<std::size_t>(input.planned->firstTile + i);
+    if (tiles[at].rect.width <= 0) continue;
+    casters.numbered[at] = numberedTile(castInput(input.plan), tiles[at], light);
+    casters.maps[at] = {tiles[at].rect, &casters.numbered[at], {}};
+  }
+  return casters;
 }
 
 Status CpuFrame::show(const ShowInput& input) {
@@ -287,7 +282,7 @@ Status CpuFrame::show(const ShowInput& input) {
 }
 
 Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
-  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+  const ShownLights lights(input, input.lights, cast_);
   const ShadowMaps maps = lights.maps({});
   return mapFootprints({scene_, surfaces(1), maps, input.debugLight});
 }
@@ -295,11 +290,11 @@ Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
 Result<std::vector<float>> CpuFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {
   std::vector<TexelMarks> read = noTexels(input.plan);
   {
-    const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_);
+    const ShownLights lights(input, input.lights, cast_);
     markProbed(lights.maps({}), scene_.frame, input.debugLight, points, read);
   }
   makeTexels(input.plan, read);
-  const ShownLights lights(input, {input.lights.begin(), input.lights.end()}, cast_); // moments lie elsewhere now
+  const ShownLights lights(input, input.lights, cast_); // moments lie elsewhere now
   return probedShares(lights.maps({}), scene_.frame, input.debugLight, points);
 }
 

@@ -21,6 +21,13 @@ struct Shared {
   std::map<int, DepthBuffer> storage; ///< of earlier frames' surfaces, by samples a pixel: memory to be used again
 };
 
+/// What view casterIds is made from besides: ShowJob's casters and nodes.
+struct ShownCasters {
+  std::vector<DepthBuffer> numbered; ///< what maps point to
+  std::vector<TileMap> maps;
+  std::vector<std::int32_t> slotNodes;
+};
+
 /// A frame, drawn by the processor: one stage after the other, each keeping what the later ones read.
 class CpuFrame : public FrameDrawing {
  public:
@@ -48,7 +55,7 @@ class CpuFrame : public FrameDrawing {
   void makeTexels(const ShadowPlan& plan, std::span<const TexelMarks> read);
   Status showOne(const ShowInput& input, const ViewRequest& request);
   ShowJob jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const;
-  std::vector<std::int32_t> slotNodes() const; ///< of each slot's instance
+  ShownCasters shownCasters(const ShowInput& input) const;
   Image atlasPicture(const ShowInput& input, const ViewRequest& request) const;
   void endPass(const char* name, std::uint64_t triangles);
 

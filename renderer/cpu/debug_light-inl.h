@@ -152,6 +152,27 @@ HWY_INLINE DebugValue heatValue(const Mask& found, const Float& at) {
   return {select(found, heat(at), Float3(0.0f)), select(found, 1.0f, Float(0.0f))};
 }
 
+/// A number of the texels under receivers; 0 where there is none.
+struct TexelValue {
+  Mask found;
+  Float number;
+};
+
+/// `measure(served, texel)`: of the texels of one tile.
+template <class Measure>
+HWY_INLINE TexelValue texelValue(const DebugLight& debug, const Receiver& receiver, const Measure& measure) {
+  TexelValue value{maskOf(0), 0.0f};
+  if (!hasTiles(debug)) return value;
+  const ServedReceiver served = servedReceiver(debug, receiver);
+  for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
+    const DebugTexel texel = debugTexel(served, i);
+    if (none(texel.found)) continue;
+    value.number = select(texel.found, measure(served, texel), value.number);
+    value.found = value.found | texel.found;
+  }
+  return value;
+}
+
 /// View texelDensity: the largest extent in pixels of the texel under the point: the greater singular value of its two
 /// edges. (Lloyd et al., "Logarithmic Perspective Shadow Maps", 2008: the aliasing error m.) At most what 16 bits of an
 /// EXR can hold.
@@ -164,18 +185,10 @@ HWY_INLINE Float texelDensity(const TexelEdges& edges) {
 }
 
 inline DebugValue densityValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
-  Float density = 0.0f;
-  Mask found = maskOf(0);
-  if (hasTiles(debug)) {
-    const ServedReceiver served = servedReceiver(debug, receiver);
-    for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
-      const DebugTexel texel = debugTexel(served, i);
-      if (none(texel.found)) continue;
-      density = select(texel.found, texelDensity(texelEdges(served, texel)), density);
-      found = found | texel.found;
-    }
-  }
-  return encoded ? heatValue(found, 0.5f + log2(max(density, 1e-30f)) / 8.0f) : number(density);
+  const auto density = [](const ServedReceiver& served, const DebugTexel& texel)
+                           HWY_ATTR { return texelDensity(texelEdges(served, texel)); };
+  const TexelValue value = texelValue(debug, receiver, density);
+  return encoded ? heatValue(value.found, 0.5f + log2(max(value.number, 1e-30f)) / 8.0f) : number(value.number);
 }
 
 /// View blendWeight: the share of the next cascade.
@@ -206,19 +219,10 @@ HWY_INLINE Float biasMetres(const ServedReceiver& served, const DebugTexel& texe
 }
 
 inline DebugValue biasValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
-  Float metres = 0.0f;
-  Mask found = maskOf(0);
-  if (hasTiles(debug)) {
-    const ServedReceiver served = servedReceiver(debug, receiver);
-    for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
-      const DebugTexel texel = debugTexel(served, i);
-      if (none(texel.found)) continue;
-      metres = select(texel.found, biasMetres(served, texel), metres);
-      found = found | texel.found;
-    }
-  }
+  const TexelValue value = texelValue(debug, receiver, biasMetres);
   constexpr float decades = 0.30103f; // of an octave
-  return encoded ? heatValue(found, 1.0f + 0.25f * decades * log2(max(metres, 1e-9f))) : number(metres);
+  return encoded ? heatValue(value.found, 1.0f + 0.25f * decades * log2(max(value.number, 1e-9f)))
+                 : number(value.number);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE
