@@ -132,20 +132,20 @@ struct Differences {
   static double worst(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 };
 
-TEST(Devices, PicturesOfExactShadowsAreTheSame) {
-  const Differences of(Json{{"technique", "rayTraced"}});
+void expectSamePictures(const char* technique) {
+  const Differences of(Json{{"technique", technique}});
   EXPECT_LE(median(of.over4), 0.1);
   EXPECT_LE(median(of.over16), 0.01);
   EXPECT_LE(Differences::worst(of.over4), 1);
   EXPECT_LE(Differences::worst(of.over16), 0.3);
 }
 
+TEST(Devices, PicturesOfExactShadowsAreTheSame) {
+  expectSamePictures("rayTraced");
+}
+
 TEST(Devices, PicturesOfHybridShadowsAreTheSame) {
-  const Differences of(Json{{"technique", "hybrid"}});
-  EXPECT_LE(median(of.over4), 0.1);
-  EXPECT_LE(median(of.over16), 0.01);
-  EXPECT_LE(Differences::worst(of.over4), 1);
-  EXPECT_LE(Differences::worst(of.over16), 0.3);
+  expectSamePictures("hybrid");
 }
 
 TEST(Devices, PicturesOfShadowMapsAreNearlyTheSame) {
