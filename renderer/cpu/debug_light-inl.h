@@ -219,7 +219,9 @@ HWY_INLINE Float biasMetres(const ServedReceiver& served, const DebugTexel& texe
 }
 
 inline DebugValue biasValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
-  const TexelValue value = texelValue(debug, receiver, biasMetres);
+  const auto metres = [](const ServedReceiver& served, const DebugTexel& texel)
+                          HWY_ATTR { return biasMetres(served, texel); };
+  const TexelValue value = texelValue(debug, receiver, metres);
   constexpr float decades = 0.30103f; // of an octave
   return encoded ? heatValue(value.found, 1.0f + 0.25f * decades * log2(max(value.number, 1e-9f)))
                  : number(value.number);
