@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "renderer/core/parallel.h"
-#include "renderer/cpu/material_holes.h"
+#include "renderer/cpu/surface/material_holes.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/survey_slots.h"
 

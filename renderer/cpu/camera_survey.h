@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/cpu/raster.h"
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/raster/raster.h"
+#include "renderer/cpu/surface/textures.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {

@@ -5,8 +5,8 @@
 
 #include "protocol/base/elapsed.h"
 #include "renderer/cpu/camera_survey.h"
-#include "renderer/cpu/material_holes.h"
-#include "renderer/cpu/moments.h"
+#include "renderer/cpu/shadow/moments.h"
+#include "renderer/cpu/surface/material_holes.h"
 
 namespace gnomon::cpu {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/cpu/raster.h"
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/raster/raster.h"
+#include "renderer/cpu/surface/textures.h"
 #include "renderer/cpu/tile_store.h"
 #include "renderer/device/facts.h"
 #include "renderer/prepare/tile_casters.h"

@@ -5,9 +5,9 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
-#include "renderer/cpu/map_queries.h"
-#include "renderer/cpu/probe.h"
-#include "renderer/cpu/read_texels.h"
+#include "renderer/cpu/shadow/map_queries.h"
+#include "renderer/cpu/shadow/probe.h"
+#include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"

@@ -8,7 +8,7 @@
 #include "renderer/cpu/cast_tiles.h"
 #include "renderer/cpu/exact_layers.h"
 #include "renderer/cpu/scene_cache.h"
-#include "renderer/cpu/show_view.h"
+#include "renderer/cpu/show/show_view.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {

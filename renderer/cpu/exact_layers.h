@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/cpu/camera_survey.h"
-#include "renderer/cpu/shadow_maps.h"
+#include "renderer/cpu/shadow/shadow_maps.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {

@@ -3,7 +3,7 @@
 #include <list>
 #include <memory>
 
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/surface/textures.h"
 
 namespace gnomon::cpu {
 

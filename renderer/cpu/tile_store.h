@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/cpu/depth_buffer.h"
-#include "renderer/cpu/texel_marks.h"
+#include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/cpu/raster/texel_marks.h"
 #include "renderer/prepare/tile_casters.h"
 
 namespace gnomon::cpu {

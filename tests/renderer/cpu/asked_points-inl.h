@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "renderer/cpu/fragments-inl.h"
+#include "renderer/cpu/surface/fragments-inl.h"
 #include "tests/renderer/cpu/shadow_kernels.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,10 +4,10 @@
 #define HWY_TARGET_INCLUDE "tests/renderer/cpu/debug_kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/caster_ids-inl.h"
-#include "renderer/cpu/certainty-inl.h"
-#include "renderer/cpu/map_footprints-inl.h"
-#include "renderer/cpu/receivers-inl.h"
+#include "renderer/cpu/shadow/caster_ids-inl.h"
+#include "renderer/cpu/shadow/certainty-inl.h"
+#include "renderer/cpu/shadow/map_footprints-inl.h"
+#include "renderer/cpu/surface/receivers-inl.h"
 #include "tests/renderer/cpu/asked_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

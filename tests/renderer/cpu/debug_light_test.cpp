@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "renderer/cpu/probe.h"
+#include "renderer/cpu/shadow/probe.h"
 #include "renderer/prepare/draw_list.h"
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/debug_truth.h"

@@ -4,7 +4,7 @@
 
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/lanes-inl.h"
+#include "renderer/cpu/lanes/lanes-inl.h"
 #include "tests/renderer/cpu/lanes_cases.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,4 +1,4 @@
-#include "renderer/cpu/map_queries.h"
+#include "renderer/cpu/shadow/map_queries.h"
 
 #include <bit>
 

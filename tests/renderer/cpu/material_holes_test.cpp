@@ -1,4 +1,4 @@
-#include "renderer/cpu/material_holes.h"
+#include "renderer/cpu/surface/material_holes.h"
 
 #include <bit>
 #include <gtest/gtest.h>

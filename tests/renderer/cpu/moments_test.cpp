@@ -1,4 +1,4 @@
-#include "renderer/cpu/moments.h"
+#include "renderer/cpu/shadow/moments.h"
 
 #include <cmath>
 

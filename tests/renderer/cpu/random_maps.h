@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/cpu/shadow_maps.h"
+#include "renderer/cpu/shadow/shadow_maps.h"
 #include "tests/renderer/cpu/shadow_kernels.h"
 
 namespace gnomon::cpu {

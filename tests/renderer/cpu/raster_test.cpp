@@ -1,4 +1,4 @@
-#include "renderer/cpu/raster.h"
+#include "renderer/cpu/raster/raster.h"
 
 #include <random>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/surface/textures.h"
 
 /// Textures as OpenGL 4.5 reads them (section 8.14), a place at a time and in double precision.
 namespace gnomon::cpu {

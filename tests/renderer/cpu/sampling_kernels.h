@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/surface/textures.h"
 #include "tests/renderer/cpu/number_table.h"
 
 namespace gnomon::cpu {

@@ -4,7 +4,7 @@
 
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/shading-inl.h"
+#include "renderer/cpu/surface/shading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

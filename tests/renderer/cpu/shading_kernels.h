@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/cpu/frame_scene.h"
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/surface/textures.h"
 #include "tests/renderer/cpu/number_table.h"
 
 namespace gnomon::cpu {

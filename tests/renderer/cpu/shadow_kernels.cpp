@@ -4,8 +4,8 @@
 #define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow_kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/read_texels-inl.h"
-#include "renderer/cpu/shadow_visibility-inl.h"
+#include "renderer/cpu/shadow/read_texels-inl.h"
+#include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "tests/renderer/cpu/asked_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

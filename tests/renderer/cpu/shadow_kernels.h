@@ -3,8 +3,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "renderer/cpu/shadow_maps.h"
-#include "renderer/cpu/texel_marks.h"
+#include "renderer/cpu/raster/texel_marks.h"
+#include "renderer/cpu/shadow/shadow_maps.h"
 
 namespace gnomon::cpu {
 

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "tests/renderer/cpu/shared_functions_kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/shared_functions-inl.h"
+#include "renderer/cpu/lanes/shared_functions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

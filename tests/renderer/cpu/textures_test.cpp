@@ -1,4 +1,4 @@
-#include "renderer/cpu/textures.h"
+#include "renderer/cpu/surface/textures.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,0 +1,39 @@
+// What shaders compute from shared texts (renderer/shaders/shared/functions.h), sixteen numbers at a time.
+#if defined(GNOMON_CPU_SHARED_FUNCTIONS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SHARED_FUNCTIONS_INL_H
+#undef GNOMON_CPU_SHARED_FUNCTIONS_INL_H
+#else
+#define GNOMON_CPU_SHARED_FUNCTIONS_INL_H
+#endif
+
+#include "renderer/cpu/lanes/vectors-inl.h"
+#include "renderer/shaders/shared/frame_types.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+using Real = Float;
+using vec2 = Float2;
+using vec3 = Float3;
+using shared::LightData;
+
+#define GNOMON_FUNCTION HWY_INLINE
+#define GNOMON_CONSTANT(name, value) inline constexpr float name = value
+#define GNOMON_OUT(type) type&
+#define PUNCTUAL
+#include "renderer/shaders/shared/surroundings.h"
+// brdf.h calls what surroundings.h defines.
+#include "renderer/shaders/shared/brdf.h"
+#include "renderer/shaders/shared/heat_map.h"
+#include "renderer/shaders/shared/light.h"
+#include "renderer/shaders/shared/normal_map.h"
+#include "renderer/shaders/shared/specular_glossiness.h"
+#include "renderer/shaders/shared/tone.h"
+#undef PUNCTUAL
+#undef GNOMON_OUT
+#undef GNOMON_CONSTANT
+#undef GNOMON_FUNCTION
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,117 @@
+// Vectors of sixteen lanes, with the names that GLSL has for them.
+#if defined(GNOMON_CPU_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_VECTORS_INL_H
+#undef GNOMON_CPU_VECTORS_INL_H
+#else
+#define GNOMON_CPU_VECTORS_INL_H
+#endif
+
+#include <glm/glm.hpp>
+
+#include "renderer/cpu/lanes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+struct Float2 {
+  Float x, y;
+
+  Float2() = default;
+  HWY_INLINE Float2(const Float& x_, const Float& y_) : x(x_), y(y_) {}
+  HWY_INLINE explicit Float2(const Float& all) : x(all), y(all) {}
+  HWY_INLINE explicit Float2(const glm::vec2& v) : x(v.x), y(v.y) {}
+};
+
+struct Float3 {
+  Float x, y, z;
+
+  Float3() = default;
+  HWY_INLINE Float3(const Float& x_, const Float& y_, const Float& z_) : x(x_), y(y_), z(z_) {}
+  HWY_INLINE explicit Float3(const Float& all) : x(all), y(all), z(all) {}
+  HWY_INLINE explicit Float3(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}
+};
+
+#define GNOMON_VECTOR_OPERATOR(op)                                  \
+  HWY_INLINE Float2 operator op(const Float2& a, const Float2& b) { \
+    return {a.x op b.x, a.y op b.y};                                \
+  }                                                                 \
+  HWY_INLINE Float2 operator op(const Float2& a, const Float& b) {  \
+    return {a.x op b, a.y op b};                                    \
+  }                                                                 \
+  HWY_INLINE Float2 operator op(const Float& a, const Float2& b) {  \
+    return {a op b.x, a op b.y};                                    \
+  }                                                                 \
+  HWY_INLINE Float3 operator op(const Float3& a, const Float3& b) { \
+    return {a.x op b.x, a.y op b.y, a.z op b.z};                    \
+  }                                                                 \
+  HWY_INLINE Float3 operator op(const Float3& a, const Float& b) {  \
+    return {a.x op b, a.y op b, a.z op b};                          \
+  }                                                                 \
+  HWY_INLINE Float3 operator op(const Float& a, const Float3& b) {  \
+    return {a op b.x, a op b.y, a op b.z};                          \
+  }
+GNOMON_VECTOR_OPERATOR(+)
+GNOMON_VECTOR_OPERATOR(-)
+GNOMON_VECTOR_OPERATOR(*)
+GNOMON_VECTOR_OPERATOR(/)
+#undef GNOMON_VECTOR_OPERATOR
+
+HWY_INLINE Float2 operator-(const Float2& a) {
+  return {-a.x, -a.y};
+}
+HWY_INLINE Float3 operator-(const Float3& a) {
+  return {-a.x, -a.y, -a.z};
+}
+HWY_INLINE Float3& operator+=(Float3& a, const Float3& b) {
+  return a = a + b;
+}
+HWY_INLINE Float3& operator*=(Float3& a, const Float& b) {
+  return a = a * b;
+}
+
+HWY_INLINE Float dot(const Float2& a, const Float2& b) {
+  return mulAdd(a.x, b.x, a.y * b.y);
+}
+HWY_INLINE Float dot(const Float3& a, const Float3& b) {
+  return mulAdd(a.x, b.x, mulAdd(a.y, b.y, a.z * b.z));
+}
+HWY_INLINE Float3 cross(const Float3& a, const Float3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE Float length(const Float2& a) {
+  return sqrt(dot(a, a));
+}
+HWY_INLINE Float length(const Float3& a) {
+  return sqrt(dot(a, a));
+}
+HWY_INLINE Float3 normalize(const Float3& a) {
+  return a * inversesqrt(dot(a, a));
+}
+HWY_INLINE Float3 reflect(const Float3& a, const Float3& normal) {
+  return a - normal * (2.0f * dot(normal, a));
+}
+HWY_INLINE Float3 mix(const Float3& a, const Float3& b, const Float& share) {
+  return {mix(a.x, b.x, share), mix(a.y, b.y, share), mix(a.z, b.z, share)};
+}
+HWY_INLINE Float3 clamp(const Float3& a, const Float& low, const Float& high) {
+  return {clamp(a.x, low, high), clamp(a.y, low, high), clamp(a.z, low, high)};
+}
+HWY_INLINE Float2 select(const Mask& where, const Float2& yes, const Float2& no) {
+  return {select(where, yes.x, no.x), select(where, yes.y, no.y)};
+}
+HWY_INLINE Float3 select(const Mask& where, const Float3& yes, const Float3& no) {
+  return {select(where, yes.x, no.x), select(where, yes.y, no.y), select(where, yes.z, no.z)};
+}
+
+/// Unit length; `otherwise` where it has no direction. Of any size: squares of triangles a million kilometres wide are
+/// no floats.
+HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
+  const Float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
+  const Mask directed = (largest > 1e-37f) & (largest < 1e37f);
+  const Float3 scaled = v * (1.0f / select(directed, largest, 1.0f));
+  return select(directed, scaled * inversesqrt(select(directed, dot(scaled, scaled), 1.0f)), otherwise);
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/cpu/raster/texel_marks.h"
+#include "renderer/prepare/draw_list.h"
+
+/// Triangles to depths and triangle numbers, on all cores.
+///
+/// Corners are snapped to 1/256 of a pixel, and then all is exact: a sample belongs to a triangle where the integers
+/// say so, and on an edge to the one that has it as a left or an upper edge (Microsoft, "Rasterization Rules", Direct3D
+/// 11). So triangles that share an edge leave no gap and no sample to both. What comes out depends neither on the
+/// number of threads nor on their order.
+namespace gnomon::cpu {
+
+/// A slot to be rastered.
+struct RasterDraw {
+  std::uint32_t slot = 0;
+  Facing facing = Facing::both; ///< the triangles that count, by how their corners go round on the picture
+  bool holed = false;           ///< its triangles leave samples out: RasterInput::holes tells which
+};
+
+/// Says where triangles have holes. Asked from several threads at once.
+class Holes {
+ public:
+  virtual ~Holes() = default;
+  /// Of sixteen samples that a triangle covers, a bit each (the places of DepthBuffer's block `column`, `row`), those
+  /// that it fills. `counterClockwise`: as its corners go round on the picture.
+  virtual unsigned filled(std::uint32_t number, bool counterClockwise, int column, int row, int sample,
+                          unsigned covered) const = 0;
+};
+
+/// What is rastered. All of it outlives the call.
+struct RasterInput {
+  const Scene& scene;
+  std::span<const Slot> slots;
+  std::span<const glm::mat4> clipFromLocal; ///< one an instance
+  std::span<const RasterDraw> draws;        ///< of triangles at one depth, that of the earlier draw is shown
+  const Holes* holes = nullptr;             ///< asked where draws are holed
+  const TexelMarks* only = nullptr;         ///< the blocks that are wanted, of the target's size; null = all
+};
+
+/// How depths are compared, and what lies before the first or behind the last.
+enum class DepthRange {
+  reversed, ///< 1 nearest; what lies beyond 0..1 is clipped: a camera's
+  clamped   ///< 0 nearest; what lies beyond 0..1 is flattened onto it: a light's
+};
+
+/// A corner as it is rastered: 1/256 of a pixel from the picture's lower left corner, and depth.
+struct Corner {
+  std::int32_t x = 0, y = 0;
+  float z = 0;
+};
+
+/// A triangle that may cover a sample; its corners go round counter-clockwise.
+struct RasterTriangle {
+  std::array<Corner, 3> corners;
+  std::uint32_t number = 0;
+  bool holed = false;
+  bool turned = false; ///< as its scene has them, its corners go round clockwise
+};
+
+/// Pixels along a side of the squares of the picture that are rastered at a time.
+inline constexpr int kSquareSide = kMarkSquare;
+
+/// What frames leave to the next ones, so that memory is touched once.
+struct RasterScratch {
+  /// Draws that follow each other: their triangles in order, and which of them may touch each square of the picture.
+  struct Group {
+    std::vector<RasterTriangle> triangles;
+    std::vector<std::uint32_t> firstEntry; ///< one a square, and the end
+    std::vector<std::uint32_t> entries;    ///< indices into triangles, square by square, rising within each
+  };
+  std::vector<Group> groups;
+};
+
+/// Where the samples of a pixel lie, in 1/256 of it from its lower left corner: the centre of one, or Direct3D's
+/// standard pattern of four, which drivers of OpenGL share. REQUIRES: 1 or 4.
+std::span<const glm::ivec2> samplePlaces(int samples);
+
+/// Adds to `target`, which has its size and samples and is filled with the farthest depth. Where input.only wants some
+/// blocks, these are emptied first, whatever they held, and the others are left as they are; the target has no numbers
+/// then. A block comes out the same whichever others are wanted. Gives the triangles that were drawn: those of the
+/// draws.
+std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch);
+
+/// A buffer of that size whose depths hold anything, without numbers. `storage`: as below.
+DepthBuffer unfilledBuffer(int width, int height, int samples, DepthBuffer storage = {});
+
+/// A buffer of that size in which nothing is. `storage`: one that nothing needs any more, whose memory is used.
+DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage = {});
+
+} // namespace gnomon::cpu

@@ -1,0 +1,58 @@
+#include "renderer/cpu/raster/texel_marks.h"
+
+#include <algorithm>
+
+namespace gnomon::cpu {
+
+/// Calls `each(square, bits)` for what the tile has of a rectangle of texels.
+template <class Each>
+void TexelMarks::forEachSquare(int x0, int y0, int x1, int y1, const Each& each) const {
+  const int left = std::max(x0, 0) / kMarkSide, right = std::min(x1, width_ - 1);
+  const int low = std::max(y0, 0) / kMarkSide, high = std::min(y1, height_ - 1);
+  if (x0 > right || y0 > high || right < 0 || high < 0) return;
+  constexpr int kBlocks = kMarkSquare / kMarkSide;
+  const int lastColumn = right / kMarkSide, lastRow = high / kMarkSide;
+  for (int y = low / kBlocks; y <= lastRow / kBlocks; ++y) {
+    for (int x = left / kBlocks; x <= lastColumn / kBlocks; ++x) {
+      each(static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x),
+           blockBits(std::max(left - x * kBlocks, 0), std::min(lastColumn - x * kBlocks, kBlocks - 1),
+                     std::max(low - y * kBlocks, 0), std::min(lastRow - y * kBlocks, kBlocks - 1)));
+    }
+  }
+}
+
+bool TexelMarks::any(int x0, int y0, int x1, int y1) const {
+  bool found = false;
+  forEachSquare(x0, y0, x1, y1,
+                [&](std::size_t square, std::uint64_t bits) { found = found || (squares_[square] & bits) != 0; });
+  return found;
+}
+
+bool TexelMarks::any() const {
+  return std::any_of(squares_.begin(), squares_.end(), [](std::uint64_t square) { return square != 0; });
+}
+
+void TexelMarks::markRest(int x0, int y0, int x1, int y1) {
+  forEachSquare(x0, y0, x1, y1, [&](std::size_t square, std::uint64_t bits) {
+    const std::atomic_ref<std::uint64_t> own(squares_[square]);
+    if ((own.load(std::memory_order_relaxed) & bits) != bits) own.fetch_or(bits, std::memory_order_relaxed);
+  });
+}
+
+void TexelMarks::markAll() {
+  markRest(0, 0, width_ - 1, height_ - 1);
+}
+
+void TexelMarks::add(const TexelMarks& other) {
+  std::transform(squares_.begin(), squares_.end(), other.squares_.begin(), squares_.begin(),
+                 [](std::uint64_t own, std::uint64_t more) { return own | more; });
+}
+
+TexelMarks TexelMarks::without(const TexelMarks& other) const {
+  TexelMarks left = *this;
+  std::transform(squares_.begin(), squares_.end(), other.squares_.begin(), left.squares_.begin(),
+                 [](std::uint64_t own, std::uint64_t less) { return own & ~less; });
+  return left;
+}
+
+} // namespace gnomon::cpu

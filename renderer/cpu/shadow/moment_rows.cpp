@@ -1,0 +1,43 @@
+#include "renderer/cpu/shadow/moment_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::cpu {
+namespace {
+
+constexpr float kMostTaps = 33; ///< wider blurs take every other texel, or fewer
+constexpr std::size_t kPacket = 16;
+
+std::size_t wholePackets(std::size_t count) {
+  return (count + kPacket - 1) / kPacket * kPacket;
+}
+
+} // namespace
+
+BoxTaps boxTaps(float texels) {
+  const int stride = std::max(1, static_cast<int>(std::ceil((2.0f * texels + 1.0f) / kMostTaps)));
+  const int reach = static_cast<int>(std::ceil(texels)) / stride + 1;
+  BoxTaps taps;
+  taps.stride = static_cast<std::size_t>(stride);
+  for (int i = -reach; i <= reach; ++i) {
+    taps.weights.push_back(std::clamp(texels + 1.0f - static_cast<float>(std::abs(i * stride)), 0.0f, 1.0f));
+    taps.sum += taps.weights.back();
+  }
+  // Ends that weigh nothing are not read.
+  while (taps.weights.size() > 1 && taps.weights.front() == 0.0f) {
+    taps.weights.erase(taps.weights.begin());
+    taps.weights.pop_back();
+  }
+  return taps;
+}
+
+MomentRow::MomentRow(std::size_t width_, std::size_t reach, std::size_t momentCount)
+    : width(width_), depths(width_), moments(momentCount, std::vector<float>(width_ + 2 * reach)) {}
+
+MomentPlanes::MomentPlanes(int texelsAcross, int height_, std::size_t momentCount)
+    : width(wholePackets(static_cast<std::size_t>(texelsAcross))),
+      height(height_),
+      planes(momentCount, std::vector<float>(width * static_cast<std::size_t>(height_))) {}
+
+} // namespace gnomon::cpu

@@ -1,0 +1,88 @@
+// Which texels the lookups of shadow_visibility-inl.h read: never fewer, a few more.
+#if defined(GNOMON_CPU_READ_TEXELS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_READ_TEXELS_INL_H
+#undef GNOMON_CPU_READ_TEXELS_INL_H
+#else
+#define GNOMON_CPU_READ_TEXELS_INL_H
+#endif
+
+#include <limits>
+#include <span>
+
+#include "renderer/cpu/raster/texel_marks.h"
+#include "renderer/cpu/shadow/shadow_visibility-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Texels to each side of a lookup that the light's filter reads, along x and y. A kernel's comparisons are bilinear,
+/// so that it takes half a texel more than its outermost one; so do taps of a disc, and moments.
+HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, const TileData& tile,
+                              const Float& divisor) {
+  constexpr float kRounding = 1.0f / 64; // of places, texels
+  if (light.filterKind == GNOMON_FILTER_DISC) {
+    const Float radius = discRadius(tile, light.filterRadius, divisor);
+    const glm::vec2 texels = tile.atlasPerMetre * maps.atlasTexels;
+    return {radius * texels.x + (0.5f + kRounding), radius * texels.y + (0.5f + kRounding)};
+  }
+  const float size = GNOMON_READS_MOMENTS(light.filterKind) ? 1.0f : static_cast<float>(std::max(light.filterSize, 1));
+  return Float2(Float(0.5f * size + kRounding));
+}
+
+HWY_INLINE std::int32_t leastOf(const Mask& where, const Int& a) {
+  const Int kept = select(where, a, std::numeric_limits<std::int32_t>::max());
+  auto least = kept.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) least = hn::Min(least, kept.part[i]);
+  return hn::GetLane(hn::MinOfLanes(kInts, least));
+}
+
+HWY_INLINE std::int32_t mostOf(const Mask& where, const Int& a) {
+  const Int kept = select(where, a, std::numeric_limits<std::int32_t>::min());
+  auto most = kept.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) most = hn::Max(most, kept.part[i]);
+  return hn::GetLane(hn::MaxOfLanes(kInts, most));
+}
+
+/// Marks the texels as far as `reach` around the places of the lanes `where`, of which there are some.
+inline void markAround(const Float2& place, const Float2& reach, const Mask& where, TexelMarks& marks) {
+  const Int left = truncated(floor(place.x - reach.x)), right = truncated(floor(place.x + reach.x));
+  const Int low = truncated(floor(place.y - reach.y)), high = truncated(floor(place.y + reach.y));
+  const std::int32_t x0 = leastOf(where, left), x1 = mostOf(where, right);
+  const std::int32_t y0 = leastOf(where, low), y1 = mostOf(where, high);
+  // Neighbours mostly read the same blocks.
+  constexpr std::int32_t kTogether = 2 * kMarkSide;
+  if (x1 - x0 < kTogether && y1 - y0 < kTogether) {
+    marks.mark(x0, y0, x1, y1);
+    return;
+  }
+  alignas(64) std::int32_t corners[4][kLanes];
+  store(left, corners[0]);
+  store(low, corners[1]);
+  store(right, corners[2]);
+  store(high, corners[3]);
+  for (unsigned lanes = bitsOf(where); lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctz(lanes);
+    marks.mark(corners[0][lane], corners[1][lane], corners[2][lane], corners[3][lane]);
+  }
+}
+
+/// Marks what mapVisibility reads for the receivers. `marks`: one a tile of the maps.
+inline void markMapReads(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                         const Float3& toLight, std::span<TexelMarks> marks) {
+  if (light.tileCount == 0u) return;
+  const MapReads reads = mapReads(maps, light, receiver, toLight, receiver.shown);
+  for (int i = 0; i < static_cast<int>(light.tileCount) && any(reads.asked); ++i) {
+    const int tileIndex = static_cast<int>(light.firstTile) + i;
+    const TileMap& map = maps.maps[tileIndex];
+    if (map.depths == nullptr || none(reads.of(i))) continue;
+    const TileData& tile = maps.tiles[tileIndex];
+    const Lookup at = lookupIn(light, tile, receiver, toLight);
+    const Mask read = reads.of(i) & at.inside;
+    if (none(read)) continue;
+    markAround(placeIn(maps, map, at), filterReach(maps, light, tile, at.divisor), read, marks[tileIndex]);
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,59 @@
+// Comparisons over a disc of the world: shaders/common_shadow_disc.glsl, sixteen at a time.
+#if defined(GNOMON_CPU_SHADOW_DISC_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SHADOW_DISC_INL_H
+#undef GNOMON_CPU_SHADOW_DISC_INL_H
+#else
+#define GNOMON_CPU_SHADOW_DISC_INL_H
+#endif
+
+#include "renderer/cpu/shadow/disc_steps.h"
+#include "renderer/cpu/shadow/shadow_filter-inl.h"
+#include "renderer/cpu/shadow/shadow_lookup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Cosine and sine by which each pixel turns the taps, so that their pattern shows as fine noise and not as bands.
+/// (Jimenez, "Next Generation Post Processing in Call of Duty", 2014: interleaved gradient noise.)
+HWY_INLINE Float2 discTurn(const Float2& place) {
+  const Float noise = fract(52.9829189f * fract(place.x * 0.06711056f + place.y * 0.00583715f));
+  const Float angle = 6.2831853f * noise;
+  return {cos(angle), sin(angle)};
+}
+
+/// In the tile's lengths across: metres, or tangents.
+HWY_INLINE Float discRadius(const shared::TileData& tile, float lightRadius, const Float& divisor) {
+  if (isParallel(tile)) return lightRadius;
+  return min(lightRadius / divisor, 0.5f); // kWidestTangent of renderer/shadow/fit.h
+}
+
+/// `lightRadius`: metres. `asked`: lanes whose share counts.
+inline Float discVisibility(const ShadowMaps& maps, int tileIndex, const Lookup& at, const Float2& slope,
+                            float lightRadius, const Float2& pixel, const Mask& asked) {
+  const shared::TileData& tile = maps.tiles[tileIndex];
+  const TileMap& map = maps.maps[tileIndex];
+  const Float2 texels(maps.atlasTexels);
+  const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
+  const Float radius = discRadius(tile, lightRadius, at.divisor);
+  const Float2 turn = discTurn(pixel);
+  Float sum = 0.0f;
+  for (const glm::vec2& tap : discSteps()) {
+    const Float2 step(radius * (turn.x * tap.x - turn.y * tap.y), radius * (turn.y * tap.x + turn.x * tap.y));
+    const Float3 place(at.coordinate.x + step.x * tile.atlasPerMetre.x, at.coordinate.y + step.y * tile.atlasPerMetre.y,
+                       0.0f);
+    const Mask within = isWithin(place, tile);
+    if (none(within & asked)) {
+      sum += 1.0f;
+      continue;
+    }
+    const Float2 moved(place.x - at.coordinate.x, place.y - at.coordinate.y);
+    const PlaneDepths plane{at.coordinate.z + dot(slope, moved * texels), slope};
+    const Float lit = squareVisibility(map, Float2(place.x, place.y) * texels - corner, plane, 1);
+    sum += select(within, lit, 1.0f);
+  }
+  return sum * (1.0f / static_cast<float>(kDiscTaps));
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

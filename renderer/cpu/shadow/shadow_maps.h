@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "renderer/core/rect.h"
+#include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/shaders/shared/frame_types.h"
+
+namespace gnomon::cpu {
+
+/// What was drawn into one tile. Both buffers hold the tile's texels alone, from its own lowest corner.
+struct TileMap {
+  Rect rect;                               ///< in the atlas
+  const DepthBuffer* depths = nullptr;     ///< null = the tile has no texels, nothing is looked up in it
+  std::span<const glm::vec4> moments = {}; ///< row by row from the BOTTOM; empty = its light's filter reads none
+};
+
+/// What rays say of one light: shares of 65535, each pixel's samples side by side, row by row from the BOTTOM.
+struct Layer {
+  const std::uint16_t* values = nullptr;
+  int width = 0;   ///< pixels
+  int samples = 1; ///< a pixel: 1 to 4
+};
+
+inline constexpr auto kTints = [] {
+  using glm::vec3;
+  return std::array{GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
+}();
+static_assert(kTints.size() == GNOMON_LIGHT_TILES);
+
+/// What the lights of a frame are shadowed by.
+struct ShadowMaps {
+  std::span<const shared::LightData> lights;
+  std::span<const shared::TileData> tiles;
+  std::span<const TileMap> maps; ///< parallel to tiles
+  glm::vec2 atlasTexels{1};      ///< width and height of the atlas
+  std::span<const Layer> layers = {};
+};
+
+} // namespace gnomon::cpu

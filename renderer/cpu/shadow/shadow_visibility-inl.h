@@ -1,0 +1,157 @@
+// Visibility of a light through its tiles, or its visibility layer: shaders/common_shadow.glsl, sixteen at a time.
+#if defined(GNOMON_CPU_SHADOW_VISIBILITY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#undef GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#else
+#define GNOMON_CPU_SHADOW_VISIBILITY_INL_H
+#endif
+
+#include "renderer/cpu/shadow/shadow_disc-inl.h"
+#include "renderer/cpu/shadow/shadow_filter-inl.h"
+#include "renderer/cpu/shadow/shadow_lookup-inl.h"
+#include "renderer/cpu/shadow/shadow_moments-inl.h"
+#include "renderer/cpu/shadow/tile_choice-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
+/// no lookup of it leaves the tile. Lanes outside of `asked` hold anything.
+inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int tileIndex, const Receiver& receiver,
+                            const Float3& toLight, const Mask& asked) {
+  const TileData& tile = maps.tiles[tileIndex];
+  const TileMap& map = maps.maps[tileIndex];
+  if (map.depths == nullptr) return 1.0f;
+  Lookup at = lookupIn(light, tile, receiver, toLight);
+  const Mask read = asked & at.inside;
+  if (none(read)) return 1.0f;
+  const Float2 place = placeIn(maps, map, at);
+  if (GNOMON_READS_MOMENTS(light.filterKind)) {
+    return select(at.inside, momentVisibility(map, place, momentDepth(tile, at), light.filterKind), 1.0f);
+  }
+  const Float2 slope = comparedSlope(light, tile, receiver);
+  if (light.filterKind == GNOMON_FILTER_DISC) {
+    const glm::vec2 texels = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels;
+    const Float radius = std::max(texels.x, texels.y) / at.divisor;
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius);
+    return select(at.inside, discVisibility(maps, tileIndex, at, slope, light.filterRadius, receiver.place, read),
+                  1.0f);
+  }
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
+  return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize), 1.0f);
+}
+
+/// A face turned away from the light, or along it to within rounding, shadows itself.
+HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
+  return dot(receiver.normal, toLight) <= 1e-4f;
+}
+
+/// The mean over the samples of each pixel that show the receiver. Lanes outside of `asked` hold anything.
+inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask& asked) {
+  alignas(64) std::int32_t columns[kLanes];
+  alignas(64) std::int32_t rows[kLanes];
+  alignas(64) std::uint32_t samples[kLanes];
+  alignas(64) float shares[kLanes] = {};
+  store(truncated(receiver.place.x), columns);
+  store(truncated(receiver.place.y), rows);
+  store(receiver.samples, samples);
+  const unsigned lanes = bitsOf(asked);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if ((lanes >> lane & 1u) == 0) continue;
+    const std::size_t pixel = static_cast<std::size_t>(rows[lane]) * static_cast<std::size_t>(layer.width) +
+                              static_cast<std::size_t>(columns[lane]);
+    const std::uint16_t* values = layer.values + pixel * static_cast<std::size_t>(layer.samples);
+    if (layer.samples == 1) {
+      shares[lane] = static_cast<float>(values[0]) / 65535.0f;
+      continue;
+    }
+    int sum = 0;
+    int count = 0;
+    for (int i = 0; i < layer.samples; ++i) {
+      const int shows = static_cast<int>(samples[lane] >> i & 1u);
+      sum += shows * values[i];
+      count += shows;
+    }
+    shares[lane] = static_cast<float>(sum) / (65535.0f * static_cast<float>(std::max(count, 1)));
+  }
+  return load(shares);
+}
+
+/// Lanes that the light throws shadows on.
+HWY_INLINE Mask receivesShadow(const LightData& light, const Receiver& receiver) {
+  return (receiver.groupBit & Int(static_cast<std::int32_t>(light.shadowedGroups))) != Int(0);
+}
+
+/// By the light's visibility layer, which it has; otherwise as shadowVisibility.
+inline Float layerVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                             const Float3& toLight, const Mask& needed) {
+  const Mask receives = receivesShadow(light, receiver);
+  Float visibility = layerValue(maps.layers[light.visibilityLayer - 1], receiver, needed & receiver.shown & receives);
+  // Rays know which faces are turned away, shadow volumes don't.
+  if (light.layerOmitsTurnedFaces != 0u) visibility = select(isTurnedAway(receiver, toLight), 0.0f, visibility);
+  return select(receives, mix(1.0f, visibility, light.strength), 1.0f);
+}
+
+/// Which of a light's tiles are looked up for which lanes.
+struct MapReads {
+  TileChoice choice;
+  Mask served; ///< lanes whose shadow the tiles know
+  Mask asked;  ///< of these, the ones that texels are read for
+
+  /// Lanes that read the light's tile `index`.
+  HWY_INLINE Mask of(int index) const { return asked & ((choice.first == Int(index)) | (choice.second == Int(index))); }
+};
+
+/// Of a light that has tiles.
+HWY_INLINE MapReads mapReads(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                             const Float3& toLight, const Mask& needed) {
+  MapReads reads;
+  reads.choice = chooseTile(maps, light, receiver, toLight);
+  reads.served = receivesShadow(light, receiver) & reads.choice.covered;
+  reads.asked = andNot(isTurnedAway(receiver, toLight), needed & receiver.shown & reads.served);
+  return reads;
+}
+
+/// By the light's tiles; 1 where it has none. Otherwise as shadowVisibility.
+inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                           const Float3& toLight, const Mask& needed) {
+  if (light.tileCount == 0u || none(needed & receiver.shown)) return 1.0f;
+  const MapReads reads = mapReads(maps, light, receiver, toLight, needed);
+  Float visibility = 0.0f;
+  for (int i = 0; i < static_cast<int>(light.tileCount) && any(reads.asked); ++i) {
+    const Mask read = reads.of(i);
+    if (none(read)) continue;
+    const Float share = select(reads.choice.first == Int(i), 1.0f - reads.choice.blend, reads.choice.blend);
+    const Float lit = tileVisibility(maps, light, static_cast<int>(light.firstTile) + i, receiver, toLight, read);
+    visibility += select(read, share * lit, 0.0f);
+  }
+  visibility = mix(visibility, 1.0f, reads.choice.fade);
+  return select(reads.served, mix(1.0f, visibility, light.strength), 1.0f);
+}
+
+/// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes
+/// that are not `needed`, because no light arrives anyway, hold anything in 0 to 1.
+inline Float shadowVisibility(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight,
+                              const Mask& needed) {
+  const LightData& data = maps.lights[light];
+  return data.visibilityLayer > 0u ? layerVisibility(maps, data, receiver, toLight, needed)
+                                   : mapVisibility(maps, data, receiver, toLight, needed);
+}
+
+/// The cascades from near to far, or a light's faces; white beyond. Of a light that has tiles.
+inline Float3 cascadeTint(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight) {
+  const LightData& data = maps.lights[light];
+  const TileChoice choice = chooseTile(maps, data, receiver, toLight);
+  Float3 first(Float(1.0f));
+  Float3 second(Float(1.0f));
+  for (int i = 0; i < static_cast<int>(data.tileCount); ++i) {
+    first = select(choice.first == Int(i), Float3(kTints[i]), first);
+    second = select(choice.second == Int(i), Float3(kTints[i]), second);
+  }
+  const Float3 white(Float(1.0f));
+  return select(choice.covered, mix(mix(first, second, choice.blend), white, choice.fade), white);
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

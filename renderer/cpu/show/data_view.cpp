@@ -1,0 +1,109 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE \
+  "renderer/cpu/show/data_view.cpp" // NOLINT: Highway's foreach_target.h includes this file again
+#include <hwy/foreach_target.h>
+#include <limits>
+
+#include "renderer/cpu/shadow/caster_ids-inl.h"
+#include "renderer/cpu/shadow/shadow_visibility-inl.h"
+#include "renderer/cpu/show/packet-inl.h"
+#include "renderer/cpu/show/view_squares.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+HWY_INLINE DebugLight debugLightOf(const ShowJob& job) {
+  return {job.maps, job.scene.frame, job.debugLight, job.casters, job.slotNodes};
+}
+
+HWY_INLINE DebugValue depthValue(const ShowJob& job, const Receiver& receiver) {
+  if (!job.encoded) return number(receiver.viewDepth);
+  const glm::vec4& range = job.scene.frame.depthRange;
+  const float span = std::max(range.y - range.x, 1e-6f);
+  return {Float3(1.0f - 0.9f * clamp((receiver.viewDepth - range.x) / span, 0.0f, 1.0f)), 1.0f};
+}
+
+HWY_INLINE DebugValue shadowValue(const ShowJob& job, const Receiver& receiver) {
+  if (job.debugLight < 0) return number(1.0f);
+  const Float3 toLight = towardsLight(job.maps.lights[static_cast<std::size_t>(job.debugLight)], receiver.relative);
+  return number(shadowVisibility(job.maps, job.debugLight, receiver, toLight, receiver.shown));
+}
+
+HWY_INLINE DebugValue valueOf(const ShowJob& job, const Surface& surface) {
+  switch (job.view) {
+    case View::depth:
+      return depthValue(job, surface.receiver);
+    case View::normal:
+      return {job.encoded ? surface.normal * 0.5f + Float3(0.5f) : surface.normal, 1.0f};
+    case View::shadow:
+      return shadowValue(job, surface.receiver);
+    default:
+      return debugData(debugLightOf(job), job.view, job.encoded, surface.receiver);
+  }
+}
+
+void dataSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
+  const SampleMeans means = sampleMeans(1);
+  for (std::size_t i = 0; i < list.count; i += kLanes) {
+    const Packet packet = packetAt(list, i, x, y, means);
+    const DebugValue value = valueOf(job, surfaceOf(job, packet));
+    alignas(64) float shown[4][kLanes];
+    store(value.color.x, shown[0]);
+    store(value.color.y, shown[1]);
+    store(value.color.z, shown[2]);
+    store(value.alpha, shown[3]);
+    for (std::size_t lane = 0; lane < std::min(kLanes, list.count - i); ++lane) {
+      const auto pixel = static_cast<std::size_t>(list.pixel[i + lane]);
+      for (std::size_t c = 0; c < 4; ++c) colors.channels[c][pixel] = shown[c][lane];
+    }
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+namespace {
+
+HWY_EXPORT(dataSquareOn);
+
+/// The layer that says something even where no pixel's centre shows a surface, whose rim a ray may meet all the same.
+const Layer* layerOf(const ShowJob& job) {
+  if (job.view != View::shadow || job.debugLight < 0) return nullptr;
+  const shared::LightData& light = job.maps.lights[static_cast<std::size_t>(job.debugLight)];
+  if (light.visibilityLayer == 0 || light.layerOmitsTurnedFaces != 0) return nullptr;
+  return &job.maps.layers[light.visibilityLayer - 1];
+}
+
+float backgroundOf(View view, bool encoded) {
+  if (view == View::depth && !encoded) return std::numeric_limits<float>::infinity();
+  if (view == View::shadow) return 1;
+  return view == View::casterIds && !encoded ? -1.0f : 0.0f;
+}
+
+void fillBackground(const ShowJob& job, int x, int y, TileColors& colors) {
+  for (auto& channel : colors.channels) channel.fill(backgroundOf(job.view, job.encoded));
+  const Layer* layer = layerOf(job);
+  if (layer == nullptr) return;
+  const float strength = job.maps.lights[static_cast<std::size_t>(job.debugLight)].strength;
+  for (int pixel = 0; pixel < static_cast<int>(kTilePixels); ++pixel) {
+    const int column = x + columnOf(pixel);
+    const int row = y + rowOf(pixel);
+    if (column >= job.scene.width || row >= job.scene.height) continue;
+    const auto at =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(layer->width) + static_cast<std::size_t>(column);
+    const float share = static_cast<float>(layer->values[at * static_cast<std::size_t>(layer->samples)]) / 65535.0f;
+    for (auto& channel : colors.channels) channel[static_cast<std::size_t>(pixel)] = 1.0f - strength * (1.0f - share);
+  }
+}
+
+} // namespace
+
+void dataSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
+  fillBackground(job, x, y, colors);
+  HWY_DYNAMIC_DISPATCH(dataSquareOn)(job, list, x, y, colors);
+}
+
+} // namespace gnomon::cpu
+#endif

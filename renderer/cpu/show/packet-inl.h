@@ -1,0 +1,66 @@
+// Sixteen fragments of a square at a time.
+#if defined(GNOMON_CPU_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_PACKET_INL_H
+#undef GNOMON_CPU_PACKET_INL_H
+#else
+#define GNOMON_CPU_PACKET_INL_H
+#endif
+
+#include "renderer/cpu/raster/raster.h"
+#include "renderer/cpu/show/show_view.h"
+#include "renderer/cpu/surface/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+struct Packet {
+  Fragments fragments;
+  Int samples;
+};
+
+/// Places within a pixel: the mean of each set of its samples, a bit each.
+struct SampleMeans {
+  alignas(64) float x[16] = {}, y[16] = {};
+};
+
+HWY_INLINE SampleMeans sampleMeans(int samples) {
+  SampleMeans means;
+  const std::span<const glm::ivec2> places = samplePlaces(samples);
+  for (std::size_t set = 1; set < std::size_t{1} << samples; ++set) {
+    glm::vec2 sum(0);
+    int count = 0;
+    for (std::size_t s = 0; s < places.size(); ++s) {
+      if ((set >> s & 1u) == 0) continue;
+      sum += glm::vec2(places[s]);
+      ++count;
+    }
+    means.x[set] = sum.x / (256.0f * static_cast<float>(count));
+    means.y[set] = sum.y / (256.0f * static_cast<float>(count));
+  }
+  return means;
+}
+
+HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squareX, int squareY,
+                           const SampleMeans& means) {
+  const std::size_t left = list.count - first;
+  const Int pixel = load(&list.pixel[first]);
+  Packet packet;
+  packet.samples = load(&list.samples[first]);
+  packet.fragments.shown = left >= kLanes ? maskOf(0xffffu) : firstLanes(left);
+  packet.fragments.triangle = load(&list.triangle[first]);
+  packet.fragments.x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
+  packet.fragments.y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
+  packet.fragments.place = {toFloat(packet.fragments.x) + gather(means.x, packet.samples),
+                            toFloat(packet.fragments.y) + gather(means.y, packet.samples)};
+  return packet;
+}
+
+HWY_INLINE Surface surfaceOf(const ShowJob& job, const Packet& packet) {
+  Surface surface = surfaceOf(job.scene, job.textures, packet.fragments);
+  surface.receiver.samples = packet.samples;
+  return surface;
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,90 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE \
+  "renderer/cpu/show/picture_view.cpp" // NOLINT: Highway's foreach_target.h includes this again
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/shadow/debug_light-inl.h"
+#include "renderer/cpu/shadow/shadow_visibility-inl.h"
+#include "renderer/cpu/show/packet-inl.h"
+#include "renderer/cpu/show/view_squares.h"
+#include "renderer/cpu/surface/shading-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Surface& surface) {
+  const auto visibility =
+      [&](std::size_t light, const Receiver& receiver, const Float3& toLight, const Mask& where)
+          HWY_ATTR { return shadowVisibility(job.maps, static_cast<int>(light), receiver, toLight, where); };
+  const Lighting lighting{job.maps.lights, job.lightLists};
+  if (job.view != View::lightContribution) {
+    return radianceToEye(job.scene, lighting, packet.fragments, surface, visibility);
+  }
+  if (job.debugLight < 0) return Float3(0.0f);
+  Receiver receiver = surface.receiver;
+  receiver.shown = andNot(surface.unlit, receiver.shown);
+  return radianceFrom(lighting, static_cast<std::uint32_t>(job.debugLight), pointOf(job.scene.frame, surface), receiver,
+                      visibility);
+}
+
+HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
+  const Surface surface = surfaceOf(job, packet);
+  const Float3 radiance = radianceOf(job, packet, surface);
+  const Float3 shown = pictureOf(job.scene.frame, packet.fragments.shown, radiance, job.toneMapping, job.encoded).rgb;
+  const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
+  if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);
+  if (job.view != View::cascades) return shown;
+  const Float grey = along(glm::vec3(0.2126f, 0.7152f, 0.0722f), shown);
+  if (!hasTiles(debug)) return Float3(grey);
+  const Float3 toLight =
+      towardsLight(job.maps.lights[static_cast<std::size_t>(job.debugLight)], surface.receiver.relative);
+  return cascadeTint(job.maps, job.debugLight, surface.receiver, toLight) * grey;
+}
+
+void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
+  const SampleMeans means = sampleMeans(job.buffer.samples);
+  const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
+                                                                   : job.scene.frame.background;
+  for (std::size_t c = 0; c < 4; ++c) colors.channels[c].fill(background[static_cast<int>(c)]);
+  const float share = 1.0f / static_cast<float>(job.buffer.samples);
+  const std::int32_t whole = (1 << job.buffer.samples) - 1;
+  for (std::size_t i = 0; i < list.count; i += kLanes) {
+    const Packet packet = packetAt(list, i, x, y, means);
+    const Float3 color = shownColor(job, packet);
+    alignas(64) float shown[3][kLanes];
+    store(color.x, shown[0]);
+    store(color.y, shown[1]);
+    store(color.z, shown[2]);
+    for (std::size_t lane = 0; lane < std::min(kLanes, list.count - i); ++lane) {
+      const auto pixel = static_cast<std::size_t>(list.pixel[i + lane]);
+      const std::int32_t samples = list.samples[i + lane];
+      if (samples == whole) {
+        for (std::size_t c = 0; c < 3; ++c) colors.channels[c][pixel] = shown[c][lane];
+        colors.channels[3][pixel] = 1.0f;
+        continue;
+      }
+      // What several samples show takes the background's place, share by share.
+      const float part = share * static_cast<float>(__builtin_popcount(static_cast<unsigned>(samples)));
+      for (std::size_t c = 0; c < 4; ++c) {
+        const float own = c < 3 ? shown[c][lane] : 1.0f;
+        colors.channels[c][pixel] += part * (own - background[static_cast<int>(c)]);
+      }
+    }
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+namespace {
+HWY_EXPORT(pictureSquareOn);
+} // namespace
+
+void pictureSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
+  HWY_DYNAMIC_DISPATCH(pictureSquareOn)(job, list, x, y, colors);
+}
+
+} // namespace gnomon::cpu
+#endif

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "protocol/spec/output_options.h"
+#include "protocol/spec/traits.h"
+#include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/cpu/shadow/shadow_maps.h"
+#include "renderer/cpu/surface/textures.h"
+#include "renderer/image/image.h"
+
+/// A view's picture from the triangles that its samples show: everything else comes from the triangles again.
+namespace gnomon::cpu {
+
+/// What a view is made from. All of it outlives the call.
+struct ShowJob {
+  const FrameScene& scene;
+  const Textures& textures;
+  const DepthBuffer& buffer; ///< numbered; data has one sample a pixel
+  const ShadowMaps& maps;
+  std::span<const std::uint32_t> lightLists; ///< prepare/light_lists.h; empty = every light may reach every pixel
+  View view = View::color;
+  bool encoded = true; ///< as in ViewRequest
+  ToneMapping toneMapping = ToneMapping::aces;
+  int debugLight = -1;                          ///< what views of one light show; -1 = there is none
+  std::span<const TileMap> casters = {};        ///< view casterIds: parallel to the maps', numbered, a sample a texel
+  std::span<const std::int32_t> slotNodes = {}; ///< view casterIds: the node of each slot
+};
+
+/// The picture, first row on top, on all cores. `opaque`: as in ViewRequest.
+Image showView(const ShowJob& job, bool opaque);
+
+/// Pixels along a side of the squares that are shown at a time.
+inline constexpr int kTileSide = 16;
+inline constexpr std::size_t kTilePixels = std::size_t{kTileSide} * kTileSide;
+
+/// The colors of a square: its pixels block by block, and in each row by row from the BOTTOM; linear.
+struct TileColors {
+  alignas(64) std::array<std::array<float, kTilePixels>, 4> channels; ///< R, G, B, A
+};
+
+/// What pixels of a square show. `samples` of a pixel, a bit each, show this triangle.
+struct FragmentList {
+  static constexpr std::size_t kMost = 4 * kTilePixels;
+  alignas(64) std::array<std::uint32_t, kMost + 16> triangle; ///< FrameScene's number
+  alignas(64) std::array<std::int32_t, kMost + 16> pixel;     ///< of TileColors
+  alignas(64) std::array<std::int32_t, kMost + 16> samples;
+  std::size_t count = 0;
+};
+
+/// The column and the row of a square's pixel, from its lower left corner.
+constexpr int columnOf(int pixel) {
+  return (pixel >> 2 & 12) | (pixel & 3);
+}
+constexpr int rowOf(int pixel) {
+  return (pixel >> 4 & 12) | (pixel >> 2 & 3);
+}
+
+/// The fragments of the square whose lower left pixel is x, y: block by block, of each first those that fill it, then
+/// what is left of pixels with several.
+void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list);
+
+} // namespace gnomon::cpu

@@ -1,0 +1,50 @@
+// The alpha of a triangle, wherever it is seen from.
+#if defined(GNOMON_CPU_ALPHA_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_ALPHA_INL_H
+#undef GNOMON_CPU_ALPHA_INL_H
+#else
+#define GNOMON_CPU_ALPHA_INL_H
+#endif
+
+#include "renderer/cpu/surface/texture_spots-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// A line through each place in clip space without its depth: x, y and w.
+HWY_INLINE Sight sightThrough(const glm::vec2& size, const Float2& place) {
+  Sight sight;
+  sight.origin = Float3(0.0f);
+  sight.way = {place.x * (2.0f / size.x) - 1.0f, place.y * (2.0f / size.y) - 1.0f, 1.0f};
+  sight.stepX = {2.0f / size.x, 0, 0};
+  sight.stepY = {0, 2.0f / size.y, 0};
+  return sight;
+}
+
+/// `triangle`: of the instance's primitive; `size`: of what is rastered; `where`: the lanes that count.
+HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std::uint32_t instance,
+                         const glm::mat4& clipFromLocal, const Int& triangle, const glm::vec2& size,
+                         const Float2& place, const Mask& where) {
+  const Slot& slot = scene.slots[scene.geometry.firstSlot[instance]];
+  const Material& material = scene.scene.materials[static_cast<std::size_t>(slot.material)];
+  const shared::MaterialData& data = scene.materials[static_cast<std::size_t>(slot.material)];
+  Float alpha(data.baseColorFactor.w);
+  if (material.uniformAlpha || (!material.hasVertexColors && !material.baseColor)) return alpha;
+  const Corners corners(scene, slot, triangle);
+  const glm::mat4 columns = glm::transpose(clipFromLocal);
+  const glm::vec4 rows[3] = {columns[0], columns[1], columns[3]};
+  const Sight sight = sightThrough(size, place);
+  const Triangle seen = placed(rows, corners.triangle());
+  const Meeting meeting = meetingOf(sight, seen);
+  if (material.hasVertexColors) alpha *= corners.color(meeting).a;
+  if (!material.baseColor || material.baseColor->image < 0) return alpha;
+  const TextureUse& use = *material.baseColor;
+  const TextureSpot spot = spotOf(corners, meeting, stepsOf(sight, seen, meeting), use.texCoord);
+  return alpha * sampled(textures.of(use.image, true), use,
+                         use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where)
+                     .a;
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,82 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/cpu/surface/material_holes.cpp" // NOLINT: Highway includes this file again
+#include "renderer/cpu/surface/material_holes.h"
+
+#include <algorithm>
+#include <hwy/foreach_target.h>
+#include <iterator>
+
+#include "renderer/cpu/surface/alpha-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Of the triangles of a block's places those whose alpha is at least `least`, a number a place.
+unsigned filledPlaces(const HolesInput& input, std::uint32_t number, const glm::ivec2& first, const float* least,
+                      unsigned covered) {
+  const std::uint32_t instance = input.scene.slots[number / kClusterTriangles].instance;
+  const std::uint32_t triangle = number - input.scene.geometry.firstSlot[instance] * kClusterTriangles;
+  static_assert(kBlockSide == 4);
+  const Int x = (laneNumbers() & Int(3)) + Int(first.x), y = shiftRight<2>(laneNumbers()) + Int(first.y);
+  const Float alpha = alphaOf(input.scene, input.textures, instance, input.clipFromLocal[instance],
+                              Int(static_cast<std::int32_t>(triangle)), glm::vec2(input.size),
+                              Float2(toFloat(x) + 0.5f, toFloat(y) + 0.5f), maskOf(covered));
+  return covered & bitsOf(alpha >= load(least));
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+namespace {
+
+HWY_EXPORT(filledPlaces);
+
+/// A well mixed number. (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: pcg.)
+std::uint32_t hashOf(std::uint32_t seed) {
+  const std::uint32_t state = seed * 747796405u + 2891336453u;
+  const std::uint32_t word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+  return (word >> 22) ^ word;
+}
+
+/// The pattern of what is dithered at a texel of the atlas, 0..1: see common_alpha_mask.glsl. `surface`: hash of the
+/// triangle.
+float patternAt(const glm::uvec2& p, std::uint32_t surface, bool counterClockwise) {
+  const std::uint32_t x = p.x ^ p.y;
+  std::uint32_t rank = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
+  if (!counterClockwise) rank ^= ((rank & 1u) * 12u) ^ ((rank & 2u) << 2);
+  rank ^= hashOf((p.x >> 3) + hashOf((p.y >> 3) + surface)) >> 28;
+  return (static_cast<float>(rank) + 0.5f) / 16.0f;
+}
+
+/// The triangle's last vertex and its node: which triangle it is, whatever else is drawn.
+std::uint32_t surfaceHash(const FrameScene& scene, std::uint32_t number) {
+  const Slot& slot = scene.slots[number / kClusterTriangles];
+  const std::size_t last = slot.firstIndex + 3 * std::size_t{number % kClusterTriangles} + 2;
+  const std::uint32_t vertex = scene.scene.indices[last] + slot.baseVertex;
+  return hashOf(vertex + hashOf(static_cast<std::uint32_t>(scene.geometry.instances[slot.instance].node)));
+}
+
+} // namespace
+
+unsigned MaterialHoles::filled(std::uint32_t number, bool counterClockwise, int column, int row, int,
+                               unsigned covered) const {
+  const FrameScene& scene = input_.scene;
+  const auto material = static_cast<std::size_t>(scene.slots[number / kClusterTriangles].material);
+  const glm::ivec2 first = glm::ivec2(column, row) * kBlockSide;
+  alignas(64) float least[kBlockPlaces];
+  if (input_.dithers && scene.scene.materials[material].alphaMode == AlphaMode::blend) {
+    const std::uint32_t surface = surfaceHash(scene, number);
+    for (int i = 0; i < kBlockPlaces; ++i) {
+      const glm::uvec2 texel(input_.corner + first + glm::ivec2(i % kBlockSide, i / kBlockSide));
+      least[i] = patternAt(texel, surface, counterClockwise);
+    }
+  } else {
+    std::fill(std::begin(least), std::end(least), scene.materials[material].emissiveFactor.w);
+  }
+  return HWY_DYNAMIC_DISPATCH(filledPlaces)(input_, number, first, least, covered);
+}
+
+} // namespace gnomon::cpu
+#endif

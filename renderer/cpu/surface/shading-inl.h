@@ -1,0 +1,105 @@
+// The light of surfaces on its way to the eye, and the picture that it makes.
+#if defined(GNOMON_CPU_SHADING_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SHADING_INL_H
+#undef GNOMON_CPU_SHADING_INL_H
+#else
+#define GNOMON_CPU_SHADING_INL_H
+#endif
+
+#include <span>
+
+#include "protocol/spec/output_options.h"
+#include "renderer/cpu/surface/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// The lights of a frame.
+struct Lighting {
+  std::span<const LightData> lights;
+  std::span<const std::uint32_t> lists; ///< prepare/light_lists.h; empty = every light may reach every pixel
+};
+
+HWY_INLINE SurfacePoint pointOf(const shared::FrameData& frame, const Surface& surface) {
+  const Float3 toEye =
+      frame.forward.w > 0.0f ? -normalize(surface.receiver.relative) : Float3(-glm::vec3(frame.forward));
+  return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
+}
+
+/// What one light adds. `visibility(light, receiver, toLight, where)`: the share of it that arrives, 0..1, asked for
+/// the lanes `where`, of which it reflects something; in the others it may be any number.
+template <class Visibility>
+HWY_INLINE Float3 radianceFrom(const Lighting& lighting, std::uint32_t light, const SurfacePoint& point,
+                               const Receiver& receiver, const Visibility& visibility) {
+  const LightData& data = lighting.lights[light];
+  const Int lit = receiver.groupBit & Int(static_cast<std::int32_t>(data.litGroups));
+  const Mask reached = receiver.shown & (lit != Int(0));
+  if (none(reached)) return Float3(0.0f);
+  Float3 toLight;
+  const Float3 arriving = irradiance(data, receiver.relative, toLight);
+  const Float3 reflected = reflectedRadiance(point, toLight) * arriving;
+  const Mask lights = reached & ((reflected.x != 0.0f) | (reflected.y != 0.0f) | (reflected.z != 0.0f));
+  if (none(lights)) return Float3(0.0f);
+  return select(lights, reflected * visibility(light, receiver, toLight, lights), Float3(0.0f));
+}
+
+/// Adds what the lights of a list, a range of Lighting::lists, send to the lanes `where`.
+template <class Visibility>
+HWY_INLINE void addListed(const Lighting& lighting, std::size_t square, const SurfacePoint& point, Receiver receiver,
+                          const Mask& where, const Visibility& visibility, Float3& sum) {
+  receiver.shown = where;
+  for (std::uint32_t k = lighting.lists[2 * square]; k < lighting.lists[2 * square + 1]; ++k) {
+    sum += radianceFrom(lighting, lighting.lists[k], point, receiver, visibility);
+  }
+}
+
+/// Of lanes that show a surface.
+template <class Visibility>
+HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lighting, const Fragments& fragments,
+                                const Surface& surface, const Visibility& visibility) {
+  Receiver receiver = surface.receiver;
+  receiver.shown = andNot(surface.unlit, fragments.shown);
+  if (none(receiver.shown)) return surface.emission;
+  const SurfacePoint point = pointOf(scene.frame, surface);
+  Float3 sum = surface.emission + Float3(glm::vec3(scene.frame.ambient)) * ambientReflected(point) * surface.occlusion;
+  if (lighting.lists.empty()) {
+    for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
+      sum += radianceFrom(lighting, k, point, receiver, visibility);
+    }
+  } else {
+    // Squares count from the top of the picture, so that a packet may lie in two of them, or in four.
+    const auto columns = static_cast<std::size_t>((scene.width + GNOMON_REGION_SIZE - 1) / GNOMON_REGION_SIZE);
+    static_assert(GNOMON_REGION_SIZE == 1 << 6);
+    const Int square = shiftRight<6>(Int(scene.height - 1) - fragments.y) * Int(static_cast<std::int32_t>(columns)) +
+                       shiftRight<6>(fragments.x);
+    alignas(64) std::int32_t squares[kLanes];
+    store(square, squares);
+    for (unsigned left = bitsOf(receiver.shown); left != 0;) {
+      const std::int32_t own = squares[__builtin_ctz(left)];
+      const Mask where = receiver.shown & (square == Int(own));
+      addListed(lighting, static_cast<std::size_t>(own), point, receiver, where, visibility, sum);
+      left &= ~bitsOf(where);
+    }
+  }
+  return select(surface.unlit, surface.emission, sum);
+}
+
+/// A picture's color, linear; `a`: 1 on surfaces.
+struct PictureColor {
+  Float3 rgb;
+  Float a;
+};
+
+/// `encoded`: for 8 bits a channel; else linear numbers, whatever the tone mapping.
+HWY_INLINE PictureColor pictureOf(const shared::FrameData& frame, const Mask& shown, const Float3& radiance,
+                                  ToneMapping toneMapping, bool encoded) {
+  const Float3 exposed = radiance * Float(frame.depthRange.z);
+  const Float3 toned = !encoded                           ? exposed
+                       : toneMapping == ToneMapping::aces ? acesToneMapped(exposed)
+                                                          : clippedTone(exposed);
+  return {select(shown, toned, Float3(glm::vec3(frame.background))), select(shown, Float(1.0f), frame.background.w)};
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,98 @@
+// Lines of sight through places of the picture, and where they meet the planes of triangles.
+#if defined(GNOMON_CPU_SIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SIGHT_INL_H
+#undef GNOMON_CPU_SIGHT_INL_H
+#else
+#define GNOMON_CPU_SIGHT_INL_H
+#endif
+
+#include "renderer/cpu/lanes/vectors-inl.h"
+#include "renderer/shaders/shared/frame_types.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// The points origin + depth * way; as the place moves by a pixel, either way or origin moves by a step.
+struct Sight {
+  Float3 origin; ///< relative to the eye, metres
+  Float3 way;
+  glm::vec3 stepX{0}, stepY{0};
+  bool spreads = true; ///< from one origin: perspective
+};
+
+/// `depth` along it is view depth.
+HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& place) {
+  Sight sight;
+  const glm::vec3 right(frame.right), up(frame.up), forward(frame.forward);
+  sight.spreads = frame.forward.w > 0.0f;
+  sight.stepX = right * frame.lens.z;
+  sight.stepY = up * frame.lens.w;
+  const Float3 across = Float3(right) * (place.x * frame.lens.z - 1.0f) + Float3(up) * (place.y * frame.lens.w - 1.0f);
+  sight.origin = sight.spreads ? Float3(0.0f) : across;
+  sight.way = sight.spreads ? Float3(forward) + across : Float3(forward);
+  return sight;
+}
+
+/// The view depth of what the survey saw. Its corners lie on a grid, so it may miss by a little; but what is shown lies
+/// in the range that tiles are fitted to.
+HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDepth) {
+  const glm::vec4& range = frame.depthRange;
+  return range.x < range.y ? clamp(viewDepth, range.x, range.y) : viewDepth;
+}
+
+/// A triangle: a corner, and from there to the other two.
+struct Triangle {
+  Float3 corner; ///< as Sight::origin
+  Float3 edge1, edge2;
+};
+
+/// Where a line of sight meets a triangle's plane: corner + u * edge1 + v * edge2.
+struct Meeting {
+  Float u, v;
+  Float depth;
+  Float3 normal; ///< of the plane, cross(edge1, edge2)
+};
+
+/// Always finite: of a triangle that is seen edge-on, some point near it.
+HWY_INLINE Meeting meetingOf(const Sight& sight, const Triangle& triangle) {
+  const Float3 start = sight.origin - triangle.corner;
+  Meeting m;
+  m.normal = cross(triangle.edge1, triangle.edge2);
+  const Float steepness = dot(sight.way, m.normal);
+  const Float over = 1.0f / steepness;
+  const Float u = dot(sight.way, cross(start, triangle.edge2)) * over;
+  const Float v = dot(sight.way, cross(triangle.edge1, start)) * over;
+  const Float depth = -dot(start, m.normal) * over;
+  // Comparisons with what is not a number are false.
+  const Mask sound = (abs(u) < 1e4f) & (abs(v) < 1e4f) & (abs(depth) < 1e30f) & (steepness != Float(0.0f));
+  const Float3 middle = triangle.corner + (triangle.edge1 + triangle.edge2) * (1.0f / 3.0f);
+  m.u = select(sound, u, 1.0f / 3.0f);
+  m.v = select(sound, v, 1.0f / 3.0f);
+  m.depth = select(sound, depth, dot(middle - sight.origin, sight.way) / dot(sight.way, sight.way));
+  return m;
+}
+
+/// How u and v of a meeting change as the place moves by a pixel to the right and up.
+struct MeetingSteps {
+  Float2 right, up;
+};
+
+HWY_INLINE MeetingSteps stepsOf(const Sight& sight, const Triangle& triangle, const Meeting& m) {
+  const Float steepness = dot(sight.way, m.normal);
+  const Float over = 1.0f / select(steepness == Float(0.0f), 1e-30f, steepness);
+  if (sight.spreads) {
+    const Float3 start = sight.origin - triangle.corner;
+    const Float3 ofU = cross(start, triangle.edge2) - m.normal * m.u;
+    const Float3 ofV = cross(triangle.edge1, start) - m.normal * m.v;
+    const Float3 x(sight.stepX), y(sight.stepY);
+    return {Float2(dot(x, ofU), dot(x, ofV)) * over, Float2(dot(y, ofU), dot(y, ofV)) * over};
+  }
+  const Float3 ofU = cross(triangle.edge2, sight.way);
+  const Float3 ofV = cross(sight.way, triangle.edge1);
+  const Float3 x(sight.stepX), y(sight.stepY);
+  return {Float2(dot(x, ofU), dot(x, ofV)) * over, Float2(dot(y, ofU), dot(y, ofV)) * over};
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,228 @@
+// What sixteen places of the picture show: the surface's place, its normals and its material.
+#if defined(GNOMON_CPU_SURFACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_SURFACE_INL_H
+#undef GNOMON_CPU_SURFACE_INL_H
+#else
+#define GNOMON_CPU_SURFACE_INL_H
+#endif
+
+#include "renderer/cpu/lanes/shared_functions-inl.h"
+#include "renderer/cpu/surface/fragments-inl.h"
+#include "renderer/cpu/surface/texture_spots-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Finite in all lanes; of those that show nothing it means nothing.
+struct Surface {
+  Receiver receiver;
+  Float3 normal;    ///< for shading; unit length
+  Float3 baseColor; ///< linear, 0..1
+  Float metallic;
+  Float roughness; ///< perceptual
+  Float occlusion; ///< of the surroundings, 1 = open
+  Float3 emission; ///< radiance; of what is unlit all that it shows
+  Mask unlit;
+};
+
+HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& no) {
+  Surface s;
+  s.receiver.shown = no.receiver.shown;
+  s.receiver.relative = select(where, yes.receiver.relative, no.receiver.relative);
+  s.receiver.normal = select(where, yes.receiver.normal, no.receiver.normal);
+  s.receiver.viewDepth = select(where, yes.receiver.viewDepth, no.receiver.viewDepth);
+  s.receiver.groupBit = select(where, yes.receiver.groupBit, no.receiver.groupBit);
+  s.receiver.place = no.receiver.place;
+  s.normal = select(where, yes.normal, no.normal);
+  s.baseColor = select(where, yes.baseColor, no.baseColor);
+  s.metallic = select(where, yes.metallic, no.metallic);
+  s.roughness = select(where, yes.roughness, no.roughness);
+  s.occlusion = select(where, yes.occlusion, no.occlusion);
+  s.emission = select(where, yes.emission, no.emission);
+  s.unlit = (where & yes.unlit) | andNot(where, no.unlit);
+  return s;
+}
+
+/// What triangles of one instance show.
+class InstanceSurface {
+ public:
+  /// `triangle`: of the instance's primitive; `own`: the lanes that count.
+  HWY_INLINE InstanceSurface(const FrameScene& scene, const Textures& textures, std::uint32_t instance,
+                             const Int& triangle, const Fragments& fragments, const Mask& own)
+      : frame_(scene.frame),
+        textures_(textures),
+        own_(own),
+        slot_(scene.slots[scene.geometry.firstSlot[instance]]),
+        placed_(scene.instances[instance]),
+        material_(scene.scene.materials[static_cast<std::size_t>(slot_.material)]),
+        data_(scene.materials[static_cast<std::size_t>(slot_.material)]),
+        tangents_(
+            scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
+        corners_(scene, slot_, triangle),
+        sight_(sightThrough(scene.frame, fragments.place)) {
+    triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
+    meeting_ = meetingOf(sight_, triangle_);
+    findTextureSpots();
+  }
+
+  HWY_INLINE Surface surface(const Fragments& fragments) const {
+    Surface s;
+    s.receiver.shown = fragments.shown;
+    s.receiver.relative = sight_.origin + sight_.way * meeting_.depth;
+    s.receiver.viewDepth = asSurveyed(frame_, meeting_.depth);
+    s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
+    s.receiver.place = fragments.place;
+    const Float3 toEye =
+        frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight_.way) : Float3(-glm::vec3(frame_.forward));
+    const Float3 face = directionOf(meeting_.normal, toEye);
+    s.receiver.normal = select(dot(face, toEye) < 0.0f, -face, face);
+    s.normal = shadingNormal(s.receiver.normal);
+    addMaterial(toEye, s);
+    return s;
+  }
+
+ private:
+  /// What materials read of a vertex's coordinates: those of sets that they use.
+  HWY_INLINE void findTextureSpots() {
+    bool used[2] = {};
+    for (const auto* use : {&material_.baseColor, &material_.metallicRoughness, &material_.normal, &material_.occlusion,
+                            &material_.emissive}) {
+      if (*use) used[(*use)->texCoord == 0 ? 0 : 1] = true;
+    }
+    if (!used[0] && !used[1]) return;
+    steps_ = stepsOf(sight_, triangle_, meeting_);
+    for (int set = 0; set < 2; ++set) {
+      if (used[set]) spots_[set] = spotOf(corners_, meeting_, steps_, set);
+    }
+  }
+
+  HWY_INLINE TextureSpot spotOfUse(const TextureUse& use, std::size_t unit) const {
+    const TextureSpot& spot = spots_[use.texCoord == 0 ? 0 : 1];
+    return use.transform ? moved(data_, unit, spot) : spot;
+  }
+  HWY_INLINE Texel texel(const TextureUse& use, std::size_t unit, bool srgb) const {
+    if (use.image < 0) return {Float3(0.0f), Float(1.0f)};
+    return sampled(textures_.of(use.image, srgb), use, spotOfUse(use, unit), own_);
+  }
+
+  HWY_INLINE Float3 shadingNormal(const Float3& face) const {
+    const Float3 own = turned(placed_.normalFromLocal, corners_.triple(offsetof(VertexAttributes, normal), meeting_));
+    const Float3 n = directionOf(material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own, face);
+    return material_.normal ? directionOf(bent(n, *material_.normal), n) : n;
+  }
+
+  HWY_INLINE Float3 bent(const Float3& n, const TextureUse& use) const {
+    Float3 direction = texel(use, GNOMON_NORMAL_UNIT, false).rgb * 2.0f - Float3(1.0f);
+    direction.x *= data_.surface.z;
+    direction.y *= data_.surface.z;
+    if (tangents_) {
+      const Float3 tangent =
+          turned(placed_.relativeFromLocal, corners_.triple(offsetof(VertexAttributes, tangent), meeting_));
+      const Float sign = corners_.number(offsetof(VertexAttributes, tangent) + 3 * sizeof(float), meeting_);
+      return bentByTangent(n, tangent, sign, direction);
+    }
+    const TextureSpot spot = spotOfUse(use, GNOMON_NORMAL_UNIT);
+    const auto movedPlace = [&](const Float2& step)
+                                HWY_ATTR { return triangle_.edge1 * step.x + triangle_.edge2 * step.y; };
+    return bentBySteps(n, movedPlace(steps_.right), movedPlace(steps_.up), spot.right, spot.up, direction);
+  }
+
+  HWY_INLINE Float3 ownColor() const {
+    Float3 color{glm::vec3(data_.baseColorFactor)};
+    if (material_.baseColor) color = color * texel(*material_.baseColor, GNOMON_BASE_COLOR_UNIT, true).rgb;
+    if (material_.hasVertexColors) color = color * corners_.color(meeting_).rgb;
+    return color;
+  }
+
+  /// Turns the diffuse color into a base color.
+  HWY_INLINE void addGlossiness(Float3& color, Float& metallic, Float& roughness) const {
+    Float3 specular{glm::vec3(data_.specularGlossiness)};
+    Float glossiness(data_.specularGlossiness.w);
+    if (material_.metallicRoughness) {
+      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, true);
+      specular = specular * factor.rgb;
+      glossiness *= factor.a;
+    }
+    metallic = metallicOf(color, specular);
+    color = baseColorOf(color, specular, metallic);
+    roughness = 1.0f - glossiness;
+  }
+
+  HWY_INLINE void addMaterial(const Float3& toEye, Surface& s) const {
+    Float3 color = ownColor();
+    Float metallic(data_.surface.x), roughness(data_.surface.y);
+    if (material_.specularGlossiness) {
+      addGlossiness(color, metallic, roughness);
+    } else if (material_.metallicRoughness) {
+      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, false);
+      metallic *= factor.rgb.z;
+      roughness *= factor.rgb.y;
+    }
+    s.emission = Float3(glm::vec3(data_.emissiveFactor));
+    if (material_.emissive) s.emission = s.emission * texel(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
+    s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
+    if (material_.unlit) {
+      s.emission = color;
+    } else if (material_.transmission > 0) {
+      // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
+      const Float passing = data_.passing.x * (1.0f - metallic);
+      const Float3 behind = Float3(glm::vec3(frame_.ambient)) * radianceAround(-toEye.y, roughness);
+      s.emission += color * passing * behind;
+      color *= mix(Float(1.0f), metallic, passing);
+    }
+    s.baseColor = clamp(color, 0.0f, 1.0f);
+    s.metallic = clamp(metallic, 0.0f, 1.0f);
+    s.roughness = clamp(roughness, 0.0f, 1.0f);
+    s.occlusion = 1.0f;
+    if (material_.occlusion) {
+      const Float open = texel(*material_.occlusion, GNOMON_OCCLUSION_UNIT, false).rgb.x;
+      s.occlusion = clamp(mix(Float(1.0f), open, data_.surface.w), 0.0f, 1.0f);
+    }
+  }
+
+  const shared::FrameData& frame_;
+  const Textures& textures_;
+  const Mask own_;
+  const Slot& slot_; ///< the instance's first
+  const shared::InstanceData& placed_;
+  const Material& material_;
+  const shared::MaterialData& data_;
+  const bool tangents_; ///< vertices bring their own
+  Corners corners_;
+  Sight sight_;
+  Triangle triangle_; ///< relative to the eye
+  Meeting meeting_;
+  MeetingSteps steps_;   ///< where textures are used
+  TextureSpot spots_[2]; ///< of the sets of coordinates that textures use
+};
+
+/// Lanes that show one instance are worked on together; a packet mostly shows one.
+HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Textures& textures, const Fragments& fragments) {
+  static_assert(kClusterTriangles == 1 << 10);
+  alignas(64) std::int32_t slots[kLanes];
+  const Int slot = shiftRightUnsigned<10>(fragments.triangle);
+  store(slot, slots);
+  alignas(64) std::int32_t triangles[kLanes];
+  store(fragments.triangle, triangles);
+  Surface surface{};
+  surface.receiver.shown = fragments.shown;
+  surface.receiver.place = fragments.place;
+  unsigned left = bitsOf(fragments.shown);
+  for (bool first = true; left != 0; first = false) {
+    const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
+    const std::uint32_t instance = scene.slots[static_cast<std::size_t>(slots[lane])].instance;
+    const auto begin = static_cast<std::int32_t>(scene.geometry.firstSlot[instance]);
+    const auto end = static_cast<std::int32_t>(scene.geometry.firstSlot[instance + 1]);
+    const Mask own = fragments.shown & (slot >= Int(begin)) & (slot < Int(end));
+    // What the other lanes show is no triangle of this instance.
+    const Int triangle = select(own, fragments.triangle, Int(triangles[lane])) - shiftLeft<10>(Int(begin));
+    const Surface found = InstanceSurface(scene, textures, instance, triangle, fragments, own).surface(fragments);
+    surface = first ? found : select(own, found, surface);
+    left &= ~bitsOf(own);
+  }
+  return surface;
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,109 @@
+// The corners of sixteen triangles of one instance, fetched and interpolated.
+#if defined(GNOMON_CPU_VERTICES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_VERTICES_INL_H
+#undef GNOMON_CPU_VERTICES_INL_H
+#else
+#define GNOMON_CPU_VERTICES_INL_H
+#endif
+
+#include <cstddef>
+
+#include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/surface/sight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// Vertices of triangles. Where all lanes have one triangle, its numbers are read once.
+class Corners {
+ public:
+  /// `triangle`: of the instance's primitive.
+  HWY_INLINE Corners(const FrameScene& scene, const Slot& first, const Int& triangle) : scene_(scene) {
+    same_ = all(triangle == Int(firstOf(triangle)));
+    const std::uint32_t* indices = scene.scene.indices.data() + first.firstIndex;
+    for (int c = 0; c < 3; ++c) {
+      if (same_) {
+        one_[c] =
+            indices[3 * static_cast<std::size_t>(firstOf(triangle)) + static_cast<std::size_t>(c)] + first.baseVertex;
+      } else {
+        each_[c] = gather(indices + c, triangle * 3) + Int(static_cast<std::int32_t>(first.baseVertex));
+      }
+    }
+  }
+
+  /// In the primitive's own space.
+  HWY_INLINE Triangle triangle() const {
+    const float* positions = &scene_.scene.positions.data()->x;
+    Float3 p[3];
+    for (int c = 0; c < 3; ++c) p[c] = {at(positions, 3, c), at(positions + 1, 3, c), at(positions + 2, 3, c)};
+    return {p[0], p[1] - p[0], p[2] - p[0]};
+  }
+
+  /// Fields of VertexAttributes, a float each, by their offset; interpolated at a meeting.
+  HWY_INLINE Float number(std::size_t offset, const Meeting& m) const {
+    return blend(attribute(offset, 0), attribute(offset, 1), attribute(offset, 2), m);
+  }
+  HWY_INLINE Float2 pair(std::size_t offset, const Meeting& m) const {
+    return {number(offset, m), number(offset + sizeof(float), m)};
+  }
+  HWY_INLINE Float3 triple(std::size_t offset, const Meeting& m) const {
+    return {number(offset, m), number(offset + sizeof(float), m), number(offset + 2 * sizeof(float), m)};
+  }
+
+  /// How a pair changes by a step of u and v.
+  HWY_INLINE Float2 moved(std::size_t offset, const Float2& step) const {
+    Float2 result;
+    Float* out[] = {&result.x, &result.y};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::size_t field = offset + axis * sizeof(float);
+      const Float first = attribute(field, 0);
+      *out[axis] = (attribute(field, 1) - first) * step.x + (attribute(field, 2) - first) * step.y;
+    }
+    return result;
+  }
+
+  struct Color {
+    Float3 rgb;
+    Float a;
+  };
+  HWY_INLINE Color color(const Meeting& m) const {
+    Float channels[4];
+    for (std::size_t two = 0; two < 2; ++two) {
+      Int bits[3];
+      for (int c = 0; c < 3; ++c) {
+        bits[c] = bitsOf(attribute(offsetof(VertexAttributes, color) + two * sizeof(float), c));
+      }
+      const auto half = [&](int c, bool upper) HWY_ATTR {
+        return toFloat(upper ? shiftRightUnsigned<16>(bits[c]) : bits[c] & Int(0xffff)) * (1.0f / 65535.0f);
+      };
+      channels[2 * two] = blend(half(0, false), half(1, false), half(2, false), m);
+      channels[2 * two + 1] = blend(half(0, true), half(1, true), half(2, true), m);
+    }
+    return {{channels[0], channels[1], channels[2]}, channels[3]};
+  }
+
+ private:
+  static HWY_INLINE std::int32_t firstOf(const Int& a) { return hn::GetLane(a.part[0]); }
+
+  static HWY_INLINE Float blend(const Float& a, const Float& b, const Float& c, const Meeting& m) {
+    return mulAdd(b - a, m.u, mulAdd(c - a, m.v, a));
+  }
+  HWY_INLINE Float at(const float* base, int stride, int corner) const {
+    return same_ ? Float(base[static_cast<std::size_t>(one_[corner]) * static_cast<std::size_t>(stride)])
+                 : gather(base, each_[corner] * stride);
+  }
+  HWY_INLINE Float attribute(std::size_t offset, int corner) const {
+    static_assert(sizeof(VertexAttributes) % sizeof(float) == 0);
+    const auto* attributes = reinterpret_cast<const float*>(scene_.scene.attributes.data());
+    return at(attributes + offset / sizeof(float), sizeof(VertexAttributes) / sizeof(float), corner);
+  }
+
+  const FrameScene& scene_;
+  bool same_ = false;
+  std::uint32_t one_[3] = {}; ///< of all lanes, where they have the same triangle
+  Int each_[3];
+};
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
