@@ -3,10 +3,10 @@
 #include <bit>
 
 #include "renderer/prepare/draw_list.h"
-#include "tests/renderer/cpu/debug_kernels.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/made_scene.h"
-#include "tests/renderer/cpu/random_maps.h"
+#include "tests/renderer/cpu/shadow/debug_kernels.h"
+#include "tests/renderer/cpu/shadow/random_maps.h"
+#include "tests/renderer/cpu/surface/made_scene.h"
 
 namespace gnomon::cpu {
 namespace {

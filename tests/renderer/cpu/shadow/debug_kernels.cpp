@@ -1,14 +1,14 @@
-#include "tests/renderer/cpu/debug_kernels.h"
+#include "tests/renderer/cpu/shadow/debug_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/renderer/cpu/debug_kernels.cpp"
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow/debug_kernels.cpp"
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/shadow/caster_ids-inl.h"
 #include "renderer/cpu/shadow/certainty-inl.h"
 #include "renderer/cpu/shadow/map_footprints-inl.h"
 #include "renderer/cpu/surface/receivers-inl.h"
-#include "tests/renderer/cpu/asked_points-inl.h"
+#include "tests/renderer/cpu/shadow/asked_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

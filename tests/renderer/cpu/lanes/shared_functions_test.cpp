@@ -4,13 +4,13 @@
 
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
+#include "tests/renderer/cpu/lanes/shared_functions_kernels.h"
 #include "tests/renderer/cpu/number_table.h"
-#include "tests/renderer/cpu/shared_functions_kernels.h"
 
 namespace gnomon::shared {
 namespace {
 
-#include "tests/renderer/cpu/shared_functions_cases.h"
+#include "tests/renderer/cpu/lanes/shared_functions_cases.h"
 
 struct Columns {
   const cpu::NumberTable& table;

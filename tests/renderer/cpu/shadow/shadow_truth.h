@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/cpu/shadow/shadow_maps.h"
-#include "tests/renderer/cpu/shadow_kernels.h"
+#include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 /// What shaders/common_shadow*.glsl compute, a number at a time: their text with GLM's names.
 namespace gnomon::cpu::truth {

@@ -3,8 +3,8 @@
 
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/place_truth.h"
-#include "tests/renderer/cpu/sampled_truth.h"
+#include "tests/renderer/cpu/shadow/place_truth.h"
+#include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {
 namespace {

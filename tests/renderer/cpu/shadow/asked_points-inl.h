@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "renderer/cpu/surface/fragments-inl.h"
-#include "tests/renderer/cpu/shadow_kernels.h"
+#include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

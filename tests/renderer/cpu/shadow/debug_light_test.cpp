@@ -3,10 +3,10 @@
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/prepare/draw_list.h"
 #include "renderer/shaders/shared/functions.h"
-#include "tests/renderer/cpu/debug_truth.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/random_maps.h"
-#include "tests/renderer/cpu/shadow_truth.h"
+#include "tests/renderer/cpu/shadow/debug_truth.h"
+#include "tests/renderer/cpu/shadow/random_maps.h"
+#include "tests/renderer/cpu/shadow/shadow_truth.h"
 
 namespace gnomon::cpu {
 namespace {

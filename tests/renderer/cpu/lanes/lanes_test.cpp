@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/lanes_cases.h"
-#include "tests/renderer/cpu/lanes_kernels.h"
+#include "tests/renderer/cpu/lanes/lanes_cases.h"
+#include "tests/renderer/cpu/lanes/lanes_kernels.h"
 
 namespace gnomon::cpu {
 namespace {

@@ -1,11 +1,11 @@
-#include "tests/renderer/cpu/debug_truth.h"
+#include "tests/renderer/cpu/shadow/debug_truth.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "renderer/prepare/draw_list.h"
 #include "renderer/shaders/shared/functions.h"
-#include "tests/renderer/cpu/shadow_truth.h"
+#include "tests/renderer/cpu/shadow/shadow_truth.h"
 
 namespace gnomon::cpu::truth {
 

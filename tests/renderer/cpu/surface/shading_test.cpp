@@ -6,7 +6,7 @@
 #include "renderer/prepare/draw_list.h"
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/made_scene.h"
+#include "tests/renderer/cpu/surface/made_scene.h"
 
 namespace gnomon::cpu {
 namespace {

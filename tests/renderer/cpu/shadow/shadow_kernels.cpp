@@ -1,12 +1,12 @@
-#include "tests/renderer/cpu/shadow_kernels.h"
+#include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow_kernels.cpp"
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/shadow/shadow_kernels.cpp"
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/shadow/read_texels-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
-#include "tests/renderer/cpu/asked_points-inl.h"
+#include "tests/renderer/cpu/shadow/asked_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/cpu/shadow/shadow_maps.h"
-#include "tests/renderer/cpu/shadow_kernels.h"
+#include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 namespace gnomon::cpu {
 

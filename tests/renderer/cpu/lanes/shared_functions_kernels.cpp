@@ -1,7 +1,7 @@
-#include "tests/renderer/cpu/shared_functions_kernels.h"
+#include "tests/renderer/cpu/lanes/shared_functions_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/renderer/cpu/shared_functions_kernels.cpp"
+#define HWY_TARGET_INCLUDE "tests/renderer/cpu/lanes/shared_functions_kernels.cpp"
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/lanes/shared_functions-inl.h"
@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 namespace {
 
-#include "tests/renderer/cpu/shared_functions_cases.h"
+#include "tests/renderer/cpu/lanes/shared_functions_cases.h"
 
 struct Columns {
   const float* first;

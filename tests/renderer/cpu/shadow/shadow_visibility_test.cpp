@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/random_maps.h"
-#include "tests/renderer/cpu/shadow_truth.h"
+#include "tests/renderer/cpu/shadow/random_maps.h"
+#include "tests/renderer/cpu/shadow/shadow_truth.h"
 
 namespace gnomon::cpu {
 namespace {

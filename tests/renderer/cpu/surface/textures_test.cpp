@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/sampled_truth.h"
-#include "tests/renderer/cpu/sampling_kernels.h"
+#include "tests/renderer/cpu/surface/sampled_truth.h"
+#include "tests/renderer/cpu/surface/sampling_kernels.h"
 
 namespace gnomon::cpu {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/renderer/cpu/random_maps.h"
+#include "tests/renderer/cpu/shadow/random_maps.h"
 
 #include <cmath>
 

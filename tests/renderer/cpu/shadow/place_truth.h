@@ -1,8 +1,8 @@
 #pragma once
 
 #include "renderer/shaders/shared/functions.h"
-#include "tests/renderer/cpu/made_scene.h"
-#include "tests/renderer/cpu/sampled_truth.h"
+#include "tests/renderer/cpu/surface/made_scene.h"
+#include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {
 

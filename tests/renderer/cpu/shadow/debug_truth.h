@@ -5,7 +5,7 @@
 #include "renderer/device/device.h"
 #include "renderer/prepare/outlines.h"
 #include "renderer/techniques/traced_shadow.h"
-#include "tests/renderer/cpu/debug_kernels.h"
+#include "tests/renderer/cpu/shadow/debug_kernels.h"
 
 /// What shaders/common_debug.glsl, displacement.frag and certainty.frag compute, a number at a time.
 namespace gnomon::cpu::truth {

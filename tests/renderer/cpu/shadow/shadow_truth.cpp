@@ -1,4 +1,4 @@
-#include "tests/renderer/cpu/shadow_truth.h"
+#include "tests/renderer/cpu/shadow/shadow_truth.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tests/renderer/cpu/made_scene.h"
+#include "tests/renderer/cpu/surface/made_scene.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,11 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/renderer/cpu/lanes_kernels.cpp" // NOLINT: included again for each instruction set
-#include "tests/renderer/cpu/lanes_kernels.h"
+#define HWY_TARGET_INCLUDE \
+  "tests/renderer/cpu/lanes/lanes_kernels.cpp" // NOLINT: included again for each instruction set
+#include "tests/renderer/cpu/lanes/lanes_kernels.h"
 
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/lanes/lanes-inl.h"
-#include "tests/renderer/cpu/lanes_cases.h"
+#include "tests/renderer/cpu/lanes/lanes_cases.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

@@ -4,7 +4,7 @@
 
 #include "renderer/shaders/shared/frame_types.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/random_maps.h"
+#include "tests/renderer/cpu/shadow/random_maps.h"
 
 namespace gnomon::cpu {
 namespace {

@@ -4,7 +4,7 @@
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/device/device.h"
 #include "renderer/prepare/outlines.h"
-#include "tests/renderer/cpu/shadow_kernels.h"
+#include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 namespace gnomon::cpu {
 

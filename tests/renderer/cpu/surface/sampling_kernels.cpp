@@ -1,6 +1,7 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/renderer/cpu/sampling_kernels.cpp" // NOLINT: included again for each instruction set
-#include "tests/renderer/cpu/sampling_kernels.h"
+#define HWY_TARGET_INCLUDE \
+  "tests/renderer/cpu/surface/sampling_kernels.cpp" // NOLINT: included again for each instruction set
+#include "tests/renderer/cpu/surface/sampling_kernels.h"
 
 #include <hwy/foreach_target.h>
 
