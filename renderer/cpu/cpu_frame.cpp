@@ -21,6 +21,14 @@ const SceneView& viewOf(const FrameWork& work) {
   return work.scene->scenes[static_cast<std::size_t>(work.frame.scene)];
 }
 
+std::uint64_t bytesOf(const DepthBuffer& buffer) {
+  return buffer.depths.size() * sizeof(float) + buffer.triangles.size() * sizeof(std::uint32_t);
+}
+
+std::uint64_t bytesOf(const Image& image) {
+  return std::visit([](const auto& pixels) { return pixels.size() * sizeof(pixels[0]); }, image.pixels);
+}
+
 } // namespace
 
 CpuFrame::CpuFrame(Shared& shared, const FrameWork& work)
@@ -218,10 +226,15 @@ Image CpuFrame::atlasPicture(const ShowInput& input, const ViewRequest& request)
   return request.encoded ? namedTiles(image, input.plan) : image;
 }
 
+void CpuFrame::add(Image picture) {
+  facts_.memory.targets += bytesOf(picture);
+  pictures_.push_back(std::move(picture));
+}
+
 Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   const ViewTraits& traits = traitsOf(request.view);
   if (traits.source == ViewSource::atlas) {
-    pictures_.push_back(atlasPicture(input, request));
+    add(atlasPicture(input, request));
     return Done{};
   }
   const int samples = samplesOf(request);
@@ -244,7 +257,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (request.view == View::casterIds) casters = shownCasters(input);
   job.casters = casters.maps;
   job.slotNodes = casters.slotNodes;
-  pictures_.push_back(showView(job, request.opaque));
+  add(showView(job, request.opaque));
   endPass("view", 0);
   facts_.passes.back().view = request.view;
   return Done{};
@@ -302,6 +315,10 @@ Image CpuFrame::picture(std::size_t index) {
   return pictures_[index];
 }
 
+Image CpuFrame::takePicture(std::size_t index) {
+  return std::move(pictures_[index]);
+}
+
 void CpuFrame::endPass(const char* name, std::uint64_t triangles) {
   PassReport pass;
   pass.pass = name;
@@ -315,23 +332,10 @@ void CpuFrame::endStage(std::string name) {
   stageStart_ = Clock::now();
 }
 
-namespace {
-
-std::uint64_t bytesOf(const DepthBuffer& buffer) {
-  return buffer.depths.size() * sizeof(float) + buffer.triangles.size() * sizeof(std::uint32_t);
-}
-
-std::uint64_t bytesOf(const Image& image) {
-  return std::visit([](const auto& pixels) { return pixels.size() * sizeof(pixels[0]); }, image.pixels);
-}
-
-} // namespace
-
 Result<FrameFacts> CpuFrame::finish() {
   facts_.memory.scene = cached_.textures->bytes();
-  facts_.memory.targets = bytesOf(survey_.buffer);
+  facts_.memory.targets += bytesOf(survey_.buffer);
   for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
-  for (const Image& image : pictures_) facts_.memory.targets += bytesOf(image);
   return std::move(facts_);
 }
 

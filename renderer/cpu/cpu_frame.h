@@ -40,6 +40,7 @@ class CpuFrame : public FrameDrawing {
   Result<std::vector<MapFootprint>> footprints(const ShowInput& input) override;
   Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) override;
   Image picture(std::size_t index) override;
+  Image takePicture(std::size_t index) override;
   void endStage(std::string name) override;
   Result<FrameFacts> finish() override;
 
@@ -53,6 +54,7 @@ class CpuFrame : public FrameDrawing {
   int samplesOf(const ViewRequest& request) const; ///< a pixel
   std::vector<TexelMarks> readBy(const ShowInput& input);
   void makeTexels(const ShadowPlan& plan, std::span<const TexelMarks> read);
+  void add(Image picture);
   Status showOne(const ShowInput& input, const ViewRequest& request);
   ShowJob jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const;
   ShownCasters shownCasters(const ShowInput& input) const;

@@ -6,7 +6,6 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
-#include "renderer/core/parallel.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon::cpu {
@@ -18,23 +17,10 @@ SampleGrid gridOf(const DepthBuffer& surfaces) {
   return grid;
 }
 
-/// The triangles' numbers in the grid's order.
-std::vector<std::uint32_t> shownTriangles(const DepthBuffer& surfaces) {
-  const auto samples = static_cast<std::size_t>(surfaces.samples);
-  const auto width = static_cast<std::size_t>(surfaces.width);
-  std::vector<std::uint32_t> shown(width * static_cast<std::size_t>(surfaces.height) * samples);
-  forEachPiece(static_cast<std::size_t>(surfaces.height), 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t y = first; y < last; ++y) {
-      std::uint32_t* out = &shown[y * width * samples];
-      for (std::size_t x = 0; x < width; x += kBlockSide) {
-        const std::uint32_t* numbers = &surfaces.triangles[surfaces.at(static_cast<int>(x), static_cast<int>(y))];
-        const std::size_t columns = std::min<std::size_t>(kBlockSide, width - x);
-        for (std::size_t i = 0; i < columns; ++i) {
-          for (std::size_t s = 0; s < samples; ++s) *out++ = numbers[s * kBlockPlaces + i];
-        }
-      }
-    }
-  });
+ShownNumbers shownNumbers(const DepthBuffer& surfaces) {
+  ShownNumbers shown{surfaces.triangles, {}, {}};
+  for (int x = 0; x < surfaces.width; ++x) shown.ofColumn.push_back(static_cast<std::uint32_t>(surfaces.at(x, 0)));
+  for (int y = 0; y < surfaces.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(surfaces.at(0, y)));
   return shown;
 }
 
@@ -98,7 +84,7 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   const std::vector<Light>& lights = *work.frame.spec.lights;
   const std::vector<Light> sharp = withoutSizes(lights);
   const SampleGrid grid = gridOf(surfaces);
-  const std::vector<std::uint32_t> shown = shownTriangles(surfaces);
+  const ShownNumbers shown = shownNumbers(surfaces);
   const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
   const TriangleNumbers numbers(camera.scene.geometry);
   const TraceInput rays{**traced, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};

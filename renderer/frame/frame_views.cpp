@@ -169,10 +169,12 @@ Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredSha
 
 std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured) const {
   std::vector<ViewImage> images;
-  for (std::size_t i = 0; i < spec_.views.size(); ++i) {
-    const View view = spec_.views[i];
-    images.push_back(
-        {view, comparesWithRays(view) ? errorImage(drawing, view, *measured) : drawing.picture(requestOf_[i])});
+  for (const View view : spec_.views) {
+    images.push_back({view, comparesWithRays(view) ? errorImage(drawing, view, *measured) : Image{}});
+  }
+  // After the errors, which are painted over one of them.
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!comparesWithRays(images[i].view)) images[i].image = drawing.takePicture(requestOf_[i]);
   }
   return images;
 }

@@ -116,9 +116,17 @@ TriangleNumbers::TriangleNumbers(const FrameGeometry& geometry) {
 
 std::vector<PlacedTriangle> TriangleNumbers::of(std::span<const std::uint32_t> numbers) const {
   std::vector<PlacedTriangle> triangles(numbers.size());
+  of(numbers, triangles);
+  return triangles;
+}
+
+void TriangleNumbers::of(std::span<const std::uint32_t> numbers, std::span<PlacedTriangle> triangles) const {
   std::size_t draw = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (numbers[i] == kNoNumber) continue;
+    if (numbers[i] == kNoNumber) {
+      triangles[i] = {};
+      continue;
+    }
     const std::uint32_t number = numbers[i];
     const bool sameDraw =
         number >= draws_[draw].firstNumber && (draw + 1 == draws_.size() || number < draws_[draw + 1].firstNumber);
@@ -127,10 +135,9 @@ std::vector<PlacedTriangle> TriangleNumbers::of(std::span<const std::uint32_t> n
                                           [](std::uint32_t n, const Draw& d) { return n < d.firstNumber; });
       draw = static_cast<std::size_t>(after - draws_.begin()) - 1;
     }
-    const Draw& of = draws_[draw];
-    triangles[i] = {of.first.instance, of.first.triangle + (number - of.firstNumber)};
+    const Draw& found = draws_[draw];
+    triangles[i] = {found.first.instance, found.first.triangle + (number - found.firstNumber)};
   }
-  return triangles;
 }
 
 } // namespace gnomon

@@ -63,6 +63,7 @@ class TriangleNumbers {
   /// Fastest when consecutive numbers share a draw. REQUIRES: numbers of the list, or
   /// kNoNumber.
   std::vector<PlacedTriangle> of(std::span<const std::uint32_t> numbers) const;
+  void of(std::span<const std::uint32_t> numbers, std::span<PlacedTriangle> triangles) const; ///< as many of each
 
  private:
   struct Draw {

@@ -34,23 +34,6 @@ bool meetsCaster(const Casters& casters, const RayToLight& ray, const Triangle& 
   return meets({receiver, ray.way.direction, ray.way.length}, caster).has_value();
 }
 
-/// The share of the light that the caster stops: 0 where it can't throw a shadow onto the ray's start.
-double opacityOf(const LightQuery& query, const Candidate& hit) {
-  const RayToLight& ray = query.rays[hit.lane];
-  const Casters& casters = *query.casters;
-  const Opacity opacity = casters.opacity[hit.instance];
-  if (opacity == Opacity::none) return 0;
-  if (hit.instance == ray.from->instance && hit.triangle == ray.from->triangle) return 0;
-  const Triangle triangle = casters.tree.triangle(hit.instance, hit.triangle);
-  if (!meetsCaster(casters, ray, triangle)) return 0;
-  if (opacity == Opacity::full) return 1;
-  const Material& material = casters.tree.material(hit.instance);
-  const Barycentric at = crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v});
-  const double alpha = alphaAt(casters.tree, hit.instance, hit.triangle, at);
-  const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
-  return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
-}
-
 LightQuery& queryOf(const RTCFilterFunctionNArguments* call) {
   return *reinterpret_cast<LightQuery*>(call->context);
 }
@@ -58,7 +41,7 @@ LightQuery& queryOf(const RTCFilterFunctionNArguments* call) {
 void keepOpaque(const RTCFilterFunctionNArguments* call) {
   LightQuery& query = queryOf(call);
   filterCandidates(*call, [&](const Candidate& hit) {
-    const double opacity = opacityOf(query, hit);
+    const double opacity = opacityOf(*query.casters, query.rays[hit.lane], hit);
     query.through[hit.lane] *= static_cast<float>(1 - opacity);
     return opacity >= 1;
   });
@@ -66,7 +49,8 @@ void keepOpaque(const RTCFilterFunctionNArguments* call) {
 
 void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
   const LightQuery& query = queryOf(call);
-  filterCandidates(*call, [&](const Candidate& hit) { return opacityOf(query, hit) > 0.5; });
+  filterCandidates(*call,
+                   [&](const Candidate& hit) { return opacityOf(*query.casters, query.rays[hit.lane], hit) > 0.5; });
 }
 
 LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFunctionN filter) {
@@ -81,6 +65,20 @@ LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFu
 }
 
 } // namespace
+
+double opacityOf(const Casters& casters, const RayToLight& ray, const Candidate& hit) {
+  const Opacity opacity = casters.opacity[hit.instance];
+  if (opacity == Opacity::none) return 0;
+  if (hit.instance == ray.from->instance && hit.triangle == ray.from->triangle) return 0;
+  const Triangle triangle = casters.tree.triangle(hit.instance, hit.triangle);
+  if (!meetsCaster(casters, ray, triangle)) return 0;
+  if (opacity == Opacity::full) return 1;
+  const Material& material = casters.tree.material(hit.instance);
+  const Barycentric at = crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v});
+  const double alpha = alphaAt(casters.tree, hit.instance, hit.triangle, at);
+  const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
+  return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
+}
 
 Receiver receiverAt(const TracedScene::Tree& tree, const glm::dvec3& eye, const SurfacePoint& point) {
   const Triangle triangle = tree.triangle(point.instance, point.triangle);

@@ -73,6 +73,16 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples);
 
+/// Sixteen places of a picture and the triangle that was drawn at each. Fastest where they lie close together.
+struct DrawnPlaces {
+  static constexpr std::size_t kCount = 16;
+  float x[kCount] = {}; ///< as firstHits takes them
+  float y[kCount] = {};
+  PlacedTriangle shown[kCount] = {}; ///< kNoSurface = none
+};
+
+struct Lanes;
+
 /// One light of a frame as rays meet it. Made once, asked for any number of points; any thread. What the input refers
 /// to outlives it.
 class TracedLight {
@@ -86,6 +96,10 @@ class TracedLight {
   void visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway = {}) const;
 
+  /// The same of what drawn places show, as pointsOn finds it: a share and a mark for each of the sixteen.
+  void visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
+                  std::span<std::uint8_t> turnedAway) const;
+
   /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
   void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;
 
@@ -93,6 +107,9 @@ class TracedLight {
 
  private:
   struct State;
+  /// Of the places of some lanes, by their exact points.
+  void exactVisibility(const DrawnPlaces& places, const Lanes& lanes, int samples, std::span<float> shares,
+                       std::span<std::uint8_t> turnedAway) const;
   std::unique_ptr<const State> state_;
 };
 

@@ -6,7 +6,7 @@
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/light_source.h"
 #include "renderer/reference/shadow_rays.h"
-#include "renderer/reference/trace.h"
+#include "renderer/reference/traced_light.h"
 
 namespace gnomon {
 namespace {
@@ -91,20 +91,6 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
   return reached;
 }
 
-struct TracedLight::State {
-  LightSource source;
-  std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
-  Casters casters;
-
-  /// What a point sees of the light where that takes no rays.
-  std::optional<float> withoutRays(const SurfacePoint& point, const WayToLight& way) const {
-    if (point.instance == kNoSurface || shadowed[point.instance] == 0) return 1.0f;
-    if (!faces(point.normal, way)) return 0.0f;
-    if (!reaches(source, way)) return 1.0f;
-    return std::nullopt;
-  }
-};
-
 TracedLight::TracedLight(const TraceInput& input, int index) {
   const Light& light = input.lights[static_cast<std::size_t>(index)];
   const TracedScene::Tree& tree = input.traced.tree();
@@ -115,7 +101,8 @@ TracedLight::TracedLight(const TraceInput& input, int index) {
   state_ = std::make_unique<const State>(
       State{lightSource(light, tree.anchor),
             instancesWhere(input, isShadowed),
-            {tree, input.camera.eye - tree.anchor, opacities(input, light), shadow.blendedCasters, roundingIn(tree)}});
+            {tree, input.camera.eye - tree.anchor, opacities(input, light), shadow.blendedCasters, roundingIn(tree)},
+            input});
 }
 
 TracedLight::TracedLight(TracedLight&&) noexcept = default;

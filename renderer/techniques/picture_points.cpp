@@ -6,16 +6,28 @@
 
 namespace gnomon {
 
-std::vector<SurfacePoint> PicturePoints::drawn(std::span<const std::uint32_t> pixels) const {
-  std::vector<glm::vec2> places(pixels.size());
-  std::vector<std::uint32_t> numbers(pixels.size());
+ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numbers) {
+  ShownNumbers shown{numbers, {}, {}};
+  const auto samples = static_cast<std::uint32_t>(grid.samples());
+  for (int x = 0; x < grid.width; ++x) shown.ofColumn.push_back(static_cast<std::uint32_t>(x) * samples);
+  const std::uint32_t row = static_cast<std::uint32_t>(grid.width) * samples;
+  for (int y = 0; y < grid.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(y) * row);
+  return shown;
+}
+
+DrawnPlaces PicturePoints::drawn(std::span<const glm::ivec2> pixels) const {
+  DrawnPlaces places;
+  std::uint32_t numbers[DrawnPlaces::kCount];
+  const glm::vec2 sample = grid_.positions.front();
+  const auto height = static_cast<float>(grid_.height);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    places[i] = placeIn(grid_, pixels[i], grid_.positions.front());
-    numbers[i] = shown_[pixels[i] * grid_.samples()];
+    const glm::ivec2& pixel = pixels[i];
+    places.x[i] = static_cast<float>(pixel.x) + sample.x;
+    places.y[i] = height - (static_cast<float>(pixel.y) + sample.y);
+    numbers[i] = shown_.at(pixel.x, pixel.y);
   }
-  std::vector<SurfacePoint> points(pixels.size());
-  pointsOn(rays_, places, numbers_.of(numbers), points);
-  return points;
+  numbers_.of({numbers, pixels.size()}, places.shown);
+  return places;
 }
 
 std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> pixels) const {

@@ -41,26 +41,40 @@ inline std::uint8_t unorm8(float share) {
   return static_cast<std::uint8_t>(double{std::clamp(share, 0.0f, 1.0f) * 255.0f} + 0.5);
 }
 
+/// The number of the triangle that each sample of a picture shows, or kNoNumber, in the order that a device keeps them.
+struct ShownNumbers {
+  std::span<const std::uint32_t> numbers;
+  std::vector<std::uint32_t> ofColumn, ofRow; ///< a pixel's first sample is number ofRow[y] + ofColumn[x]
+
+  std::uint32_t at(int x, int y) const {
+    return numbers[ofRow[static_cast<std::size_t>(y)] + ofColumn[static_cast<std::size_t>(x)]];
+  }
+};
+
+/// In the grid's own order: row by row, the samples of a pixel side by side.
+ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numbers);
+
 /// The points that a picture's samples show, for rays that go on from there. Pixels are numbered as in SampleGrid.
 class PicturePoints {
  public:
-  /// `shown`: the number of the triangle that each sample shows, or kNoNumber; `masks`: a byte a pixel, not 0 where
-  /// masked triangles lie, empty = nowhere. All that is referred to outlives it; nothing is copied.
+  /// `masks`: a byte a pixel, not 0 where masked triangles lie, empty = nowhere. All that is referred to outlives it;
+  /// nothing is copied.
   PicturePoints(const TraceInput& rays, const SampleGrid& grid, const TriangleNumbers& numbers,
-                std::span<const std::uint32_t> shown, std::span<const std::uint8_t> masks)
+                const ShownNumbers& shown, std::span<const std::uint8_t> masks)
       : rays_(rays), camera_(rays), grid_(grid), numbers_(numbers), shown_(shown), masks_(masks) {}
 
   const TraceInput& rays() const { return rays_; }
   const SampleGrid& grid() const { return grid_; }
 
   /// Whether a surface was drawn at a pixel's first sample.
-  bool showsSurface(std::uint32_t pixel) const { return shown_[pixel * grid_.samples()] != kNoNumber; }
+  bool showsSurface(const glm::ivec2& pixel) const { return shown_.at(pixel.x, pixel.y) != kNoNumber; }
 
-  /// What each of these pixels shows at its first sample, as it was drawn: the exact point, but for samples that the
-  /// rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
-  std::vector<SurfacePoint> drawn(std::span<const std::uint32_t> pixels) const;
+  /// What these pixels show at their first samples, as it was drawn: the exact points are there, but for samples that
+  /// the rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
+  /// REQUIRES: at most DrawnPlaces::kCount pixels.
+  DrawnPlaces drawn(std::span<const glm::ivec2> pixels) const;
 
-  /// What a ray through each of their samples meets first. Both run on the calling thread.
+  /// What a ray through each of their samples meets first. Runs on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;
 
   /// The pixels where masked triangles lie, and those next to them or to their corners.
@@ -71,7 +85,7 @@ class PicturePoints {
   TracedCamera camera_;
   const SampleGrid& grid_;
   const TriangleNumbers& numbers_;
-  std::span<const std::uint32_t> shown_;
+  const ShownNumbers& shown_;
   std::span<const std::uint8_t> masks_;
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/techniques/traced_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 
@@ -39,13 +40,17 @@ void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
   for (int y = block.y; y < top; y += kSquare) {
     for (int x = block.x; x < right; x += kSquare) {
       for (int row = y; row < std::min(y + kSquare, top); ++row) {
-        const auto first = static_cast<std::uint32_t>(row * grid.width + x);
-        const auto last = first + static_cast<std::uint32_t>(std::min(kSquare, right - x));
-        for (std::uint32_t pixel = first; pixel < last; ++pixel) each(pixel);
+        for (int column = x; column < std::min(x + kSquare, right); ++column) each(glm::ivec2(column, row));
       }
     }
   }
 }
+
+/// Pixels that wait until there are enough of them for a packet of rays.
+struct Waiting {
+  std::array<glm::ivec2, DrawnPlaces::kCount> pixels;
+  std::size_t count = 0;
+};
 
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
@@ -140,35 +145,43 @@ class ShadowTracing {
     shares_[pixel] = unorm8(share);
   }
 
+  std::uint32_t numberOf(const glm::ivec2& pixel) const {
+    return static_cast<std::uint32_t>(pixel.y * grid().width + pixel.x);
+  }
+
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
     std::uint64_t unsure = 0;
-    Pixels pixels;
-    pixels.reserve(kPixels);
+    Waiting waiting;
     const bool judged = !verdicts.empty();
-    forEachPixel(grid(), block, [&](std::uint32_t pixel) {
-      const Verdict verdict = judged ? verdicts[pixel] : Verdict::unsure;
+    forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
+      const Verdict verdict = judged ? verdicts[numberOf(pixel)] : Verdict::unsure;
       if (verdict == Verdict::unsure) {
         ++unsure;
-        if (points_.showsSurface(pixel)) pixels.push_back(pixel);
+        if (!points_.showsSurface(pixel)) return;
+        waiting.pixels[waiting.count++] = pixel;
+        if (waiting.count == waiting.pixels.size()) traceDrawn(waiting);
       } else if (verdict != Verdict::lit) {
-        set(pixel, 0);
-        away_[pixel] = verdict == Verdict::turnedAway ? 1 : 0;
+        set(numberOf(pixel), 0);
+        away_[numberOf(pixel)] = verdict == Verdict::turnedAway ? 1 : 0;
       }
     });
-    if (!pixels.empty()) traceDrawn(pixels);
+    traceDrawn(waiting);
     return unsure;
   }
 
-  void traceDrawn(const Pixels& pixels) {
-    const std::vector<SurfacePoint> drawn = points_.drawn(pixels);
-    std::vector<float> found(pixels.size());
-    std::vector<std::uint8_t> away(pixels.size());
-    light_.visibility(drawn, samples_, found, away);
+  /// Then none wait any more.
+  void traceDrawn(Waiting& waiting) {
+    const auto pixels = std::span<const glm::ivec2>(waiting.pixels).first(waiting.count);
+    float found[DrawnPlaces::kCount];
+    std::uint8_t away[DrawnPlaces::kCount];
+    light_.visibility(points_.drawn(pixels), samples_, found, away);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      set(pixels[i], found[i]);
-      away_[pixels[i]] = away[i];
+      if (found[i] == 1) continue;
+      set(numberOf(pixels[i]), found[i]);
+      away_[numberOf(pixels[i])] = away[i];
     }
+    waiting.count = 0;
   }
 
   const SampleGrid& grid() const { return points_.grid(); }

@@ -62,7 +62,8 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
 
   const std::vector<Light>& lights = *shading.spec.lights;
   std::shared_ptr<const TracedScene> traced;
-  std::vector<std::uint32_t> shown;
+  std::vector<std::uint32_t> numbers;
+  ShownNumbers shown;
   std::vector<std::uint8_t> masks;
   std::optional<PicturePoints> points; // after what it refers to
   std::optional<VolumeCounts> counts;
@@ -80,9 +81,10 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
         const auto made = work.traced();
         if (!made) return made.problems();
         traced = *made;
-        auto numbers = shownTriangles(inputs, surfaces);
-        if (!numbers) return numbers.problems();
-        shown = std::move(*numbers);
+        auto read = shownTriangles(inputs, surfaces);
+        if (!read) return read.problems();
+        numbers = std::move(*read);
+        shown = inOrder(grid, numbers);
         auto covered = maskCoverage(inputs, shading.survey);
         if (!covered) return covered.problems();
         masks = std::move(*covered);

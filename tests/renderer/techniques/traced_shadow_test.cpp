@@ -82,7 +82,8 @@ TEST(TracedShadow, IsTheTruthInPicturesOfAnySizeWhateverTheMapIsSureOf) {
       }
     }
     const TraceInput input = traced.input();
-    const PicturePoints points(input, grid, picture.numbers, picture.shown, {});
+    const ShownNumbers shown = inOrder(grid, picture.shown);
+    const PicturePoints points(input, grid, picture.numbers, shown, {});
     const TracedShadow shadow = tracedShadow(points, input, 0, 1, verdicts);
     RC_ASSERT(shadow.values.size() == picture.truth.size());
     RC_ASSERT(shadow.tracedPixels >= unsure);

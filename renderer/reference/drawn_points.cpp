@@ -1,0 +1,173 @@
+#include "renderer/reference/drawn_points.h"
+
+#include <cmath>
+
+#include "renderer/core/instruction_sets.h"
+
+namespace gnomon {
+namespace {
+
+constexpr float kHalf = 0x1p-24f; ///< what rounding changes a float at most, relative to it
+
+inline float sumOfSizes(const glm::vec3& v) {
+  return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+}
+
+inline float larger(float a, float b) {
+  return a > b ? a : b;
+}
+
+inline float clamped(float value, float low, float high) {
+  return value < low ? low : (high < value ? high : value);
+}
+
+inline glm::vec3 lane(const float (&from)[3][kLanes], unsigned i) {
+  return {from[0][i], from[1][i], from[2][i]};
+}
+
+inline void put(const glm::vec3& v, float (&to)[3][kLanes], unsigned i) {
+  to[0][i] = v.x;
+  to[1][i] = v.y;
+  to[2][i] = v.z;
+}
+
+/// Of what loops over lanes decide: -1 or 0, as without branches they become vectors.
+inline int when(bool holds) {
+  return holds ? -1 : 0;
+}
+inline float select(int where, float a, float b) {
+  return where != 0 ? a : b;
+}
+inline glm::vec3 select(int where, const glm::vec3& a, const glm::vec3& b) {
+  return {select(where, a.x, b.x), select(where, a.y, b.y), select(where, a.z, b.z)};
+}
+
+} // namespace
+
+DrawnView drawnView(const Sight& sight, double scale) {
+  const glm::dvec3 eye = sight.origin * scale;
+  DrawnView view;
+  view.eyeHigh = glm::vec3(eye);
+  view.eyeLow = glm::vec3(eye - glm::dvec3(view.eyeHigh));
+  view.forward = glm::vec3(sight.forward);
+  view.right = glm::vec3(sight.right);
+  view.up = glm::vec3(sight.up);
+  view.size = glm::vec2(sight.size);
+  view.spread = glm::vec2(sight.spread * scale);
+  view.slope = glm::vec2(sight.slope);
+  return view;
+}
+
+DrawnLight drawnLight(const LightSource& source, const glm::dvec3& eye, double scale) {
+  DrawnLight light;
+  light.directional = source.type == LightType::directional;
+  light.toward = glm::vec3(-source.axis);
+  light.position = glm::vec3((source.position - eye) * scale);
+  light.range = static_cast<float>(source.range * scale);
+  light.axis = glm::vec3(source.axis);
+  if (source.type == LightType::spot) light.cosOuter = static_cast<float>(source.cosOuter);
+  return light;
+}
+
+void DrawnPoints::setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& shown) {
+  const std::uint32_t* corner = tree.corners(shown.instance, shown.triangle);
+  const glm::vec3* placed = &tree.positions[tree.firstPosition[shown.instance]];
+  put(placed[corner[0]], a, lane);
+  put(placed[corner[1]], b, lane);
+  put(placed[corner[2]], c, lane);
+}
+
+void DrawnPoints::setNothing(unsigned lane) {
+  for (auto* corner : {&a, &b, &c}) put(glm::vec3(0), *corner, lane);
+}
+
+// A point is where the line of sight crosses the plane (Moeller and Trumbore, 1997). Of a triangle that is small beside
+// its distance, the weights of its corners keep the point in the true plane whatever its shape; of a large one, the
+// line does, if the triangle is no sliver. Either way the point lies off the plane by a few roundings of the corner and
+// of itself, as seen from the eye.
+GNOMON_FOR_EACH_INSTRUCTION_SET void findPoints(DrawnView view, const DrawnPlaces& places, DrawnPoints& points) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const float x = 2 * places.x[i] / view.size.x - 1;
+    const float y = 1 - 2 * places.y[i] / view.size.y;
+    const glm::vec3 way = view.forward + (view.right * (x * view.slope.x) + view.up * (y * view.slope.y));
+    const glm::vec3 origin = view.right * (x * view.spread.x) + view.up * (y * view.spread.y);
+    const glm::vec3 a = lane(points.a, i);
+    const glm::vec3 ab = lane(points.b, i) - a;
+    const glm::vec3 ac = lane(points.c, i) - a;
+    const glm::vec3 corner = (a - view.eyeHigh) - view.eyeLow;
+    const glm::vec3 from = origin - corner;
+    const glm::vec3 area = glm::cross(ab, ac);
+    const float steepness = glm::dot(way, area);
+    const float over = 1.0f / steepness;
+    const float depth = -glm::dot(from, area) * over;
+    const float acrossB = glm::dot(way, glm::cross(from, ac)) * over;
+    const float acrossC = glm::dot(way, glm::cross(ab, from)) * over;
+    const float u = clamped(acrossB, 0.0f, 1.0f);
+    const float v = clamped(acrossC, 0.0f, 1.0f - u);
+    const float squares = glm::dot(ab, ab) * glm::dot(ac, ac);
+    const float squared = glm::dot(area, area);
+    const int small = when(glm::dot(ab, ab) + glm::dot(ac, ac) <= glm::dot(corner, corner));
+    const int within = when(u == acrossB) & when(v == acrossC);
+    const glm::vec3 relative = select(small, corner + (ab * u + ac * v), origin + way * depth);
+    const float size = std::sqrt(squared);
+    const glm::vec3 normal = area * (select(when(steepness > 0), -1.0f, 1.0f) / size);
+    const glm::vec3 position = (relative + view.eyeLow) + view.eyeHigh;
+    const float unsure = 16 * kHalf * (sumOfSizes(corner) + sumOfSizes(relative));
+    const float lost = 2 * kHalf * sumOfSizes(normal * position);
+    const float thinnest = select(small, 1e-8f, 1.0f / 16);
+    points.sure[i] = when(squared > 1e-30f) & when(squared > thinnest * squares) & (within | small) &
+                     when(steepness * steepness > 1e-6f * squared * glm::dot(way, way));
+    points.turn[i] = 1e-6f + 8 * kHalf * std::sqrt(squares) / size;
+    points.unsure[i] = unsure;
+    put(position + normal * (lost + unsure), points.start, i);
+    put(relative, points.relative, i);
+    put(normal, points.normal, i);
+  }
+}
+
+namespace {
+
+constexpr float kLeastCosine = 1e-4f; // as faces()
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void aimAtSun(DrawnLight light, DrawnPoints& points) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const float cosine = glm::dot(lane(points.normal, i), light.toward);
+    points.sure[i] &= when(std::fabs(cosine - kLeastCosine) > points.turn[i]);
+    points.faces[i] = when(cosine > kLeastCosine);
+    points.reached[i] = -1;
+    points.length[i] = HUGE_VALF;
+    put(light.toward, points.toward, i);
+  }
+}
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void aimAtLamp(DrawnLight light, DrawnPoints& points) {
+  const float farthest = sumOfSizes(light.position);
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const glm::vec3 relative = lane(points.relative, i);
+    const glm::vec3 offset = light.position - relative;
+    const float length = std::sqrt(glm::dot(offset, offset));
+    const glm::vec3 toward = offset * (1.0f / length);
+    const float cosine = glm::dot(lane(points.normal, i), toward);
+    const float ofAxis = -glm::dot(light.axis, toward);
+    points.sure[i] &= when(length > 0x1p-10f * (sumOfSizes(relative) + farthest)) &
+                      when(std::fabs(cosine - kLeastCosine) > points.turn[i] + 0x1p-12f) &
+                      (when(length < light.range * 0.9999f) | when(length > light.range * 1.0001f)) &
+                      when(std::fabs(ofAxis - light.cosOuter) > 0x1p-12f);
+    points.faces[i] = when(cosine > kLeastCosine);
+    points.reached[i] = when(length < light.range) & when(ofAxis > light.cosOuter);
+    points.length[i] = length;
+    put(toward, points.toward, i);
+  }
+}
+
+} // namespace
+
+void aim(const DrawnLight& light, DrawnPoints& points) {
+  if (light.directional) {
+    aimAtSun(light, points);
+  } else {
+    aimAtLamp(light, points);
+  }
+}
+
+} // namespace gnomon

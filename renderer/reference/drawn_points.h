@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "renderer/reference/crossings.h"
+#include "renderer/reference/light_source.h"
+#include "renderer/reference/ray_packet.h"
+#include "renderer/reference/trace.h"
+
+/// The points of drawn triangles as rays to a light start from them, in floats, kLanes at a time: they say of nearly
+/// all points whether a ray is needed and where it runs, and know of which ones they can't.
+namespace gnomon {
+
+/// A camera as floats see it: relative to the eye, in the tree's units.
+struct DrawnView {
+  glm::vec3 eyeHigh{0}, eyeLow{0}; ///< their sum is the eye
+  glm::vec3 forward{0}, right{0}, up{0};
+  glm::vec2 size{1};             ///< of the picture, pixels
+  glm::vec2 spread{0}, slope{0}; ///< as Sight
+};
+
+/// A light without a size.
+struct DrawnLight {
+  bool directional = true;
+  glm::vec3 toward{0};   ///< of a directional light; unit length
+  glm::vec3 position{0}; ///< of the others, relative to the eye, in the tree's units
+  float range = 0;       ///< in the tree's units; may be infinite
+  glm::vec3 axis{0};
+  float cosOuter = -2; ///< -2: of a point light
+};
+
+DrawnView drawnView(const Sight& sight, double scale);
+DrawnLight drawnLight(const LightSource& light, const glm::dvec3& eye, double scale);
+
+/// Lanes of what is decided hold -1, or 0 where it does not hold.
+struct alignas(64) DrawnPoints {
+  float a[3][kLanes], b[3][kLanes], c[3][kLanes]; ///< corners, in the tree's units
+
+  float relative[3][kLanes]; ///< the point, from the eye
+  float normal[3][kLanes];   ///< unit length, on the eye's side
+  float start[3][kLanes];    ///< of rays, lifted off the surface by what rounding may have lowered it
+  float unsure[kLanes];      ///< how far off the triangle's plane the point may lie
+  float turn[kLanes];        ///< how wrong a cosine of the normal may be
+  float toward[3][kLanes];   ///< the light; unit length
+  float length[kLanes];      ///< to the light; infinite for directional ones
+  int faces[kLanes];         ///< the surface is turned to the light
+  int reached[kLanes];       ///< the light shines as far as here, and in this direction
+  int sure[kLanes];          ///< floats can tell all that; else nothing else means anything
+
+  /// `shown`: a triangle of the tree.
+  void setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& shown);
+  void setNothing(unsigned lane);
+};
+
+/// Finds each lane's point from its corners. (`view` is a copy, which no lane that is written can change.)
+void findPoints(DrawnView view, const DrawnPlaces& places, DrawnPoints& points);
+
+/// Finds the way from there to the light.
+void aim(const DrawnLight& light, DrawnPoints& points);
+
+} // namespace gnomon

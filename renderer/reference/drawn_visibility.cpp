@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <array>
+
+#include "renderer/reference/traced_light.h"
+
+namespace gnomon {
+namespace {
+
+static_assert(DrawnPlaces::kCount == kLanes);
+
+/// Embree's context, and what its filter needs of the points.
+struct DrawnQuery {
+  RTCIntersectContext context;
+  const Casters* casters = nullptr;
+  const LightSource* source = nullptr;
+  const TraceInput* input = nullptr;
+  const DrawnPlaces* places = nullptr;
+  const DrawnPoints* points = nullptr;
+  std::array<float, kLanes> through{}; ///< of the light, past the casters met so far that let some of it through
+};
+
+glm::vec3 laneOf(const float (&from)[3][kLanes], unsigned lane) {
+  return {from[0][lane], from[1][lane], from[2][lane]};
+}
+
+SurfacePoint exactly(const DrawnQuery& query, unsigned lane) {
+  const DrawnPlaces& places = *query.places;
+  const glm::vec2 place(places.x[lane], places.y[lane]);
+  SurfacePoint point;
+  pointsOn(*query.input, {&place, 1}, {&places.shown[lane], 1}, {&point, 1});
+  return point;
+}
+
+/// The float's word where it is sure; else the exact point decides.
+double opacityOf(const DrawnQuery& query, const Candidate& hit) {
+  const Casters& casters = *query.casters;
+  const Opacity opacity = casters.opacity[hit.instance];
+  if (opacity == Opacity::none) return 0;
+  const PlacedTriangle& own = query.places->shown[hit.lane];
+  if (hit.instance == own.instance && hit.triangle == own.triangle) return 0;
+  if (opacity == Opacity::full) {
+    const DrawnPoints& points = *query.points;
+    const double metres = 1.0 / casters.tree.scale;
+    const SurfacePoint near{glm::dvec3(laneOf(points.relative, hit.lane)) * metres + casters.eye,
+                            laneOf(points.normal, hit.lane), own.instance, own.triangle};
+    const RayToLight ray{&near,
+                         {glm::dvec3(laneOf(points.toward, hit.lane)), double{points.length[hit.lane]} * metres}};
+    const double rounding = casters.rounding + 2 * double{points.unsure[hit.lane]} * metres;
+    if (surelyMeets(ray, casters.tree.triangle(hit.instance, hit.triangle), rounding)) return 1;
+  }
+  const SurfacePoint point = exactly(query, hit.lane);
+  return opacityOf(casters, RayToLight{&point, wayTo(*query.source, point.position)}, hit);
+}
+
+void keepOpaque(const RTCFilterFunctionNArguments* call) {
+  auto& query = *reinterpret_cast<DrawnQuery*>(call->context);
+  filterCandidates(*call, [&](const Candidate& hit) {
+    const double opacity = opacityOf(query, hit);
+    query.through[hit.lane] *= static_cast<float>(1 - opacity);
+    return opacity >= 1;
+  });
+}
+
+/// The share of the light that comes through, for each lane that is active.
+std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  query.context.filter = keepOpaque;
+  query.through.fill(1);
+  const DrawnPoints& points = *query.points;
+  RTCRay16 rays;
+  setAllRays(rays);
+  std::copy_n(points.start[0], kLanes, rays.org_x);
+  std::copy_n(points.start[1], kLanes, rays.org_y);
+  std::copy_n(points.start[2], kLanes, rays.org_z);
+  std::copy_n(points.toward[0], kLanes, rays.dir_x);
+  std::copy_n(points.toward[1], kLanes, rays.dir_y);
+  std::copy_n(points.toward[2], kLanes, rays.dir_z);
+  std::copy_n(points.length, kLanes, rays.tfar);
+  rtcOccluded16(lanes.active.data(), query.casters->tree.rays.get(), &query.context, &rays);
+  std::array<float, kLanes> shares{};
+  for (unsigned i = 0; i < kLanes; ++i) shares[i] = rays.tfar[i] < 0 ? 0.0f : query.through[i];
+  return shares;
+}
+
+bool showsOne(const DrawnPlaces& places) {
+  return std::all_of(std::begin(places.shown), std::end(places.shown), [&](const PlacedTriangle& other) {
+    return other.instance == places.shown[0].instance && other.triangle == places.shown[0].triangle;
+  });
+}
+
+void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, DrawnPoints& points) {
+  if (places.shown[0].instance != kNoSurface && showsOne(places)) {
+    points.setTriangle(tree, 0, places.shown[0]);
+    for (auto* corner : {&points.a, &points.b, &points.c}) {
+      for (auto& axis : *corner) std::fill_n(axis, kLanes, axis[0]);
+    }
+    return;
+  }
+  for (unsigned i = 0; i < kLanes; ++i) {
+    if (places.shown[i].instance == kNoSurface) {
+      points.setNothing(i);
+    } else {
+      points.setTriangle(tree, i, places.shown[i]);
+    }
+  }
+}
+
+} // namespace
+
+void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes, int samples, std::span<float> shares,
+                                  std::span<std::uint8_t> turnedAway) const {
+  std::array<glm::vec2, kLanes> at;
+  std::array<PlacedTriangle, kLanes> shown;
+  std::array<unsigned, kLanes> laneOf{};
+  std::size_t count = 0;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    if (lanes.active[i] == 0) continue;
+    at[count] = {places.x[i], places.y[i]};
+    shown[count] = places.shown[i];
+    laneOf[count++] = i;
+  }
+  std::array<SurfacePoint, kLanes> points;
+  std::array<float, kLanes> found{};
+  std::array<std::uint8_t, kLanes> away{};
+  pointsOn(state_->input, std::span(at).first(count), std::span(shown).first(count), std::span(points).first(count));
+  visibility(std::span(points).first(count), samples, std::span(found).first(count), std::span(away).first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    shares[laneOf[i]] = found[i];
+    turnedAway[laneOf[i]] = away[i];
+  }
+}
+
+void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
+                             std::span<std::uint8_t> turnedAway) const {
+  const State& of = *state_;
+  Lanes asked;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const std::uint32_t instance = places.shown[i].instance;
+    asked.active[i] = instance != kNoSurface && of.shadowed[instance] != 0 ? -1 : 0;
+    shares[i] = 1;
+    turnedAway[i] = 0;
+  }
+  if (!asked.any()) return;
+  if (hasSize()) return exactVisibility(places, asked, samples, shares, turnedAway);
+  DrawnPoints points;
+  setTriangles(of.casters.tree, places, points);
+  findPoints(of.view, places, points);
+  aim(of.light, points);
+  Lanes unsure;
+  Lanes lit;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const int sure = asked.active[i] & points.sure[i];
+    const int away = sure & ~points.faces[i];
+    unsure.active[i] = asked.active[i] & ~points.sure[i];
+    lit.active[i] = sure & points.faces[i] & points.reached[i];
+    shares[i] = away != 0 ? 0.0f : 1.0f;
+    turnedAway[i] = static_cast<std::uint8_t>(away & 1);
+  }
+  if (lit.any()) {
+    DrawnQuery query{{}, &of.casters, &of.source, &of.input, &places, &points};
+    const std::array<float, kLanes> found = sharesThrough(query, lit);
+    for (unsigned i = 0; i < kLanes; ++i) shares[i] = lit.active[i] != 0 ? found[i] : shares[i];
+  }
+  if (unsure.any()) exactVisibility(places, unsure, samples, shares, turnedAway);
+}
+
+} // namespace gnomon
