@@ -73,7 +73,8 @@ std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey&
 
 std::vector<Layer> ExactLayers::layers(const DepthBuffer& surfaces) const {
   std::vector<Layer> all;
-  for (const std::vector<std::uint16_t>& each : values) all.push_back({each.data(), surfaces.width, surfaces.samples});
+  for (const UnfilledVector<std::uint16_t>& each : values)
+    all.push_back({each.data(), surfaces.width, surfaces.samples});
   return all;
 }
 

@@ -11,8 +11,8 @@ namespace gnomon::cpu {
 
 /// What rays say of the lights whose technique is exact, at each sample of the picture.
 struct ExactLayers {
-  std::vector<std::vector<std::uint16_t>> values; ///< as Layer::values; one a light of FrameWork::layered
-  std::vector<LayerFacts> lights;                 ///< parallel
+  std::vector<UnfilledVector<std::uint16_t>> values; ///< as Layer::values; one a light of FrameWork::layered
+  std::vector<LayerFacts> lights;                    ///< parallel
 
   std::vector<Layer> layers(const DepthBuffer& surfaces) const;
 };

@@ -60,10 +60,9 @@ class ShadowTracing {
         light_(rays, light),
         samples_(samples),
         places_(grid().samples()),
-        values_(grid().pixels() * places_, std::uint16_t{65535}),
-        shares_(grid().pixels(), std::uint8_t{255}),
-        away_(grid().pixels()),
-        exact_(grid().pixels()) {}
+        values_(grid().pixels() * places_),
+        shares_(grid().pixels()),
+        marks_(grid().pixels()) {}
 
   /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn. Gives how many
   /// those are.
@@ -93,7 +92,7 @@ class ShadowTracing {
         const float mean = std::accumulate(own.begin(), own.end(), 0.0f) / static_cast<float>(places_);
         changed[first + i] = unorm8(mean) != shares_[piece[i]] ? 1 : 0;
         shares_[piece[i]] = unorm8(mean);
-        exact_[piece[i]] = 1;
+        marks_[piece[i]] |= kExact;
       }
     });
     Pixels moved;
@@ -103,9 +102,9 @@ class ShadowTracing {
     return moved;
   }
 
-  /// The pixels to both sides of where surfaces that are turned away end.
+  /// The pixels to both sides of where surfaces that are turned away end. REQUIRES: no point is exact yet.
   Pixels whereTurnedAwayEnds() const {
-    return pixelsWhere(grid(), away_, [](std::uint8_t least, std::uint8_t most) { return least != most; });
+    return pixelsWhere(grid(), marks_, [](std::uint8_t least, std::uint8_t most) { return least != most; });
   }
 
   /// The pixels at edges of the shadow whose points are not exact yet.
@@ -113,7 +112,7 @@ class ShadowTracing {
     Pixels pixels = pixelsWhere(grid(), shares_, [](std::uint8_t least, std::uint8_t most) {
       return static_cast<int>(most) - static_cast<int>(least) >= kEdge;
     });
-    std::erase_if(pixels, [&](std::uint32_t pixel) { return exact_[pixel] != 0; });
+    std::erase_if(pixels, [&](std::uint32_t pixel) { return isExact(pixel); });
     return pixels;
   }
 
@@ -128,16 +127,31 @@ class ShadowTracing {
         for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1); ++column) {
           const auto other = static_cast<std::uint32_t>(line * width + column);
           const int apart = std::abs(static_cast<int>(shares_[other]) - static_cast<int>(shares_[pixel]));
-          if (exact_[other] == 0 && apart >= kEdge) pixels.push_back(other);
+          if (!isExact(other) && apart >= kEdge) pixels.push_back(other);
         }
       }
     }
     return eachOnce(std::move(pixels));
   }
 
-  std::vector<std::uint16_t> takeValues() { return std::move(values_); }
+  UnfilledVector<std::uint16_t> takeValues() { return std::move(values_); }
 
  private:
+  static constexpr std::uint8_t kAway = 1;  ///< what was drawn there is turned away from the light
+  static constexpr std::uint8_t kExact = 2; ///< camera rays led to its points
+
+  bool isExact(std::uint32_t pixel) const { return (marks_[pixel] & kExact) != 0; }
+
+  void setLit(const Rect& block) {
+    const std::size_t width = static_cast<std::size_t>(std::min(block.width, grid().width - block.x));
+    for (int y = block.y; y < std::min(block.y + block.height, grid().height); ++y) {
+      const std::uint32_t first = numberOf({block.x, y});
+      std::fill_n(valuesOf(first), width * places_, std::uint16_t{65535});
+      std::fill_n(shares_.begin() + first, width, std::uint8_t{255});
+      std::fill_n(marks_.begin() + first, width, std::uint8_t{0});
+    }
+  }
+
   void set(std::uint32_t pixel, float share) {
     std::uint16_t* values = valuesOf(pixel);
     *values = unorm16(share);
@@ -151,6 +165,7 @@ class ShadowTracing {
 
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
+    setLit(block);
     std::uint64_t unsure = 0;
     Waiting waiting;
     const bool judged = !verdicts.empty();
@@ -163,7 +178,7 @@ class ShadowTracing {
         if (waiting.count == waiting.pixels.size()) traceDrawn(waiting);
       } else if (verdict != Verdict::lit) {
         set(numberOf(pixel), 0);
-        away_[numberOf(pixel)] = verdict == Verdict::turnedAway ? 1 : 0;
+        marks_[numberOf(pixel)] = verdict == Verdict::turnedAway ? kAway : 0;
       }
     });
     traceDrawn(waiting);
@@ -179,7 +194,7 @@ class ShadowTracing {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (found[i] == 1) continue;
       set(numberOf(pixels[i]), found[i]);
-      away_[numberOf(pixels[i])] = away[i];
+      marks_[numberOf(pixels[i])] = away[i] != 0 ? kAway : 0;
     }
     waiting.count = 0;
   }
@@ -191,10 +206,9 @@ class ShadowTracing {
   TracedLight light_;
   int samples_;
   std::size_t places_; ///< samples of a pixel
-  std::vector<std::uint16_t> values_;
-  std::vector<std::uint8_t> shares_; ///< 0..255, one a pixel: the mean of its samples
-  std::vector<std::uint8_t> away_;   ///< one a pixel; 1 = what was drawn there is turned away from the light
-  std::vector<std::uint8_t> exact_;  ///< one a pixel; 1 = camera rays led to its points
+  UnfilledVector<std::uint16_t> values_;
+  UnfilledVector<std::uint8_t> shares_; ///< 0..255, one a pixel: the mean of its samples
+  UnfilledVector<std::uint8_t> marks_;  ///< one a pixel
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "renderer/core/unfilled.h"
 #include "renderer/techniques/picture_points.h"
 
 namespace gnomon {
@@ -15,8 +16,8 @@ enum class Verdict : std::uint8_t {
 };
 
 struct TracedShadow {
-  std::vector<std::uint16_t> values; ///< share of the light at every sample, 0..65535, in the grid's order
-  std::uint64_t tracedPixels = 0;    ///< that rays decided
+  UnfilledVector<std::uint16_t> values; ///< share of the light at every sample, 0..65535, in the grid's order
+  std::uint64_t tracedPixels = 0;       ///< that rays decided
 };
 
 /// What arrives of light `light` of `rays`. A pixel that the verdicts leave unsure (all of them where there are none)

@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
-#include <utility>
 #include <vector>
+
+#include "renderer/core/unfilled.h"
 
 namespace gnomon::cpu {
 
@@ -13,30 +12,13 @@ namespace gnomon::cpu {
 inline constexpr int kBlockSide = 4;
 inline constexpr int kBlockPlaces = kBlockSide * kBlockSide;
 
-/// Of vectors whose new elements hold anything until they are written: a large one takes no memory before.
-template <class T>
-struct Unfilled : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = Unfilled<U>;
-  };
-  template <class U>
-  void construct(U* at) noexcept {
-    ::new (static_cast<void*>(at)) U;
-  }
-  template <class U, class... From>
-  void construct(U* at, From&&... from) {
-    ::new (static_cast<void*>(at)) U(std::forward<From>(from)...);
-  }
-};
-
 /// What was rastered: a depth and, for a camera, a triangle for each sample of each place. Rows count from the BOTTOM,
 /// as in clip space. Stored block by block, so that a block's 16 places of one sample lie side by side.
 struct DepthBuffer {
   int width = 0; ///< places; those beyond it, to the end of the last block, are rastered and mean nothing
   int height = 0;
   int samples = 1; ///< a place: 1 or 4
-  std::vector<float, Unfilled<float>> depths{};
+  UnfilledVector<float> depths{};
   std::vector<std::uint32_t> triangles{}; ///< parallel to depths; empty = not asked for
 
   int blocksAcross() const { return (width + kBlockSide - 1) / kBlockSide; }

@@ -51,30 +51,27 @@ inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask
   alignas(64) std::int32_t columns[kLanes];
   alignas(64) std::int32_t rows[kLanes];
   alignas(64) std::uint32_t samples[kLanes];
-  alignas(64) float shares[kLanes] = {};
+  alignas(64) std::int32_t sums[kLanes] = {};
+  alignas(64) std::int32_t counts[kLanes] = {};
   store(truncated(receiver.place.x), columns);
   store(truncated(receiver.place.y), rows);
   store(receiver.samples, samples);
-  const unsigned lanes = bitsOf(asked);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if ((lanes >> lane & 1u) == 0) continue;
-    const std::size_t pixel = static_cast<std::size_t>(rows[lane]) * static_cast<std::size_t>(layer.width) +
-                              static_cast<std::size_t>(columns[lane]);
-    const std::uint16_t* values = layer.values + pixel * static_cast<std::size_t>(layer.samples);
-    if (layer.samples == 1) {
-      shares[lane] = static_cast<float>(values[0]) / 65535.0f;
+  const auto perPixel = static_cast<std::size_t>(layer.samples);
+  for (unsigned left = bitsOf(asked); left != 0; left &= left - 1) {
+    const int lane = __builtin_ctz(left);
+    const std::uint16_t* values =
+        layer.values + (static_cast<std::size_t>(rows[lane]) * static_cast<std::size_t>(layer.width) +
+                        static_cast<std::size_t>(columns[lane])) *
+                           perPixel;
+    counts[lane] = 1;
+    if (perPixel == 1) {
+      sums[lane] = values[0];
       continue;
     }
-    int sum = 0;
-    int count = 0;
-    for (int i = 0; i < layer.samples; ++i) {
-      const int shows = static_cast<int>(samples[lane] >> i & 1u);
-      sum += shows * values[i];
-      count += shows;
-    }
-    shares[lane] = static_cast<float>(sum) / (65535.0f * static_cast<float>(std::max(count, 1)));
+    for (std::size_t i = 0; i < perPixel; ++i) sums[lane] += static_cast<int>(samples[lane] >> i & 1u) * values[i];
+    counts[lane] = std::max(__builtin_popcount(samples[lane]), 1);
   }
-  return load(shares);
+  return toFloat(load(sums)) / (toFloat(load(counts)) * 65535.0f);
 }
 
 /// Lanes that the light throws shadows on.

@@ -41,6 +41,13 @@ HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
   return cascadeTint(job.maps, job.debugLight, surface.receiver, toLight) * grey;
 }
 
+/// Whether the sixteen fragments from `first` on are those of a block's pixels, one of each.
+HWY_INLINE bool fillsBlock(const FragmentList& list, std::size_t first, std::int32_t whole) {
+  if (list.count - first < kLanes || (list.pixel[first] & 15) != 0) return false;
+  return all((load(&list.pixel[first]) == Int(list.pixel[first]) + laneNumbers()) &
+             (load(&list.samples[first]) == Int(whole)));
+}
+
 void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
   const SampleMeans means = sampleMeans(job.buffer.samples);
   const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
@@ -51,6 +58,14 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const Packet packet = packetAt(list, i, x, y, means);
     const Float3 color = shownColor(job, packet);
+    if (fillsBlock(list, i, whole)) {
+      const auto first = static_cast<std::size_t>(list.pixel[i]);
+      store(color.x, &colors.channels[0][first]);
+      store(color.y, &colors.channels[1][first]);
+      store(color.z, &colors.channels[2][first]);
+      store(Float(1.0f), &colors.channels[3][first]);
+      continue;
+    }
     alignas(64) float shown[3][kLanes];
     store(color.x, shown[0]);
     store(color.y, shown[1]);
