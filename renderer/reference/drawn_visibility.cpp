@@ -106,6 +106,24 @@ void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, Draw
   }
 }
 
+/// Of the lanes that are asked for: which ones a ray decides, which ones floats can't, and what the others see.
+void sort(const DrawnPoints& points, const Lanes& asked, Lanes& lit, Lanes& unsure, float* shares,
+          std::uint8_t* turnedAway) {
+  const int* ask = asked.active.data();
+  int* rays = lit.active.data();
+  int* doubtful = unsure.active.data();
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const int sure = ask[i] & points.sure[i];
+    doubtful[i] = ask[i] & ~points.sure[i];
+    rays[i] = sure & points.faces[i] & points.reached[i];
+  }
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const int away = ask[i] & points.sure[i] & ~points.faces[i];
+    shares[i] = away != 0 ? 0.0f : 1.0f;
+    turnedAway[i] = static_cast<std::uint8_t>(away & 1);
+  }
+}
+
 } // namespace
 
 void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes, int samples, std::span<float> shares,
@@ -134,13 +152,15 @@ void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes,
 void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
                              std::span<std::uint8_t> turnedAway) const {
   const State& of = *state_;
+  const std::uint8_t* shadowed = of.shadowed.data();
   Lanes asked;
+  int* ask = asked.active.data();
   for (unsigned i = 0; i < kLanes; ++i) {
     const std::uint32_t instance = places.shown[i].instance;
-    asked.active[i] = instance != kNoSurface && of.shadowed[instance] != 0 ? -1 : 0;
-    shares[i] = 1;
-    turnedAway[i] = 0;
+    ask[i] = instance != kNoSurface && shadowed[instance] != 0 ? -1 : 0;
   }
+  std::fill_n(turnedAway.data(), kLanes, std::uint8_t{0});
+  std::fill_n(shares.data(), kLanes, 1.0f);
   if (!asked.any()) return;
   if (hasSize()) return exactVisibility(places, asked, samples, shares, turnedAway);
   DrawnPoints points;
@@ -149,14 +169,7 @@ void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<f
   aim(of.light, points);
   Lanes unsure;
   Lanes lit;
-  for (unsigned i = 0; i < kLanes; ++i) {
-    const int sure = asked.active[i] & points.sure[i];
-    const int away = sure & ~points.faces[i];
-    unsure.active[i] = asked.active[i] & ~points.sure[i];
-    lit.active[i] = sure & points.faces[i] & points.reached[i];
-    shares[i] = away != 0 ? 0.0f : 1.0f;
-    turnedAway[i] = static_cast<std::uint8_t>(away & 1);
-  }
+  sort(points, asked, lit, unsure, shares.data(), turnedAway.data());
   if (lit.any()) {
     DrawnQuery query{{}, &of.casters, &of.source, &of.input, &places, &points};
     const std::array<float, kLanes> found = sharesThrough(query, lit);

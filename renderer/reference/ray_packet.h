@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <embree3/rtcore.h>
+#include <functional>
 #include <glm/glm.hpp>
 #include <limits>
 #include <numeric>
@@ -37,9 +38,7 @@ inline void setRay(RTCRay16& packet, unsigned lane, const glm::vec3& origin, con
 struct alignas(64) Lanes {
   std::array<int, kLanes> active{};
 
-  bool any() const {
-    return std::any_of(active.begin(), active.end(), [](int lane) { return lane != 0; });
-  }
+  bool any() const { return std::accumulate(active.begin(), active.end(), 0, std::bit_or<>()) != 0; }
 };
 
 inline Lanes firstLanes(std::size_t count) {

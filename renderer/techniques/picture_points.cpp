@@ -15,18 +15,15 @@ ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numb
   return shown;
 }
 
-DrawnPlaces PicturePoints::drawn(std::span<const glm::ivec2> pixels) const {
+DrawnPlaces PicturePoints::drawn(const ShownPixels& shown) const {
   DrawnPlaces places;
-  std::uint32_t numbers[DrawnPlaces::kCount];
   const glm::vec2 sample = grid_.positions.front();
   const auto height = static_cast<float>(grid_.height);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const glm::ivec2& pixel = pixels[i];
-    places.x[i] = static_cast<float>(pixel.x) + sample.x;
-    places.y[i] = height - (static_cast<float>(pixel.y) + sample.y);
-    numbers[i] = shown_.at(pixel.x, pixel.y);
+  for (std::size_t i = 0; i < shown.count; ++i) {
+    places.x[i] = static_cast<float>(shown.pixels[i].x) + sample.x;
+    places.y[i] = height - (static_cast<float>(shown.pixels[i].y) + sample.y);
   }
-  numbers_.of({numbers, pixels.size()}, places.shown);
+  numbers_.of({shown.numbers, shown.count}, places.shown);
   return places;
 }
 

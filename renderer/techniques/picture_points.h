@@ -46,9 +46,21 @@ struct ShownNumbers {
   std::span<const std::uint32_t> numbers;
   std::vector<std::uint32_t> ofColumn, ofRow; ///< a pixel's first sample is number ofRow[y] + ofColumn[x]
 
-  std::uint32_t at(int x, int y) const {
-    return numbers[ofRow[static_cast<std::size_t>(y)] + ofColumn[static_cast<std::size_t>(x)]];
+  /// Of a pixel's first sample; not checked.
+  std::uint32_t at(int x, int y) const { return numbers.data()[ofRow.data()[y] + ofColumn.data()[x]]; }
+};
+
+/// Pixels, up to DrawnPlaces::kCount of them, and the numbers that their first samples show.
+struct ShownPixels {
+  glm::ivec2 pixels[DrawnPlaces::kCount];
+  std::uint32_t numbers[DrawnPlaces::kCount];
+  std::size_t count = 0;
+
+  void add(const glm::ivec2& pixel, std::uint32_t number) {
+    pixels[count] = pixel;
+    numbers[count++] = number;
   }
+  bool full() const { return count == DrawnPlaces::kCount; }
 };
 
 /// In the grid's own order: row by row, the samples of a pixel side by side.
@@ -66,13 +78,12 @@ class PicturePoints {
   const TraceInput& rays() const { return rays_; }
   const SampleGrid& grid() const { return grid_; }
 
-  /// Whether a surface was drawn at a pixel's first sample.
-  bool showsSurface(const glm::ivec2& pixel) const { return shown_.at(pixel.x, pixel.y) != kNoNumber; }
+  /// What was drawn at a pixel's first sample; kNoNumber = nothing.
+  std::uint32_t numberAt(const glm::ivec2& pixel) const { return shown_.at(pixel.x, pixel.y); }
 
   /// What these pixels show at their first samples, as it was drawn: the exact points are there, but for samples that
   /// the rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
-  /// REQUIRES: at most DrawnPlaces::kCount pixels.
-  DrawnPlaces drawn(std::span<const glm::ivec2> pixels) const;
+  DrawnPlaces drawn(const ShownPixels& shown) const;
 
   /// What a ray through each of their samples meets first. Runs on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;

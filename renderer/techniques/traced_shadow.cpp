@@ -1,7 +1,6 @@
 #include "renderer/techniques/traced_shadow.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <numeric>
 
@@ -46,12 +45,6 @@ void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
   }
 }
 
-/// Pixels that wait until there are enough of them for a packet of rays.
-struct Waiting {
-  std::array<glm::ivec2, DrawnPlaces::kCount> pixels;
-  std::size_t count = 0;
-};
-
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
  public:
@@ -60,7 +53,7 @@ class ShadowTracing {
         light_(rays, light),
         samples_(samples),
         places_(grid().samples()),
-        values_(grid().pixels() * places_),
+        values_(count() + count() % 2), // read by pairs
         shares_(grid().pixels()),
         marks_(grid().pixels()) {}
 
@@ -134,7 +127,10 @@ class ShadowTracing {
     return eachOnce(std::move(pixels));
   }
 
-  UnfilledVector<std::uint16_t> takeValues() { return std::move(values_); }
+  UnfilledVector<std::uint16_t> takeValues() {
+    values_.resize(count());
+    return std::move(values_);
+  }
 
  private:
   static constexpr std::uint8_t kAway = 1;  ///< what was drawn there is turned away from the light
@@ -167,15 +163,16 @@ class ShadowTracing {
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
     setLit(block);
     std::uint64_t unsure = 0;
-    Waiting waiting;
+    ShownPixels waiting;
     const bool judged = !verdicts.empty();
     forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
       const Verdict verdict = judged ? verdicts[numberOf(pixel)] : Verdict::unsure;
       if (verdict == Verdict::unsure) {
         ++unsure;
-        if (!points_.showsSurface(pixel)) return;
-        waiting.pixels[waiting.count++] = pixel;
-        if (waiting.count == waiting.pixels.size()) traceDrawn(waiting);
+        const std::uint32_t number = points_.numberAt(pixel);
+        if (number == kNoNumber) return;
+        waiting.add(pixel, number);
+        if (waiting.full()) traceDrawn(waiting);
       } else if (verdict != Verdict::lit) {
         set(numberOf(pixel), 0);
         marks_[numberOf(pixel)] = verdict == Verdict::turnedAway ? kAway : 0;
@@ -186,20 +183,21 @@ class ShadowTracing {
   }
 
   /// Then none wait any more.
-  void traceDrawn(Waiting& waiting) {
-    const auto pixels = std::span<const glm::ivec2>(waiting.pixels).first(waiting.count);
+  void traceDrawn(ShownPixels& waiting) {
     float found[DrawnPlaces::kCount];
     std::uint8_t away[DrawnPlaces::kCount];
-    light_.visibility(points_.drawn(pixels), samples_, found, away);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
+    light_.visibility(points_.drawn(waiting), samples_, found, away);
+    for (std::size_t i = 0; i < waiting.count; ++i) {
       if (found[i] == 1) continue;
-      set(numberOf(pixels[i]), found[i]);
-      marks_[numberOf(pixels[i])] = away[i] != 0 ? kAway : 0;
+      const std::uint32_t pixel = numberOf(waiting.pixels[i]);
+      set(pixel, found[i]);
+      marks_[pixel] = away[i] != 0 ? kAway : 0;
     }
     waiting.count = 0;
   }
 
   const SampleGrid& grid() const { return points_.grid(); }
+  std::size_t count() const { return grid().pixels() * grid().samples(); }
   std::uint16_t* valuesOf(std::uint32_t pixel) { return values_.data() + pixel * places_; }
 
   const PicturePoints& points_;

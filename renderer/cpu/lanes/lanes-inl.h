@@ -134,6 +134,14 @@ HWY_INLINE Int gather(const std::int32_t* base, const Int& index) {
 HWY_INLINE Int gather(const std::uint32_t* base, const Int& index) {
   return gather(reinterpret_cast<const std::int32_t*>(base), index);
 }
+/// Reads whole pairs: numbers 0 and 1, 2 and 3 and so on have to be there together.
+HWY_INLINE Int gather(const std::uint16_t* base, const Int& index) {
+  const auto* pairs = reinterpret_cast<const std::int32_t*>(base);
+  GNOMON_EACH_PART(Int, r,
+                   hn::And(hn::Shr(hn::GatherIndex(kInts, pairs, hn::ShiftRight<1>(index.part[i])),
+                                   hn::ShiftLeft<4>(hn::And(index.part[i], hn::Set(kInts, 1)))),
+                           hn::Set(kInts, 0xffff)));
+}
 /// 0, 1, ... 15.
 HWY_INLINE Int laneNumbers() {
   GNOMON_EACH_PART(Int, r, hn::Iota(kInts, static_cast<std::int32_t>(i * kPerPart)));

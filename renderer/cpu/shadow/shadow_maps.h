@@ -18,7 +18,8 @@ struct TileMap {
   std::span<const glm::vec4> moments = {}; ///< row by row from the BOTTOM; empty = its light's filter reads none
 };
 
-/// What rays say of one light: shares of 65535, each pixel's samples side by side, row by row from the BOTTOM.
+/// What rays say of one light: shares of 65535, each pixel's samples side by side, row by row from the BOTTOM. Where
+/// there is an odd number of them, one more may be read, which means nothing.
 struct Layer {
   const std::uint16_t* values = nullptr;
   int width = 0;   ///< pixels

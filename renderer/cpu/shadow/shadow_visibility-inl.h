@@ -48,30 +48,17 @@ HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
 
 /// The mean over the samples of each pixel that show the receiver. Lanes outside of `asked` hold anything.
 inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask& asked) {
-  alignas(64) std::int32_t columns[kLanes];
-  alignas(64) std::int32_t rows[kLanes];
-  alignas(64) std::uint32_t samples[kLanes];
-  alignas(64) std::int32_t sums[kLanes] = {};
-  alignas(64) std::int32_t counts[kLanes] = {};
-  store(truncated(receiver.place.x), columns);
-  store(truncated(receiver.place.y), rows);
-  store(receiver.samples, samples);
-  const auto perPixel = static_cast<std::size_t>(layer.samples);
-  for (unsigned left = bitsOf(asked); left != 0; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    const std::uint16_t* values =
-        layer.values + (static_cast<std::size_t>(rows[lane]) * static_cast<std::size_t>(layer.width) +
-                        static_cast<std::size_t>(columns[lane])) *
-                           perPixel;
-    counts[lane] = 1;
-    if (perPixel == 1) {
-      sums[lane] = values[0];
-      continue;
-    }
-    for (std::size_t i = 0; i < perPixel; ++i) sums[lane] += static_cast<int>(samples[lane] >> i & 1u) * values[i];
-    counts[lane] = std::max(__builtin_popcount(samples[lane]), 1);
+  const Int pixel = truncated(receiver.place.y) * Int(layer.width) + truncated(receiver.place.x);
+  const Int first = select(asked, pixel, Int(0)) * Int(layer.samples);
+  if (layer.samples == 1) return toFloat(gather(layer.values, first)) / 65535.0f;
+  Int sum(0);
+  Int count(0);
+  for (int i = 0; i < layer.samples; ++i) {
+    const Mask shows = (receiver.samples & Int(1 << i)) != Int(0);
+    sum = select(shows, sum + gather(layer.values, first + Int(i)), sum);
+    count = select(shows, count + Int(1), count);
   }
-  return toFloat(load(sums)) / (toFloat(load(counts)) * 65535.0f);
+  return toFloat(sum) / (max(toFloat(count), 1.0f) * 65535.0f);
 }
 
 /// Lanes that the light throws shadows on.

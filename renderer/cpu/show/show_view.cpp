@@ -1,46 +1,17 @@
 #include "renderer/cpu/show/show_view.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "renderer/core/parallel.h"
+#include "renderer/cpu/show/srgb_bytes.h"
 #include "renderer/cpu/show/view_squares.h"
 #include "renderer/device/view_image.h"
 
 namespace gnomon::cpu {
 namespace {
-
-/// Linear numbers 0..1 to sRGB bytes, rounded right: a byte by the number's leading bits, one more from where the next
-/// begins. (IEC 61966-2-1.)
-class SrgbBytes {
- public:
-  SrgbBytes() {
-    for (int byte = 0; byte < 255; ++byte) next_[static_cast<std::size_t>(byte)] = linearOf((byte + 0.5) / 255.0);
-    next_[255] = 2.0f;
-    for (std::uint32_t i = 0; i < first_.size(); ++i) {
-      const float least = std::bit_cast<float>(kLeastBits + (i << kDropped));
-      first_[i] = static_cast<std::uint8_t>(std::upper_bound(next_.begin(), next_.end(), least) - next_.begin());
-    }
-  }
-
-  std::uint8_t of(float linear) const {
-    if (!(linear > std::bit_cast<float>(kLeastBits))) return 0;
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::min(linear, 1.0f));
-    const std::uint8_t byte = first_[(bits - kLeastBits) >> kDropped];
-    return static_cast<std::uint8_t>(byte + static_cast<int>(linear >= next_[byte]));
-  }
-
- private:
-  static constexpr std::uint32_t kLeastBits = 0x39000000u; ///< 2^-13: below, a byte is 0
-  static constexpr int kDropped = 16;                      ///< 128 steps an octave, so that none spans two bytes
-  static float linearOf(double encoded) {
-    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-  }
-  std::array<float, 256> next_{}; ///< where each byte ends
-  std::array<std::uint8_t, ((0x3f800000u - kLeastBits) >> kDropped) + 1> first_{};
-};
 
 std::uint8_t unormByte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
@@ -55,7 +26,38 @@ void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vect
     T* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
     for (int column = 0; column < std::min(kTileSide, image.width - x); ++column) {
       const auto pixel = static_cast<std::size_t>((row & 12) << 4 | (column & 12) << 2 | (row & 3) << 2 | (column & 3));
-      for (std::size_t c = 0; c < channels; ++c) *out++ = convert(colors.channels[c][pixel], c);
+      for (std::size_t c = 0; c < channels; ++c) *out++ = convert(colors.channels[c][pixel]);
+    }
+  }
+}
+
+/// Four pixels of a row: their first three channels, or all four.
+void writeFour(const std::uint32_t* in, std::size_t channels, std::uint8_t* out) {
+  if (channels == 4) {
+    std::memcpy(out, in, 16);
+    return;
+  }
+  const std::uint32_t rgb[4] = {in[0] & 0xffffffu, in[1] & 0xffffffu, in[2] & 0xffffffu, in[3] & 0xffffffu};
+  const std::uint32_t packed[3] = {rgb[0] | rgb[1] << 24, rgb[1] >> 8 | rgb[2] << 16, rgb[2] >> 16 | rgb[3] << 8};
+  std::memcpy(out, packed, sizeof packed);
+}
+
+/// The same of a square's bytes: a picture's first three channels, or all four. (Bytes of a number from the lowest on.)
+void writeBytes(const TileBytes& bytes, int x, int y, Image& image, std::vector<std::uint8_t>& pixels) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::size_t channels = image.channels.size();
+  const int columns = std::min(kTileSide, image.width - x);
+  for (int row = 0; row < std::min(kTileSide, image.height - y); ++row) {
+    const auto line = static_cast<std::size_t>(image.height - 1 - y - row) * static_cast<std::size_t>(image.width);
+    std::uint8_t* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
+    const std::uint32_t* in = &bytes.pixels[static_cast<std::size_t>((row & 12) << 4 | (row & 3) << 2)];
+    for (int column = 0; column < columns; column += 4, in += 16, out += 4 * channels) {
+      if (columns - column >= 4) {
+        writeFour(in, channels, out);
+      } else {
+        for (int i = 0; i < columns - column; ++i)
+          std::memcpy(out + static_cast<std::size_t>(i) * channels, in + i, channels);
+      }
     }
   }
 }
@@ -76,15 +78,15 @@ void forEachSquare(const ShowJob& job, const Each& each) {
   });
 }
 
-template <class T, class Convert>
-void fill(const ShowJob& job, Image& image, const Convert& convert) {
+template <class T, class Write>
+void fill(const ShowJob& job, Image& image, const Write& write) {
   const bool picture = traitsOf(job.view).source == ViewSource::picture;
   std::vector<T> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                         image.channels.size());
   forEachSquare(job, [&](const FragmentList& list, int x, int y) {
     TileColors colors;
     picture ? pictureSquare(job, list, x, y, colors) : dataSquare(job, list, x, y, colors);
-    writeSquare(colors, x, y, image, pixels, convert);
+    write(colors, x, y, pixels);
   });
   image.pixels = std::move(pixels);
 }
@@ -92,15 +94,21 @@ void fill(const ShowJob& job, Image& image, const Convert& convert) {
 } // namespace
 
 Image showView(const ShowJob& job, bool opaque) {
-  static const SrgbBytes srgb;
   Image image{job.scene.width, job.scene.height, channelsOf(job.view, job.encoded, opaque), {}};
   if (!job.encoded) {
-    fill<float>(job, image, [](float value, std::size_t) { return value; });
+    fill<float>(job, image, [&](const TileColors& colors, int x, int y, std::vector<float>& pixels) {
+      writeSquare(colors, x, y, image, pixels, [](float value) { return value; });
+    });
   } else if (traitsOf(job.view).source == ViewSource::picture) {
-    fill<std::uint8_t>(job, image,
-                       [](float value, std::size_t c) { return c < 3 ? srgb.of(value) : unormByte(value); });
+    fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
+      TileBytes bytes;
+      srgbBytes(colors, bytes);
+      writeBytes(bytes, x, y, image, pixels);
+    });
   } else {
-    fill<std::uint8_t>(job, image, [](float value, std::size_t) { return unormByte(value); });
+    fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
+      writeSquare(colors, x, y, image, pixels, unormByte);
+    });
   }
   return image;
 }

@@ -159,7 +159,7 @@ TEST(ShadowVisibility, LayersAreReadPixelByPixel) {
       std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
       for (AskedPoint& point : points) point.samples = samples == 1 ? 1u : 1u + static_cast<unsigned>(random() % 15);
       const int width = 640;
-      std::vector<std::uint16_t> values(static_cast<std::size_t>(width * (kPoints / width + 1) * samples));
+      std::vector<std::uint16_t> values(static_cast<std::size_t>(width * (kPoints / width + 1) * samples + 1));
       for (std::uint16_t& value : values) value = static_cast<std::uint16_t>(random());
       const Layer layers[] = {{}, {values.data(), width, samples}};
       ShadowMaps view = maps.view();

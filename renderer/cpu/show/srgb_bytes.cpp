@@ -1,0 +1,78 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/cpu/show/srgb_bytes.cpp" // NOLINT: Highway's foreach_target.h includes this again
+#include "renderer/cpu/show/srgb_bytes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <hwy/foreach_target.h>
+
+#include "renderer/cpu/lanes/lanes-inl.h"
+
+#ifndef GNOMON_CPU_SRGB_TABLE
+#define GNOMON_CPU_SRGB_TABLE
+namespace gnomon::cpu {
+
+/// A number's byte by its leading bits, one more from where the next byte begins.
+struct SrgbTable {
+  static constexpr std::uint32_t kLeastBits = 0x39000000u; ///< 2^-13: up to there, a byte is 0
+  static constexpr int kDropped = 16;                      ///< 128 steps an octave, so that none spans two bytes
+
+  std::array<float, 256> next{}; ///< where each byte ends
+  std::array<std::int32_t, ((0x3f800000u - kLeastBits) >> kDropped) + 1> first{};
+
+  SrgbTable() {
+    for (int byte = 0; byte < 255; ++byte) next[static_cast<std::size_t>(byte)] = linearOf((byte + 0.5) / 255.0);
+    next[255] = 2.0f;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+      const float least = std::bit_cast<float>(kLeastBits + (i << kDropped));
+      first[i] = static_cast<std::int32_t>(std::upper_bound(next.begin(), next.end(), least) - next.begin());
+    }
+  }
+
+ private:
+  static float linearOf(double encoded) {
+    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+  }
+};
+
+} // namespace gnomon::cpu
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+HWY_INLINE Int srgbByte(const SrgbTable& table, const Float& linear) {
+  const Mask some = linear > Float(std::bit_cast<float>(SrgbTable::kLeastBits)); // not where it is no number
+  const Int bits = bitsOf(min(linear, 1.0f)) - Int(static_cast<std::int32_t>(SrgbTable::kLeastBits));
+  const Int byte = gather(table.first.data(), select(some, shiftRight<SrgbTable::kDropped>(bits), Int(0)));
+  const Int rounded = select(linear >= gather(table.next.data(), byte), byte + Int(1), byte);
+  return select(some, rounded, Int(0));
+}
+
+void srgbBytesOn(const TileColors& colors, const SrgbTable& table, TileBytes& bytes) {
+  for (std::size_t i = 0; i < kTilePixels; i += kLanes) {
+    const Int r = srgbByte(table, load(&colors.channels[0][i]));
+    const Int g = srgbByte(table, load(&colors.channels[1][i]));
+    const Int b = srgbByte(table, load(&colors.channels[2][i]));
+    const Int a = truncated(clamp(load(&colors.channels[3][i]), 0.0f, 1.0f) * 255.0f + 0.5f);
+    store(r | shiftLeft<8>(g) | shiftLeft<16>(b) | shiftLeft<24>(a), &bytes.pixels[i]);
+  }
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+namespace {
+HWY_EXPORT(srgbBytesOn);
+} // namespace
+
+void srgbBytes(const TileColors& colors, TileBytes& bytes) {
+  static const SrgbTable table;
+  HWY_DYNAMIC_DISPATCH(srgbBytesOn)(colors, table, bytes);
+}
+
+} // namespace gnomon::cpu
+#endif
