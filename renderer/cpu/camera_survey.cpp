@@ -107,15 +107,16 @@ ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) 
   return grid;
 }
 
-void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, DepthBuffer& buffer,
+/// `fresh`: as RasterInput's.
+void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, bool fresh, DepthBuffer& buffer,
               std::uint64_t& triangles) {
   const std::vector<glm::mat4> clip =
       clipFromLocal(camera.scene, clipFromView(camera.camera) * viewFromRelative(camera.camera));
   const std::vector<RasterDraw> draws = rasterDraws(camera.scene, DrawUse::survey, keep);
   const MaterialHoles material({camera.scene, camera.textures, clip, glm::ivec2(buffer.width, buffer.height)});
   const Holes* holes = camera.coverage != nullptr ? camera.coverage : &material;
-  triangles += raster({camera.scene.scene, camera.scene.slots, clip, draws, holes}, DepthRange::reversed, buffer,
-                      camera.scratch);
+  triangles += raster({camera.scene.scene, camera.scene.slots, clip, draws, holes, nullptr, fresh},
+                      DepthRange::reversed, buffer, camera.scratch);
 }
 
 } // namespace
@@ -126,13 +127,13 @@ Survey surveyScene(const CameraRaster& camera, int samples, DepthBuffer storage)
   const std::vector<std::uint8_t> inView = slotsInView(input);
   std::vector<std::uint8_t> drawn = firstToDraw(input, inView);
   Survey survey;
-  survey.buffer = emptyBuffer(scene.width, scene.height, samples, DepthRange::reversed, true, std::move(storage));
-  addSlots(camera, drawn, survey.buffer, survey.triangles);
+  survey.buffer = unfilledBuffer(scene.width, scene.height, samples, true, std::move(storage));
+  addSlots(camera, drawn, true, survey.buffer, survey.triangles);
   survey.receivers = depthBlocks(camera.camera, survey.buffer);
   if (drawn != inView) {
     const std::vector<std::uint8_t> rest =
         unhiddenBoxes(camera.camera, survey.receivers, scene.geometry.slotBounds, without(inView, drawn));
-    addSlots(camera, rest, survey.buffer, survey.triangles);
+    addSlots(camera, rest, false, survey.buffer, survey.triangles);
     std::transform(drawn.begin(), drawn.end(), rest.begin(), drawn.begin(), std::bit_or<>());
     survey.receivers = depthBlocks(camera.camera, survey.buffer);
   }
@@ -141,8 +142,8 @@ Survey surveyScene(const CameraRaster& camera, int samples, DepthBuffer storage)
 }
 
 DepthBuffer rasterVisible(const CameraRaster& camera, const Survey& survey, int samples, std::uint64_t& triangles) {
-  DepthBuffer buffer = emptyBuffer(camera.scene.width, camera.scene.height, samples, DepthRange::reversed, true);
-  addSlots(camera, survey.visible, buffer, triangles);
+  DepthBuffer buffer = unfilledBuffer(camera.scene.width, camera.scene.height, samples, true);
+  addSlots(camera, survey.visible, true, buffer, triangles);
   return buffer;
 }
 

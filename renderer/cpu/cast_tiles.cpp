@@ -47,14 +47,15 @@ std::vector<RasterDraw> drawsInto(const CastInput& input, const ShadowTile& tile
   return draws;
 }
 
-/// `only`: as RasterInput's.
+/// `only`: as RasterInput's; the buffer may hold anything.
 void rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& light,
                    std::span<const RasterDraw> draws, const TexelMarks* only, DepthBuffer& buffer) {
   const std::vector<glm::mat4> clip = tileFromLocal(input.scene, tile);
   const MaterialHoles holes({input.scene, input.textures, clip, glm::ivec2(tile.rect.width, tile.rect.height),
                              glm::ivec2(tile.rect.x, tile.rect.y),
                              light.shadow->blendedCasters == BlendedCasters::dither});
-  raster({input.scene.scene, input.scene.slots, clip, draws, &holes, only}, DepthRange::clamped, buffer, input.scratch);
+  raster({input.scene.scene, input.scene.slots, clip, draws, &holes, only, true}, DepthRange::clamped, buffer,
+         input.scratch);
 }
 
 /// What goes into a tile that no earlier frame has left.
@@ -92,7 +93,7 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
     made->blurred = isBlurred(tile);
     made->made = TexelMarks(tile.rect.width, tile.rect.height);
     made->depths = {tile.rect.width, tile.rect.height, samples};
-    made->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, store.room(made->bytes()));
+    made->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, false, store.room(made->bytes()));
     cast.tiles[i] = std::move(made);
     store.keep(key, cast.tiles[i]);
     addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
@@ -128,7 +129,7 @@ void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTi
 }
 
 DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const Light& light) {
-  DepthBuffer buffer = emptyBuffer(tile.rect.width, tile.rect.height, 1, DepthRange::clamped, true);
+  DepthBuffer buffer = unfilledBuffer(tile.rect.width, tile.rect.height, 1, true);
   const TileCasters casters = castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes);
   rasterCasters(input, tile, light, rasterDraws(input.scene, casters.use, casters.slots), nullptr, buffer);
   return buffer;

@@ -164,6 +164,21 @@ HWY_INLINE Float floatOf(const Int& bits) {
   GNOMON_EACH_PART(Float, r, hn::BitCast(kFloats, bits.part[i]));
 }
 
+/// Leaves the other lanes' values as they are.
+HWY_INLINE void storeWhere(const Mask& where, const Float& a, float* to) {
+  for (std::size_t i = 0; i < kParts; ++i) hn::BlendedStore(a.part[i], where.part[i], kFloats, to + i * kPerPart);
+}
+HWY_INLINE void storeWhere(const Mask& where, const Int& a, std::uint32_t* to) {
+  storeWhere(where, floatOf(a), reinterpret_cast<float*>(to));
+}
+/// Stores the lanes `where` one behind the other, and anything behind them, sixteen values at most.
+HWY_INLINE void compressStore(const Mask& where, const Float& a, float* to) {
+  for (std::size_t i = 0; i < kParts; ++i) {
+    hn::StoreU(hn::Compress(a.part[i], where.part[i]), kFloats, to);
+    to += hn::CountTrue(kFloats, where.part[i]);
+  }
+}
+
 #define GNOMON_BINARY(Type, name, function)                        \
   HWY_INLINE Type name(const Type& a, const Type& b) {             \
     GNOMON_EACH_PART(Type, r, hn::function(a.part[i], b.part[i])); \

@@ -31,6 +31,15 @@ struct Float3 {
   HWY_INLINE explicit Float3(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}
 };
 
+/// Sixteen vectors that follow each other.
+HWY_INLINE Float3 loadVectors(const float* from) {
+  Float3 v;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    hn::LoadInterleaved3(kFloats, from + 3 * i * kPerPart, v.x.part[i], v.y.part[i], v.z.part[i]);
+  }
+  return v;
+}
+
 #define GNOMON_VECTOR_OPERATOR(op)                                  \
   HWY_INLINE Float2 operator op(const Float2& a, const Float2& b) { \
     return {a.x op b.x, a.y op b.y};                                \

@@ -19,7 +19,7 @@ struct DepthBuffer {
   int height = 0;
   int samples = 1; ///< a place: 1 or 4
   UnfilledVector<float> depths{};
-  std::vector<std::uint32_t> triangles{}; ///< parallel to depths; empty = not asked for
+  UnfilledVector<std::uint32_t> triangles{}; ///< parallel to depths; empty = not asked for
 
   int blocksAcross() const { return (width + kBlockSide - 1) / kBlockSide; }
   int blocksUp() const { return (height + kBlockSide - 1) / kBlockSide; }

@@ -8,6 +8,7 @@
 
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/cpu/raster/raster_triangles.h"
 #include "renderer/cpu/raster/texel_marks.h"
 #include "renderer/prepare/draw_list.h"
 
@@ -15,7 +16,8 @@
 ///
 /// Corners are snapped to 1/256 of a pixel, and then all is exact: a sample belongs to a triangle where the integers
 /// say so, and on an edge to the one that has it as a left or an upper edge (Microsoft, "Rasterization Rules", Direct3D
-/// 11). So triangles that share an edge leave no gap and no sample to both. What comes out depends neither on the
+/// 11). So triangles that share an edge leave no gap and no sample to both. Depths are those of the planes through the
+/// corners before they are snapped. What comes out depends neither on the
 /// number of threads nor on their order.
 namespace gnomon::cpu {
 
@@ -44,6 +46,7 @@ struct RasterInput {
   std::span<const RasterDraw> draws;        ///< of triangles at one depth, that of the earlier draw is shown
   const Holes* holes = nullptr;             ///< asked where draws are holed
   const TexelMarks* only = nullptr;         ///< the blocks that are wanted, of the target's size; null = all
+  bool fresh = false;                       ///< the target holds anything: what is wanted is emptied first
 };
 
 /// How depths are compared, and what lies before the first or behind the last.
@@ -52,48 +55,23 @@ enum class DepthRange {
   clamped   ///< 0 nearest; what lies beyond 0..1 is flattened onto it: a light's
 };
 
-/// A corner as it is rastered: 1/256 of a pixel from the picture's lower left corner, and depth.
-struct Corner {
-  std::int32_t x = 0, y = 0;
-  float z = 0;
-};
-
-/// A triangle that may cover a sample; its corners go round counter-clockwise.
-struct RasterTriangle {
-  std::array<Corner, 3> corners;
-  std::uint32_t number = 0;
-  bool holed = false;
-  bool turned = false; ///< as its scene has them, its corners go round clockwise
-};
-
 /// Pixels along a side of the squares of the picture that are rastered at a time.
 inline constexpr int kSquareSide = kMarkSquare;
 
 /// What frames leave to the next ones, so that memory is touched once.
 struct RasterScratch {
-  /// Draws that follow each other: their triangles in order, and which of them may touch each square of the picture.
-  struct Group {
-    std::vector<RasterTriangle> triangles;
-    std::vector<std::uint32_t> firstEntry; ///< one a square, and the end
-    std::vector<std::uint32_t> entries;    ///< indices into triangles, square by square, rising within each
-  };
-  std::vector<Group> groups;
+  std::vector<TriangleGroup> groups;
 };
 
-/// Where the samples of a pixel lie, in 1/256 of it from its lower left corner: the centre of one, or Direct3D's
-/// standard pattern of four, which drivers of OpenGL share. REQUIRES: 1 or 4.
+/// Where the samples of a pixel lie: see kSamplePlaces. REQUIRES: 1 or 4.
 std::span<const glm::ivec2> samplePlaces(int samples);
 
-/// Adds to `target`, which has its size and samples and is filled with the farthest depth. Where input.only wants some
-/// blocks, these are emptied first, whatever they held, and the others are left as they are; the target has no numbers
-/// then. A block comes out the same whichever others are wanted. Gives the triangles that were drawn: those of the
-/// draws.
+/// Adds to `target`, which has its size and samples. Where input.only wants some blocks, these are emptied first,
+/// whatever they held, and the others are left as they are. A block comes out the same whichever others are wanted.
+/// Gives the triangles that were drawn: those of the draws.
 std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch);
 
-/// A buffer of that size whose depths hold anything, without numbers. `storage`: as below.
-DepthBuffer unfilledBuffer(int width, int height, int samples, DepthBuffer storage = {});
-
-/// A buffer of that size in which nothing is. `storage`: one that nothing needs any more, whose memory is used.
-DepthBuffer emptyBuffer(int width, int height, int samples, DepthRange range, bool numbered, DepthBuffer storage = {});
+/// A buffer of that size that holds anything. `storage`: one that nothing needs any more, whose memory is used.
+DepthBuffer unfilledBuffer(int width, int height, int samples, bool numbered, DepthBuffer storage = {});
 
 } // namespace gnomon::cpu

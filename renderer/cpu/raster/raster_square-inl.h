@@ -7,152 +7,103 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 
 #include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/raster/raster_triangles.h"
 #include "renderer/cpu/raster/raster_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// A side of a triangle: at sample s of pixel (x, y) its value is first[s] + a x + b y, and the sample is inside where
-/// that is not negative. A value stands for the floor of the edge function over 256, from which steps of whole pixels,
-/// 256 a and 256 b, lose nothing. (Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988.)
-template <int samples>
-struct Side {
-  std::int64_t a = 0, b = 0;
-  std::int64_t first[samples] = {};
-  std::int64_t greatest = 0; ///< of a block's samples, besides a x + b y of its first pixel
-  std::int64_t least = 0;
-};
-
-template <int samples>
-HWY_INLINE Side<samples> sideOf(const Corner& from, const Corner& to, const glm::ivec2* places) {
-  Side<samples> side;
-  side.a = std::int64_t{from.y} - to.y;
-  side.b = std::int64_t{to.x} - from.x;
-  // Corners go round counter-clockwise, y up: a left side goes down, an upper one to the left.
-  const bool ownsSamples = side.a > 0 || (side.a == 0 && side.b < 0);
-  for (int s = 0; s < samples; ++s) {
-    const std::int64_t value = side.a * (places[s].x - from.x) + side.b * (places[s].y - from.y);
-    side.first[s] = (value - (ownsSamples ? 0 : 1)) >> 8;
-  }
-  const auto [low, high] = std::minmax_element(side.first, side.first + samples);
-  constexpr std::int64_t kSteps = kBlockSide - 1;
-  side.greatest = *high + kSteps * (std::max<std::int64_t>(side.a, 0) + std::max<std::int64_t>(side.b, 0));
-  side.least = *low + kSteps * (std::min<std::int64_t>(side.a, 0) + std::min<std::int64_t>(side.b, 0));
-  return side;
-}
-
-/// Depth on the picture, in pixels from its lower left corner.
-struct DepthPlane {
-  double first = 0;
-  double dx = 0, dy = 0;
-  float least = 0, most = 0; ///< of the corners
-};
-
-HWY_INLINE DepthPlane depthPlane(const RasterTriangle& triangle) {
-  const auto& [p, q, r] = triangle.corners;
-  const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
-  const double qz = static_cast<double>(q.z) - p.z, rz = static_cast<double>(r.z) - p.z;
-  const double scale = kSubpixels / (qx * ry - rx * qy);
-  DepthPlane plane;
-  plane.dx = (qz * ry - rz * qy) * scale;
-  plane.dy = (rz * qx - qz * rx) * scale;
-  plane.first = p.z - (plane.dx * p.x + plane.dy * p.y) / kSubpixels;
-  plane.least = std::min({p.z, q.z, r.z});
-  plane.most = std::max({p.z, q.z, r.z});
-  return plane;
-}
-
-struct SquareSpan {
-  int x0, y0, x1, y1; ///< blocks; the last ones belong to it
-
-  /// As TexelMarks has them.
-  HWY_INLINE std::uint64_t marks() const { return blockBits(x0 >> 1 & 7, x1 >> 1 & 7, y0 >> 1 & 7, y1 >> 1 & 7); }
-};
 static_assert(kMarkSide == 2 * kBlockSide);
 
-/// Adds the samples of a triangle in a span of blocks, of those that are `wanted`: see TexelMarks.
+/// A square that is rastered.
+struct Square {
+  DepthBuffer& target;
+  const Holes* holes;
+  BlockSpan blocks;
+  std::uint64_t wanted; ///< as TexelMarks has them
+
+  HWY_INLINE bool wants(int column, int row) const {
+    return (wanted >> (8 * (row >> 1 & 7) + (column >> 1 & 7)) & 1) != 0;
+  }
+};
+
+/// What of a triangle is kept with its samples.
+struct TriangleMarks {
+  std::uint32_t number;
+  bool holed;
+  bool turned;
+};
+
+/// Adds a triangle's depths where it covers the samples of a block.
+template <DepthRange range>
+HWY_INLINE void addDepths(const Square& square, const TriangleMarks& triangle, int column, int row, int sample,
+                          const Mask& covered, const Float& depth) {
+  const std::size_t at = square.target.blockAt(column, row, sample);
+  float* const depths = square.target.depths.data() + at;
+  const Float before = load(depths);
+  Mask shows = covered & (range == DepthRange::reversed ? depth > before : depth < before);
+  if (triangle.holed) {
+    if (none(shows)) return;
+    shows = maskOf(square.holes->filled(triangle.number, !triangle.turned, column, row, sample, bitsOf(shows)));
+  }
+  storeWhere(shows, depth, depths);
+  if (square.target.triangles.empty()) return;
+  storeWhere(shows, Int(static_cast<std::int32_t>(triangle.number)), square.target.triangles.data() + at);
+}
+
+HWY_INLINE Float laneColumns() {
+  return toFloat(laneNumbers() & Int(kBlockSide - 1));
+}
+HWY_INLINE Float laneRows() {
+  return toFloat(shiftRight<2>(laneNumbers()));
+}
+
+/// Adds the samples of a small triangle. Its values stay below 2^23, where floats are exact.
 template <DepthRange range, int samples>
-HWY_INLINE void rasterTriangle(const RasterTriangle& triangle, const SquareSpan& span, std::uint64_t wanted,
-                               DepthBuffer& target, const Holes* holes) {
-  const glm::ivec2* places = samplePlaces(samples).data();
-  const auto& c = triangle.corners;
-  const Side<samples> sides[3] = {sideOf<samples>(c[0], c[1], places), sideOf<samples>(c[1], c[2], places),
-                                  sideOf<samples>(c[2], c[0], places)};
-  const DepthPlane plane = depthPlane(triangle);
-  const Int laneX = laneNumbers() & Int(kBlockSide - 1);
-  const Int laneY = shiftRight<2>(laneNumbers());
-  Int within[3];
-  for (int i = 0; i < 3; ++i) {
-    within[i] = laneX * Int(static_cast<std::int32_t>(sides[i].a)) + laneY * Int(static_cast<std::int32_t>(sides[i].b));
-  }
-  const Float depthWithin =
-      toFloat(laneX) * static_cast<float>(plane.dx) + toFloat(laneY) * static_cast<float>(plane.dy);
-  double depthFirst[samples];
+HWY_INLINE void rasterSmall(const float* triangle, const Square& square) {
+  const auto field = [&](int i) HWY_ATTR { return triangle[static_cast<std::size_t>(i) * SmallTriangles::kStride]; };
+  const auto bits = [&](int i) HWY_ATTR { return std::bit_cast<std::uint32_t>(field(i)); };
+  constexpr std::uint32_t kPlace = (1u << 14) - 1;
+  const std::uint32_t first = bits(kFirstBlock), last = bits(kLastBlock);
+  const int firstColumn = static_cast<int>(first & kPlace), firstRow = static_cast<int>(first >> 14);
+  const BlockSpan span{std::max(firstColumn, square.blocks.x0), std::max(firstRow, square.blocks.y0),
+                       std::min(static_cast<int>(last & kPlace), square.blocks.x1),
+                       std::min(static_cast<int>(last >> 14 & kPlace), square.blocks.y1)};
+  if ((span.marks() & square.wanted) == 0) return;
+  const float a[3] = {field(kSideA0), field(kSideA1), -(field(kSideA0) + field(kSideA1))};
+  const float b[3] = {field(kSideB0), field(kSideB1), -(field(kSideB0) + field(kSideB1))};
+  const float depth = field(kDepth), dx = field(kDepthX), dy = field(kDepthY);
+  const Float leastDepth = field(kLeastDepth), mostDepth = field(kMostDepth);
+  const TriangleMarks marks{bits(kNumber), (last & kHoled) != 0, (last & kTurned) != 0};
+  const Float x = laneColumns(), y = laneRows();
+  Float within[3], least[3 * samples], depthWithin[samples];
+  for (int i = 0; i < 3; ++i) within[i] = mulAdd(x, a[i], y * b[i]);
+  for (int i = 0; i < 3 * samples; ++i) least[i] = field(kLeastValues + i);
+  constexpr auto& places = kSamplePlaces<samples>;
   for (int s = 0; s < samples; ++s) {
-    depthFirst[s] = plane.first + (plane.dx * places[s].x + plane.dy * places[s].y) / kSubpixels;
+    constexpr float kPixel = 1.0f / kSubpixels;
+    const glm::vec2 place = glm::vec2(places[static_cast<std::size_t>(s)] - places[0]) * kPixel;
+    depthWithin[s] = mulAdd(x, dx, mulAdd(y, dy, Float(place.x * dx + place.y * dy)));
   }
-  float* const depths = target.depths.data();
-  std::uint32_t* const numbers = target.triangles.empty() ? nullptr : target.triangles.data();
-  // Beyond it a value's sign can't change within a block.
-  constexpr std::int64_t kFar = std::int64_t{1} << 28;
   for (int row = span.y0; row <= span.y1; ++row) {
-    const auto wantedHere = static_cast<unsigned>(wanted >> 8 * (row >> 1 & 7));
+    const auto up = static_cast<float>(kBlockSide * (row - firstRow));
     for (int column = span.x0; column <= span.x1; ++column) {
-      if ((wantedHere >> (column >> 1 & 7) & 1u) == 0) continue;
-      const std::int64_t x = column * kBlockSide, y = row * kBlockSide;
-      std::int64_t value[3];
-      bool touched = true;
-      bool covered = true;
-      for (int i = 0; i < 3; ++i) {
-        value[i] = sides[i].a * x + sides[i].b * y;
-        touched = touched && value[i] + sides[i].greatest >= 0;
-        covered = covered && value[i] + sides[i].least >= 0;
-      }
-      if (!touched) continue;
-      const double depthAt = plane.dx * static_cast<double>(x) + plane.dy * static_cast<double>(y);
+      if (!square.wants(column, row)) continue;
+      const auto across = static_cast<float>(kBlockSide * (column - firstColumn));
+      Float value[3];
+      for (int i = 0; i < 3; ++i) value[i] = within[i] + Float(a[i] * across + b[i] * up);
+      const Float depthHere(depth + (dx * across + dy * up));
       for (int s = 0; s < samples; ++s) {
-        Float depth = clamp(depthWithin + Float(static_cast<float>(depthFirst[s] + depthAt)), plane.least, plane.most);
-        if constexpr (range == DepthRange::clamped) depth = clamp(depth, 0.0f, 1.0f);
-        const std::size_t at = target.blockAt(column, row, s);
-        const Float before = load(depths + at);
-        Mask shows = range == DepthRange::reversed ? depth > before : depth < before;
-        if (!covered) {
-          Int signs(0);
-          for (int i = 0; i < 3; ++i) {
-            const std::int64_t first = std::clamp(value[i] + sides[i].first[s], -kFar, kFar);
-            signs = signs | (within[i] + Int(static_cast<std::int32_t>(first)));
-          }
-          shows = shows & (signs >= Int(0));
-        }
-        if (none(shows)) continue;
-        if (triangle.holed) {
-          shows = maskOf(holes->filled(triangle.number, !triangle.turned, column, row, s, bitsOf(shows)));
-        }
-        store(select(shows, depth, before), depths + at);
-        if (numbers == nullptr) continue;
-        const Int number(static_cast<std::int32_t>(triangle.number));
-        store(select(shows, number, load(numbers + at)), numbers + at);
+        const Mask covered =
+            (value[0] >= least[s]) & (value[1] >= least[samples + s]) & (value[2] >= least[2 * samples + s]);
+        addDepths<range>(square, marks, column, row, s, covered,
+                         clamp(depthHere + depthWithin[s], leastDepth, mostDepth));
       }
     }
   }
-}
-
-/// The blocks of a square that a triangle may touch.
-HWY_INLINE SquareSpan spanIn(const RasterView& view, const RasterTriangle& triangle, int squareX, int squareY) {
-  const auto& c = triangle.corners;
-  const auto blocks = [&](std::int32_t least, std::int32_t most, int firstSample, int lastSample, int size, int square)
-                          HWY_ATTR {
-                            const PixelSpan pixels = pixelsWithin(least, most, firstSample, lastSample, size);
-                            return PixelSpan{std::max(pixels.first, square * kSquareSide) / kBlockSide,
-                                             std::min(pixels.last, (square + 1) * kSquareSide - 1) / kBlockSide};
-                          };
-  const PixelSpan across = blocks(std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}),
-                                  view.firstSample.x, view.lastSample.x, view.width, squareX);
-  const PixelSpan up = blocks(std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y}),
-                              view.firstSample.y, view.lastSample.y, view.height, squareY);
-  return {across.first, up.first, across.last, up.last};
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -33,8 +33,8 @@ HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& plac
   return sight;
 }
 
-/// The view depth of what the survey saw. Its corners lie on a grid, so it may miss by a little; but what is shown lies
-/// in the range that tiles are fitted to.
+/// The view depth of what the survey saw. Its corners lie on a grid, so that a line of sight may miss a triangle seen
+/// edge-on, and meet its plane far off; but what is shown lies in the range that tiles are fitted to.
 HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDepth) {
   const glm::vec4& range = frame.depthRange;
   return range.x < range.y ? clamp(viewDepth, range.x, range.y) : viewDepth;

@@ -36,9 +36,11 @@ Mesh meshOf(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices
 }
 
 DepthBuffer drawn(const Mesh& mesh, int width, int height, int samples = 1, DepthRange range = DepthRange::reversed) {
-  DepthBuffer buffer = emptyBuffer(width, height, samples, range, true);
+  DepthBuffer buffer = unfilledBuffer(width, height, samples, true);
   RasterScratch scratch;
-  raster(mesh.input(), range, buffer, scratch);
+  RasterInput input = mesh.input();
+  input.fresh = true;
+  raster(input, range, buffer, scratch);
   return buffer;
 }
 
@@ -254,7 +256,8 @@ TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
   const Chequers chequers;
   RasterInput input = mesh.input();
   input.holes = &chequers;
-  DepthBuffer buffer = emptyBuffer(16, 16, 1, DepthRange::reversed, true);
+  input.fresh = true;
+  DepthBuffer buffer = unfilledBuffer(16, 16, 1, true);
   RasterScratch scratch;
   EXPECT_EQ(raster(input, DepthRange::reversed, buffer, scratch), 2u);
   EXPECT_EQ(buffer.triangles[buffer.at(9, 8)], 0u);
@@ -263,7 +266,7 @@ TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
 
 /// Depths that no triangle has.
 DepthBuffer poisoned(int width, int height, int samples) {
-  DepthBuffer buffer = unfilledBuffer(width, height, samples);
+  DepthBuffer buffer = unfilledBuffer(width, height, samples, false);
   std::fill(buffer.depths.begin(), buffer.depths.end(), -7.0f);
   return buffer;
 }

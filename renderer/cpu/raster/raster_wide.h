@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "renderer/cpu/raster/raster_triangles.h"
+#include "renderer/cpu/raster/raster_view.h"
+
+namespace gnomon::cpu {
+
+/// A corner before it is snapped: 1/256 of a pixel from the picture's lower left corner, and depth. Where `placed` is
+/// not set it lies where nothing is rastered, and `clip` says where.
+struct WideCorner {
+  glm::dvec2 at{0};
+  double z = 0;
+  bool placed = false;
+  glm::dvec4 clip{0};
+};
+
+/// Triangles of a draw that are not small.
+struct WideDraw {
+  const RasterView& view;
+  Facing facing = Facing::both;
+  bool holed = false;
+};
+
+/// Adds what of a triangle may cover samples, and the squares that it may touch. Where a corner has no place all have
+/// their `clip`, and the triangle is clipped.
+void addWide(const WideDraw& draw, const std::array<WideCorner, 3>& corners, std::uint32_t number,
+             TriangleGroup& group);
+
+} // namespace gnomon::cpu
