@@ -178,6 +178,19 @@ HWY_INLINE void compressStore(const Mask& where, const Float& a, float* to) {
     to += hn::CountTrue(kFloats, where.part[i]);
   }
 }
+HWY_INLINE void compressStore(const Mask& where, const Int& a, std::int32_t* to) {
+  compressStore(where, floatOf(a), reinterpret_cast<float*>(to));
+}
+HWY_INLINE void compressStore(const Mask& where, const Int& a, std::uint32_t* to) {
+  compressStore(where, floatOf(a), reinterpret_cast<float*>(to));
+}
+/// Of 48 values the first, the second and the third of each three.
+HWY_INLINE void loadTriples(const std::uint32_t* from, Int& a, Int& b, Int& c) {
+  const auto* ints = reinterpret_cast<const std::int32_t*>(from);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    hn::LoadInterleaved3(kInts, ints + 3 * i * kPerPart, a.part[i], b.part[i], c.part[i]);
+  }
+}
 
 #define GNOMON_BINARY(Type, name, function)                        \
   HWY_INLINE Type name(const Type& a, const Type& b) {             \
@@ -213,6 +226,18 @@ HWY_INLINE Float& operator*=(Float& a, const Float& b) {
 }
 HWY_INLINE Float& operator/=(Float& a, const Float& b) {
   return a = a / b;
+}
+
+/// Of all lanes.
+HWY_INLINE float leastLane(const Float& a) {
+  auto least = a.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) least = hn::Min(least, a.part[i]);
+  return hn::GetLane(hn::MinOfLanes(kFloats, least));
+}
+HWY_INLINE float greatestLane(const Float& a) {
+  auto greatest = a.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) greatest = hn::Max(greatest, a.part[i]);
+  return hn::GetLane(hn::MaxOfLanes(kFloats, greatest));
 }
 
 template <int bits>

@@ -49,10 +49,10 @@ HWY_INLINE void rasterEntries(std::span<const TriangleGroup> groups, std::size_t
     const std::uint32_t* const end = group.entries.data() + group.firstEntry[index + 1];
     for (const std::uint32_t* at = group.entries.data() + group.firstEntry[index]; at != end; ++at) {
       const std::uint32_t entry = *at;
-      if ((entry & TriangleGroup::kWide) == 0) {
+      if ((entry & kWideEntry) == 0) {
         rasterSmall<range, samples>(group.small.at(entry), square);
       } else {
-        rasterWide<range, samples>(group.wide[entry & ~TriangleGroup::kWide], square);
+        rasterWide<range, samples>(group.wide[entry & ~kWideEntry], square);
       }
     }
   }
@@ -148,12 +148,15 @@ void emptyBlocks(const RasterView& view, std::size_t square, DepthBuffer& target
 /// Sorts a group's triangles by the squares that they may touch.
 void sortIntoSquares(const RasterView& view, TriangleGroup& group) {
   group.firstEntry.assign(view.squares() + 1, 0);
-  for (const TriangleGroup::Touch& touch : group.touches) ++group.firstEntry[touch.square];
+  std::uint32_t* const first = group.firstEntry.data();
+  for (const SquareTouch& touch : group.touches) ++first[touch.square];
   std::uint32_t end = 0;
   for (std::uint32_t& entry : group.firstEntry) entry = end += entry;
   group.entries.resize(group.touches.size());
-  for (std::size_t i = group.touches.size(); i-- > 0;) {
-    group.entries[--group.firstEntry[group.touches[i].square]] = group.touches[i].entry;
+  std::uint32_t* const entries = group.entries.data();
+  for (const SquareTouch* touch = group.touches.end(); touch != group.touches.begin();) {
+    --touch;
+    entries[--first[touch->square]] = touch->entry;
   }
 }
 

@@ -38,7 +38,21 @@ struct VertexRun {
 HWY_INLINE VertexRun vertexRun(const std::uint32_t* indices, std::size_t count) {
   std::uint32_t least = indices[0];
   std::uint32_t most = indices[0];
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t whole = count / kLanes * kLanes;
+  if (whole > 0) {
+    Int leasts = load(indices), mosts = leasts;
+    for (std::size_t i = kLanes; i < whole; i += kLanes) {
+      const Int values = load(indices + i);
+      leasts = min(leasts, values);
+      mosts = max(mosts, values);
+    }
+    alignas(64) std::uint32_t lanes[2][kLanes];
+    store(leasts, lanes[0]);
+    store(mosts, lanes[1]);
+    least = *std::min_element(lanes[0], lanes[0] + kLanes);
+    most = *std::max_element(lanes[1], lanes[1] + kLanes);
+  }
+  for (std::size_t i = whole; i < count; ++i) {
     least = std::min(least, indices[i]);
     most = std::max(most, indices[i]);
   }

@@ -6,6 +6,7 @@
 #define GNOMON_CPU_RASTER_SIEVE_INL_H
 #endif
 
+#include <array>
 #include <bit>
 
 #include "renderer/cpu/raster/raster_corners-inl.h"
@@ -67,11 +68,17 @@ class TriangleSieve {
  private:
   HWY_INLINE static void place(const PlacedCorners& corners, const std::uint32_t* indices, std::uint32_t t,
                                std::uint32_t triangles, Sieved& s) {
-    const Int triangle =
-        min(laneNumbers() + Int(static_cast<std::int32_t>(t)), Int(static_cast<std::int32_t>(triangles) - 1)) * 3;
+    if (indices != nullptr && t + kLanes <= triangles) {
+      loadTriples(indices + 3 * std::size_t{t}, s.at[0], s.at[1], s.at[2]);
+    } else {
+      const Int triangle =
+          min(laneNumbers() + Int(static_cast<std::int32_t>(t)), Int(static_cast<std::int32_t>(triangles) - 1)) * 3;
+      for (int c = 0; c < 3; ++c) s.at[c] = indices == nullptr ? triangle + Int(c) : gather(indices + c, triangle);
+    }
+    for (Int& at : s.at) {
+      if (indices != nullptr) at = at - Int(static_cast<std::int32_t>(corners.first));
+    }
     for (int c = 0; c < 3; ++c) {
-      s.at[c] = indices == nullptr ? triangle + Int(c)
-                                   : gather(indices + c, triangle) - Int(static_cast<std::int32_t>(corners.first));
       s.x[c] = gather(corners.x.data(), s.at[c]);
       s.y[c] = gather(corners.y.data(), s.at[c]);
       s.snappedX[c] = nearest(s.x[c]);
@@ -84,42 +91,55 @@ class TriangleSieve {
   template <class ClipOf>
   HWY_INLINE Mask touching(const Sieved& s, const PlacedCorners& corners, std::uint32_t t, const Mask& candidates,
                            const Mask& small, unsigned unplaced, const ClipOf& clipOf) {
-    alignas(64) std::int32_t box[4][kLanes];
+    const Int squareX = shiftRight<6>(s.firstX), squareY = shiftRight<6>(s.firstY);
+    const Mask inOne = (squareX == shiftRight<6>(s.lastX)) & (squareY == shiftRight<6>(s.lastY));
+    alignas(64) std::int32_t squares[kLanes], box[4][kLanes];
+    store(squareY * Int(view_.squaresAcross) + squareX, squares);
     store(s.firstX, box[0]);
     store(s.firstY, box[1]);
     store(s.lastX, box[2]);
     store(s.lastY, box[3]);
-    alignas(64) std::int32_t at[3][kLanes];
+    const auto block = [&](int side, unsigned lane) { return box[side][lane] / kMarkSide % 8; };
     const unsigned smallBits = bitsOf(small);
-    const unsigned candidateBits = bitsOf(candidates);
-    if ((candidateBits & ~smallBits) != 0) {
-      for (int c = 0; c < 3; ++c) store(s.at[c], at[c]);
-    }
+    const unsigned inOneBits = bitsOf(small & inOne);
     const auto first = static_cast<std::uint32_t>(group_.small.end());
     unsigned kept = 0;
     std::uint32_t count = 0;
-    for (unsigned bits = candidateBits; bits != 0; bits &= bits - 1) {
+    for (unsigned bits = bitsOf(candidates); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(bits));
-      if ((smallBits >> lane & 1u) == 0) {
-        const std::array<std::uint32_t, 3> own{static_cast<std::uint32_t>(at[0][lane]),
-                                               static_cast<std::uint32_t>(at[1][lane]),
-                                               static_cast<std::uint32_t>(at[2][lane])};
-        addWide(wide_, wideCorners(corners, own, (unplaced >> lane & 1u) != 0, clipOf), firstNumber_ + t + lane,
-                group_);
-      } else if (addTouches({box[0][lane], box[1][lane], box[2][lane], box[3][lane]}, first + count)) {
-        kept |= 1u << lane;
-        ++count;
+      unsigned touches = 1;
+      if ((inOneBits >> lane & 1u) != 0) {
+        const auto square = static_cast<std::uint32_t>(squares[lane]);
+        // No branch: whether a triangle is wanted is hard to foretell.
+        if (view_.only != nullptr) {
+          const std::uint64_t own = blockBits(block(0, lane), block(2, lane), block(1, lane), block(3, lane));
+          touches = (view_.only->in(square)&own) != 0 ? 1 : 0;
+        }
+        *group_.touches.room(1) = {square, first + count};
+        group_.touches.add(std::size_t{touches});
+      } else if ((smallBits >> lane & 1u) != 0) {
+        touches = addTouches({box[0][lane], box[1][lane], box[2][lane], box[3][lane]}, first + count) ? 1 : 0;
+      } else {
+        alignas(64) std::uint32_t at[3][kLanes];
+        for (int c = 0; c < 3; ++c) store(s.at[c], at[c]);
+        addWide(wide_,
+                wideCorners(corners, {at[0][lane], at[1][lane], at[2][lane]}, (unplaced >> lane & 1u) != 0, clipOf),
+                firstNumber_ + t + lane, group_);
+        touches = 0;
       }
+      kept |= touches << lane;
+      count += touches;
     }
     return maskOf(kept);
   }
 
+  /// Of a small triangle in several squares; false where no square wants it.
   HWY_INLINE bool addTouches(const PixelBox& pixels, std::uint32_t entry) {
     bool touches = false;
     for (int y = pixels.y0 / kSquareSide; y <= pixels.y1 / kSquareSide; ++y) {
       for (int x = pixels.x0 / kSquareSide; x <= pixels.x1 / kSquareSide; ++x) {
         if (!isWanted(view_, pixels, x, y)) continue;
-        group_.touches.push_back({static_cast<std::uint32_t>(y * view_.squaresAcross + x), entry});
+        group_.touches.add({static_cast<std::uint32_t>(y * view_.squaresAcross + x), entry});
         touches = true;
       }
     }

@@ -92,21 +92,45 @@ struct WideTriangle {
   bool turned = false; ///< as kTurned
 };
 
+/// A triangle that may touch a square of the picture.
+struct SquareTouch {
+  std::uint32_t square;
+  std::uint32_t entry; ///< kWideEntry and the number of a wide triangle, or where a small one lies
+};
+inline constexpr std::uint32_t kWideEntry = 1u << 31;
+
+/// In the triangles' order.
+class SquareTouches {
+ public:
+  void clear() { count_ = 0; }
+  /// Where the next ones go, with room for as many.
+  SquareTouch* room(std::size_t count) {
+    if (values_.size() < count_ + count) values_.resize(2 * values_.size() + count);
+    return values_.data() + count_;
+  }
+  void add(std::size_t count) { count_ += count; }
+  void add(const SquareTouch& touch) {
+    *room(1) = touch;
+    add(std::size_t{1});
+  }
+
+  std::size_t size() const { return count_; }
+  const SquareTouch* begin() const { return values_.data(); }
+  const SquareTouch* end() const { return values_.data() + count_; }
+
+ private:
+  std::vector<SquareTouch, Unfilled<SquareTouch>> values_;
+  std::size_t count_ = 0;
+};
+
 /// Draws that follow each other: their triangles that may cover a sample, and which of them may touch each square of
 /// the picture.
 struct TriangleGroup {
-  struct Touch {
-    std::uint32_t square, entry;
-  };
-
   SmallTriangles small;
   std::vector<WideTriangle> wide;
-  std::vector<Touch> touches;            ///< in the triangles' order
+  SquareTouches touches;
   std::vector<std::uint32_t> firstEntry; ///< one a square, and the end
-  std::vector<std::uint32_t> entries;    ///< square by square, in the triangles' order within each
-
-  /// Of an entry: it is of the wide triangles, else where a small one lies.
-  static constexpr std::uint32_t kWide = 1u << 31;
+  std::vector<std::uint32_t> entries;    ///< as SquareTouch's; square by square, in the triangles' order within each
 };
 
 } // namespace gnomon::cpu

@@ -43,7 +43,7 @@ bool addTouches(const RasterView& view, WideTriangle& triangle, std::uint32_t in
     for (int x = pixels.x0 / kSquareSide; x <= pixels.x1 / kSquareSide; ++x) {
       const glm::i64vec2 least(x * kSide, y * kSide);
       if (!isWanted(view, pixels, x, y) || !mayTouch(triangle, least, least + kSide)) continue;
-      group.touches.push_back({static_cast<std::uint32_t>(y * view.squaresAcross + x), TriangleGroup::kWide | index});
+      group.touches.add({static_cast<std::uint32_t>(y * view.squaresAcross + x), kWideEntry | index});
     }
   }
   return group.touches.size() != before;
