@@ -1,87 +1,87 @@
-#include <algorithm>
-#include <cstring>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE \
+  "renderer/cpu/show/fragment_list.cpp" // NOLINT: Highway's foreach_target.h includes this file again
+#include <bit>
+#include <hwy/foreach_target.h>
 
+#include "renderer/cpu/lanes/lanes-inl.h"
 #include "renderer/cpu/show/show_view.h"
 #include "renderer/prepare/draw_list.h"
 
-namespace gnomon::cpu {
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
 
-void add(std::uint32_t triangle, int pixel, int samples, FragmentList& list) {
-  list.triangle[list.count] = triangle;
-  list.pixel[list.count] = pixel;
-  list.samples[list.count] = samples;
-  ++list.count;
+/// Adds the lanes `where`, which show these triangles in these samples of the block's pixels.
+HWY_INLINE void add(const Mask& where, const Int& triangle, int firstPixel, const Int& samples, FragmentList& list) {
+  compressStore(where, triangle, list.triangle.data() + list.count);
+  compressStore(where, laneNumbers() + Int(firstPixel), list.pixel.data() + list.count);
+  compressStore(where, samples, list.samples.data() + list.count);
+  list.count += static_cast<std::size_t>(std::popcount(bitsOf(where)));
 }
 
-bool isUniform(const std::uint32_t* numbers) {
-  std::uint32_t differs = 0;
-  for (int i = 0; i < kBlockPlaces; ++i) differs |= numbers[i] ^ numbers[0];
-  return differs == 0;
-}
-
-/// Every place of the block shows one triangle in all of its samples, or none of the places shows any.
-bool isWhole(const std::uint32_t* numbers, int samples) {
-  std::uint32_t differs = 0;
-  for (int s = 1; s < samples; ++s) {
-    for (int i = 0; i < kBlockPlaces; ++i) differs |= numbers[s * kBlockPlaces + i] ^ numbers[i];
+/// `numbers`: of a block's samples, sixteen each. `inside`: pixels of the picture.
+template <int samples>
+HWY_INLINE void listBlock(const std::uint32_t* numbers, const Mask& inside, int firstPixel, FragmentList& list) {
+  const Int nothing(static_cast<std::int32_t>(kNoNumber));
+  Int triangle[samples];
+  Int differs(0);
+  for (int s = 0; s < samples; ++s) {
+    triangle[s] = load(numbers + s * kBlockPlaces);
+    differs = differs | (triangle[s] ^ triangle[0]);
   }
-  if (differs != 0) return false;
-  bool none = false;
-  for (int i = 0; i < kBlockPlaces; ++i) none = none || numbers[i] == kNoNumber;
-  return !none || isUniform(numbers);
-}
-
-void addWhole(const std::uint32_t* numbers, int samples, int firstPixel, FragmentList& list) {
-  std::copy_n(numbers, kBlockPlaces, &list.triangle[list.count]);
-  for (int i = 0; i < kBlockPlaces; ++i) {
-    list.pixel[list.count + static_cast<std::size_t>(i)] = firstPixel + i;
-    list.samples[list.count + static_cast<std::size_t>(i)] = (1 << samples) - 1;
+  if (none(inside & (differs != Int(0)))) {
+    const Mask shown = inside & (triangle[0] != nothing);
+    if (any(shown)) add(shown, triangle[0], firstPixel, Int((1 << samples) - 1), list);
+    return;
   }
-  list.count += kBlockPlaces;
-}
-
-/// `numbers`: of a block's samples, sixteen each. Places beyond the picture show nothing.
-void listBlock(const std::uint32_t* numbers, int samples, int firstPixel, int width, int height, FragmentList& list) {
-  for (int place = 0; place < kBlockPlaces; ++place) {
-    if (place % kBlockSide >= width || place / kBlockSide >= height) continue;
-    int left = (1 << samples) - 1;
-    for (int s = 0; s < samples; ++s) {
-      if ((left >> s & 1) == 0) continue;
-      const std::uint32_t triangle = numbers[s * kBlockPlaces + place];
-      int same = 1 << s;
-      for (int other = s + 1; other < samples; ++other) {
-        same |= static_cast<int>(numbers[other * kBlockPlaces + place] == triangle) << other;
-      }
-      left &= ~same;
-      if (triangle != kNoNumber) add(triangle, firstPixel + place, same, list);
+  Int listed(0); // the samples whose triangles are listed
+  for (int s = 0; s < samples; ++s) {
+    Int same(1 << s);
+    for (int other = s + 1; other < samples; ++other) {
+      same = same | select(triangle[other] == triangle[s], Int(1 << other), Int(0));
     }
+    const Mask shown = inside & (triangle[s] != nothing) & ((listed & Int(1 << s)) == Int(0));
+    listed = listed | same;
+    if (any(shown)) add(shown, triangle[s], firstPixel, same, list);
   }
 }
 
-} // namespace
-
-void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
-  list.count = 0;
-  for (int block = 0; block < kTileSide / kBlockSide * kTileSide / kBlockSide; ++block) {
+template <int samples>
+HWY_INLINE void listBlocks(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
+  const Int laneX = laneNumbers() & Int(kBlockSide - 1), laneY = shiftRight<2>(laneNumbers());
+  for (int block = 0; block < static_cast<int>(kTilePixels) / kBlockPlaces; ++block) {
     const int column = x + columnOf(block * kBlockPlaces);
     const int row = y + rowOf(block * kBlockPlaces);
     if (column >= buffer.width || row >= buffer.height) continue;
-    const std::uint32_t* numbers = &buffer.triangles[buffer.at(column, row)];
-    if (column + kBlockSide <= buffer.width && row + kBlockSide <= buffer.height && isWhole(numbers, buffer.samples)) {
-      if (numbers[0] != kNoNumber || !isUniform(numbers)) addWhole(numbers, buffer.samples, block * kBlockPlaces, list);
-      continue;
-    }
-    listBlock(numbers, buffer.samples, block * kBlockPlaces, buffer.width - column, buffer.height - row, list);
+    const Mask inside = (laneX < Int(buffer.width - column)) & (laneY < Int(buffer.height - row));
+    listBlock<samples>(buffer.triangles.data() + buffer.at(column, row), inside, block * kBlockPlaces, list);
   }
+}
+
+void listFragmentsOn(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
+  list.count = 0;
+  buffer.samples == 1 ? listBlocks<1>(buffer, x, y, list) : listBlocks<4>(buffer, x, y, list);
   if (list.count == 0) return;
   // Whole packets may be read.
   const std::size_t last = list.count - 1;
-  for (std::size_t i = list.count; i % 16 != 0; ++i) {
+  for (std::size_t i = list.count; i % kLanes != 0; ++i) {
     list.triangle[i] = list.triangle[last];
     list.pixel[i] = list.pixel[last];
     list.samples[i] = list.samples[last];
   }
 }
 
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::cpu {
+
+HWY_EXPORT(listFragmentsOn);
+
+void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
+  HWY_DYNAMIC_DISPATCH(listFragmentsOn)(buffer, x, y, list);
+}
+
 } // namespace gnomon::cpu
+#endif

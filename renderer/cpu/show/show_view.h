@@ -59,8 +59,8 @@ constexpr int rowOf(int pixel) {
   return (pixel >> 4 & 12) | (pixel >> 2 & 3);
 }
 
-/// The fragments of the square whose lower left pixel is x, y: block by block, of each first those that fill it, then
-/// what is left of pixels with several.
+/// The fragments of the square whose lower left pixel is x, y: block by block, of each first what its pixels'
+/// first samples show, then what others show.
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list);
 
 } // namespace gnomon::cpu
