@@ -1,10 +1,10 @@
 #include "renderer/cpu/camera_survey.h"
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 
 #include "renderer/core/parallel.h"
+#include "renderer/cpu/raster/depth_spans.h"
 #include "renderer/cpu/surface/material_holes.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/survey_slots.h"
@@ -42,52 +42,10 @@ std::vector<glm::mat4> clipFromLocal(const FrameScene& scene, const glm::dmat4& 
 
 namespace {
 
-/// Depths of a survey block, reversed, as the bits of floats, which go up as these do: 0 = nothing.
-struct Depths {
-  std::uint32_t nearest = 0;
-  std::uint32_t least = ~0u;            ///< 0 = some sample shows nothing
-  std::uint32_t farthestMinusOne = ~0u; ///< where nothing is, one less than 0
-
-  void add(const float* depths, int count) {
-    for (int i = 0; i < count; ++i) {
-      const auto bits = std::bit_cast<std::uint32_t>(depths[i]);
-      nearest = std::max(nearest, bits);
-      least = std::min(least, bits);
-      farthestMinusOne = std::min(farthestMinusOne, bits - 1);
-    }
-  }
-};
-
-DepthSpan spanOf(const CameraView& camera, const Depths& depths) {
-  if (depths.nearest == 0) return {};
-  const auto depthOf = [&](std::uint32_t bits) {
-    return static_cast<float>(viewDepthOf(camera, std::bit_cast<float>(bits)));
-  };
-  return {depthOf(depths.nearest), depthOf(depths.farthestMinusOne + 1), depths.least == 0};
-}
-
-/// Of a row of survey blocks, the `row`th from the top.
-std::vector<Depths> rowDepths(const DepthBuffer& buffer, const ReceiverDepths& grid, int row) {
-  std::vector<Depths> blocks(static_cast<std::size_t>(grid.columns));
-  const int highest = buffer.height - 1 - row * grid.blockSize;
-  const int whole = buffer.width / kBlockSide * kBlockSide;
-  for (int y = std::max(highest + 1 - grid.blockSize, 0); y <= highest;) {
-    const bool wholeRows = y % kBlockSide == 0 && y + kBlockSide - 1 <= highest;
-    for (int x = 0; x < buffer.width; x += kBlockSide) {
-      Depths& block = blocks[static_cast<std::size_t>(x / grid.blockSize)];
-      if (wholeRows && x < whole) {
-        block.add(&buffer.depths[buffer.at(x, y)], kBlockPlaces * buffer.samples);
-        continue;
-      }
-      for (int line = y; line < (wholeRows ? y + kBlockSide : y + 1); ++line) {
-        for (int s = 0; s < buffer.samples; ++s) {
-          block.add(&buffer.depths[buffer.at(x, line, s)], std::min(kBlockSide, buffer.width - x));
-        }
-      }
-    }
-    y += wholeRows ? kBlockSide : 1;
-  }
-  return blocks;
+DepthSpan spanOf(const CameraView& camera, const DepthEnds& ends) {
+  if (ends.nearest == 0) return {};
+  const auto depthOf = [&](float depth) { return static_cast<float>(viewDepthOf(camera, depth)); };
+  return {depthOf(ends.nearest), depthOf(ends.farthest), ends.least == 0};
 }
 
 ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) {
@@ -95,8 +53,10 @@ ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) 
   ReceiverDepths grid = emptyDepths(buffer.width, buffer.height);
   grid.blocks.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
   forEach(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
-    const std::vector<Depths> depths = rowDepths(buffer, grid, static_cast<int>(row));
-    for (std::size_t i = 0; i < depths.size(); ++i) grid.blocks[row * depths.size() + i] = spanOf(camera, depths[i]);
+    const int highest = buffer.height - 1 - static_cast<int>(row) * grid.blockSize; // rows count from the top
+    const int lowest = std::max(highest + 1 - grid.blockSize, 0);
+    const std::vector<DepthEnds> ends = depthEnds(buffer, lowest, highest, grid.blockSize);
+    for (std::size_t i = 0; i < ends.size(); ++i) grid.blocks[row * ends.size() + i] = spanOf(camera, ends[i]);
   });
   for (const DepthSpan& span : grid.blocks) {
     if (span.empty()) continue;
