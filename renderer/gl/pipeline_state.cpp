@@ -10,7 +10,7 @@ void enable(GLenum what, bool on) {
 void applyNeutral() {
   for (const GLenum off : {GL_BLEND, GL_COLOR_LOGIC_OP, GL_DITHER, GL_PRIMITIVE_RESTART,
                            GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                           GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING}) {
+                           GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_SHADING}) {
     glDisable(off);
   }
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -54,6 +54,8 @@ void apply(const PipelineState& state) {
   const auto& mask = state.colorMask;
   glColorMask(mask[0], mask[1], mask[2], mask[3]);
   enable(GL_MULTISAMPLE, state.multisample);
+  enable(GL_SAMPLE_MASK, state.sample.has_value());
+  glSampleMaski(0, state.sample ? 1u << *state.sample : ~0u);
   enable(GL_FRAMEBUFFER_SRGB, state.srgbConversion);
   for (int i = 0; i < 8; ++i) enable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
 }

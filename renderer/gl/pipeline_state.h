@@ -52,6 +52,7 @@ struct PipelineState {
   FrontFace frontFace = FrontFace::counterClockwise;
   std::array<bool, 4> colorMask{true, true, true, true};
   bool multisample = false;    ///< false = samples, where the target has them, all get the pixel's one value
+  std::optional<int> sample;   ///< only this one of each pixel is drawn; with `multisample`. Absent = all
   bool srgbConversion = false; ///< true = linear colors written to an sRGB target are encoded, and blended as linear
   int clipDistances = 0;       ///< how many of gl_ClipDistance[0..7] cut
 

@@ -163,12 +163,18 @@ Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& d
   state.viewport = {0, 0, inputs.width, inputs.height};
   state.depth.write = true;
   state.multisample = stored > 0;
-  gl::apply(state);
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surveyed depth");
   texels.bind(0);
   depth.bind(0);
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  for (int sample = 0; sample < samplesOf(counts); ++sample) {
+    if (stored > 0) {
+      state.sample = sample;
+      (*program)->set(GNOMON_SAMPLE, sample);
+    }
+    gl::apply(state);
+    gl::drawFullscreen(**program, nothing);
+  }
   return counts;
 }
 

@@ -52,6 +52,7 @@ using glm::vec4;
 #define GNOMON_MATERIAL 0
 #define GNOMON_LIGHT_CLIP 1
 #define GNOMON_FRAME_SIZE 1
+#define GNOMON_SAMPLE 1
 #define GNOMON_SAMPLE_POSITIONS 1 // as many as there are samples
 #define GNOMON_MOMENT_TILE 1
 #define GNOMON_MOMENT_BLUR 2

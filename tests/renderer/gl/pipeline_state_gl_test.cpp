@@ -32,6 +32,12 @@ constexpr std::array kSwitches{GL_BLEND,
                                GL_CLIP_DISTANCE3,
                                GL_CLIP_DISTANCE7};
 
+GLuint sampleMask() {
+  GLint mask = 0;
+  glGetIntegeri_v(GL_SAMPLE_MASK_VALUE, 0, &mask);
+  return static_cast<GLuint>(mask);
+}
+
 /// What OpenGL says about everything that a PipelineState has a hold of.
 std::vector<double> stateOfDriver() {
   std::vector<double> state;
@@ -48,6 +54,7 @@ std::vector<double> stateOfDriver() {
   std::array<GLint, 2> polygon{};
   glGetIntegerv(GL_POLYGON_MODE, polygon.data());
   state.push_back(polygon[0]);
+  state.push_back(sampleMask());
   return state;
 }
 
@@ -66,6 +73,7 @@ void leaveAMess() {
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   glStencilFunc(GL_NEVER, 3, 5);
   glStencilMask(9);
+  glSampleMaski(0, 6);
   glStencilOp(GL_ZERO, GL_INVERT, GL_REPLACE);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -87,6 +95,7 @@ PipelineState anyState(GLuint framebuffer) {
   state.frontFace = yes() ? FrontFace::clockwise : FrontFace::counterClockwise;
   state.colorMask = {yes(), yes(), yes(), yes()};
   state.multisample = yes();
+  if (yes()) state.sample = *rc::gen::inRange(0, 4);
   state.srgbConversion = yes();
   state.clipDistances = *rc::gen::inRange(0, 9);
   return state;
@@ -123,6 +132,7 @@ TEST_F(PipelineStates, sayWhatTheirMembersSay) {
   state.frontFace = FrontFace::clockwise;
   state.colorMask = {true, false, true, false};
   state.clipDistances = 4;
+  state.sample = 2;
   apply(state);
   const auto integers = [](GLenum what) {
     std::array<GLint, 4> values{};
@@ -142,6 +152,8 @@ TEST_F(PipelineStates, sayWhatTheirMembersSay) {
   EXPECT_TRUE(glIsEnabled(GL_CULL_FACE));
   EXPECT_TRUE(glIsEnabled(GL_CLIP_DISTANCE3));
   EXPECT_FALSE(glIsEnabled(GL_CLIP_DISTANCE4));
+  EXPECT_TRUE(glIsEnabled(GL_SAMPLE_MASK));
+  EXPECT_EQ(sampleMask(), 4u);
 }
 
 TEST_F(PipelineStates, writeDepthWithoutATest) {
