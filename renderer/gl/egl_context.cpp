@@ -108,9 +108,9 @@ std::vector<EglPlace> devicePlaces(const EglApi& egl) {
   std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
   if (!egl.queryDevices(count, devices.data(), &count)) return {};
   devices.resize(static_cast<std::size_t>(count));
-  const auto hardware =
-      std::ranges::stable_partition(devices, [&](EGLDeviceEXT device) { return !isSoftwareDevice(egl, device); });
-  const std::size_t hardwareCount = devices.size() - hardware.size();
+  const auto software = std::stable_partition(devices.begin(), devices.end(),
+                                              [&](EGLDeviceEXT device) { return !isSoftwareDevice(egl, device); });
+  const auto hardwareCount = static_cast<std::size_t>(software - devices.begin());
   std::vector<EglPlace> places;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     places.push_back({.name = "EGL device " + std::to_string(i) + (i < hardwareCount ? " (hardware)" : " (software)"),
