@@ -65,6 +65,20 @@ double areaAt(double angle, const std::vector<glm::dvec2>& points) {
   return (high.x - low.x) * (high.y - low.y);
 }
 
+struct Roll {
+  double angle = 0; ///< radians
+  double area = 0;
+};
+
+/// Rolls whose areas differ by no more than this factor are as good as each other.
+constexpr double kAlike = 1.0001;
+
+/// Of two opposite turns one is preferred. The half circle ends at 67.5 degrees, for sides often lie along axes.
+bool isPreferred(double angle) {
+  constexpr double kEnd = 0.375 * glm::pi<double>();
+  return angle > kEnd - glm::pi<double>() && angle <= kEnd;
+}
+
 /// The nearest and the farthest point of every few blocks' middle within the cascade, in light space.
 std::vector<glm::dvec2> sampledReceivers(const CameraView& view, const ReceiverDepths& receivers,
                                          const LightBasis& basis, const CascadeInterval& cascade) {
@@ -133,22 +147,25 @@ LightBasis rolled(const LightBasis& basis, double angle) {
   return {basis.right * c + basis.up * s, basis.up * c - basis.right * s, basis.direction};
 }
 
+// Parallel sides of the hull give rectangles that differ by half a turn, and a right angle ones that differ by a
+// quarter, all as large but for rounding; devices round depths differently and must choose the same.
 double rollOfLeastArea(std::span<const glm::dvec2> points) {
   if (points.empty()) return 0.0;
   const std::vector<glm::dvec2> corners = hullCorners(points);
-  double best = 0.0;
-  double least = areaAt(best, corners);
+  std::vector<Roll> rolls{{0.0, areaAt(0.0, corners)}};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
     if (side == glm::dvec2(0.0)) continue;
     const double angle = std::atan2(side.y, side.x);
-    const double area = areaAt(angle, corners);
-    if (area < least) {
-      least = area;
-      best = angle;
-    }
+    rolls.push_back({angle, areaAt(angle, corners)});
   }
-  return best;
+  const double most = kAlike * std::min_element(rolls.begin(), rolls.end(), [](const Roll& a, const Roll& b) {
+                                 return a.area < b.area;
+                               })->area;
+  const auto end =
+      std::stable_partition(rolls.begin(), rolls.end(), [=](const Roll& roll) { return roll.area <= most; });
+  const auto preferred = std::find_if(rolls.begin(), end, [](const Roll& roll) { return isPreferred(roll.angle); });
+  return (preferred != end ? *preferred : rolls.front()).angle;
 }
 
 LightBasis tightBasis(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,

@@ -95,6 +95,24 @@ TEST(TightRoll, M16_NoTurnIsMuchBetter) {
   }));
 }
 
+TEST(TightRoll, M16_RoundingDoesNotChooseBetweenTurnsThatAreAsGood) {
+  for (double angle = -3; angle < 3; angle += 0.1) {
+    const auto found = [&](unsigned seed) {
+      Dice dice(seed);
+      std::vector<glm::dvec2> points;
+      for (int i = 0; i <= 40; ++i) {
+        for (int j = 0; j <= 20; ++j) {
+          const glm::dvec2 at(i + dice.between(-1e-7, 1e-7), j + dice.between(-1e-7, 1e-7));
+          points.emplace_back(at.x * std::cos(angle) - at.y * std::sin(angle),
+                              at.x * std::sin(angle) + at.y * std::cos(angle));
+        }
+      }
+      return rollOfLeastArea(points);
+    };
+    for (unsigned seed = 1; seed < 20; ++seed) EXPECT_NEAR(found(seed), found(0), 1e-5) << angle;
+  }
+}
+
 TEST(TightRoll, PointsWithoutAnAreaGiveAFiniteTurn) {
   EXPECT_EQ(rollOfLeastArea({}), 0.0);
   const std::vector<glm::dvec2> same(5, glm::dvec2(3, 4));
