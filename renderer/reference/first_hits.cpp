@@ -62,7 +62,7 @@ class Packet {
  public:
   Packet(const Eye& eye, std::span<const glm::vec2> places) : eye_(eye) {
     rtcInitIntersectContext(&query_.context);
-    query_.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    query_.context.flags = eye.tree.closeRays();
     query_.eye = &eye;
     setAllRays(packet_.ray);
     Places at{};
@@ -121,7 +121,7 @@ class Packet {
     return others;
   }
 
-  PlacedTriangle on(unsigned lane) const { return {packet_.hit.geomID[lane], packet_.hit.primID[lane]}; }
+  PlacedTriangle on(unsigned lane) const { return metBy(packet_.hit, lane); }
 
   const Eye& eye_;
   EyeQuery query_;

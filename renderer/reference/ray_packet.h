@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "renderer/scene/scene.h"
+
 namespace gnomon {
 
 inline constexpr unsigned kLanes = 16; ///< rays that are traced together
@@ -47,6 +49,17 @@ inline Lanes firstLanes(std::size_t count) {
   return lanes;
 }
 
+/// The scene's instance, from Embree's two numbers of a hit: its own instance, where a tree is shared, goes before the
+/// geometry.
+inline std::uint32_t instanceOf(unsigned embreeInstance, unsigned geometry) {
+  return embreeInstance != RTC_INVALID_GEOMETRY_ID ? embreeInstance : geometry;
+}
+
+/// Of a lane that met something.
+inline PlacedTriangle metBy(const RTCHit16& hits, unsigned lane) {
+  return {instanceOf(hits.instID[0][lane], hits.geomID[lane]), hits.primID[lane]};
+}
+
 /// Which lane of its packet a candidate of a filter belongs to, and what it is.
 struct Candidate {
   unsigned lane = 0;
@@ -60,7 +73,8 @@ template <class Accept>
 void filterCandidates(const RTCFilterFunctionNArguments& call, Accept accept) {
   for (unsigned i = 0; i < call.N; ++i) {
     if (call.valid[i] == 0) continue;
-    const Candidate candidate{RTCRayN_id(call.ray, call.N, i), RTCHitN_geomID(call.hit, call.N, i),
+    const Candidate candidate{RTCRayN_id(call.ray, call.N, i),
+                              instanceOf(RTCHitN_instID(call.hit, call.N, i, 0), RTCHitN_geomID(call.hit, call.N, i)),
                               RTCHitN_primID(call.hit, call.N, i), RTCHitN_u(call.hit, call.N, i),
                               RTCHitN_v(call.hit, call.N, i)};
     if (!accept(candidate)) call.valid[i] = 0;

@@ -56,7 +56,7 @@ void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
 LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFunctionN filter) {
   LightQuery query;
   rtcInitIntersectContext(&query.context);
-  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  query.context.flags = casters.tree.closeRays();
   query.context.filter = filter;
   query.casters = &casters;
   query.rays = rays.rays;
@@ -163,7 +163,8 @@ std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays) 
     if (hits.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const auto& [from, way] = rays.rays[i];
     const ShadowRay ray{receiverAt(casters.tree, casters.eye, *from), way.direction, way.length};
-    const Triangle caster = casters.tree.triangle(hits.geomID[i], hits.primID[i]);
+    const PlacedTriangle met = metBy(hits, i);
+    const Triangle caster = casters.tree.triangle(met.instance, met.triangle);
     distances[i] = static_cast<float>(meets(ray, caster).value_or(kInfinity));
   }
   rays.count = 0;

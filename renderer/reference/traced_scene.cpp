@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "renderer/core/parallel.h"
+#include "renderer/reference/sort_triangles.h"
 #include "renderer/reference/tree.h"
 #include "renderer/scene/texture_images.h"
 
@@ -12,12 +12,6 @@ namespace gnomon {
 namespace {
 
 using Tree = TracedScene::Tree;
-
-glm::dmat4 anchoredFromLocal(const Tree& tree, const Instance& instance) {
-  glm::dmat4 matrix = instance.worldFromLocal;
-  matrix[3] -= glm::dvec4(tree.anchor, 0.0);
-  return matrix;
-}
 
 bool isFinite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -27,7 +21,7 @@ bool isFinite(const glm::dvec3& p) {
 template <class Each>
 void forEachVertex(const Tree& tree, Each each) {
   for (const Instance& instance : tree.view->instances) {
-    const glm::dmat4 matrix = anchoredFromLocal(tree, instance);
+    const glm::dmat4 matrix = tree.anchoredFromLocal(instance);
     const Primitive& primitive = tree.scene->primitives[static_cast<std::size_t>(instance.primitive)];
     const glm::vec3* local = tree.scene->positions.data() + primitive.baseVertex;
     std::for_each_n(local, primitive.vertexCount,
@@ -60,48 +54,6 @@ void placeVertices(Tree& tree) {
     if (isFinite(placed)) tree.bounds.add(placed);
   });
   tree.positions.emplace_back(0.0f);
-}
-
-bool countBytes(void* tree, ssize_t bytes, bool /*after*/) {
-  static_cast<Tree*>(tree)->embreeBytes += bytes;
-  return true;
-}
-
-void keepError(void* tree, RTCError code, const char* /*text*/) {
-  RTCError none = RTC_ERROR_NONE;
-  static_cast<Tree*>(tree)->error.compare_exchange_strong(none, code);
-}
-
-void addGeometries(Tree& tree) {
-  for (std::uint32_t i = 0; i < tree.view->instances.size(); ++i) {
-    const Primitive& primitive = tree.primitive(i);
-    if (primitive.indexCount == 0) continue;
-    const Geometry geometry(rtcNewGeometry(tree.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, tree.positions.data(),
-                               tree.firstPosition[i] * sizeof(glm::vec3), sizeof(glm::vec3), primitive.vertexCount);
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, tree.scene->indices.data(),
-                               primitive.firstIndex * sizeof(std::uint32_t), 3 * sizeof(std::uint32_t),
-                               primitive.indexCount / 3);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(tree.rays.get(), geometry.get(), i);
-  }
-}
-
-void sortTriangles(Tree& tree) {
-  tree.device.reset(rtcNewDevice("set_affinity=0"));
-  if (!tree.device) {
-    tree.error = rtcGetDeviceError(nullptr);
-    return;
-  }
-  rtcSetDeviceErrorFunction(tree.device.get(), keepError, &tree);
-  rtcSetDeviceMemoryMonitorFunction(tree.device.get(), countBytes, &tree);
-  tree.rays.reset(rtcNewScene(tree.device.get()));
-  // Watertight at edges, and filters where a ray asks for one.
-  rtcSetSceneFlags(tree.rays.get(),
-                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  rtcSetSceneBuildQuality(tree.rays.get(), RTC_BUILD_QUALITY_MEDIUM);
-  addGeometries(tree);
-  onAllCores([&] { rtcCommitScene(tree.rays.get()); });
 }
 
 Problem outOfMemory() {

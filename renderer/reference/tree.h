@@ -24,7 +24,8 @@ using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcRele
 using RayScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
 
-/// Embree's numbers: geometry = index into SceneView::instances, primitive = triangle of the scene's primitive.
+/// Embree's numbers: geometry, or Embree's instance where there is one = index into SceneView::instances; primitive =
+/// triangle of the scene's primitive.
 struct TracedScene::Tree {
   std::shared_ptr<const Scene> scene;
   const SceneView* view = nullptr;
@@ -36,6 +37,7 @@ struct TracedScene::Tree {
   std::vector<glm::vec3> positions;       ///< times `scale`; one more at the end: Embree reads 16 bytes at once
   std::vector<std::size_t> firstPosition; ///< of each instance
   std::vector<std::size_t> firstIndex;    ///< of each instance, into the scene's
+  std::vector<glm::vec3> shared;          ///< positions of primitives with a tree of their own, in their own space
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   Aabb bounds;                            ///< of the placed triangles, metres
   std::atomic<std::int64_t> embreeBytes = 0;
@@ -43,12 +45,22 @@ struct TracedScene::Tree {
   Device device;
   RayScene rays; ///< after `device`: released first
 
+  glm::dmat4 anchoredFromLocal(const Instance& instance) const {
+    glm::dmat4 matrix = instance.worldFromLocal;
+    matrix[3] -= glm::dvec4(anchor, 0.0);
+    return matrix;
+  }
   const Instance& instance(std::uint32_t index) const { return view->instances[index]; }
   const Primitive& primitive(std::uint32_t instanceIndex) const {
     return scene->primitives[static_cast<std::size_t>(instance(instanceIndex).primitive)];
   }
   const Material& material(std::uint32_t instanceIndex) const {
     return scene->materials[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))];
+  }
+  /// How packets of rays that lie close together are traced. Embree 3.13 follows them as one bundle, but there, with
+  /// instances in the scene, it may never end.
+  RTCIntersectContextFlags closeRays() const {
+    return shared.empty() ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
   /// Its corners' places among the positions of its instance.
   const std::uint32_t* corners(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
