@@ -62,12 +62,12 @@ Status CpuFrame::needHoles() {
   return cached_.textures->need(holes);
 }
 
-Status CpuFrame::needTextures() {
+std::vector<TextureImage> CpuFrame::shownTextures() const {
   std::vector<int> materials;
   for (std::size_t i = 0; i < scene_.slots.size(); ++i) {
     if (survey_.visible[i] != 0) materials.push_back(scene_.slots[i].material);
   }
-  return cached_.textures->need(textureImages(*work_.scene, materials));
+  return textureImages(*work_.scene, materials);
 }
 
 Result<ReceiverDepths> CpuFrame::survey() {
@@ -145,6 +145,10 @@ class ShownLights {
 } // namespace
 
 Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
+  const bool shaded = std::any_of(input.views.begin(), input.views.end(), [](const ViewRequest& request) {
+    return traitsOf(request.view).source != ViewSource::atlas;
+  });
+  if (shaded) decoding_ = cached_.textures->decodeAhead(shownTextures());
   passStart_ = Clock::now();
   TileStore none(0);
   const ShadowPlan& plan = input.plan;
@@ -241,7 +245,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
-  if (const Status made = needTextures(); !made) return made.problems();
+  if (const Status made = cached_.textures->need(shownTextures()); !made) return made.problems();
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
   std::vector<LitLight> full;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 #include <map>
 #include <optional>
 
@@ -48,8 +49,8 @@ class CpuFrame : public FrameDrawing {
   CameraRaster camera() const;
   CastInput castInput(const ShadowPlan& plan) const;
   const DepthBuffer& surfaces(int samples);
-  Status needHoles();    ///< textures that tell where surfaces have holes
-  Status needTextures(); ///< of all that may be seen
+  Status needHoles();                              ///< textures that tell where surfaces have holes
+  std::vector<TextureImage> shownTextures() const; ///< of all that may be seen
   Status needLayers(int samples);
   int samplesOf(const ViewRequest& request) const; ///< a pixel
   std::vector<TexelMarks> readBy(const ShowInput& input);
@@ -71,6 +72,7 @@ class CpuFrame : public FrameDrawing {
   CastTiles cast_;
   std::map<int, DepthBuffer> otherSurfaces_; ///< by samples a pixel, where they aren't the survey's
   bool surveyShown_ = false;                 ///< its surfaces are those of a view
+  std::future<void> decoding_;               ///< of the textures, while shadows are made
   std::map<int, ExactLayers> layers_;        ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "renderer/core/parallel.h"
@@ -148,16 +150,42 @@ Pyramid pyramidOf(const Image& image, bool srgb, Cores cores) {
 Textures::Textures(SceneImages images)
     : images_(std::move(images)), made_(std::make_unique<Made[]>(2 * images_.size())) {}
 
-Status Textures::need(std::span<const TextureImage> wanted) const {
-  std::vector<TextureImage> missing;
+namespace {
+
+std::vector<int> imagesOf(std::span<const TextureImage> textures) {
   std::vector<int> images;
-  for (const TextureImage& each : wanted) {
-    if (madeOf(each.image, each.srgb).ready.load(std::memory_order_acquire) != nullptr) continue;
-    missing.push_back(each);
+  for (const TextureImage& each : textures) {
     if (images.empty() || images.back() != each.image) images.push_back(each.image);
   }
+  return images;
+}
+
+} // namespace
+
+std::vector<TextureImage> Textures::missing(std::span<const TextureImage> wanted) const {
+  std::vector<TextureImage> missing;
+  std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing), [this](const TextureImage& each) {
+    return madeOf(each.image, each.srgb).ready.load(std::memory_order_acquire) == nullptr;
+  });
+  return missing;
+}
+
+std::future<void> Textures::decodeAhead(std::span<const TextureImage> wanted) const {
+  std::vector<int> images = imagesOf(missing(wanted));
+  if (images.empty()) return {};
+  try {
+    return std::async(std::launch::async, [all = images_, images = std::move(images)] {
+      (void)decodeImages(all, images); // need() tells what is broken
+    });
+  } catch (const std::system_error&) { // no thread to be had: need() does it all
+    return {};
+  }
+}
+
+Status Textures::need(std::span<const TextureImage> wanted) const {
+  const std::vector<TextureImage> missing = this->missing(wanted);
   if (missing.empty()) return Done{};
-  if (Status decoded = decodeImages(images_, images); !decoded) return decoded;
+  if (Status decoded = decodeImages(images_, imagesOf(missing)); !decoded) return decoded;
   for (const TextureImage& each : missing) make(each.image, each.srgb, Cores::all);
   return Done{};
 }

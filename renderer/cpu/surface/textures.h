@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -37,6 +38,10 @@ class Textures {
  public:
   explicit Textures(SceneImages images);
 
+  /// Decodes the images of these on a thread of its own, while others work; need() waits for those that it still lacks.
+  /// The result waits for all of them when it goes.
+  std::future<void> decodeAhead(std::span<const TextureImage> wanted) const;
+
   /// Makes these now, in parallel; outside of any parallel loop. The problems of images that can't be decoded.
   Status need(std::span<const TextureImage> wanted) const;
 
@@ -56,6 +61,7 @@ class Textures {
     std::unique_ptr<const Pyramid> pyramid;
   };
 
+  std::vector<TextureImage> missing(std::span<const TextureImage> wanted) const;
   Made& madeOf(int image, bool srgb) const { return made_[2 * static_cast<std::size_t>(image) + (srgb ? 1 : 0)]; }
   const Pyramid& make(int image, bool srgb, Cores cores) const;
 

@@ -101,6 +101,33 @@ TEST(CpuTextures, AreMadeAheadWhereTheyAreNeededAndTellOfBrokenImages) {
   EXPECT_EQ(missed.problems().front().pointer, "/images/7");
 }
 
+TEST(CpuTextures, ImagesThatAreDecodedAheadAreThoseThatAreMade) {
+  const std::vector<TextureImage> wanted{{0, false}, {0, true}, {1, true}};
+  const auto texels = [&wanted](bool ahead) {
+    const Textures textures(noises({64, 32}));
+    std::future<void> decoding;
+    if (ahead) decoding = textures.decodeAhead(wanted);
+    EXPECT_EQ(decoding.valid(), ahead);
+    EXPECT_TRUE(textures.need(wanted));
+    EXPECT_FALSE(textures.decodeAhead(wanted).valid()) << "nothing is missing any more";
+    std::vector<std::uint32_t> all;
+    for (const TextureImage& each : wanted) {
+      const TextureLevel& level = textures.of(each.image, each.srgb).levels[1];
+      all.insert(all.end(), level.texels, level.texels + level.width * level.height);
+    }
+    return all;
+  };
+  EXPECT_EQ(texels(true), texels(false));
+
+  const CheckedImage broken{codec::Format::png, {4, 4}, Bytes(60, 0)};
+  const Textures textures({std::make_shared<const SceneImage>(broken, "/images/7")});
+  const std::vector<TextureImage> only{{0, true}};
+  const std::future<void> decoding = textures.decodeAhead(only);
+  const Status missed = textures.need(only);
+  ASSERT_FALSE(missed);
+  EXPECT_EQ(missed.problems().front().pointer, "/images/7");
+}
+
 /// Coordinates from -3 to 3, and steps from a 30th of a texel to more than the whole texture.
 NumberTable places(int width) {
   NumberTable in = randomNumbers(16'000, kSamplingInputs, -1.0f, 1.0f);
