@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <span>
 
+#include "renderer/core/parallel.h"
 #include "renderer/reference/sort_triangles.h"
 #include "renderer/reference/tree.h"
 #include "renderer/scene/texture_images.h"
@@ -17,28 +19,63 @@ bool isFinite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Calls `each(place)` for every vertex of every instance, in order, relative to the anchor.
+/// Some vertices of an instance, few enough to share them out.
+struct Stretch {
+  std::uint32_t instance = 0;
+  std::uint32_t first = 0; ///< of its primitive's
+  std::uint32_t count = 0;
+};
+
+std::vector<Stretch> stretchesOf(const Tree& tree) {
+  constexpr std::uint32_t kMost = 1 << 13;
+  std::vector<Stretch> stretches;
+  for (std::uint32_t i = 0; i < tree.view->instances.size(); ++i) {
+    const std::uint32_t count = tree.primitive(i).vertexCount;
+    for (std::uint32_t first = 0; first < count; first += kMost) {
+      stretches.push_back({i, first, std::min(kMost, count - first)});
+    }
+  }
+  return stretches;
+}
+
+/// Calls `each(number, place)` for the stretch's vertices, relative to the anchor.
 template <class Each>
-void forEachVertex(const Tree& tree, Each each) {
-  for (const Instance& instance : tree.view->instances) {
-    const glm::dmat4 matrix = tree.anchoredFromLocal(instance);
-    const Primitive& primitive = tree.scene->primitives[static_cast<std::size_t>(instance.primitive)];
-    const glm::vec3* local = tree.scene->positions.data() + primitive.baseVertex;
-    std::for_each_n(local, primitive.vertexCount,
-                    [&](const glm::vec3& p) { each(glm::dvec3(matrix * glm::dvec4(p, 1.0))); });
+void forEachVertex(const Tree& tree, const Stretch& stretch, Each each) {
+  const glm::dmat4 matrix = tree.anchoredFromLocal(tree.instance(stretch.instance));
+  const glm::vec3* local = tree.scene->positions.data() + tree.primitive(stretch.instance).baseVertex;
+  for (std::uint32_t i = stretch.first; i < stretch.first + stretch.count; ++i) {
+    each(i, glm::dvec3(matrix * glm::dvec4(local[i], 1.0)));
   }
 }
 
-double scaleFor(const Tree& tree) {
+double largestIn(const Tree& tree, const Stretch& stretch) {
   double largest = 0;
-  forEachVertex(tree, [&](const glm::dvec3& p) {
+  forEachVertex(tree, stretch, [&](std::uint32_t, const glm::dvec3& p) {
     if (isFinite(p)) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   });
-  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
+  return largest;
+}
+
+double scaleFor(const Tree& tree, std::span<const Stretch> stretches) {
+  std::vector<double> largest(stretches.size());
+  forEach(stretches.size(), [&](std::size_t i) { largest[i] = largestIn(tree, stretches[i]); });
+  const double most = largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+  return most > 0 ? std::ldexp(1.0, -std::ilogb(most)) : 1.0;
+}
+
+Aabb placeStretch(const Tree& tree, const Stretch& stretch, std::span<glm::vec3> positions) {
+  Aabb bounds;
+  forEachVertex(tree, stretch, [&](std::uint32_t i, const glm::dvec3& p) {
+    positions[i] = glm::vec3(p * tree.scale);
+    const glm::dvec3 placed = glm::dvec3(positions[i]) / tree.scale;
+    if (isFinite(placed)) bounds.add(placed);
+  });
+  return bounds;
 }
 
 void placeVertices(Tree& tree) {
-  tree.scale = scaleFor(tree);
+  const std::vector<Stretch> stretches = stretchesOf(tree);
+  tree.scale = scaleFor(tree, stretches);
   std::size_t count = 0;
   for (const Instance& instance : tree.view->instances) {
     const Primitive& primitive = tree.scene->primitives[static_cast<std::size_t>(instance.primitive)];
@@ -47,13 +84,13 @@ void placeVertices(Tree& tree) {
     tree.mirrored.push_back(glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0 ? 1 : 0);
     count += primitive.vertexCount;
   }
-  tree.positions.reserve(count + 1);
-  forEachVertex(tree, [&](const glm::dvec3& p) {
-    tree.positions.emplace_back(p * tree.scale);
-    const glm::dvec3 placed = glm::dvec3(tree.positions.back()) / tree.scale;
-    if (isFinite(placed)) tree.bounds.add(placed);
+  tree.positions.assign(count + 1, glm::vec3(0));
+  std::vector<Aabb> bounds(stretches.size());
+  forEach(stretches.size(), [&](std::size_t i) {
+    const std::size_t first = tree.firstPosition[stretches[i].instance];
+    bounds[i] = placeStretch(tree, stretches[i], std::span(tree.positions).subspan(first));
   });
-  tree.positions.emplace_back(0.0f);
+  for (const Aabb& each : bounds) tree.bounds.add(each);
 }
 
 Problem outOfMemory() {
