@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "renderer/core/parallel.h"
 #include "renderer/scene/geometry/triangle_mesh.h"
 #include "renderer/scene/posing/deformation.h"
 
@@ -19,12 +20,22 @@ void giveVertexColors(const PrimitiveSource& source, int material, std::vector<M
   }
 }
 
-} // namespace
+/// What is computed of a primitive's triangles alone.
+struct Outline {
+  std::vector<Cluster> clusters;
+  std::vector<std::uint32_t> welded;
+  bool solid = false;
+};
 
-int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
-  const std::vector<Cluster> clusters = clustersOf(mesh.indices, mesh.positions);
-  const std::vector<std::uint32_t> welded = weldedIndices(mesh.indices, mesh.positions);
+Outline outlineOf(const TriangleMesh& mesh) {
+  Outline outline;
+  outline.clusters = clustersOf(mesh.indices, mesh.positions);
+  outline.welded = weldedIndices(mesh.indices, mesh.positions);
+  outline.solid = boundsSolids(outline.welded, mesh.positions);
+  return outline;
+}
 
+int append(const TriangleMesh& mesh, const Outline& outline, int material, Scene& scene) {
   Primitive primitive;
   primitive.material = material;
   primitive.baseVertex = static_cast<std::uint32_t>(scene.positions.size());
@@ -32,40 +43,94 @@ int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
   primitive.firstIndex = static_cast<std::uint32_t>(scene.indices.size());
   primitive.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
   primitive.firstCluster = static_cast<std::uint32_t>(scene.clusters.size());
-  primitive.clusterCount = static_cast<std::uint32_t>(clusters.size());
+  primitive.clusterCount = static_cast<std::uint32_t>(outline.clusters.size());
   primitive.hasTangents = mesh.hasTangents;
-  primitive.solid = boundsSolids(welded, mesh.positions);
-  for (const Cluster& cluster : clusters) primitive.bounds.add(cluster.bounds);
+  primitive.solid = outline.solid;
+  for (const Cluster& cluster : outline.clusters) primitive.bounds.add(cluster.bounds);
 
   scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.attributes.insert(scene.attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
   scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
-  scene.welded.insert(scene.welded.end(), welded.begin(), welded.end());
-  scene.clusters.insert(scene.clusters.end(), clusters.begin(), clusters.end());
+  scene.welded.insert(scene.welded.end(), outline.welded.begin(), outline.welded.end());
+  scene.clusters.insert(scene.clusters.end(), outline.clusters.begin(), outline.clusters.end());
   scene.primitives.push_back(primitive);
   return static_cast<int>(scene.primitives.size()) - 1;
+}
+
+/// A primitive between being read and being appended.
+struct ReadPrimitive {
+  const PrimitiveSource& source;
+  BuiltMesh& of;
+  TriangleMesh mesh;
+  Outline outline{};
+};
+
+/// Primitives are read and appended one after the other, and worked on in parallel in between: so many at a time that
+/// there is work to share and little memory lies in between.
+class MeshBuilder {
+ public:
+  MeshBuilder(int defaultMaterial, Scene& scene, std::vector<Deformable>& deformables, Findings& findings)
+      : defaultMaterial_(defaultMaterial), scene_(scene), deformables_(deformables), findings_(findings) {}
+
+  void read(const PrimitiveSource& source, BuiltMesh& of) {
+    TriangleMesh mesh = buildVertices(source, findings_);
+    if (mesh.indices.empty()) return;
+    corners_ += mesh.indices.size();
+    read_.push_back({source, of, std::move(mesh)});
+    if (corners_ >= kMostCorners) build();
+  }
+
+  void build() {
+    forEach(read_.size(), [&](std::size_t i) {
+      ReadPrimitive& each = read_[i];
+      each.mesh = ordered(std::move(each.mesh));
+      if (!each.source.deforms()) each.outline = outlineOf(each.mesh);
+    });
+    for (ReadPrimitive& each : read_) add(each);
+    read_.clear();
+    corners_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kMostCorners = 1 << 20;
+
+  void add(ReadPrimitive& read) {
+    const PrimitiveSource& source = read.source;
+    const int material = source.material >= 0 ? source.material : defaultMaterial_;
+    if (source.colors) giveVertexColors(source, material, scene_.materials);
+    if (source.deforms()) {
+      read.of.deformables.push_back(static_cast<int>(deformables_.size()));
+      deformables_.push_back(buildDeformable(source, std::move(read.mesh), findings_));
+      deformables_.back().material = material;
+      deformables_.back().variantMaterials = source.variantMaterials;
+    } else {
+      read.of.primitives.push_back(append(read.mesh, read.outline, material, scene_));
+      scene_.primitives.back().variantMaterials = source.variantMaterials;
+    }
+  }
+
+  const int defaultMaterial_;
+  Scene& scene_;
+  std::vector<Deformable>& deformables_;
+  Findings& findings_;
+  std::vector<ReadPrimitive> read_;
+  std::size_t corners_ = 0; ///< of all that are read
+};
+
+} // namespace
+
+int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
+  return append(mesh, outlineOf(mesh), material, scene);
 }
 
 std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
                                    Scene& scene, std::vector<Deformable>& deformables, Findings& findings) {
   std::vector<BuiltMesh> built(meshes.size());
+  MeshBuilder builder(defaultMaterial, scene, deformables, findings);
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    for (const PrimitiveSource& source : meshes[m]) {
-      TriangleMesh mesh = ordered(buildVertices(source, findings));
-      if (mesh.indices.empty()) continue;
-      const int material = source.material >= 0 ? source.material : defaultMaterial;
-      if (source.colors) giveVertexColors(source, material, scene.materials);
-      if (source.deforms()) {
-        built[m].deformables.push_back(static_cast<int>(deformables.size()));
-        deformables.push_back(buildDeformable(source, std::move(mesh), findings));
-        deformables.back().material = material;
-        deformables.back().variantMaterials = source.variantMaterials;
-      } else {
-        built[m].primitives.push_back(appendPrimitive(mesh, material, scene));
-        scene.primitives.back().variantMaterials = source.variantMaterials;
-      }
-    }
+    for (const PrimitiveSource& source : meshes[m]) builder.read(source, built[m]);
   }
+  builder.build();
   return built;
 }
 
