@@ -186,9 +186,9 @@ TriangleMesh ordered(TriangleMesh mesh) {
   if (mesh.indices.empty()) return mesh;
   mesh.indices = spatiallySorted(std::move(mesh.indices), mesh.positions);
   constexpr std::size_t kCorners = std::size_t{3} * kClusterTriangles;
-  for (std::size_t first = 0; first < mesh.indices.size(); first += kCorners) {
-    orderCluster(std::span(mesh.indices).subspan(first, std::min(kCorners, mesh.indices.size() - first)));
-  }
+  forEachPiece(mesh.indices.size(), kCorners, [&mesh](std::size_t first, std::size_t last) {
+    orderCluster(std::span(mesh.indices).subspan(first, last - first));
+  });
   // Every vertex is used by a triangle, so that none is lost.
   std::vector<std::uint32_t> newIndex(mesh.positions.size());
   meshopt_optimizeVertexFetchRemap(newIndex.data(), mesh.indices.data(), mesh.indices.size(), mesh.positions.size());
