@@ -60,7 +60,7 @@ class TriangleSieve {
       const Mask broad = shiftRight<8>(sizeX * sizeY) <= size;
       const Mask candidates = real & ((close & faces & sampled) | andNot(close, sampled | !placed));
       if (none(candidates)) continue;
-      const Mask kept = touching(s, corners, t, candidates, close & broad, bitsOf(!placed), clipOf);
+      const Mask kept = touching(s, corners, t, candidates, close & broad, clipOf);
       if (any(kept)) setUp(s, corners, t, kept);
     }
   }
@@ -90,7 +90,7 @@ class TriangleSieve {
   /// Gives the small ones that touch anything.
   template <class ClipOf>
   HWY_INLINE Mask touching(const Sieved& s, const PlacedCorners& corners, std::uint32_t t, const Mask& candidates,
-                           const Mask& small, unsigned unplaced, const ClipOf& clipOf) {
+                           const Mask& small, const ClipOf& clipOf) {
     const Int squareX = shiftRight<6>(s.firstX), squareY = shiftRight<6>(s.firstY);
     const Mask inOne = (squareX == shiftRight<6>(s.lastX)) & (squareY == shiftRight<6>(s.lastY));
     alignas(64) std::int32_t squares[kLanes], box[4][kLanes];
@@ -122,9 +122,8 @@ class TriangleSieve {
       } else {
         alignas(64) std::uint32_t at[3][kLanes];
         for (int c = 0; c < 3; ++c) store(s.at[c], at[c]);
-        addWide(wide_,
-                wideCorners(corners, {at[0][lane], at[1][lane], at[2][lane]}, (unplaced >> lane & 1u) != 0, clipOf),
-                firstNumber_ + t + lane, group_);
+        addWide(wide_, wideCorners(corners, {at[0][lane], at[1][lane], at[2][lane]}, clipOf), firstNumber_ + t + lane,
+                group_);
         touches = 0;
       }
       kept |= touches << lane;
@@ -148,14 +147,14 @@ class TriangleSieve {
 
   template <class ClipOf>
   HWY_INLINE std::array<WideCorner, 3> wideCorners(const PlacedCorners& corners,
-                                                   const std::array<std::uint32_t, 3>& own, bool unplaced,
+                                                   const std::array<std::uint32_t, 3>& own,
                                                    const ClipOf& clipOf) const {
     std::array<WideCorner, 3> wide;
     for (std::size_t c = 0; c < 3; ++c) {
       wide[c].at = glm::dvec2(corners.x[own[c]], corners.y[own[c]]);
       wide[c].z = static_cast<double>(corners.z[own[c]]);
       wide[c].placed = corners.x[own[c]] > kNowhere;
-      if (unplaced) wide[c].clip = clipOf(own[c]);
+      wide[c].clip = clipOf(own[c]);
     }
     return wide;
   }

@@ -49,19 +49,10 @@ bool addTouches(const RasterView& view, WideTriangle& triangle, std::uint32_t in
   return group.touches.size() != before;
 }
 
-/// Through three corners where they are, not where they are snapped to, as drivers of OpenGL do; but where snapping
-/// made most of the area, that of the snapped ones.
-DepthPlane planeThrough(std::array<glm::dvec2, 3> at, const std::array<double, 3>& z,
-                        const std::array<glm::ivec2, 3>& snappedAt) {
-  const auto area = [&] {
-    return (at[1].x - at[0].x) * (at[2].y - at[0].y) - (at[2].x - at[0].x) * (at[1].y - at[0].y);
-  };
-  const auto snappedArea = static_cast<double>(areaOf(snappedAt));
-  if (!(area() / snappedArea > 0.5 && area() / snappedArea < 2)) {
-    std::transform(snappedAt.begin(), snappedAt.end(), at.begin(), [](const glm::ivec2& p) { return glm::dvec2(p); });
-  }
-  const double scale = kSubpixels / area();
-  const glm::dvec2 q = at[1] - at[0], r = at[2] - at[0];
+/// Through three corners.
+DepthPlane planeThrough(const std::array<glm::ivec2, 3>& at, const std::array<double, 3>& z) {
+  const double scale = kSubpixels / static_cast<double>(areaOf(at));
+  const glm::dvec2 q(at[1] - at[0]), r(at[2] - at[0]);
   DepthPlane plane;
   plane.dx = ((z[1] - z[0]) * r.y - (z[2] - z[0]) * q.y) * scale;
   plane.dy = ((z[2] - z[0]) * q.x - (z[1] - z[0]) * r.x) * scale;
@@ -69,8 +60,15 @@ DepthPlane planeThrough(std::array<glm::dvec2, 3> at, const std::array<double, 3
   return plane;
 }
 
-/// Of a triangle wherever its corners lie, behind the eye too: z / w is linear on the picture. Nothing where it is seen
-/// edge-on.
+/// False where snapping made most of the area.
+bool isAsLarge(const std::array<glm::dvec2, 3>& at, const std::array<glm::ivec2, 3>& snappedAt) {
+  const glm::dvec2 q = at[1] - at[0], r = at[2] - at[0];
+  const double share = (q.x * r.y - r.x * q.y) / static_cast<double>(areaOf(snappedAt));
+  return share > 0.5 && share < 2;
+}
+
+/// Through the corners where they are, not where they are snapped to, as drivers of OpenGL do; behind the eye, too: z /
+/// w is linear on the picture. Nothing where the triangle is seen edge-on.
 std::optional<DepthPlane> planeOf(const RasterView& view, const std::array<WideCorner, 3>& corners) {
   const auto column = [&](int i) { return glm::dvec3(corners[0].clip[i], corners[1].clip[i], corners[2].clip[i]); };
   const auto det = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -84,7 +82,7 @@ std::optional<DepthPlane> planeOf(const RasterView& view, const std::array<WideC
   return DepthPlane{factors.z - factors.x - factors.y, steps.x, steps.y};
 }
 
-/// `plane`: what it is part of lies on; else its corners say.
+/// `plane`: what it is part of lies on; where there is none, or its shape is not its own, its snapped corners say.
 void addMeasured(const WideDraw& draw, const std::array<WideCorner, 3>& corners, std::uint32_t number,
                  const std::optional<DepthPlane>& plane, TriangleGroup& group) {
   WideTriangle triangle;
@@ -97,7 +95,7 @@ void addMeasured(const WideDraw& draw, const std::array<WideCorner, 3>& corners,
   }
   const std::int64_t area = areaOf(triangle.corners);
   if (area == 0 || (draw.facing != Facing::both && (area > 0) != (draw.facing == Facing::counterClockwise))) return;
-  triangle.plane = plane ? *plane : planeThrough(at, z, triangle.corners);
+  triangle.plane = plane && isAsLarge(at, triangle.corners) ? *plane : planeThrough(triangle.corners, z);
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
   const auto inRange = [&](double depth) {
     const auto own = static_cast<float>(depth);
@@ -118,8 +116,9 @@ void addMeasured(const WideDraw& draw, const std::array<WideCorner, 3>& corners,
 
 void addWide(const WideDraw& draw, const std::array<WideCorner, 3>& corners, std::uint32_t number,
              TriangleGroup& group) {
+  const std::optional<DepthPlane> plane = planeOf(draw.view, corners);
   if (corners[0].placed && corners[1].placed && corners[2].placed) {
-    addMeasured(draw, corners, number, std::nullopt, group);
+    addMeasured(draw, corners, number, plane, group);
     return;
   }
   constexpr double kLeastDivisor = 1e-300; // the guard leaves x = y = 0 of what has none
@@ -137,7 +136,6 @@ void addWide(const WideDraw& draw, const std::array<WideCorner, 3>& corners, std
     placed[i].at = glm::dvec2(corner.clip) / w * draw.view.middle() + draw.view.middle();
     placed[i].z = corner.clip.z / w;
   }
-  const std::optional<DepthPlane> plane = planeOf(draw.view, corners);
   for (std::size_t i = 2; i < polygon.count; ++i) {
     addMeasured(draw, {placed[0], placed[i - 1], placed[i]}, number, plane, group);
   }

@@ -8,13 +8,12 @@
 
 namespace gnomon::cpu {
 
-/// A corner before it is snapped: 1/256 of a pixel from the picture's lower left corner, and depth. Where `placed` is
-/// not set it lies where nothing is rastered, and `clip` says where.
+/// A corner before it is snapped.
 struct WideCorner {
-  glm::dvec2 at{0};
-  double z = 0;
-  bool placed = false;
-  glm::dvec4 clip{0};
+  glm::dvec4 clip{0};  ///< in clip space
+  bool placed = false; ///< else it lies where nothing is rastered, and has no place
+  glm::dvec2 at{0};    ///< 1/256 of a pixel from the picture's lower left corner
+  double z = 0;        ///< depth
 };
 
 /// Triangles of a draw that are not small.
@@ -24,8 +23,8 @@ struct WideDraw {
   bool holed = false;
 };
 
-/// Adds what of a triangle may cover samples, and the squares that it may touch. Where a corner has no place all have
-/// their `clip`, and the triangle is clipped.
+/// Adds what of a triangle may cover samples, and the squares that it may touch. Where a corner has no place
+/// the triangle is clipped.
 void addWide(const WideDraw& draw, const std::array<WideCorner, 3>& corners, std::uint32_t number,
              TriangleGroup& group);
 

@@ -96,10 +96,12 @@ HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
         whole = whole && value[i] + side.least >= 0;
       }
       if (!touched) continue;
-      const Float depthHere(
-          static_cast<float>(plane.first + plane.dx * (column * kBlockSide) + plane.dy * (row * kBlockSide)));
+      // In two parts, so that only their sum is rounded: what blocks had in common would show as steps.
+      const double depthHere = plane.first + plane.dx * (column * kBlockSide) + plane.dy * (row * kBlockSide);
+      const auto most = static_cast<float>(depthHere);
+      const Float rest(static_cast<float>(depthHere - static_cast<double>(most)));
       for (int s = 0; s < samples; ++s) {
-        const Float depth = clamp(depthHere + depthWithin[s], triangle.least, triangle.most);
+        const Float depth = clamp(most + (rest + depthWithin[s]), triangle.least, triangle.most);
         Int signs(0);
         if (!whole) {
           for (int i = 0; i < crossing.count; ++i) {
