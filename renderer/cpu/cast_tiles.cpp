@@ -68,6 +68,20 @@ void addTime(TileFacts& facts, double milliseconds) {
   facts.time = WorkTime{(facts.time ? facts.time->cpuMilliseconds : 0.0) + milliseconds};
 }
 
+/// Of a tile that has no texels yet.
+RasteredTile emptyTile(const ShadowTile& tile, int samples, TileStore& store) {
+  const int width = tile.rect.width, height = tile.rect.height;
+  RasteredTile storage = store.room(DepthBuffer{width, height, samples}.places() * sizeof(float));
+  RasteredTile made;
+  made.depths = unfilledBuffer(width, height, samples, false, std::move(storage.depths));
+  made.made = TexelMarks(width, height);
+  if (!isBlurred(tile)) return made;
+  made.moments = std::move(storage.moments);
+  made.moments.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  made.blurred = TexelMarks(width, height);
+  return made;
+}
+
 } // namespace
 
 CastTiles castTiles(const CastInput& input, TileStore& store) {
@@ -89,12 +103,7 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
       facts.reused = true;
       continue;
     }
-    auto made = std::make_shared<RasteredTile>();
-    made->blurred = isBlurred(tile);
-    made->made = TexelMarks(tile.rect.width, tile.rect.height);
-    made->depths = {tile.rect.width, tile.rect.height, samples};
-    made->depths = unfilledBuffer(tile.rect.width, tile.rect.height, samples, false, store.room(made->bytes()));
-    cast.tiles[i] = std::move(made);
+    cast.tiles[i] = std::make_shared<RasteredTile>(emptyTile(tile, samples, store));
     store.keep(key, cast.tiles[i]);
     addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
     addTime(facts, millisecondsSince(start));
@@ -114,16 +123,22 @@ void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTi
     if (cast.tiles[i] == nullptr || !read[i].any()) continue;
     const ShadowTile& tile = input.plan.tiles[i];
     RasteredTile& made = *cast.tiles[i];
-    TexelMarks wanted = read[i];
-    if (isBlurred(tile)) wanted.markAll();
-    wanted = wanted.without(made.made);
-    if (!wanted.any()) continue;
+    const MomentBlur blur = momentBlur(tile);
+    const TexelMarks unblurred = isBlurred(tile) ? read[i].without(made.blurred) : TexelMarks();
+    const glm::ivec2 around = readAround(blur);
+    const TexelMarks wanted = (isBlurred(tile) ? unblurred.grown(around.x, around.y) : read[i]).without(made.made);
+    if (!wanted.any() && !unblurred.any()) continue;
     const auto start = std::chrono::steady_clock::now();
-    std::vector<RasterDraw> draws = rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots);
-    draws = drawsInto(input, tile, wanted, std::move(draws));
-    rasterCasters(input, tile, *lightOf[i], draws, &wanted, made.depths);
-    made.made.add(wanted);
-    if (isBlurred(tile)) made.moments = blurredMoments(made.depths, momentBlur(tile));
+    if (wanted.any()) {
+      std::vector<RasterDraw> draws = rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots);
+      draws = drawsInto(input, tile, wanted, std::move(draws));
+      rasterCasters(input, tile, *lightOf[i], draws, &wanted, made.depths);
+      made.made.add(wanted);
+    }
+    if (unblurred.any()) {
+      blurMoments(made.depths, blur, unblurred, made.moments);
+      made.blurred.add(unblurred);
+    }
     addTime(cast.facts[i], millisecondsSince(start));
   }
 }

@@ -1,12 +1,21 @@
 #include "renderer/cpu/tile_store.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace gnomon::cpu {
 
+namespace {
+
+std::size_t depthBytes(const RasteredTile& tile) {
+  return tile.depths.places() * sizeof(float);
+}
+
+} // namespace
+
 std::size_t RasteredTile::bytes() const {
-  const auto texels = static_cast<std::size_t>(depths.width) * static_cast<std::size_t>(depths.height);
-  return depths.places() * sizeof(float) + (blurred ? texels * sizeof(glm::vec4) : 0);
+  return depthBytes(*this) + blurred.count() * kMarkSide * kMarkSide * sizeof(glm::vec4);
 }
 
 std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
@@ -17,12 +26,16 @@ std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
   return found->tile;
 }
 
-DepthBuffer TileStore::room(std::size_t bytes) {
-  DepthBuffer storage;
-  while (!entries_.empty() && bytes_ + bytes > budgetBytes_) {
+std::size_t TileStore::bytes() const {
+  return std::transform_reduce(entries_.begin(), entries_.end(), std::size_t{0}, std::plus<>(),
+                               [](const Entry& entry) { return entry.tile->bytes(); });
+}
+
+RasteredTile TileStore::room(std::size_t bytes) {
+  RasteredTile storage;
+  while (!entries_.empty() && this->bytes() + bytes > budgetBytes_) {
     Entry& last = entries_.back();
-    if (last.tile.use_count() == 1 && last.bytes == bytes) storage = std::move(last.tile->depths);
-    bytes_ -= last.bytes;
+    if (last.tile.use_count() == 1 && depthBytes(*last.tile) == bytes) storage = std::move(*last.tile);
     entries_.pop_back();
   }
   return storage;
@@ -31,9 +44,8 @@ DepthBuffer TileStore::room(std::size_t bytes) {
 void TileStore::keep(const TileKey& key, std::shared_ptr<RasteredTile> tile) {
   const std::size_t bytes = tile->bytes();
   room(bytes);
-  if (bytes_ + bytes > budgetBytes_) return;
-  bytes_ += bytes;
-  entries_.push_front({key, std::move(tile), bytes});
+  if (this->bytes() + bytes > budgetBytes_) return;
+  entries_.push_front({key, std::move(tile)});
 }
 
 } // namespace gnomon::cpu

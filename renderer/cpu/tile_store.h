@@ -14,11 +14,12 @@ namespace gnomon::cpu {
 /// One tile of the plan: its texels alone, from its own lowest corner. Those that were never read are never rastered.
 struct RasteredTile {
   DepthBuffer depths;
-  TexelMarks made;                ///< the others hold anything
-  bool blurred = false;           ///< its light's filter reads moments
-  std::vector<glm::vec4> moments; ///< row by row from the BOTTOM; empty until they are read
+  TexelMarks made; ///< the others' depths hold anything
+  /// Of a tile whose light's filter reads moments: row by row from the BOTTOM; else empty.
+  std::vector<glm::vec4, Unfilled<glm::vec4>> moments;
+  TexelMarks blurred; ///< the others' moments hold anything
 
-  std::size_t bytes() const; ///< with what is not made yet
+  std::size_t bytes() const; ///< with depths that are not made yet; of moments those that are
 };
 
 /// The tiles of the last frames, so that one that was rastered before need not be again. The least recently used are
@@ -29,20 +30,20 @@ class TileStore {
 
   /// Null where it is not kept.
   std::shared_ptr<RasteredTile> find(const TileKey& key);
-  /// Drops what has to go so that a tile of `bytes` may be kept. Gives the buffer of one as large that was dropped, so
-  /// that its memory may be used again; an empty one where none was.
-  DepthBuffer room(std::size_t bytes);
+  /// Drops what has to go so that a tile of `bytes` may be kept. Gives one of as many depths that was dropped, so that
+  /// its memory may be used again; an empty one where none was.
+  RasteredTile room(std::size_t bytes);
   void keep(const TileKey& key, std::shared_ptr<RasteredTile> tile);
 
  private:
   struct Entry {
     TileKey key;
     std::shared_ptr<RasteredTile> tile;
-    std::size_t bytes = 0;
   };
 
+  std::size_t bytes() const;
+
   std::size_t budgetBytes_;
-  std::size_t bytes_ = 0;
   std::list<Entry> entries_; ///< most recently used first
 };
 

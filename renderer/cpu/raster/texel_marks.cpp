@@ -1,6 +1,9 @@
 #include "renderer/cpu/raster/texel_marks.h"
 
 #include <algorithm>
+#include <bit>
+#include <functional>
+#include <numeric>
 
 namespace gnomon::cpu {
 
@@ -32,6 +35,11 @@ bool TexelMarks::any() const {
   return std::any_of(squares_.begin(), squares_.end(), [](std::uint64_t square) { return square != 0; });
 }
 
+std::size_t TexelMarks::count() const {
+  return std::transform_reduce(squares_.begin(), squares_.end(), std::size_t{0}, std::plus<>(),
+                               [](std::uint64_t square) { return static_cast<std::size_t>(std::popcount(square)); });
+}
+
 void TexelMarks::markRest(int x0, int y0, int x1, int y1) {
   forEachSquare(x0, y0, x1, y1, [&](std::size_t square, std::uint64_t bits) {
     const std::atomic_ref<std::uint64_t> own(squares_[square]);
@@ -46,6 +54,24 @@ void TexelMarks::markAll() {
 void TexelMarks::add(const TexelMarks& other) {
   std::transform(squares_.begin(), squares_.end(), other.squares_.begin(), squares_.begin(),
                  [](std::uint64_t own, std::uint64_t more) { return own | more; });
+}
+
+TexelMarks TexelMarks::grown(int x, int y) const {
+  TexelMarks more(width_, height_);
+  const auto add = [&](int x0, int y0, int side) { more.mark(x0 - x, y0 - y, x0 + side - 1 + x, y0 + side - 1 + y); };
+  for (std::size_t i = 0; i < squares_.size(); ++i) {
+    const int x0 = static_cast<int>(i) % across_ * kMarkSquare, y0 = static_cast<int>(i) / across_ * kMarkSquare;
+    std::uint64_t left = squares_[i];
+    if (left == ~std::uint64_t{0}) {
+      add(x0, y0, kMarkSquare);
+      continue;
+    }
+    for (; left != 0; left &= left - 1) {
+      const int block = std::countr_zero(left);
+      add(x0 + block % 8 * kMarkSide, y0 + block / 8 * kMarkSide, kMarkSide);
+    }
+  }
+  return more;
 }
 
 TexelMarks TexelMarks::without(const TexelMarks& other) const {

@@ -37,10 +37,13 @@ class TexelMarks {
 
   /// Squares count row by row from the BOTTOM, as RasterView's do.
   std::uint64_t in(std::size_t square) const { return squares_[square]; }
+  std::size_t squares() const { return squares_.size(); }
 
   /// Texels from x0, y0 to x1, y1, of which the tile has some or none.
   bool any(int x0, int y0, int x1, int y1) const;
   bool any() const;
+  /// Marked blocks.
+  std::size_t count() const;
 
   /// The same texels, and what shares a block with them. From several threads at once. REQUIRES: x0 <= x1, y0 <= y1.
   void mark(int x0, int y0, int x1, int y1) {
@@ -50,6 +53,8 @@ class TexelMarks {
   void markAll();
 
   void add(const TexelMarks& other);
+  /// The marked texels, and those as far around them as that along x and y, with what shares a block with any.
+  TexelMarks grown(int x, int y) const;
   /// Those that `other` lacks.
   TexelMarks without(const TexelMarks& other) const;
 

@@ -32,12 +32,12 @@ BoxTaps boxTaps(float texels) {
   return taps;
 }
 
-MomentRow::MomentRow(std::size_t width_, std::size_t reach, std::size_t momentCount)
-    : width(width_), depths(width_), moments(momentCount, std::vector<float>(width_ + 2 * reach)) {}
-
-MomentPlanes::MomentPlanes(int texelsAcross, int height_, std::size_t momentCount)
-    : width(wholePackets(static_cast<std::size_t>(texelsAcross))),
-      height(height_),
-      planes(momentCount, std::vector<float>(width * static_cast<std::size_t>(height_))) {}
+MomentWindow::MomentWindow(const TexelBox& box, const BoxTaps& alongX, const BoxTaps& alongY, std::size_t moments)
+    : width(wholePackets(static_cast<std::size_t>(box.width))),
+      sourceWidth(wholePackets(width + 2 * alongX.reach())),
+      rows(static_cast<std::size_t>(box.height) + 2 * alongY.reach()),
+      depths(sourceWidth),
+      row(moments, std::vector<float>(sourceWidth)),
+      along(moments, std::vector<float>(rows * width)) {}
 
 } // namespace gnomon::cpu

@@ -19,26 +19,29 @@ struct BoxTaps {
 /// `texels`: to each side that the box takes whole; the next ones get what is left of it.
 BoxTaps boxTaps(float texels);
 
-/// A row of texels while it is blurred, a moment after the other.
-struct MomentRow {
-  std::size_t width = 0;                   ///< whole packets of lanes
-  std::vector<float> depths;               ///< of one sample
-  std::vector<std::vector<float>> moments; ///< with as many texels before and behind as the blur reaches
-
-  MomentRow(std::size_t width, std::size_t reach, std::size_t momentCount);
+struct MomentTaps {
+  BoxTaps x, y;
 };
 
-/// Rows of moments, each moment by itself.
-struct MomentPlanes {
-  std::size_t width = 0; ///< whole packets of lanes
-  int height = 0;
-  std::vector<std::vector<float>> planes;
+/// Texels from the lower left one, x0 y0.
+struct TexelBox {
+  int x0 = 0, y0 = 0;
+  int width = 0, height = 0;
+};
 
-  MomentPlanes(int texelsAcross, int height, std::size_t momentCount);
-  float* row(std::size_t moment, int y) { return planes[moment].data() + static_cast<std::size_t>(y) * width; }
-  const float* row(std::size_t moment, int y) const {
-    return planes[moment].data() + static_cast<std::size_t>(y) * width;
-  }
+/// What a box of texels is blurred in: moments, each by itself. Rows begin as far before the box as the blur reaches,
+/// and end as far behind it.
+struct MomentWindow {
+  std::size_t width;                     ///< of the box, whole packets of lanes
+  std::size_t sourceWidth;               ///< of a row before it is blurred, whole packets of lanes
+  std::size_t rows;                      ///< of the box and beyond
+  std::vector<float> depths;             ///< a row, of one sample
+  std::vector<std::vector<float>> row;   ///< a row before it is blurred, by moment
+  std::vector<std::vector<float>> along; ///< rows blurred along x, by moment
+
+  MomentWindow(const TexelBox& box, const BoxTaps& alongX, const BoxTaps& alongY, std::size_t moments);
+  float* alongRow(std::size_t moment, std::size_t y) { return along[moment].data() + y * width; }
+  const float* alongRow(std::size_t moment, std::size_t y) const { return along[moment].data() + y * width; }
 };
 
 } // namespace gnomon::cpu

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <vector>
+#include <span>
 
 #include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/cpu/raster/texel_marks.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {
@@ -18,8 +19,14 @@ struct MomentBlur {
 
 MomentBlur momentBlur(const ShadowTile& tile);
 
-/// The blurred moments of a tile's texels, row by row from the BOTTOM; a box along x, then along y, on all cores. What
-/// lies beyond the tile is its outermost texel.
-std::vector<glm::vec4> blurredMoments(const DepthBuffer& depths, const MomentBlur& blur);
+/// Texels to each side, along x and y, whose depths a blurred one is made of.
+glm::ivec2 readAround(const MomentBlur& blur);
+
+/// Blurs the moments of the texels that are `wanted`, on all cores: a box along x, then along y. What lies beyond the
+/// tile is its outermost texel. `moments`: of all of the tile's texels, row by row from the BOTTOM; others near the
+/// wanted ones are blurred with them, of whatever the depths around them hold. A texel comes out the same whichever
+/// others are wanted.
+void blurMoments(const DepthBuffer& depths, const MomentBlur& blur, const TexelMarks& wanted,
+                 std::span<glm::vec4> moments);
 
 } // namespace gnomon::cpu

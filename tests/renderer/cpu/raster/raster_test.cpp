@@ -304,6 +304,30 @@ TEST(Raster, WantedBlocksAreThoseOfTheWholePictureAndTheOthersStayAsTheyWere) {
   });
 }
 
+TEST(TexelMarks, GrowToTheBlocksAroundThem) {
+  Random random(13);
+  for (int round = 0; round < 50; ++round) {
+    const int width = 1 + static_cast<int>(random() % 300), height = 1 + static_cast<int>(random() % 300);
+    TexelMarks marks(width, height), expected(width, height);
+    const int reachX = static_cast<int>(random() % 80), reachY = static_cast<int>(random() % 20);
+    for (int i = 0; i < 4; ++i) {
+      const int x = static_cast<int>(random() % 300), y = static_cast<int>(random() % 300);
+      marks.mark(x, y, x + static_cast<int>(random() % 140), y + static_cast<int>(random() % 140));
+    }
+    std::size_t count = 0;
+    for (int y = 0; y < height; y += kMarkSide) {
+      for (int x = 0; x < width; x += kMarkSide) {
+        if (!marks.any(x, y, x, y)) continue;
+        ++count;
+        expected.mark(x - reachX, y - reachY, x + kMarkSide - 1 + reachX, y + kMarkSide - 1 + reachY);
+      }
+    }
+    EXPECT_EQ(marks.count(), count);
+    const TexelMarks grown = marks.grown(reachX, reachY);
+    for (std::size_t i = 0; i < grown.squares(); ++i) EXPECT_EQ(grown.in(i), expected.in(i));
+  }
+}
+
 TEST(TexelMarks, HoldTheBlocksOfWhatWasMarked) {
   Random random(5);
   for (int round = 0; round < 200; ++round) {

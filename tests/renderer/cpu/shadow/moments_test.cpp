@@ -104,8 +104,10 @@ TEST(BlurredMoments, AreWhatTheShadersTextGives) {
           const DepthBuffer depths = randomBuffer(random, size.x, size.y, samples);
           const std::vector<glm::vec4> expected = Truth{depths, blur, {}}.all();
           onEachInstructionSet([&] {
-            const std::vector<glm::vec4> seen = blurredMoments(depths, blur);
-            ASSERT_EQ(seen.size(), expected.size());
+            std::vector<glm::vec4> seen(expected.size());
+            TexelMarks all(size.x, size.y);
+            all.markAll();
+            blurMoments(depths, blur, all, seen);
             ASSERT_LE(greatestDifference(seen, expected), 3e-5f)
                 << "kind " << kind << ", " << size.x << " x " << size.y << ", reach " << reach.x << " " << reach.y
                 << ", samples " << samples << ", to " << blur.farthest << " m";
@@ -113,6 +115,47 @@ TEST(BlurredMoments, AreWhatTheShadersTextGives) {
         }
       }
     }
+  }
+}
+
+/// NaN wherever no depth is made.
+DepthBuffer onlyIn(const TexelMarks& made, const DepthBuffer& depths) {
+  DepthBuffer some = depths;
+  for (int y = 0; y < depths.height; ++y) {
+    for (int x = 0; x < depths.width; ++x) {
+      if (!made.any(x, y, x, y)) some.depths[some.at(x, y)] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return some;
+}
+
+TEST(BlurredMoments, OfSomeTexelsAreThoseOfTheWholeTileAndReadNoFartherThanTheyTell) {
+  std::mt19937 random(9);
+  const glm::ivec2 size(203, 150);
+  for (const glm::vec2& reach : {glm::vec2(0, 1), glm::vec2(2, 2.5f), glm::vec2(23.4f, 40)}) {
+    const MomentBlur blur{GNOMON_FILTER_EVSM, reach, 0, 0};
+    const DepthBuffer depths = randomBuffer(random, size.x, size.y, 1);
+    TexelMarks all(size.x, size.y), wanted(size.x, size.y);
+    all.markAll();
+    for (int i = 0; i < 5; ++i) {
+      const int x = static_cast<int>(random() % 203), y = static_cast<int>(random() % 150);
+      wanted.mark(x, y, x + static_cast<int>(random() % 30), y + static_cast<int>(random() % 9));
+    }
+    const glm::ivec2 around = readAround(blur);
+    const DepthBuffer some = onlyIn(wanted.grown(around.x, around.y), depths);
+    onEachInstructionSet([&] {
+      std::vector<glm::vec4> whole(static_cast<std::size_t>(size.x * size.y)), part(whole.size());
+      blurMoments(depths, blur, all, whole);
+      blurMoments(some, blur, wanted, part);
+      int wrong = 0;
+      for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+          const auto at = static_cast<std::size_t>(y * size.x + x);
+          wrong += wanted.any(x, y, x, y) && part[at] != whole[at] ? 1 : 0;
+        }
+      }
+      EXPECT_EQ(wrong, 0) << reach.x << ' ' << reach.y;
+    });
   }
 }
 
