@@ -65,7 +65,12 @@ void rasterSquare(const RasterView& view, std::span<const TriangleGroup> groups,
   const int column = static_cast<int>(index % across) * kBlocks, row = static_cast<int>(index / across) * kBlocks;
   const BlockSpan blocks{column, row, std::min(column + kBlocks, target.blocksAcross()) - 1,
                          std::min(row + kBlocks, target.blocksUp()) - 1};
-  const Square square{target, holes, blocks, view.wanted(index)};
+  const Square square{target.depths.data(),
+                      target.triangles.empty() ? nullptr : target.triangles.data(),
+                      target.blocksAcross(),
+                      holes,
+                      blocks,
+                      view.wanted(index)};
   const auto rasterAt = [&]<DepthRange range>() HWY_ATTR {
     view.samples == 1 ? rasterEntries<range, 1>(groups, index, square) : rasterEntries<range, 4>(groups, index, square);
   };

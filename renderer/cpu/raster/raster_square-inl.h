@@ -20,13 +20,21 @@ static_assert(kMarkSide == 2 * kBlockSide);
 
 /// A square that is rastered.
 struct Square {
-  DepthBuffer& target;
+  float* depths;          ///< of the whole picture
+  std::uint32_t* numbers; ///< null = not asked for
+  int blocksAcross;       ///< of the picture
   const Holes* holes;
   BlockSpan blocks;
   std::uint64_t wanted; ///< as TexelMarks has them
 
   HWY_INLINE bool wants(int column, int row) const {
     return (wanted >> (8 * (row >> 1 & 7) + (column >> 1 & 7)) & 1) != 0;
+  }
+  /// Where the block's first sample lies.
+  template <int samples>
+  HWY_INLINE std::size_t blockAt(int column, int row) const {
+    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(blocksAcross) + static_cast<std::size_t>(column)) *
+           (samples * kBlockPlaces);
   }
 };
 
@@ -37,21 +45,19 @@ struct TriangleMarks {
   bool turned;
 };
 
-/// Adds a triangle's depths where it covers the samples of a block.
+/// Adds a triangle's depths where it covers the samples of a block that lie `at` there.
 template <DepthRange range>
-HWY_INLINE void addDepths(const Square& square, const TriangleMarks& triangle, int column, int row, int sample,
-                          const Mask& covered, const Float& depth) {
-  const std::size_t at = square.target.blockAt(column, row, sample);
-  float* const depths = square.target.depths.data() + at;
-  const Float before = load(depths);
+HWY_INLINE void addDepths(const Square& square, const TriangleMarks& triangle, std::size_t at, const Mask& covered,
+                          const Float& depth, int column, int row, int sample) {
+  const Float before = load(square.depths + at);
   Mask shows = covered & (range == DepthRange::reversed ? depth > before : depth < before);
   if (triangle.holed) {
     if (none(shows)) return;
     shows = maskOf(square.holes->filled(triangle.number, !triangle.turned, column, row, sample, bitsOf(shows)));
   }
-  storeWhere(shows, depth, depths);
-  if (square.target.triangles.empty()) return;
-  storeWhere(shows, Int(static_cast<std::int32_t>(triangle.number)), square.target.triangles.data() + at);
+  storeWhere(shows, depth, square.depths + at);
+  if (square.numbers == nullptr) return;
+  storeWhere(shows, Int(static_cast<std::int32_t>(triangle.number)), square.numbers + at);
 }
 
 HWY_INLINE Float laneColumns() {
@@ -95,12 +101,13 @@ HWY_INLINE void rasterSmall(const float* triangle, const Square& square) {
       const auto across = static_cast<float>(kBlockSide * (column - firstColumn));
       Float value[3];
       for (int i = 0; i < 3; ++i) value[i] = within[i] + Float(a[i] * across + b[i] * up);
+      const std::size_t at = square.blockAt<samples>(column, row);
       const Float depthHere(depth + (dx * across + dy * up));
       for (int s = 0; s < samples; ++s) {
         const Mask covered =
             (value[0] >= least[s]) & (value[1] >= least[samples + s]) & (value[2] >= least[2 * samples + s]);
-        addDepths<range>(square, marks, column, row, s, covered,
-                         clamp(depthHere + depthWithin[s], leastDepth, mostDepth));
+        addDepths<range>(square, marks, at + static_cast<std::size_t>(s * kBlockPlaces), covered,
+                         clamp(depthHere + depthWithin[s], leastDepth, mostDepth), column, row, s);
       }
     }
   }

@@ -96,6 +96,7 @@ HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
         whole = whole && value[i] + side.least >= 0;
       }
       if (!touched) continue;
+      const std::size_t at = square.blockAt<samples>(column, row);
       // In two parts, so that only their sum is rounded: what blocks had in common would show as steps.
       const double depthHere = plane.first + plane.dx * (column * kBlockSide) + plane.dy * (row * kBlockSide);
       const auto most = static_cast<float>(depthHere);
@@ -108,7 +109,8 @@ HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
             signs = signs | (crossing.sides[i].within + Int(value[i] + crossing.sides[i].first[s]));
           }
         }
-        addDepths<range>(square, marks, column, row, s, signs >= Int(0), depth);
+        addDepths<range>(square, marks, at + static_cast<std::size_t>(s * kBlockPlaces), signs >= Int(0), depth, column,
+                         row, s);
       }
     }
   }
