@@ -187,16 +187,17 @@ DepthBuffer unfilledBuffer(int width, int height, int samples, bool numbered, De
 std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& target, RasterScratch& scratch) {
   const RasterView view = viewOf(target, range, input.only);
   const std::vector<std::size_t> starts = groupsOf(input);
-  scratch.groups.resize(starts.size() - 1);
-  forEach(scratch.groups.size(), [&](std::size_t i) {
+  if (scratch.groups.size() < starts.size() - 1) scratch.groups.resize(starts.size() - 1);
+  const std::span<TriangleGroup> groups = std::span(scratch.groups).first(starts.size() - 1);
+  forEach(groups.size(), [&](std::size_t i) {
     HWY_DYNAMIC_DISPATCH(sieveGroup)
-    (input, view, input.draws.subspan(starts[i], starts[i + 1] - starts[i]), scratch.groups[i]);
-    sortIntoSquares(view, scratch.groups[i]);
+    (input, view, input.draws.subspan(starts[i], starts[i + 1] - starts[i]), groups[i]);
+    sortIntoSquares(view, groups[i]);
   });
   forEach(view.squares(), [&](std::size_t i) {
     if (view.wanted(i) == 0) return;
     if (input.fresh || input.only != nullptr) emptyBlocks(view, i, target);
-    HWY_DYNAMIC_DISPATCH(rasterSquare)(view, scratch.groups, i, input.holes, target);
+    HWY_DYNAMIC_DISPATCH(rasterSquare)(view, groups, i, input.holes, target);
   });
   std::uint64_t triangles = 0;
   for (const RasterDraw& draw : input.draws) triangles += input.slots[draw.slot].triangles;

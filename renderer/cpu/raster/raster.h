@@ -60,7 +60,7 @@ inline constexpr int kSquareSide = kMarkSquare;
 
 /// What frames leave to the next ones, so that memory is touched once.
 struct RasterScratch {
-  std::vector<TriangleGroup> groups;
+  std::vector<TriangleGroup> groups; ///< as many as a call ever had: smaller ones leave the others their memory
 };
 
 /// Where the samples of a pixel lie: see kSamplePlaces. REQUIRES: 1 or 4.
