@@ -40,15 +40,12 @@ std::size_t TexelMarks::count() const {
                                [](std::uint64_t square) { return static_cast<std::size_t>(std::popcount(square)); });
 }
 
-void TexelMarks::markRest(int x0, int y0, int x1, int y1) {
-  forEachSquare(x0, y0, x1, y1, [&](std::size_t square, std::uint64_t bits) {
-    const std::atomic_ref<std::uint64_t> own(squares_[square]);
-    if ((own.load(std::memory_order_relaxed) & bits) != bits) own.fetch_or(bits, std::memory_order_relaxed);
-  });
+void TexelMarks::markInSquares(int x0, int y0, int x1, int y1) {
+  forEachSquare(x0, y0, x1, y1, [&](std::size_t square, std::uint64_t bits) { add(square, bits); });
 }
 
 void TexelMarks::markAll() {
-  markRest(0, 0, width_ - 1, height_ - 1);
+  markInSquares(0, 0, width_ - 1, height_ - 1);
 }
 
 void TexelMarks::add(const TexelMarks& other) {

@@ -47,8 +47,12 @@ class TexelMarks {
 
   /// The same texels, and what shares a block with them. From several threads at once. REQUIRES: x0 <= x1, y0 <= y1.
   void mark(int x0, int y0, int x1, int y1) {
-    // Most are marked already, and looking costs less than marking.
-    if (!areMarked(x0, y0, x1, y1)) markRest(x0, y0, x1, y1);
+    if (x0 < 0 || y0 < 0 || x1 >= width_ || y1 >= height_ || (x0 ^ x1) >= kMarkSquare || (y0 ^ y1) >= kMarkSquare) {
+      markInSquares(x0, y0, x1, y1);
+      return;
+    }
+    add(static_cast<std::size_t>(y0 / kMarkSquare * across_ + x0 / kMarkSquare),
+        blockBits(x0 / kMarkSide % 8, x1 / kMarkSide % 8, y0 / kMarkSide % 8, y1 / kMarkSide % 8));
   }
   void markAll();
 
@@ -59,16 +63,12 @@ class TexelMarks {
   TexelMarks without(const TexelMarks& other) const;
 
  private:
-  /// Of texels in one square; false where they lie in several.
-  bool areMarked(int x0, int y0, int x1, int y1) {
-    if (x0 < 0 || y0 < 0 || x1 >= width_ || y1 >= height_) return false;
-    if ((x0 ^ x1) >= kMarkSquare || (y0 ^ y1) >= kMarkSquare) return false;
-    const auto square = static_cast<std::size_t>(y0 / kMarkSquare * across_ + x0 / kMarkSquare);
-    const std::uint64_t bits =
-        blockBits(x0 / kMarkSide % 8, x1 / kMarkSide % 8, y0 / kMarkSide % 8, y1 / kMarkSide % 8);
-    return (std::atomic_ref(squares_[square]).load(std::memory_order_relaxed) & bits) == bits;
+  void add(std::size_t square, std::uint64_t bits) {
+    const std::atomic_ref own(squares_.data()[square]);
+    // Most are marked already, and looking costs less than marking.
+    if ((own.load(std::memory_order_relaxed) & bits) != bits) own.fetch_or(bits, std::memory_order_relaxed);
   }
-  void markRest(int x0, int y0, int x1, int y1);
+  void markInSquares(int x0, int y0, int x1, int y1);
   template <class Each>
   void forEachSquare(int x0, int y0, int x1, int y1, const Each& each) const;
 
