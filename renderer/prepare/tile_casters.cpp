@@ -47,7 +47,8 @@ TileKey tileKey(std::uint64_t scene, int view, const ShadowTile& tile, const Lig
   append(key, tile.filter.kind);
   append(key, tile.filter.size);
   append(key, tile.space.fit.radius);
-  append(key, glm::vec2(tile.near, tile.far)); // moments are of depths between these
+  // Moments are of depths between these; those of parallel light, linear as they are, know no distances.
+  if (tile.space.fit.perspective) append(key, glm::vec2(tile.near, tile.far));
   key.append(casters.slots.begin(), casters.slots.end());
   return key;
 }
