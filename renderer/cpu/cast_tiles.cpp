@@ -91,20 +91,25 @@ CastTiles castTiles(const CastInput& input, TileStore& store) {
   cast.tiles.resize(tiles.size());
   cast.casters.resize(tiles.size());
   cast.facts.resize(tiles.size());
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
+  const int samples = input.spec.atlas.samples;
+  std::vector<TileKey> keys(tiles.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i) { // all are found before the first makes room for another
     const ShadowTile& tile = tiles[i];
     if (tile.rect.width <= 0) continue;
     const auto start = std::chrono::steady_clock::now();
-    TileFacts& facts = cast.facts[i];
     cast.casters[i] = castersInto(tile, *lightOf[i], input.scene.view, input.scene.geometry, input.nodes);
-    const int samples = input.spec.atlas.samples;
-    const TileKey key = tileKey(input.sceneId, input.view, tile, *lightOf[i], cast.casters[i], samples);
-    if ((cast.tiles[i] = store.find(key))) {
-      facts.reused = true;
-      continue;
-    }
+    keys[i] = tileKey(input.sceneId, input.view, tile, *lightOf[i], cast.casters[i], samples);
+    cast.tiles[i] = store.find(keys[i]);
+    cast.facts[i].reused = cast.tiles[i] != nullptr;
+    if (!cast.facts[i].reused) addTime(cast.facts[i], millisecondsSince(start));
+  }
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const ShadowTile& tile = tiles[i];
+    TileFacts& facts = cast.facts[i];
+    if (tile.rect.width <= 0 || facts.reused) continue;
+    const auto start = std::chrono::steady_clock::now();
     cast.tiles[i] = std::make_shared<RasteredTile>(emptyTile(tile, samples, store));
-    store.keep(key, cast.tiles[i]);
+    store.keep(keys[i], cast.tiles[i]);
     addCasters(input, rasterDraws(input.scene, cast.casters[i].use, cast.casters[i].slots), facts);
     addTime(facts, millisecondsSince(start));
   }

@@ -23,7 +23,8 @@ struct RasteredTile {
 };
 
 /// The tiles of the last frames, so that one that was rastered before need not be again. The least recently used are
-/// dropped first once they take more than a budget; a budget of 0 keeps nothing.
+/// dropped first once they take more than a budget; a budget of 0 keeps nothing. Of tiles of earlier frames
+/// that were never found again, which is every one while a camera moves, no more than a quarter of the budget is kept.
 class TileStore {
  public:
   explicit TileStore(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
@@ -39,12 +40,17 @@ class TileStore {
   struct Entry {
     TileKey key;
     std::shared_ptr<RasteredTile> tile;
+    bool found = false; ///< again, since it was kept
   };
+  using Entries = std::list<Entry>;
+
+  Entries::iterator nextToDrop(std::size_t bytes); ///< none, the end, where there is room for as many
 
   std::size_t bytes() const;
+  std::size_t newBytes() const; ///< of those that were not found again
 
   std::size_t budgetBytes_;
-  std::list<Entry> entries_; ///< most recently used first
+  Entries entries_; ///< most recently used first
 };
 
 } // namespace gnomon::cpu
