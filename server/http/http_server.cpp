@@ -3,6 +3,7 @@
 #include <atomic>
 #include <httplib.h>
 #include <system_error>
+#include <utility>
 
 #include "server/http/overflow_lane.h"
 
@@ -132,23 +133,21 @@ void HttpServer::stop() {
   }
 }
 
-WorkerPool::WorkerPool(std::size_t threads) : idle_(threads) {
+WorkerPool::WorkerPool(std::size_t threads) : workers_(threads) {
+  for (Worker& worker : workers_) idle_.push_back(&worker);
   threads_.reserve(threads);
-  for (std::size_t i = 0; i < threads; ++i) {
-    threads_.emplace_back([this] { work(); });
+  for (Worker& worker : workers_) {
+    threads_.emplace_back([this, &worker] { work(worker); });
   }
 }
 
 bool WorkerPool::tryRun(const std::function<void()>& task) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_ || idle_ == 0) {
-      return false;
-    }
-    tasks_.push_back(task);
-    --idle_;
-  }
-  changed_.notify_one();
+  const std::lock_guard lock(mutex_);
+  if (stopping_ || idle_.empty()) return false;
+  Worker& worker = *idle_.back();
+  worker.task = task;
+  idle_.pop_back();
+  worker.changed.notify_one();
   return true;
 }
 
@@ -156,29 +155,25 @@ void WorkerPool::shutdown() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
+    for (Worker& worker : workers_) worker.changed.notify_one();
   }
-  changed_.notify_all();
   for (std::thread& thread : threads_) {
     thread.join();
   }
   threads_.clear();
 }
 
-void WorkerPool::work() {
+void WorkerPool::work(Worker& own) {
+  std::unique_lock lock(mutex_);
   while (true) {
-    std::function<void()> task;
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
-      if (tasks_.empty()) {
-        return;
-      }
-      task = std::move(tasks_.front());
-      tasks_.pop_front();
-    }
+    own.changed.wait(lock, [&] { return stopping_ || own.task; });
+    if (!own.task) return;
+    std::function<void()> task = std::exchange(own.task, nullptr);
+    lock.unlock();
     task();
-    const std::lock_guard lock(mutex_);
-    ++idle_;
+    task = nullptr;
+    lock.lock();
+    idle_.push_back(&own);
   }
 }
 

@@ -40,7 +40,8 @@ class HttpServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads that run a task at once or not at all: no list of waiting tasks can grow.
+/// Threads that run a task at once or not at all: no list of waiting tasks can grow. Of idle threads the one that ran
+/// last runs next, so that no more of them than work at once keep stacks and heaps of their own in memory.
 class WorkerPool {
  public:
   explicit WorkerPool(std::size_t threads);
@@ -55,12 +56,15 @@ class WorkerPool {
   void shutdown();
 
  private:
-  void work();
+  struct Worker {
+    std::condition_variable changed;
+    std::function<void()> task; ///< accepted, and not begun yet
+  };
+  void work(Worker& own);
 
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> tasks_;
-  std::size_t idle_ = 0; ///< threads without a task; each accepted task has one
+  std::deque<Worker> workers_;
+  std::vector<Worker*> idle_; ///< the one that ran last at the end
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -1,8 +1,11 @@
 #include "server/http/http_server.h"
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <gtest/gtest.h>
+#include <set>
+#include <thread>
 
 namespace gnomon {
 namespace {
@@ -32,6 +35,18 @@ TEST(WorkerPool, RunsWhatItAcceptedBeforeItEnds) {
   }
   EXPECT_EQ(runs, accepted);
   EXPECT_GE(accepted, 4);
+}
+
+TEST(WorkerPool, TasksOneAfterTheOtherKeepToFewThreads) {
+  WorkerPool pool(16);
+  std::set<std::thread::id> threads;
+  for (int i = 0; i < 100; ++i) {
+    std::promise<std::thread::id> ran;
+    ASSERT_TRUE(pool.tryRun([&ran] { ran.set_value(std::this_thread::get_id()); }));
+    threads.insert(ran.get_future().get());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1)); // it is idle again, or very nearly so
+  }
+  EXPECT_LE(threads.size(), 4u);
 }
 
 } // namespace
