@@ -196,6 +196,7 @@ bool SceneStore::remove(const std::string& id) {
     return false;
   }
   const bool fromMemory = cache_.remove(id);
+  if (fromMemory) malloc_trim(0); // as after a load
   const bool fromDisk = directory_ && directory_->remove(id);
   return fromMemory || fromDisk;
 }

@@ -11,7 +11,7 @@ NAMES = ("box_on_plane", "normal_mapped", "multi_scene", "leaves", "lights", "ci
 CUTS = 6
 CHANGES = 6
 ROUNDS = 6
-SLACK = 4 << 20  # bytes: what the allocator's arenas still grow by, of a server that has hardly more than its code in memory
+SLACK = 2 << 20  # bytes: one more thread's stack, and a heap of what it may keep free (1 MiB)
 
 
 def mended(glb):
