@@ -75,8 +75,6 @@ Result<ScenePtr> gathered(const fs::path& assets, const nlohmann::json& model) {
 }
 
 TEST(PredictedDisplacement, H2_IsWithinAQuarterOfTheMeasuredOneOverTheGatheredScenes) {
-  GNOMON_NEEDS_GL(
-      "the median, 0.75, lies on the very edge of what is allowed; the project's scenes are judged by this device");
   const fs::path assets = GNOMON_TEST_ASSETS;
   if (!fs::exists(assets / "manifest.json")) GTEST_SKIP() << "no gathered models at " << assets;
   const auto manifest = nlohmann::json::parse(std::ifstream(assets / "manifest.json"));
