@@ -15,7 +15,7 @@ struct Fragments {
   Mask shown;   ///< lanes that show a surface; the others' numbers mean nothing
   Int triangle; ///< FrameScene's number
   Int x, y;     ///< pixel; y from the BOTTOM of the picture
-  Float2 place; ///< where it is shaded, pixels: the centre, x + 0.5 and y + 0.5
+  Float2 place; ///< where light is asked for, pixels: the mean of the samples that show it
 };
 
 /// A point that light is asked for.

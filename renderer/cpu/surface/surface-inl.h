@@ -43,7 +43,8 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   return s;
 }
 
-/// What triangles of one instance show.
+/// What triangles of one instance show: their material at pixels' centres, as OpenGL interpolates it, which is written
+/// once a pixel; light is asked for where the samples are that show it.
 class InstanceSurface {
  public:
   /// `triangle`: of the instance's primitive; `own`: the lanes that count.
@@ -59,7 +60,7 @@ class InstanceSurface {
         tangents_(
             scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
         corners_(scene, slot_, triangle),
-        sight_(sightThrough(scene.frame, fragments.place)) {
+        sight_(sightThrough(scene.frame, {toFloat(fragments.x) + 0.5f, toFloat(fragments.y) + 0.5f})) {
     triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
     meeting_ = meetingOf(sight_, triangle_);
     findTextureSpots();
@@ -68,12 +69,14 @@ class InstanceSurface {
   HWY_INLINE Surface surface(const Fragments& fragments) const {
     Surface s;
     s.receiver.shown = fragments.shown;
-    s.receiver.relative = sight_.origin + sight_.way * meeting_.depth;
-    s.receiver.viewDepth = asSurveyed(frame_, meeting_.depth);
+    const Sight sight = sightThrough(frame_, fragments.place);
+    const Float depth = meetingOf(sight, triangle_).depth;
+    s.receiver.relative = sight.origin + sight.way * depth;
+    s.receiver.viewDepth = asSurveyed(frame_, depth);
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
     s.receiver.place = fragments.place;
     const Float3 toEye =
-        frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight_.way) : Float3(-glm::vec3(frame_.forward));
+        frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight.way) : Float3(-glm::vec3(frame_.forward));
     const Float3 face = directionOf(meeting_.normal, toEye);
     s.receiver.normal = select(dot(face, toEye) < 0.0f, -face, face);
     s.normal = shadingNormal(s.receiver.normal);
