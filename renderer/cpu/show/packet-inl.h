@@ -50,6 +50,7 @@ HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squa
   packet.fragments.triangle = load(&list.triangle[first]);
   packet.fragments.x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
   packet.fragments.y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
+  packet.fragments.center = {toFloat(packet.fragments.x) + 0.5f, toFloat(packet.fragments.y) + 0.5f};
   packet.fragments.place = {toFloat(packet.fragments.x) + gather(means.x, packet.samples),
                             toFloat(packet.fragments.y) + gather(means.y, packet.samples)};
   return packet;

@@ -12,10 +12,11 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
 struct Fragments {
-  Mask shown;   ///< lanes that show a surface; the others' numbers mean nothing
-  Int triangle; ///< FrameScene's number
-  Int x, y;     ///< pixel; y from the BOTTOM of the picture
-  Float2 place; ///< where light is asked for, pixels: the mean of the samples that show it
+  Mask shown;    ///< lanes that show a surface; the others' numbers mean nothing
+  Int triangle;  ///< FrameScene's number
+  Int x, y;      ///< pixel; y from the BOTTOM of the picture
+  Float2 center; ///< where the material is read, pixels: the pixel's middle
+  Float2 place;  ///< where light is asked for, pixels: the mean of the samples that show it
 };
 
 /// A point that light is asked for.

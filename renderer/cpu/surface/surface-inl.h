@@ -60,7 +60,7 @@ class InstanceSurface {
         tangents_(
             scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
         corners_(scene, slot_, triangle),
-        sight_(sightThrough(scene.frame, {toFloat(fragments.x) + 0.5f, toFloat(fragments.y) + 0.5f})) {
+        sight_(sightThrough(scene.frame, fragments.center)) {
     triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
     meeting_ = meetingOf(sight_, triangle_);
     findTextureSpots();

@@ -16,6 +16,7 @@ HWY_INLINE Fragments fragmentsAt(const FragmentInput& in, std::size_t row) {
   f.triangle = load(in.triangles.data() + row);
   f.shown = f.triangle != Int(-1);
   f.place = {load(in.x.data() + row), load(in.y.data() + row)};
+  f.center = f.place;
   f.x = truncated(f.place.x);
   f.y = truncated(f.place.y);
   return f;
