@@ -5,6 +5,7 @@ usage: make_seeds.py FOLDER SCENES [ASSETS]     SCENES: the generated test scene
 
 import base64
 import json
+import random
 import shutil
 import struct
 import sys
@@ -112,6 +113,12 @@ def forms(folder, scenes):
     write(folder / "multipart", "stored", stored)
 
 
+def choices(folder):
+    """Scenes and specs for both devices: any bytes are some."""
+    for number in range(24):
+        write(folder / "devices", f"{number:03}", random.Random(number).randbytes(200 + 50 * number))
+
+
 def main(folder, scenes, assets=None):
     folder, scenes = Path(folder), Path(scenes)
     shutil.rmtree(folder, ignore_errors=True)
@@ -120,6 +127,7 @@ def main(folder, scenes, assets=None):
     images(folder, assets)
     requests(folder)
     forms(folder, scenes)
+    choices(folder)
     for target in sorted(folder.iterdir()):
         print(f"{target.name}: {len(list(target.iterdir()))} seeds")
 
