@@ -25,8 +25,12 @@ std::vector<float> levelsOf(const Image& image, double usual) {
   return levels;
 }
 
-/// The median of what is neither 0 nor infinite, without its sign.
-double usualOf(const Image& image) {
+/// Of a view whose numbers depend on the scene's size or light the median of what is neither 0 nor infinite, without
+/// its sign; of others, shares and directions, 1.
+double usualOf(View view, const Image& image) {
+  const bool scaled = traitsOf(view).source == ViewSource::picture || view == View::depth || view == View::bias ||
+                      view == View::texelDensity;
+  if (!scaled) return 1;
   const auto* numbers = std::get_if<std::vector<float>>(&image.pixels);
   std::vector<float> sizes;
   for (const float value : numbers ? *numbers : std::vector<float>{}) {
@@ -76,7 +80,7 @@ std::string pictureDifference(const ViewImage& cpu, const ViewImage& gl, bool an
   const std::string name(spell(gl.view));
   if (cpu.image.width != gl.image.width || cpu.image.height != gl.image.height) return "the size of view " + name;
   if (cpu.image.channels != gl.image.channels) return "the channels of view " + name;
-  const auto levels = [&, usual = usualOf(gl.image)](const Image& image) {
+  const auto levels = [&, usual = usualOf(gl.view, gl.image)](const Image& image) {
     return Levels{image.width, image.height, static_cast<int>(image.channels.size()), levelsOf(image, usual)};
   };
   const Levels left = levels(cpu.image);
@@ -112,18 +116,23 @@ bool onlyMapped(const FrameSpec& effective, std::size_t light) {
   return traits.mapped && !traits.layered;
 }
 
+bool sameDepthRange(const FrameReport& cpu, const FrameReport& gl) {
+  return near(cpu.depthRange[0], gl.depthRange[0], 1e-3) && near(cpu.depthRange[1], gl.depthRange[1], 1e-3);
+}
+
 /// What is planned from the spec and the scene alone.
 std::string planDifference(const FrameReport& cpu, const FrameReport& gl) {
   if (cpu.warnings != gl.warnings) return "warnings";
   if (cpu.counts.sceneTriangles != gl.counts.sceneTriangles) return "sceneTriangles";
   if (cpu.lights.size() != gl.lights.size()) return "the number of lights";
+  const bool sameRange = sameDepthRange(cpu, gl);
   for (std::size_t i = 0; i < cpu.lights.size(); ++i) {
     const LightReport& a = cpu.lights[i];
     const LightReport& b = gl.lights[i];
     const std::string light = "light " + std::to_string(i);
-    const bool map = onlyMapped(cpu.spec, i);
+    const bool map = sameRange && onlyMapped(cpu.spec, i);
     if (map && a.tiles.size() != b.tiles.size()) return "the number of tiles of " + light;
-    if (a.shadowed != b.shadowed) return "whether " + light + " is shadowed";
+    if (sameRange && a.shadowed != b.shadowed) return "whether " + light + " is shadowed";
     if (a.tracedPixels.has_value() != b.tracedPixels.has_value()) return "whether rays decided " + light;
   }
   return "";
@@ -131,10 +140,7 @@ std::string planDifference(const FrameReport& cpu, const FrameReport& gl) {
 
 /// True where both surveys gave what makes the same plan.
 bool samePlan(const FrameReport& cpu, const FrameReport& gl) {
-  if (cpu.atlasSize != gl.atlasSize) return false;
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!near(cpu.depthRange[i], gl.depthRange[i], 1e-3)) return false;
-  }
+  if (cpu.atlasSize != gl.atlasSize || !sameDepthRange(cpu, gl)) return false;
   for (std::size_t i = 0; i < cpu.lights.size(); ++i) {
     const bool same = cpu.lights[i].tiles.size() == gl.lights[i].tiles.size() &&
                       cpu.lights[i].grantedTileSize == gl.lights[i].grantedTileSize &&
