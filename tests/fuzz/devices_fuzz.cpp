@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/traits.h"
@@ -19,17 +20,27 @@ namespace {
 using namespace gnomon;
 using nlohmann::json;
 
+Renderer made(DeviceChoice device) {
+  auto renderer = Renderer::create(
+      {.backend = {.device = device}, .gpuSceneBytes = 0, .tracedSceneBytes = 0, .tileCacheBytes = 1u << 20});
+  if (!renderer) std::cerr << renderer.problems()[0].detail << '\n';
+  fuzz::require(static_cast<bool>(renderer), "both devices can be opened");
+  return std::move(*renderer);
+}
+
 Renderer& rendererBy(DeviceChoice device) {
-  const auto made = [](DeviceChoice choice) {
-    auto renderer = Renderer::create(
-        {.backend = {.device = choice}, .gpuSceneBytes = 0, .tracedSceneBytes = 0, .tileCacheBytes = 1u << 20});
-    if (!renderer) std::cerr << renderer.problems()[0].detail << '\n';
-    fuzz::require(static_cast<bool>(renderer), "both devices can be opened");
-    return std::move(*renderer);
-  };
   static Renderer cpu = made(DeviceChoice::cpu);
-  static Renderer gl = made(DeviceChoice::gl);
-  return device == DeviceChoice::cpu ? cpu : gl;
+  if (device == DeviceChoice::cpu) return cpu;
+  // It keeps the shaders of every input: megabytes each.
+  constexpr int kInputs = 300;
+  static std::optional<Renderer> gl;
+  static int left = 0;
+  if (left-- == 0) {
+    gl.reset();
+    gl = made(DeviceChoice::gl);
+    left = kInputs;
+  }
+  return *gl;
 }
 
 Result<Frame> drawn(DeviceChoice device, const ScenePtr& scene, FrameSpec spec) {
