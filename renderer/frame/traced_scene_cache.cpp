@@ -4,6 +4,13 @@
 
 namespace gnomon {
 
+namespace {
+
+/// Each has an Embree device, which takes one of the 1,024 keys that a process has for what threads store.
+constexpr std::size_t kMostScenes = 256;
+
+} // namespace
+
 Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shared_ptr<const Scene>& scene, int index) {
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
@@ -37,6 +44,7 @@ void TracedSceneCache::drop() {
   entries_.remove_if([&idle](const Entry& entry) {
     return std::find(idle.begin(), idle.end(), &entry.traced->scene()) != idle.end();
   });
+  if (entries_.size() > kMostScenes) entries_.resize(kMostScenes);
   std::size_t bytes = 0;
   auto entry = entries_.begin();
   while (entry != entries_.end()) {

@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// Scenes sorted for rays, the least recently used dropped first once they take more than a budget, and those that
-/// nobody else holds any more. Any thread; one that asks for a scene waits while another is made.
+/// Scenes sorted for rays, the least recently used dropped first once they take more than a budget or are more than
+/// 256, and those that nobody else holds any more. Any thread; one that asks for a scene waits while another is made.
 class TracedSceneCache {
  public:
   explicit TracedSceneCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}

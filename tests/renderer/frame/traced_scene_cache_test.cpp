@@ -71,6 +71,16 @@ TEST(TracedSceneCache, TheLeastRecentlyUsedIsDroppedFirst) {
   EXPECT_TRUE(second.expired());
 }
 
+TEST(TracedSceneCache, AnyNumberOfSmallScenesCanBeTraced) {
+  // A process has keys for a thousand of Embree's devices.
+  TracedSceneCache cache(std::size_t{1} << 30);
+  std::vector<std::shared_ptr<const Scene>> scenes;
+  for (int i = 0; i < 1100; ++i) {
+    scenes.push_back(triangle());
+    ASSERT_TRUE(cache.get(scenes.back(), 0)) << i;
+  }
+}
+
 TEST(TracedSceneCache, AForgottenSceneIsDropped) {
   TracedSceneCache cache(1 << 30);
   auto scene = triangle();
