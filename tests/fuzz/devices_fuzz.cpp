@@ -73,6 +73,12 @@ void save(const std::filesystem::path& folder, const Bytes& glb, const json& spe
 
 } // namespace
 
+/// What Mesa's software driver forgets of its shaders is not ours.
+extern "C" const char* __lsan_default_suppressions(); // NOLINT: named by the sanitizer
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:swrast_dri.so\nleak:libgallium\n";
+}
+
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   // Nearly all of an input's time goes into llvmpipe's compiling of shaders: without optimisation, and for narrow
   // vectors, it takes a quarter.
