@@ -60,7 +60,7 @@ const std::string kWallSpec = R"({"width":160,"height":90,"camera":{"node":"came
 TEST(ShadowFrames, M5_X26_ACasterBehindTheCameraShadesWhatIsAhead) {
   const Frame frame = renderJson(testing::generatedScene("caster_behind_camera"), kWallSpec);
   EXPECT_EQ(valueAt(frame, 0.5, 0.95), 0.0f) << "at the camera's feet";
-  EXPECT_EQ(valueAt(frame, 0.02, 0.55), 1.0f) << "beside the wall's shadow";
+  EXPECT_FLOAT_EQ(valueAt(frame, 0.02, 0.55), 1.0f) << "beside the wall's shadow";
 }
 
 TEST(ShadowFrames, G2_HolesOfAMaskedCasterLetTheLightThrough) {
