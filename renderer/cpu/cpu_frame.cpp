@@ -5,12 +5,11 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
+#include "renderer/cpu/atlas_picture.h"
 #include "renderer/cpu/shadow/map_queries.h"
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
-#include "renderer/device/shader_data.h"
-#include "renderer/device/view_image.h"
-#include "renderer/prepare/named_tiles.h"
+#include "renderer/cpu/shown_lights.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -112,38 +111,6 @@ Status CpuFrame::needLayers(int samples) {
   return Done{};
 }
 
-namespace {
-
-std::vector<TileMap> tileMaps(const ShadowPlan& plan, const CastTiles& cast) {
-  std::vector<TileMap> maps;
-  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
-    const RasteredTile* tile = cast.tiles[i].get();
-    maps.push_back({plan.tiles[i].rect, tile ? &tile->depths : nullptr,
-                    tile ? std::span<const glm::vec4>(tile->moments) : std::span<const glm::vec4>{}});
-  }
-  return maps;
-}
-
-/// The lights and tiles of a frame as kernels read them.
-class ShownLights {
- public:
-  ShownLights(const ShowInput& input, std::span<const LitLight> lights, const CastTiles& cast)
-      : lights_(lightData(lights)),
-        tiles_(tileData(input.plan)),
-        maps_(tileMaps(input.plan, cast)),
-        atlas_(input.plan.atlasWidth, input.plan.atlasHeight) {}
-
-  ShadowMaps maps(std::span<const Layer> layers) const { return {lights_, tiles_, maps_, atlas_, layers}; }
-
- private:
-  std::vector<shared::LightData> lights_;
-  std::vector<shared::TileData> tiles_;
-  std::vector<TileMap> maps_;
-  glm::vec2 atlas_;
-};
-
-} // namespace
-
 Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
   const bool shaded = std::any_of(input.views.begin(), input.views.end(), [](const ViewRequest& request) {
     return traitsOf(request.view).source != ViewSource::atlas;
@@ -170,7 +137,7 @@ Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
 /// The texels that views read of the plan's tiles, for each tile.
 std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
   std::vector<TexelMarks> read = noTexels(input.plan);
-  const ShownLights lights(input, input.lights, cast_);
+  const ShownLights lights(input.plan, input.lights, cast_);
   const ShadowMaps maps = lights.maps({});
   std::set<int> done;
   for (const ViewRequest& request : input.views) {
@@ -195,41 +162,6 @@ int CpuFrame::samplesOf(const ViewRequest& request) const {
   return averaged ? survey_.buffer.samples : 1;
 }
 
-namespace {
-
-/// The nearest depth of each texel, put into the atlas row by row from the bottom.
-void addDepths(const ShadowTile& tile, const DepthBuffer& depths, const Rect& of, std::vector<float>& out) {
-  for (int y = 0; y < tile.rect.height; ++y) {
-    for (int x = 0; x < tile.rect.width; ++x) {
-      float nearest = 1;
-      for (int s = 0; s < depths.samples; ++s) nearest = std::min(nearest, depths.depths[depths.at(x, y, s)]);
-      const auto at = static_cast<std::size_t>(tile.rect.y - of.y + y) * static_cast<std::size_t>(of.width) +
-                      static_cast<std::size_t>(tile.rect.x - of.x + x);
-      out[at] = nearest;
-    }
-  }
-}
-
-Image depthsIn(const ShadowPlan& plan, const CastTiles& cast, const Rect& rect, const ShadowTile* only, bool encoded) {
-  std::vector<float> depths(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height), 1.0f);
-  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
-    const ShadowTile& tile = plan.tiles[i];
-    if (cast.tiles[i] && (only == nullptr || only == &tile)) addDepths(tile, cast.tiles[i]->depths, rect, depths);
-  }
-  return depthImage(rect.width, rect.height, depths, encoded);
-}
-
-} // namespace
-
-Image CpuFrame::atlasPicture(const ShowInput& input, const ViewRequest& request) const {
-  if (request.view == View::tile) {
-    return depthsIn(input.plan, cast_, input.tile->rect, input.tile, request.encoded);
-  }
-  Image image =
-      depthsIn(input.plan, cast_, {0, 0, input.plan.atlasWidth, input.plan.atlasHeight}, nullptr, request.encoded);
-  return request.encoded ? namedTiles(image, input.plan) : image;
-}
-
 void CpuFrame::add(Image picture) {
   facts_.memory.targets += bytesOf(picture);
   pictures_.push_back(std::move(picture));
@@ -238,7 +170,7 @@ void CpuFrame::add(Image picture) {
 Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   const ViewTraits& traits = traitsOf(request.view);
   if (traits.source == ViewSource::atlas) {
-    add(atlasPicture(input, request));
+    add(atlasPicture(input, request, cast_));
     return Done{};
   }
   const int samples = samplesOf(request);
@@ -250,7 +182,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   passStart_ = Clock::now();
   std::vector<LitLight> full;
   if (request.fullStrength) full = atFullStrength({input.lights.begin(), input.lights.end()});
-  const ShownLights lights(input, request.fullStrength ? std::span<const LitLight>(full) : input.lights, cast_);
+  const ShownLights lights(input.plan, request.fullStrength ? std::span<const LitLight>(full) : input.lights, cast_);
   const auto exact = layers_.find(samples);
   const std::vector<Layer> layers = exact == layers_.end() ? std::vector<Layer>{} : exact->second.layers(shown);
   const ShadowMaps maps = lights.maps(layers);
@@ -299,7 +231,7 @@ Status CpuFrame::show(const ShowInput& input) {
 }
 
 Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
-  const ShownLights lights(input, input.lights, cast_);
+  const ShownLights lights(input.plan, input.lights, cast_);
   const ShadowMaps maps = lights.maps({});
   return mapFootprints({scene_, surfaces(1), maps, input.debugLight});
 }
@@ -307,11 +239,11 @@ Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {
 Result<std::vector<float>> CpuFrame::probe(const ShowInput& input, std::span<const ProbePoint> points) {
   std::vector<TexelMarks> read = noTexels(input.plan);
   {
-    const ShownLights lights(input, input.lights, cast_);
+    const ShownLights lights(input.plan, input.lights, cast_);
     markProbed(lights.maps({}), scene_.frame, input.debugLight, points, read);
   }
   makeTexels(input.plan, read);
-  const ShownLights lights(input, input.lights, cast_); // moments lie elsewhere now
+  const ShownLights lights(input.plan, input.lights, cast_); // moments lie elsewhere now
   return probedShares(lights.maps({}), scene_.frame, input.debugLight, points);
 }
 

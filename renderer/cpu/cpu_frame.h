@@ -59,7 +59,6 @@ class CpuFrame : public FrameDrawing {
   Status showOne(const ShowInput& input, const ViewRequest& request);
   ShowJob jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const;
   ShownCasters shownCasters(const ShowInput& input) const;
-  Image atlasPicture(const ShowInput& input, const ViewRequest& request) const;
   void endPass(const char* name, std::uint64_t triangles);
 
   Shared& shared_;
