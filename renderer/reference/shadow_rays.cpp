@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// How far two planes and a point in one of them may lie apart and yet be the same: the vertices of both were rounded
-/// when the file was written and when they were placed, which moves a plane by as much within its triangle (Higham,
-/// "Accuracy and Stability of Numerical Algorithms", 2.1 and 3.1), and twice as much a triangle's length beyond it.
-double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest) {
-  return 8 * kHalfUnit * glm::dot(glm::abs(normal), largest);
-}
-
 double sumOf(const glm::dvec3& v) {
   return v.x + v.y + v.z;
 }
@@ -113,6 +106,10 @@ std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
   const double beyond = std::abs(ray.length * across - away);
   if (beyond <= roundingAlong(normal, glm::max(caster.largest(), glm::abs(light)))) return std::nullopt;
   return distance;
+}
+
+double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest) {
+  return 8 * kHalfUnit * glm::dot(glm::abs(normal), largest);
 }
 
 double roundingIn(const TracedScene::Tree& tree) {

@@ -87,6 +87,12 @@ std::array<float, kLanes> sharesThrough(const Casters& casters, RaysToLight& ray
 /// are none.
 std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays);
 
+/// Metres: how far two planes and a point in one of them may lie apart and yet be the same. The vertices of both were
+/// rounded when the file was written and when they were placed, which moves a plane by as much within its triangle
+/// (Higham, "Accuracy and Stability of Numerical Algorithms", 2.1 and 3.1), and twice as much a triangle's length
+/// beyond it. `largest`: of the coordinates of both triangles (Triangle::largest).
+double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest);
+
 /// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
 /// it does not rise over the plane of the receiver, or the receiver's triangle lies in its plane, or it lies behind
 /// the receiver's point, or beyond the light. What vertices and the camera's rays lose by being rounded decides for

@@ -81,6 +81,15 @@ struct DrawnPlaces {
   PlacedTriangle shown[kCount] = {}; ///< kNoSurface = none
 };
 
+/// A rectangle of a picture's places that all show one triangle.
+struct DrawnBlock {
+  glm::vec2 first{0}, last{0}; ///< places in opposite corners, as firstHits takes them
+  PlacedTriangle shown;        ///< kNoSurface = none
+};
+
+/// What a whole block sees of a light.
+enum class LightAcross { lit, turnedAway, unsure };
+
 struct Lanes;
 
 /// One light of a frame as rays meet it. Made once, asked for any number of points; any thread. What the input refers
@@ -99,6 +108,10 @@ class TracedLight {
   /// The same of what drawn places show, as pointsOn finds it: a share and a mark for each of the sixteen.
   void visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway) const;
+
+  /// What visibility would say of every point of a block: all of the light, or none because the surface does not face
+  /// it. Unsure where something lies between, or may.
+  LightAcross across(const DrawnBlock& block) const;
 
   /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
   void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;

@@ -15,7 +15,8 @@ struct TracedLight::State {
   std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
   TraceInput input;
-  DrawnView view = drawnView(sightOf(input), casters.tree.scale);
+  Sight sight = sightOf(input);
+  DrawnView view = drawnView(sight, casters.tree.scale);
   DrawnLight light = drawnLight(source, casters.eye, casters.tree.scale);
 
   /// What a point sees of the light where that takes no rays.

@@ -115,6 +115,7 @@ Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int i
     tree->scene = std::move(scene);
     tree->anchor = anchorOf(*tree->view);
     placeVertices(*tree);
+    tree->boxes = TriangleBoxes(*tree);
     sortTriangles(*tree);
     if (tree->error == RTC_ERROR_OUT_OF_MEMORY) return outOfMemory();
     if (tree->error != RTC_ERROR_NONE) {
@@ -138,7 +139,7 @@ const SceneView& TracedScene::view() const {
 std::size_t TracedScene::bytes() const {
   return static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
          tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
-         tree_->mirrored.capacity();
+         tree_->mirrored.capacity() + tree_->boxes.bytes();
 }
 
 } // namespace gnomon

@@ -10,6 +10,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/reference/triangle.h"
+#include "renderer/reference/triangle_boxes.h"
 
 namespace gnomon {
 
@@ -40,6 +41,7 @@ struct TracedScene::Tree {
   std::vector<glm::vec3> shared;          ///< positions of primitives with a tree of their own, in their own space
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   Aabb bounds;                            ///< of the placed triangles, metres
+  TriangleBoxes boxes;
   std::atomic<std::int64_t> embreeBytes = 0;
   std::atomic<RTCError> error = RTC_ERROR_NONE;
   Device device;

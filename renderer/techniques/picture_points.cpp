@@ -15,6 +15,30 @@ ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numb
   return shown;
 }
 
+std::optional<std::uint32_t> PicturePoints::onlyNumberIn(const Rect& block) const {
+  const std::uint32_t number = numberAt({block.x, block.y});
+  if (numberAt({block.x + block.width - 1, block.y + block.height - 1}) != number) return std::nullopt;
+  for (int y = block.y; y < block.y + block.height; ++y) {
+    std::uint32_t differs = 0;
+    for (int x = block.x; x < block.x + block.width; ++x) differs |= shown_.at(x, y) ^ number;
+    if (differs != 0) return std::nullopt;
+  }
+  return number;
+}
+
+DrawnBlock PicturePoints::drawnBlock(const Rect& block, std::uint32_t number) const {
+  DrawnBlock drawn;
+  const glm::vec2 sample = grid_.positions.front();
+  const auto placeOf = [&](int x, int y) {
+    return glm::vec2(static_cast<float>(x) + sample.x,
+                     static_cast<float>(grid_.height) - (static_cast<float>(y) + sample.y));
+  };
+  drawn.first = placeOf(block.x, block.y);
+  drawn.last = placeOf(block.x + block.width - 1, block.y + block.height - 1);
+  numbers_.of({&number, 1}, {&drawn.shown, 1});
+  return drawn;
+}
+
 DrawnPlaces PicturePoints::drawn(const ShownPixels& shown) const {
   DrawnPlaces places;
   const glm::vec2 sample = grid_.positions.front();

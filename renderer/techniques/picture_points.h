@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "renderer/core/rect.h"
 #include "renderer/prepare/draw_list.h"
 #include "renderer/reference/trace.h"
 
@@ -80,6 +82,12 @@ class PicturePoints {
 
   /// What was drawn at a pixel's first sample; kNoNumber = nothing.
   std::uint32_t numberAt(const glm::ivec2& pixel) const { return shown_.at(pixel.x, pixel.y); }
+
+  /// What all first samples of a block show, where that is one number. REQUIRES: the block lies in the picture.
+  std::optional<std::uint32_t> onlyNumberIn(const Rect& block) const;
+
+  /// The block as rays know it. `number`: of the triangle that it shows alone.
+  DrawnBlock drawnBlock(const Rect& block, std::uint32_t number) const;
 
   /// What these pixels show at their first samples, as it was drawn: the exact points are there, but for samples that
   /// the rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.

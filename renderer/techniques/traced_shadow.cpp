@@ -18,6 +18,7 @@ constexpr std::size_t kPixels = 512;
 constexpr int kBlockWidth = 32;
 constexpr int kBlockHeight = 16;
 constexpr int kSquare = 4;
+constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 static_assert(kBlockWidth * kBlockHeight == kPixels);
 
 /// Shares of 255 that differ by less show no edge between them.
@@ -57,18 +58,18 @@ class ShadowTracing {
         shares_(grid().pixels()),
         marks_(grid().pixels()) {}
 
-  /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn. Gives how many
-  /// those are.
+  /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn, but from blocks
+  /// that are lit or turned away as a whole. Gives how many pixels rays were sent from.
   std::uint64_t traceDrawn(std::span<const Verdict> verdicts) {
     const int columns = (grid().width + kBlockWidth - 1) / kBlockWidth;
     const int rows = (grid().height + kBlockHeight - 1) / kBlockHeight;
-    std::atomic<std::uint64_t> unsure = 0;
+    std::atomic<std::uint64_t> traced = 0;
     forEach(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i) {
       const int block = static_cast<int>(i);
-      unsure += traceBlock({block % columns * kBlockWidth, block / columns * kBlockHeight, kBlockWidth, kBlockHeight},
+      traced += traceBlock({block % columns * kBlockWidth, block / columns * kBlockHeight, kBlockWidth, kBlockHeight},
                            verdicts);
     });
-    return unsure;
+    return traced;
   }
 
   /// Sends rays from where camera rays lead. Gives the pixels that other shares came of.
@@ -162,24 +163,66 @@ class ShadowTracing {
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
     setLit(block);
-    std::uint64_t unsure = 0;
     ShownPixels waiting;
-    const bool judged = !verdicts.empty();
+    const std::uint64_t traced =
+        verdicts.empty() ? traceWhereUnsure(block, waiting) : traceJudged(block, verdicts, waiting);
+    traceDrawn(waiting);
+    return traced;
+  }
+
+  std::uint64_t traceJudged(const Rect& block, std::span<const Verdict> verdicts, ShownPixels& waiting) {
+    std::uint64_t traced = 0;
     forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
-      const Verdict verdict = judged ? verdicts[numberOf(pixel)] : Verdict::unsure;
+      const Verdict verdict = verdicts[numberOf(pixel)];
       if (verdict == Verdict::unsure) {
-        ++unsure;
-        const std::uint32_t number = points_.numberAt(pixel);
-        if (number == kNoNumber) return;
-        waiting.add(pixel, number);
-        if (waiting.full()) traceDrawn(waiting);
+        traced += trace(pixel, waiting);
+      } else if (verdict == Verdict::turnedAway) {
+        setTurnedAway(pixel);
       } else if (verdict != Verdict::lit) {
         set(numberOf(pixel), 0);
-        marks_[numberOf(pixel)] = verdict == Verdict::turnedAway ? kAway : 0;
       }
     });
-    traceDrawn(waiting);
-    return unsure;
+    return traced;
+  }
+
+  /// Asks for a block as a whole where it shows one triangle, or none; then for its quarters; at last for its pixels.
+  std::uint64_t traceWhereUnsure(const Rect& block, ShownPixels& waiting) {
+    const Rect shown{block.x, block.y, std::min(block.width, grid().width - block.x),
+                     std::min(block.height, grid().height - block.y)};
+    if (shown.width <= 0 || shown.height <= 0) return 0;
+    std::uint64_t traced = 0;
+    if (const auto number = points_.onlyNumberIn(shown)) {
+      if (*number == kNoNumber) return 0;
+      const LightAcross across = light_.across(points_.drawnBlock(shown, *number));
+      if (across == LightAcross::turnedAway) {
+        forEachPixel(grid(), shown, [&](const glm::ivec2& pixel) { setTurnedAway(pixel); });
+      }
+      if (across != LightAcross::unsure) return 0;
+    }
+    if (block.height > kLeastHeight) {
+      const int width = block.width / 2;
+      const int height = block.height / 2;
+      for (const int y : {block.y, block.y + height}) {
+        for (const int x : {block.x, block.x + width}) traced += traceWhereUnsure({x, y, width, height}, waiting);
+      }
+      return traced;
+    }
+    forEachPixel(grid(), shown, [&](const glm::ivec2& pixel) { traced += trace(pixel, waiting); });
+    return traced;
+  }
+
+  /// Whether that takes rays.
+  bool trace(const glm::ivec2& pixel, ShownPixels& waiting) {
+    const std::uint32_t number = points_.numberAt(pixel);
+    if (number == kNoNumber) return false;
+    waiting.add(pixel, number);
+    if (waiting.full()) traceDrawn(waiting);
+    return true;
+  }
+
+  void setTurnedAway(const glm::ivec2& pixel) {
+    set(numberOf(pixel), 0);
+    marks_[numberOf(pixel)] = kAway;
   }
 
   /// Then none wait any more.

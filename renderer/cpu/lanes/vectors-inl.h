@@ -117,7 +117,8 @@ HWY_INLINE Float3 select(const Mask& where, const Float3& yes, const Float3& no)
 HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
   const Float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
   const Mask directed = (largest > 1e-37f) & (largest < 1e37f);
-  const Float3 scaled = v * (1.0f / select(directed, largest, 1.0f));
+  // By the power of two that brings the largest to 1..2.
+  const Float3 scaled = v * floatOf(Int(0x7f000000) - (bitsOf(largest) & Int(0x7f800000)));
   return select(directed, scaled * inversesqrt(select(directed, dot(scaled, scaled), 1.0f)), otherwise);
 }
 

@@ -50,7 +50,7 @@ HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
 inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask& asked) {
   const Int pixel = truncated(receiver.place.y) * Int(layer.width) + truncated(receiver.place.x);
   const Int first = select(asked, pixel, Int(0)) * Int(layer.samples);
-  if (layer.samples == 1) return toFloat(gather(layer.values, first)) / 65535.0f;
+  if (layer.samples == 1) return toFloat(gather(layer.values, first)) * (1.0f / 65535.0f);
   Int sum(0);
   Int count(0);
   for (int i = 0; i < layer.samples; ++i) {

@@ -60,15 +60,16 @@ HWY_INLINE Meeting meetingOf(const Sight& sight, const Triangle& triangle) {
   m.normal = cross(triangle.edge1, triangle.edge2);
   const Float steepness = dot(sight.way, m.normal);
   const Float over = 1.0f / steepness;
-  const Float u = dot(sight.way, cross(start, triangle.edge2)) * over;
-  const Float v = dot(sight.way, cross(triangle.edge1, start)) * over;
-  const Float depth = -dot(start, m.normal) * over;
+  m.u = dot(sight.way, cross(start, triangle.edge2)) * over;
+  m.v = dot(sight.way, cross(triangle.edge1, start)) * over;
+  m.depth = -dot(start, m.normal) * over;
   // Comparisons with what is not a number are false.
-  const Mask sound = (abs(u) < 1e4f) & (abs(v) < 1e4f) & (abs(depth) < 1e30f) & (steepness != Float(0.0f));
+  const Mask sound = (abs(m.u) < 1e4f) & (abs(m.v) < 1e4f) & (abs(m.depth) < 1e30f) & (steepness != Float(0.0f));
+  if (all(sound)) return m;
   const Float3 middle = triangle.corner + (triangle.edge1 + triangle.edge2) * (1.0f / 3.0f);
-  m.u = select(sound, u, 1.0f / 3.0f);
-  m.v = select(sound, v, 1.0f / 3.0f);
-  m.depth = select(sound, depth, dot(middle - sight.origin, sight.way) / dot(sight.way, sight.way));
+  m.u = select(sound, m.u, 1.0f / 3.0f);
+  m.v = select(sound, m.v, 1.0f / 3.0f);
+  m.depth = select(sound, m.depth, dot(middle - sight.origin, sight.way) / dot(sight.way, sight.way));
   return m;
 }
 

@@ -69,8 +69,9 @@ class InstanceSurface {
   HWY_INLINE Surface surface(const Fragments& fragments) const {
     Surface s;
     s.receiver.shown = fragments.shown;
-    const Sight sight = sightThrough(frame_, fragments.place);
-    const Float depth = meetingOf(sight, triangle_).depth;
+    const bool central = all((fragments.place.x == fragments.center.x) & (fragments.place.y == fragments.center.y));
+    const Sight sight = central ? sight_ : sightThrough(frame_, fragments.place);
+    const Float depth = central ? meeting_.depth : meetingOf(sight, triangle_).depth;
     s.receiver.relative = sight.origin + sight.way * depth;
     s.receiver.viewDepth = asSurveyed(frame_, depth);
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));

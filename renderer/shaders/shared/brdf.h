@@ -35,7 +35,7 @@ GNOMON_FUNCTION vec3 reflectedRadiance(SurfacePoint s, vec3 toLight) {
   Real grazing = 1.0f - vh;
   Real grazing2 = grazing * grazing;
   vec3 fresnel = s.f0 + (1.0f - s.f0) * (grazing2 * grazing2 * grazing);
-  vec3 reflected = ((1.0f - fresnel) * s.albedo / kPi + fresnel * (distribution * masking)) * nl;
+  vec3 reflected = ((1.0f - fresnel) * s.albedo * (1.0f / kPi) + fresnel * (distribution * masking)) * nl;
   return select(nl <= 0.0f, vec3(0.0f), reflected);
 }
 

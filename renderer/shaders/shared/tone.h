@@ -3,7 +3,7 @@
 // The ACES reference rendering and output transforms as fitted by Stephen Hill (2016), scaled so that middle grey
 // stays.
 GNOMON_FUNCTION vec3 acesToneMapped(vec3 radiance) {
-  vec3 r = radiance / 0.6f;
+  vec3 r = radiance * (1.0f / 0.6f);
   vec3 v = vec3(0.59719f, 0.07600f, 0.02840f) * r.x + vec3(0.35458f, 0.90834f, 0.13383f) * r.y +
            vec3(0.04823f, 0.01566f, 0.83777f) * r.z;
   vec3 a = v * (v + 0.0245786f) - 0.000090537f;

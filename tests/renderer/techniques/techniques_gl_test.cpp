@@ -107,7 +107,9 @@ TEST(HybridShadow, WhereRaysCostLessTheyDecideAloneAndTheReportSaysSo) {
   }).join();
   if (!alone) GTEST_SKIP() << "a GPU draws every map";
   const Frame mapped = renderJson(scene, spec);
-  EXPECT_EQ(alone->report.lights[0].tracedPixels, 320u * 180u);
+  // All but the sky, and blocks that are lit or turned away as a whole.
+  EXPECT_GT(*alone->report.lights[0].tracedPixels, 320u * 180u / 10);
+  EXPECT_LT(*alone->report.lights[0].tracedPixels, 320u * 180u);
   EXPECT_EQ(alone->report.lights[0].note, "rays alone decide: a map would cost more than the rays that it saves");
   EXPECT_TRUE(alone->report.lights[0].tiles.empty());
   EXPECT_FALSE(mapped.report.lights[0].tiles.empty());

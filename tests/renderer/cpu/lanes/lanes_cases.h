@@ -14,7 +14,7 @@
   X(Ceiling, 0, ceil(a))                                                                       \
   X(Fraction, 0, fract(a))                                                                     \
   X(Root, 0, sqrt(abs(a)))                                                                     \
-  X(InverseRoot, 0, inversesqrt(abs(a)))                                                       \
+  X(InverseRoot, 3e-7f, inversesqrt(abs(a) + Number(1e-30f)))                                  \
   X(Power, 1e-6f, exp(a))                                                                      \
   X(PowerOfTwo, 2e-6f, exp2(a))                                                                \
   X(Logarithm, 1e-6f, log2(abs(a)))                                                            \

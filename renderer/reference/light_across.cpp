@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/reference/crossings.h"
+#include "renderer/reference/traced_light.h"
+
+namespace gnomon {
+namespace {
+
+/// Where the corners of the block lie on the triangle that shows there; nothing where one of them lies outside of it.
+std::optional<FlatBlock> blockOn(const Triangle& triangle, const Sight& sight, const DrawnBlock& block) {
+  const glm::dvec3 area = triangle.area();
+  const double squared = glm::dot(area, area);
+  const glm::dvec3 sides[] = {triangle.b - triangle.a, triangle.c - triangle.b, triangle.a - triangle.c};
+  // Of a sliver, doubles don't know the plane.
+  if (!(squared > 1e-8 * glm::dot(sides[0], sides[0]) * glm::dot(sides[2], sides[2]))) return std::nullopt;
+  Places places{};
+  for (unsigned i = 0; i < 4; ++i) {
+    places.x[i] = i == 0 || i == 3 ? block.first.x : block.last.x;
+    places.y[i] = i < 2 ? block.first.y : block.last.y;
+  }
+  Lines lines;
+  setLines(sight, places, lines);
+  FlatBlock flat;
+  for (unsigned i = 0; i < 4; ++i) {
+    const glm::dvec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
+    const glm::dvec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
+    const double distance = glm::dot(triangle.a - origin, area) / glm::dot(direction, area);
+    if (!(distance > 0 && distance < HUGE_VAL)) return std::nullopt;
+    const glm::dvec3 corner = origin + direction * distance;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3& from = k == 0 ? triangle.a : k == 1 ? triangle.b : triangle.c;
+      if (!(glm::dot(glm::cross(sides[k], corner - from), area) >= 0)) return std::nullopt;
+    }
+    flat.corners[i] = corner;
+    if (i == 0) flat.normal = area / (glm::dot(direction, area) > 0 ? -std::sqrt(squared) : std::sqrt(squared));
+  }
+  return flat;
+}
+
+/// What faces() says of all points of the block alike; lit: that they face the light.
+LightAcross facedBy(const LightSource& light, const FlatBlock& block) {
+  constexpr double kUnsure = 1e-5; // about the least cosine of faces()
+  bool towards = true;
+  bool away = true;
+  for (const glm::dvec3& corner : block.corners) {
+    const WayToLight way = wayTo(light, corner);
+    const double cosine = glm::dot(block.normal, way.direction);
+    towards = towards && cosine > 1e-4 + kUnsure;
+    away = away && cosine < -kUnsure;
+  }
+  if (towards) return LightAcross::lit;
+  return away ? LightAcross::turnedAway : LightAcross::unsure;
+}
+
+double heightOver(const FlatBlock& block, const Triangle& triangle) {
+  const auto height = [&](const glm::dvec3& corner) { return glm::dot(block.normal, corner - block.corners[0]); };
+  return std::max({height(triangle.a), height(triangle.b), height(triangle.c)});
+}
+
+} // namespace
+
+LightAcross TracedLight::across(const DrawnBlock& block) const {
+  const State& of = *state_;
+  const PlacedTriangle& shown = block.shown;
+  if (shown.instance == kNoSurface || of.shadowed[shown.instance] == 0) return LightAcross::lit;
+  const TracedScene::Tree& tree = of.casters.tree;
+  const Triangle own = tree.triangle(shown.instance, shown.triangle);
+  const auto flat = blockOn(own, of.sight, block);
+  if (!flat) return LightAcross::unsure;
+  if (const LightAcross faced = facedBy(of.source, *flat); faced != LightAcross::lit) return faced;
+  const auto shaft = shaftTo(of.source, *flat, tree.scale);
+  if (!shaft) return LightAcross::unsure;
+  // Half of what `meets` lets a caster rise at least.
+  const double rise = roundingAlong(flat->normal, own.largest()) / 2;
+  const auto casts = [&](const PlacedTriangle& other) {
+    return of.casters.opacity[other.instance] != Opacity::none &&
+           heightOver(*flat, tree.triangle(other.instance, other.triangle)) > rise;
+  };
+  return tree.boxes.mayReachInto(*shaft, tree, casts) ? LightAcross::unsure : LightAcross::lit;
+}
+
+} // namespace gnomon

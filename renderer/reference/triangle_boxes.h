@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "renderer/reference/ray_packet.h"
+#include "renderer/reference/shaft.h"
+#include "renderer/reference/traced_scene.h"
+
+namespace gnomon {
+
+struct alignas(64) BoxRow {
+  float low[3][kLanes];
+  float high[3][kLanes];
+};
+
+/// Boxes around runs of a scene's triangles, kLanes side by side, and boxes around those: few questions tell that a
+/// region is empty. In the order of the scene's triangles, which costs little to make; in the units of the tree.
+class TriangleBoxes {
+ public:
+  TriangleBoxes() = default;
+  /// REQUIRES: the tree's vertices are placed.
+  explicit TriangleBoxes(const TracedScene::Tree& tree);
+
+  /// False only where no triangle that `casts` reaches into the shaft. Gives up, with true, where that takes long.
+  bool mayReachInto(const Shaft& shaft, const TracedScene::Tree& tree,
+                    const std::function<bool(const PlacedTriangle&)>& casts) const;
+
+  std::size_t bytes() const;
+
+ private:
+  struct Run {
+    PlacedTriangle first;
+    std::uint32_t count = 0;
+  };
+  std::vector<Run> runs_;
+  std::vector<std::vector<BoxRow>> levels_; ///< the first's boxes hold a run each, the others' a row of the one before
+};
+
+} // namespace gnomon
