@@ -80,12 +80,12 @@ void raiseDescriptorLimit() {
   }
 }
 
-/// Large blocks come from the system and go back to it at once, and no thread's heap keeps much free memory at its end.
-/// By default the allocator raises both bounds as it sees larger blocks (mallopt(3)), and a server never returns
-/// memory.
+/// Large blocks come from the system and go back to it at once, and no thread's heap keeps more free memory at its end
+/// than a frame takes: pages that go and come with every frame cost a thirtieth of it. By default the allocator raises
+/// both bounds as it sees larger blocks (mallopt(3)), and a server never returns memory.
 void boundHeaps() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20); // bytes
-  mallopt(M_TRIM_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 16 << 20);
 }
 
 std::string addressOf(const std::string& bind, int port) {
