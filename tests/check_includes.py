@@ -36,6 +36,7 @@ MAY_INCLUDE = {
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
     "renderer/reference": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/reference"],
+    "renderer/bake": ["protocol", "renderer/core", "renderer/scene", "renderer/reference", "renderer/bake"],
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],
     "renderer/shaders/shared": ["renderer/shaders/shared"],
     "renderer/prepare": PREPARED,

@@ -51,7 +51,7 @@ MAY_HAVE_TESTS = {
     "H9": "debug views as files", "H10": "times of passes", "H11": "techniques side by side", "H12": "large worlds",
     "H13": "tiles kept between requests",
     "N1": "umbra and penumbra", "N2": "equal depth is lit", "N3": "shadow volumes",
-    "N4": "light falls where no volume is", "N6": "soft shadows against a reference",
+    "N4": "light falls where no volume is", "N5": "static shadows in a light map", "N6": "soft shadows against a reference",
     "N7": "volumes and rays agree",
 }
 ROWS = {**MUST_HAVE_TESTS, **MAY_HAVE_TESTS}

@@ -113,6 +113,9 @@ class TracedLight {
   /// it. Unsure where something lies between, or may.
   LightAcross across(const DrawnBlock& block) const;
 
+  /// A point of a triangle: `weights`, those of its second and third corner. Its normal is on the light's side.
+  SurfacePoint pointFacing(const PlacedTriangle& triangle, const glm::dvec2& weights) const;
+
   /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
   void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;
 

@@ -137,6 +137,15 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, 
   for (float& share : shares) share /= static_cast<float>(rays);
 }
 
+SurfacePoint TracedLight::pointFacing(const PlacedTriangle& triangle, const glm::dvec2& weights) const {
+  const Triangle placed = state_->casters.tree.triangle(triangle.instance, triangle.triangle);
+  const Barycentric at{weights.x, weights.y};
+  const glm::dvec3 position = at.mix(placed.a, placed.b, placed.c);
+  const glm::dvec3 normal = unitAlong(placed.area());
+  const bool faces = glm::dot(normal, wayTo(state_->source, position).direction) >= 0;
+  return {position, glm::vec3(faces ? normal : -normal), triangle.instance, triangle.triangle};
+}
+
 void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const {
   const TracedScene::Tree& tree = state_->casters.tree;
   RaysToLight rays;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace gnomon {
+
+/// A triangle in the plane of a map. Either way round.
+using FlatTriangle = std::array<glm::dvec2, 3>;
+
+/// Twice the area; less than 0 where the corners go round with the clock.
+inline double signedArea(const FlatTriangle& t) {
+  const glm::dvec2 ab = t[1] - t[0];
+  const glm::dvec2 ac = t[2] - t[0];
+  return ab.x * ac.y - ab.y * ac.x;
+}
+
+/// Whether the insides of two of them meet by more than `slack`, in their unit. Sides and corners may touch; what has
+/// no area overlaps nothing.
+bool overlap(const FlatTriangle& a, const FlatTriangle& b, double slack);
+
+/// Whether any two of them do. Time grows with their number, and with how unequal their sizes are.
+bool anyOverlap(std::span<const FlatTriangle> triangles, double slack);
+
+} // namespace gnomon

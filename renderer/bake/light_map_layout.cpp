@@ -1,0 +1,141 @@
+#include "renderer/bake/light_map_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "renderer/bake/pack_rectangles.h"
+#include "renderer/core/parallel.h"
+
+namespace gnomon {
+namespace {
+
+constexpr int kGutter = 1; ///< texels around a chart
+
+struct InstanceCharts {
+  std::vector<SurfaceChart> charts;
+  bool authored = false;
+};
+
+std::vector<InstanceCharts> chartsOfAll(const Scene& scene, const SceneView& view) {
+  std::vector<InstanceCharts> all(view.instances.size());
+  forEach(all.size(), [&](std::size_t i) {
+    const Instance& instance = view.instances[i];
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+    if (auto authored = authoredChartsOf(scene, primitive, instance.worldFromLocal)) {
+      all[i] = {*std::move(authored), true};
+    } else {
+      all[i] = {chartsOf(scene, primitive, instance.worldFromLocal), false};
+    }
+  });
+  return all;
+}
+
+std::vector<glm::dvec2> sizesOf(const std::vector<InstanceCharts>& all) {
+  std::vector<glm::dvec2> sizes;
+  for (const InstanceCharts& instance : all) {
+    for (const SurfaceChart& chart : instance.charts) sizes.push_back(chart.size);
+  }
+  return sizes;
+}
+
+/// A chart's rectangle at so many texels a metre. Far larger than any map where it would be.
+glm::ivec2 texelsOf(const glm::dvec2& size, double density) {
+  const glm::dvec2 texels = glm::clamp(glm::ceil(size * density), 1.0, 4.0 * kLargestLightMap);
+  return glm::ivec2(texels) + 2 * kGutter;
+}
+
+struct Packed {
+  int width = 0;
+  RectanglePacking packing;
+
+  int longest() const { return std::max(width, packing.height); }
+};
+
+/// About square; nothing where that is larger than kLargestLightMap.
+std::optional<Packed> packed(const std::vector<glm::dvec2>& sizes, double density) {
+  std::vector<glm::ivec2> texels;
+  double area = 0;
+  int widest = 1;
+  for (const glm::dvec2& size : sizes) {
+    texels.push_back(texelsOf(size, density));
+    area += static_cast<double>(texels.back().x) * texels.back().y;
+    widest = std::max({widest, texels.back().x, texels.back().y});
+  }
+  if (widest > kLargestLightMap || area > double{kLargestLightMap} * kLargestLightMap) return std::nullopt;
+  // What charts leave free between them is seldom more than a tenth.
+  const int side = (std::max(widest, static_cast<int>(std::sqrt(1.1 * area))) + 3) / 4 * 4;
+  Packed result{std::min(side, kLargestLightMap), packRectangles(texels, std::min(side, kLargestLightMap))};
+  if (result.packing.height > kLargestLightMap) return std::nullopt;
+  return result;
+}
+
+/// The finest density at which the map is no longer than `size`; 0 where none is.
+double densityFor(const std::vector<glm::dvec2>& sizes, int size) {
+  const auto fits = [&](double density) {
+    const auto result = packed(sizes, density);
+    return result && result->longest() <= size;
+  };
+  double area = 0;
+  for (const glm::dvec2& each : sizes) area += each.x * each.y;
+  double high = 2 * size / std::sqrt(std::max(area, 1e-300));
+  double low = 0;
+  if (!fits(0)) return 0;
+  for (int step = 0; step < 14; ++step) {
+    const double middle = 0.5 * (low + high);
+    (fits(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+Problem tooLarge(const LightMapFineness& fineness, std::size_t charts) {
+  if (fineness.size) {
+    return {
+        ProblemCode::invalidValue, "/size",
+        "The scene's surfaces fall into " + std::to_string(charts) + " charts, which do not fit into the light map.",
+        std::to_string(*fineness.size + 1) + ".." + std::to_string(kLargestLightMap), std::to_string(*fineness.size)};
+  }
+  return {ProblemCode::invalidValue, "/texelsPerMetre",
+          "At this fineness the light map of the scene has sides of more than " + std::to_string(kLargestLightMap) +
+              " texels.",
+          "", std::to_string(*fineness.texelsPerMetre)};
+}
+
+LightMapLayout placed(const Scene& scene, const SceneView& view, std::vector<InstanceCharts> all, const Packed& packed,
+                      double density) {
+  LightMapLayout layout;
+  layout.width = packed.width;
+  layout.height = packed.packing.height;
+  layout.texelsPerMetre = density;
+  auto rect = packed.packing.rects.begin();
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(view.instances[i].primitive)];
+    layout.firstCorner.push_back(layout.corners.size());
+    layout.corners.resize(layout.corners.size() + primitive.indexCount);
+    layout.authored.push_back(all[i].authored ? 1 : 0);
+    for (SurfaceChart& chart : all[i].charts) {
+      const glm::dvec2 origin(rect->x + kGutter, rect->y + kGutter);
+      for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+        glm::vec2* corners = &layout.corners[layout.firstCorner[i] + 3 * std::size_t{chart.triangles[t]}];
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = glm::vec2(origin + chart.flat[t][k] * density);
+      }
+      layout.charts.push_back({i, std::move(chart.triangles), *rect++});
+    }
+  }
+  return layout;
+}
+
+} // namespace
+
+Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness) {
+  std::vector<InstanceCharts> all = chartsOfAll(scene, view);
+  const std::vector<glm::dvec2> sizes = sizesOf(all);
+  if (sizes.empty()) return LightMapLayout{};
+  const double density = fineness.size ? densityFor(sizes, *fineness.size) : fineness.texelsPerMetre.value_or(0);
+  if (!(density > 0)) return tooLarge(fineness, sizes.size());
+  const auto fitted = packed(sizes, density);
+  if (!fitted) return tooLarge(fineness, sizes.size());
+  return placed(scene, view, std::move(all), *fitted, density);
+}
+
+} // namespace gnomon
