@@ -17,11 +17,12 @@ const SceneSummary& summaryOf(const Scene& scene) {
 
 struct Renderer::Impl {
   Devices devices;
-  TracedSceneCache traced;
+  FrameCaches caches;
 };
 
 Renderer::Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes)
-    : impl_(new Impl{Devices(std::move(device)), TracedSceneCache(tracedSceneBytes)}) {}
+    : impl_(new Impl{Devices(std::move(device)),
+                     {TracedSceneCache(tracedSceneBytes), LightMapCache(RendererOptions{}.lightMapBytes)}}) {}
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -30,7 +31,8 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   auto devices = Devices::open(options);
   if (!devices) return devices.problems();
-  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*devices), TracedSceneCache(options.tracedSceneBytes)}));
+  return Renderer(std::unique_ptr<Impl>(new Impl{
+      std::move(*devices), {TracedSceneCache(options.tracedSceneBytes), LightMapCache(options.lightMapBytes)}}));
 }
 
 const RendererInfo& Renderer::info() const {
@@ -41,13 +43,13 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
                                   const Progress& progress) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return measureShimmer(**device, impl_->traced, scene, spec, path, progress);
+  return measureShimmer(**device, impl_->caches.traced, scene, spec, path, progress);
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return renderFrame(**device, impl_->traced, scene, spec, tiles);
+  return renderFrame(**device, impl_->caches, scene, spec, tiles);
 }
 
 } // namespace gnomon

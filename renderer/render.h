@@ -34,6 +34,7 @@ struct RendererOptions {
   BackendOptions backend;
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
   std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, dropped in the same order
+  std::size_t lightMapBytes = 1u << 28;    ///< baked shadows kept, dropped in the same order
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 

@@ -22,7 +22,7 @@ ROOMS = ("protocol", "renderer", "server", "clients")
 VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
 PREPARED = VALUES + ["renderer/shaders/shared", "renderer/prepare"]
 SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
-DEVICE = SETTLED + ["renderer/device"]
+DEVICE = SETTLED + ["renderer/bake", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations"]
@@ -40,7 +40,7 @@ MAY_INCLUDE = {
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],
     "renderer/shaders/shared": ["renderer/shaders/shared"],
     "renderer/prepare": PREPARED,
-    "renderer/techniques": PREPARED + ["renderer/reference", "renderer/techniques"],
+    "renderer/techniques": PREPARED + ["renderer/reference", "renderer/bake", "renderer/techniques"],
     "renderer/resolve": PREPARED + ["renderer/resolve"],
     "renderer/device": DEVICE,
     "renderer/frame": FRAME,

@@ -136,7 +136,7 @@ class Checklists(unittest.TestCase):
                   '    spelling(ShadowTechnique::scratch, "scratch", "nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
         self.edit("protocol/spec/traits.h", r"TechniqueTraits\{ShadowTechnique::rayTraced,[^\n]*\n",
-                  "    TechniqueTraits{ShadowTechnique::scratch, false, true, true, false, true, false, false},\n")
+                  "    TechniqueTraits{ShadowTechnique::scratch, false, true, true, false, false, true, false, false},\n")
         # 2. What finds the shadow asks the row: nothing else names techniques.
         self.assert_fine('#include "renderer/resolve/plan_input.cpp"\n')
         # 3. Its place in the tables.

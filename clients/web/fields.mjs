@@ -96,6 +96,7 @@ export const kStageColors = {
   queue: '#5b6577',
   load: '#8d7bd6',
   upload: '#b06fc4',
+  bake: '#8f7a4a',
   survey: '#3fa7c9',
   plan: '#36c2ae',
   shadow: '#f6b73c',

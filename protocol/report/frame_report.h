@@ -11,9 +11,9 @@
 
 namespace gnomon {
 
-/// One stage's time. Names and order: queue load upload survey plan shadow shade predict reference readback encode.
-/// `predict` is there with debug.predictEdges, `reference` where a view compares a shadow with rays, `queue` on a
-/// server.
+/// One stage's time. Names and order: queue load upload bake survey plan shadow shade predict reference readback
+/// encode. `predict` is there with debug.predictEdges, `reference` where a view compares a shadow with rays, `queue` on
+/// a server.
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
@@ -45,6 +45,18 @@ struct TileReport {
   std::optional<double> gpuMilliseconds{}; ///< the same on the device; absent where its driver has no timer, too
 };
 
+/// The texture that technique lightMap looks a shadow up in.
+struct LightMapReport {
+  bool reused = false; ///< an earlier frame baked it
+  int width = 0;       ///< texels
+  int height = 0;
+  double texelsPerMetre = 0;
+  std::uint64_t charts = 0;            ///< pieces that the surfaces were cut into
+  std::uint64_t authoredInstances = 0; ///< placed meshes whose own TEXCOORD_1 is used
+  std::uint64_t madeInstances = 0;     ///< the others, whose pieces were found here
+  double bakeMilliseconds = 0;         ///< that baking it took, when it was baked
+};
+
 struct LightReport {
   int light = 0; ///< index into the effective spec's lights
   bool shadowed = false;
@@ -56,6 +68,7 @@ struct LightReport {
   std::vector<TileReport> tiles{};
   std::optional<std::uint64_t>
       tracedPixels{}; ///< pixels that rays decided; techniques hybrid and rayTraced, not in a plan
+  std::optional<LightMapReport> lightMap{}; ///< technique lightMap, not in a plan
   // Over its tiles:
   std::optional<PredictedError> predictedError{};
   std::uint64_t casterTriangles = 0;

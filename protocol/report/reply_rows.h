@@ -112,6 +112,7 @@ inline constexpr auto kRows<Limits> = replyRows(
     field("maxLights", &Limits::maxLights, {.says = "Lights in one frame."}),
     field("maxCascades", &Limits::maxCascades, {.says = "Cascades of one light."}),
     field("maxLayers", &Limits::maxLayers, {.says = "Layers of nodes."}),
+    field("maxLightMapSide", &Limits::maxLightMapSide, {.says = "Longer side of a baked light map.", .unit = "texels"}),
     field("maxRaySamples", &Limits::maxRaySamples, {.says = "Rays for each pixel and light."}),
     field("maxVisibilityBytes", &Limits::maxVisibilityBytes,
           {.says = "What rays and shadow volumes decide for every pixel and light of a frame.", .unit = "bytes"}),

@@ -67,6 +67,21 @@ inline constexpr auto kRows<TileReport> = replyRows(
 static_assert(kRowsAreComplete<TileReport>);
 
 template <>
+inline constexpr auto kRows<LightMapReport> = replyRows(
+    "LightMapReport", "The texture that technique lightMap looks a shadow up in.",
+    field("reused", &LightMapReport::reused, {.says = "True = an earlier frame baked it; false = this one did."}),
+    field("width", &LightMapReport::width, {.says = "Its width.", .unit = "texels"}),
+    field("height", &LightMapReport::height, {.says = "Its height.", .unit = "texels"}),
+    field("texelsPerMetre", &LightMapReport::texelsPerMetre, {.says = "How finely it shows the scene's surfaces."}),
+    field("charts", &LightMapReport::charts, {.says = "Pieces that the surfaces were cut into."}),
+    field("authoredInstances", &LightMapReport::authoredInstances,
+          {.says = "Placed meshes whose TEXCOORD_1 is used: its pieces neither overlap nor leave 0..1."}),
+    field("madeInstances", &LightMapReport::madeInstances, {.says = "Placed meshes whose pieces were found here."}),
+    field("bakeMilliseconds", &LightMapReport::bakeMilliseconds,
+          {.says = "Time that baking took when it was baked.", .unit = "milliseconds"}));
+static_assert(kRowsAreComplete<LightMapReport>);
+
+template <>
 inline constexpr auto kRows<LightReport> = replyRows(
     "LightReport", "What was decided for one light.",
     field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
@@ -86,6 +101,7 @@ inline constexpr auto kRows<LightReport> = replyRows(
           {.says = "How large the texels of its tiles appear; absent if none was drawn."}),
     field("tracedPixels", &LightReport::tracedPixels,
           {.says = "Pixels that rays decided; techniques hybrid and rayTraced; absent in a plan.", .unit = "pixels"}),
+    field("lightMap", &LightReport::lightMap, {.says = "What was baked; technique lightMap alone; absent in a plan."}),
     field("casterTriangles", &LightReport::casterTriangles, {.says = "Triangles drawn into its tiles."}),
     field("drawCalls", &LightReport::drawCalls, {.says = "Draw calls into its tiles."}),
     field("cpuMilliseconds", &LightReport::cpuMilliseconds,
@@ -157,7 +173,7 @@ inline constexpr auto kRows<FrameReport> = rows(
     field("memory", &FrameReport::memory, {.says = "Memory on the device."}),
     field("passes", &FrameReport::passes, {.says = "Times and counts of each pass, in the order of drawing."}),
     field("stages", &FrameReport::stages,
-          {.says = "Time of each stage: queue, load, upload, survey, plan, shadow, shade, predict (with "
+          {.says = "Time of each stage: queue, load, upload, bake, survey, plan, shadow, shade, predict (with "
                    "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
     field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));

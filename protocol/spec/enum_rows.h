@@ -23,6 +23,10 @@ inline constexpr std::array kSpellings<ShadowTechnique>{
              "stencilled shadow volumes: exact and sharp, drawn by the device"),
     spelling(ShadowTechnique::rayTraced, "rayTraced",
              "rays for every pixel: exact, and soft where the light has a size"),
+    spelling(
+        ShadowTechnique::lightMap, "lightMap",
+        "rays for every texel of the scene's surfaces, once, and a lookup in each frame: soft where the light has a "
+        "size, for scenes that stand still"),
 };
 static_assert(spellsAll<ShadowTechnique>());
 

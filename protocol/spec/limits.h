@@ -14,6 +14,7 @@ struct Limits {
   std::int64_t maxAtlasBytes = 536'870'912;      ///< of the shadow atlas, with all its samples and moments
   int maxLights = 256;                           ///< lights in one frame
   int maxCascades = 8;                           ///< cascades of one light
+  int maxLightMapSide = 8192;                    ///< texels
   int maxRaySamples = 1024;                      ///< rays a pixel and light
   std::int64_t maxVisibilityBytes = 536'870'912; ///< of what rays and volumes say of every pixel and light
   int maxLayers = 16;                            ///< layers of nodes

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-enum class ShadowTechnique { shadowMap, hybrid, shadowVolume, rayTraced };
+enum class ShadowTechnique { shadowMap, hybrid, shadowVolume, rayTraced, lightMap };
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
 enum class ShadowLightPolicy { all, first };
 enum class ShadowImportance { low, medium, high };
@@ -64,6 +64,15 @@ struct Bias {
   bool operator==(const Bias&) const = default;
 };
 
+/// The texture that technique lightMap keeps a light's shadow in.
+struct LightMapOptions {
+  int size = 1024;                        ///< texels along its longer side at most, 16..8192
+  std::optional<double> texelsPerMetre{}; ///< of the surfaces, instead of size
+  int samples = 64;                       ///< rays a texel towards a light that has a size; 1..1024
+
+  bool operator==(const LightMapOptions&) const = default;
+};
+
 struct Shadow {
   bool enabled = true;
   ShadowTechnique technique = ShadowTechnique::shadowMap;
@@ -80,6 +89,7 @@ struct Shadow {
   Filter filter;
   Bias bias;
   BlendedCasters blendedCasters = BlendedCasters::dither;
+  LightMapOptions lightMap;
   int raySamples = 16; ///< rayTraced: rays a pixel towards a light that has a size; 1..1024
 
   bool operator==(const Shadow&) const = default;

@@ -96,6 +96,25 @@ inline constexpr auto kRows<Bias> =
 static_assert(kRowsAreComplete<Bias>);
 
 template <>
+inline constexpr auto kRows<LightMapOptions> = rows(
+    "LightMapOptions", "The texture that technique lightMap keeps a light's shadow in.",
+    field("size", &LightMapOptions::size,
+          {.says = "Longer side of the texture at most; the scene's surfaces are shown as finely as fits. Doubling it "
+                   "halves the blur of edges, and takes four times the memory and the time to bake. Ignored when "
+                   "`texelsPerMetre` is set.",
+           .unit = "texels",
+           .range = {16, kLimits.maxLightMapSide}}),
+    field("texelsPerMetre", &LightMapOptions::texelsPerMetre,
+          {.says = "How finely surfaces are shown, instead of `size`: the texture is as large as that takes.",
+           .range = {1e-6, 1e6}}),
+    field("samples", &LightMapOptions::samples,
+          {.says = "Rays for each texel towards a light that has a size. Noise falls with the square root of the "
+                   "number, the time to bake grows with it; frames cost the same. Lights without a size take sixteen.",
+           .unit = "rays",
+           .range = {1, kLimits.maxRaySamples}}));
+static_assert(kRowsAreComplete<LightMapOptions>);
+
+template <>
 inline constexpr auto kRows<Shadow> = rows(
     "Shadow", "The shadow of a light.",
     field("enabled", &Shadow::enabled, {.says = "False = the light casts no shadow, and takes no place in the atlas."}),
@@ -129,6 +148,8 @@ inline constexpr auto kRows<Shadow> = rows(
     field("bias", &Shadow::bias, {.says = "How surfaces are kept from shadowing themselves."}),
     field("blendedCasters", &Shadow::blendedCasters,
           {.says = "How materials of alphaMode BLEND, and transmissive ones, cast shadows."}),
+    field("lightMap", &Shadow::lightMap,
+          {.says = "Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces."}),
     field("raySamples", &Shadow::raySamples,
           {.says = "Technique rayTraced: rays for each pixel towards a light that has a size. Noise falls with the "
                    "square root of the number, time grows with it; lights without a size take one ray.",

@@ -71,6 +71,7 @@ struct TechniqueTraits {
   bool mapped;             ///< draws shadow maps
   bool layered;            ///< says of every sample what share of the light arrives; a map only helps to find it
   bool traced;             ///< traces rays
+  bool baked;              ///< looks the shadow up in a texture that was traced before, and traces no pixel
   bool needsEdges;         ///< needs to know the edges of the casters' meshes
   bool knowsSize;          ///< soft where the light has a size
   bool needsOpaqueCasters; ///< can't tell the holes of a masked or blended caster
@@ -82,11 +83,12 @@ struct TechniqueTraits {
 
 // clang-format off
 inline constexpr std::array kTechniqueTraits{
-    //               technique                    mapped layered traced edges  size   opaque one depth
-    TechniqueTraits{ShadowTechnique::shadowMap,    true,  false, false, false, false, false, false},
-    TechniqueTraits{ShadowTechnique::hybrid,       true,  true,  true,  true,  false, false, true},
-    TechniqueTraits{ShadowTechnique::shadowVolume, false, true,  false, true,  false, true,  false},
-    TechniqueTraits{ShadowTechnique::rayTraced,    false, true,  true,  false, true,  false, false},
+    //               technique                    mapped layered traced baked  edges  size   opaque one depth
+    TechniqueTraits{ShadowTechnique::shadowMap,    true,  false, false, false, false, false, false, false},
+    TechniqueTraits{ShadowTechnique::hybrid,       true,  true,  true,  false, true,  false, false, true},
+    TechniqueTraits{ShadowTechnique::shadowVolume, false, true,  false, false, true,  false, true,  false},
+    TechniqueTraits{ShadowTechnique::rayTraced,    false, true,  true,  false, false, true,  false, false},
+    TechniqueTraits{ShadowTechnique::lightMap,     false, true,  true,  true,  false, true,  false, false},
 };
 // clang-format on
 static_assert(rowsAreComplete(kTechniqueTraits, &TechniqueTraits::technique));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 #include "renderer/bake/surface_charts.h"
 #include "renderer/core/rect.h"
 
@@ -16,7 +17,7 @@ struct LightMapFineness {
   std::optional<int> size; ///< texels along the longer side of the map, at most: as fine as fits
 };
 
-inline constexpr int kLargestLightMap = 8192; ///< texels along a side
+inline constexpr int kLargestLightMap = kLimits.maxLightMapSide; ///< texels along a side
 
 /// A chart in the map. No other chart's texels lie in its rectangle, which leaves a texel free around it: what is read
 /// between four texels there is the chart's own.

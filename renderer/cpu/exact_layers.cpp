@@ -6,6 +6,7 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
+#include "renderer/techniques/baked_shadow.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon::cpu {
@@ -21,6 +22,7 @@ ShownNumbers shownNumbers(const DepthBuffer& surfaces) {
   ShownNumbers shown{surfaces.triangles, {}, {}};
   for (int x = 0; x < surfaces.width; ++x) shown.ofColumn.push_back(static_cast<std::uint32_t>(surfaces.at(x, 0)));
   for (int y = 0; y < surfaces.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(surfaces.at(0, y)));
+  shown.ofSample = kBlockPlaces;
   return shown;
 }
 
@@ -95,6 +97,12 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
     const auto start = std::chrono::steady_clock::now();
     const Shadow& shadow = *lights[static_cast<std::size_t>(light)].shadow;
     TraceInput own = rays;
+    if (traitsOf(shadow.technique).baked) {
+      const auto baked = work.baked(light);
+      exact.values.push_back(bakedShadow(points, *baked));
+      exact.lights.push_back({light, millisecondsSince(start), {}});
+      continue;
+    }
     const bool isHybrid = traitsOf(shadow.technique).mapSparesRays();
     if (isHybrid) own.lights = sharp;
     TracedShadow found = tracedShadow(points, own, light, isHybrid ? 1 : shadow.raySamples);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/report/replies.h"
+#include "renderer/bake/baked_light.h"
 #include "renderer/device/facts.h"
 #include "renderer/image/image.h"
 #include "renderer/prepare/lit_light.h"
@@ -24,6 +25,8 @@ struct FrameWork {
   std::vector<int> layered; ///< lights whose technique needs a visibility layer, in the layers' order
   bool needsEdges = false;  ///< some light's technique needs the edges of meshes
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
+  /// What was baked for a light whose technique says so; asked after the survey.
+  std::function<std::shared_ptr<const BakedLight>(int light)> baked;
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.

@@ -117,7 +117,7 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
   const FrameSpec& spec = frame.spec;
-  const auto begun = device.begin({.scene = scene, .frame = frame, .layered = {}, .traced = {}});
+  const auto begun = device.begin({.scene = scene, .frame = frame, .layered = {}, .traced = {}, .baked = {}});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
   const auto receivers = drawing.survey();

@@ -1,11 +1,26 @@
 #include "renderer/frame/make_report.h"
 
+#include <algorithm>
+
 #include "protocol/spec/traits.h"
 #include "renderer/shadow/filter_kernel.h"
 
 namespace gnomon {
 
 namespace {
+
+LightMapReport lightMapReport(const LightMapCache::Found& found) {
+  const LightMapLayout& layout = *found.baked->layout;
+  const auto authored = std::count(layout.authored.begin(), layout.authored.end(), 1);
+  return {.reused = found.reused,
+          .width = layout.width,
+          .height = layout.height,
+          .texelsPerMetre = layout.texelsPerMetre,
+          .charts = layout.charts.size(),
+          .authoredInstances = static_cast<std::uint64_t>(authored),
+          .madeInstances = layout.authored.size() - static_cast<std::uint64_t>(authored),
+          .bakeMilliseconds = found.baked->milliseconds};
+}
 
 std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
   auto lights = lightReports(outcome.frame.spec, outcome.plan, outcome.errors, outcome.frame.view.eye, outcome.layered);
@@ -23,6 +38,9 @@ std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
       tile.gpuMilliseconds = facts.time->gpuMilliseconds;
     }
     addSums(light);
+  }
+  for (std::size_t i = 0; i < outcome.baked.size(); ++i) {
+    if (outcome.baked[i].baked) lights[i].lightMap = lightMapReport(outcome.baked[i]);
   }
   for (const LayerFacts& layer : outcome.facts.layers) {
     LightReport& light = lights[static_cast<std::size_t>(layer.light)];

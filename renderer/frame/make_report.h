@@ -5,6 +5,7 @@
 
 #include "protocol/report/frame_report.h"
 #include "renderer/device/facts.h"
+#include "renderer/frame/light_map_cache.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/predicted_error.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -18,7 +19,8 @@ struct FrameOutcome {
   DepthSpan depths;             ///< of all that the camera sees
   const ShadowPlan& plan;
   const PredictedErrors& errors;
-  std::span<const int> layered; ///< as in FrameWork
+  std::span<const int> layered;                ///< as in FrameWork
+  std::span<const LightMapCache::Found> baked; ///< bakedLights
   FrameFacts facts;
   std::optional<ErrorMetrics> error; ///< where a view compares a shadow with rays
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "renderer/frame/baked_lights.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/predicted_displacement.h"
@@ -15,7 +16,7 @@
 
 namespace gnomon {
 
-Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const ScenePtr& loaded, const FrameSpec& spec,
+Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
                           TileUse tiles) {
   const auto posed = posedScene(loaded, spec.animation);
   if (!posed) return posed.problems();
@@ -28,11 +29,19 @@ Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const SceneP
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
   const std::vector<int> layered = layeredLights(*resolved);
   const std::vector<int> mapped = mappedLights(*resolved, view, device.info());
-  const auto tracedScene = [&] { return traced.get(scene, resolved->scene); };
+  const auto tracedScene = [&] { return caches.traced.get(scene, resolved->scene); };
 
-  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene});
+  std::vector<LightMapCache::Found> baked;
+  const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
+
+  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
+
+  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved);
+  if (!found) return found.problems();
+  baked = *std::move(found);
+  if (!baked.empty()) drawing.endStage("bake");
 
   const auto receivers = drawing.survey();
   if (!receivers) return receivers.problems();
@@ -86,7 +95,7 @@ Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const SceneP
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
   return Frame{
-      makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, *std::move(facts), error}),
+      makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked, *std::move(facts), error}),
       std::move(images)};
 }
 

@@ -2,13 +2,20 @@
 
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/light_map_cache.h"
 #include "renderer/frame/traced_scene_cache.h"
 
 namespace gnomon {
 
+/// What frames leave behind for later ones, whichever device draws them.
+struct FrameCaches {
+  TracedSceneCache traced;
+  LightMapCache lightMaps;
+};
+
 /// A frame from top to bottom, whoever draws it: settled, surveyed, planned, cast, shown, compared with rays where a
 /// view asks, and reported. As Renderer::render.
-Result<Frame> renderFrame(Device& device, TracedSceneCache& traced, const ScenePtr& scene, const FrameSpec& spec,
+Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& scene, const FrameSpec& spec,
                           TileUse tiles = TileUse::kept);
 
 } // namespace gnomon

@@ -55,7 +55,8 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
   for (std::size_t layer = 0; layer < layered.size(); ++layer) {
     const auto index = static_cast<std::size_t>(layered[layer]);
     lit[index].visibilityLayer = static_cast<int>(layer);
-    lit[index].layerOmitsTurnedFaces = !traitsOf(lights[index].shadow->technique).traced;
+    const TechniqueTraits& technique = traitsOf(lights[index].shadow->technique);
+    lit[index].layerOmitsTurnedFaces = !technique.traced || technique.baked;
     lit[index].strength = lights[index].shadow->strength;
   }
   return lit;

@@ -1,5 +1,6 @@
 #include "renderer/reference/drawn_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/core/instruction_sets.h"
@@ -81,6 +82,33 @@ void DrawnPoints::setNothing(unsigned lane) {
   for (auto* corner : {&a, &b, &c}) put(glm::vec3(0), *corner, lane);
 }
 
+namespace {
+
+bool showsOne(const DrawnPlaces& places) {
+  return std::all_of(std::begin(places.shown), std::end(places.shown), [&](const PlacedTriangle& other) {
+    return other.instance == places.shown[0].instance && other.triangle == places.shown[0].triangle;
+  });
+}
+
+} // namespace
+
+void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, DrawnPoints& points) {
+  if (places.shown[0].instance != kNoSurface && showsOne(places)) {
+    points.setTriangle(tree, 0, places.shown[0]);
+    for (auto* corner : {&points.a, &points.b, &points.c}) {
+      for (auto& axis : *corner) std::fill_n(axis, kLanes, axis[0]);
+    }
+    return;
+  }
+  for (unsigned i = 0; i < kLanes; ++i) {
+    if (places.shown[i].instance == kNoSurface) {
+      points.setNothing(i);
+    } else {
+      points.setTriangle(tree, i, places.shown[i]);
+    }
+  }
+}
+
 // A point is where the line of sight crosses the plane (Moeller and Trumbore, 1997). Of a triangle that is small beside
 // its distance, the weights of its corners keep the point in the true plane whatever its shape; of a large one, the
 // line does, if the triangle is no sliver. Either way the point lies off the plane by a few roundings of the corner and
@@ -120,6 +148,8 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findPoints(DrawnView view, const DrawnPlace
                      when(16 * unsure < pixel) & when(steepness * steepness > 1e-6f * squared * glm::dot(way, way));
     points.turn[i] = 1e-6f + 8 * kHalf * std::sqrt(squares) / size;
     points.unsure[i] = unsure;
+    points.u[i] = u;
+    points.v[i] = v;
     put(position + normal * (lost + unsure), points.start, i);
     put(relative, points.relative, i);
     put(normal, points.normal, i);

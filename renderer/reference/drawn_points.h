@@ -37,21 +37,25 @@ DrawnLight drawnLight(const LightSource& light, const glm::dvec3& eye, double sc
 struct alignas(64) DrawnPoints {
   float a[3][kLanes], b[3][kLanes], c[3][kLanes]; ///< corners, in the tree's units
 
-  float relative[3][kLanes]; ///< the point, from the eye
-  float normal[3][kLanes];   ///< unit length, on the eye's side
-  float start[3][kLanes];    ///< of rays, lifted off the surface by what rounding may have lowered it
-  float unsure[kLanes];      ///< how far off the triangle's plane the point may lie
-  float turn[kLanes];        ///< how wrong a cosine of the normal may be
-  float toward[3][kLanes];   ///< the light; unit length
-  float length[kLanes];      ///< to the light; infinite for directional ones
-  int faces[kLanes];         ///< the surface is turned to the light
-  int reached[kLanes];       ///< the light shines as far as here, and in this direction
-  int sure[kLanes];          ///< floats can tell all that; else nothing else means anything
+  float u[kLanes], v[kLanes]; ///< weights of the second and third corner, in the triangle
+  float relative[3][kLanes];  ///< the point, from the eye
+  float normal[3][kLanes];    ///< unit length, on the eye's side
+  float start[3][kLanes];     ///< of rays, lifted off the surface by what rounding may have lowered it
+  float unsure[kLanes];       ///< how far off the triangle's plane the point may lie
+  float turn[kLanes];         ///< how wrong a cosine of the normal may be
+  float toward[3][kLanes];    ///< the light; unit length
+  float length[kLanes];       ///< to the light; infinite for directional ones
+  int faces[kLanes];          ///< the surface is turned to the light
+  int reached[kLanes];        ///< the light shines as far as here, and in this direction
+  int sure[kLanes];           ///< floats can tell all that; else nothing else means anything
 
   /// `shown`: a triangle of the tree.
   void setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& shown);
   void setNothing(unsigned lane);
 };
+
+/// Sets each lane's corners to those of what is drawn there.
+void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, DrawnPoints& points);
 
 /// Finds each lane's point from its corners. (`view` is a copy, which no lane that is written can change.)
 void findPoints(DrawnView view, const DrawnPlaces& places, DrawnPoints& points);

@@ -83,29 +83,6 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   return shares;
 }
 
-bool showsOne(const DrawnPlaces& places) {
-  return std::all_of(std::begin(places.shown), std::end(places.shown), [&](const PlacedTriangle& other) {
-    return other.instance == places.shown[0].instance && other.triangle == places.shown[0].triangle;
-  });
-}
-
-void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, DrawnPoints& points) {
-  if (places.shown[0].instance != kNoSurface && showsOne(places)) {
-    points.setTriangle(tree, 0, places.shown[0]);
-    for (auto* corner : {&points.a, &points.b, &points.c}) {
-      for (auto& axis : *corner) std::fill_n(axis, kLanes, axis[0]);
-    }
-    return;
-  }
-  for (unsigned i = 0; i < kLanes; ++i) {
-    if (places.shown[i].instance == kNoSurface) {
-      points.setNothing(i);
-    } else {
-      points.setTriangle(tree, i, places.shown[i]);
-    }
-  }
-}
-
 /// Of the lanes that are asked for: which ones a ray decides, which ones floats can't, and what the others see.
 void sort(const DrawnPoints& points, const Lanes& asked, Lanes& lit, Lanes& unsure, float* shares,
           std::uint8_t* turnedAway) {

@@ -3,6 +3,7 @@
 #include "renderer/core/parallel.h"
 #include "renderer/reference/alpha.h"
 #include "renderer/reference/crossings.h"
+#include "renderer/reference/drawn_points.h"
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"
@@ -133,7 +134,9 @@ class Packet {
 } // namespace
 
 TracedCamera::TracedCamera(const TraceInput& input)
-    : input_(input), visible_(instancesWhere(input, [](const NodeSwitches& node) { return node.visible; })) {}
+    : input_(input),
+      view_(std::make_shared<const DrawnView>(drawnView(sightOf(input), input.traced.tree().scale))),
+      visible_(instancesWhere(input, [](const NodeSwitches& node) { return node.visible; })) {}
 
 void TracedCamera::firstHits(std::span<const glm::vec2> places, std::span<SurfacePoint> points) const {
   const Eye eye{input_, input_.traced.tree(), visible_};

@@ -34,6 +34,22 @@ struct SurfacePoint {
   std::uint32_t triangle = 0;          ///< of its primitive
 };
 
+/// Sixteen places of a picture and the triangle that was drawn at each. Fastest where they lie close together.
+struct DrawnPlaces {
+  static constexpr std::size_t kCount = 16;
+  float x[kCount] = {}; ///< as firstHits takes them
+  float y[kCount] = {};
+  PlacedTriangle shown[kCount] = {}; ///< kNoSurface = none
+};
+
+/// Where each lies in its triangle: the weights of its second and third corner, 0..1. Any numbers where none is shown.
+struct DrawnWeights {
+  float u[DrawnPlaces::kCount];
+  float v[DrawnPlaces::kCount];
+};
+
+struct DrawnView;
+
 /// What a frame's camera sees. Made once, asked for any number of places; any thread. What the input refers to outlives
 /// it.
 class TracedCamera {
@@ -43,8 +59,11 @@ class TracedCamera {
   /// firstHits, one a place, on the calling thread. REQUIRES: as many points as places.
   void firstHits(std::span<const glm::vec2> places, std::span<SurfacePoint> points) const;
 
+  DrawnWeights weights(const DrawnPlaces& places) const;
+
  private:
   TraceInput input_;
+  std::shared_ptr<const DrawnView> view_;
   std::vector<std::uint8_t> visible_; ///< one an instance
 };
 
@@ -72,14 +91,6 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
 /// none. Blended casters let 1 - alpha through, or all or nothing by `blendedCasters`.
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples);
-
-/// Sixteen places of a picture and the triangle that was drawn at each. Fastest where they lie close together.
-struct DrawnPlaces {
-  static constexpr std::size_t kCount = 16;
-  float x[kCount] = {}; ///< as firstHits takes them
-  float y[kCount] = {};
-  PlacedTriangle shown[kCount] = {}; ///< kNoSurface = none
-};
 
 /// A rectangle of a picture's places that all show one triangle.
 struct DrawnBlock {

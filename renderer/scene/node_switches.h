@@ -14,6 +14,8 @@ struct NodeSwitches {
   bool castShadow = true;
   bool receiveShadow = true;
   int layers = 1; ///< one bit a layer
+
+  bool operator==(const NodeSwitches&) const = default;
 };
 
 /// A light lights the nodes that share a layer with it, and only they cast from it.

@@ -51,6 +51,16 @@ DrawnPlaces PicturePoints::drawn(const ShownPixels& shown) const {
   return places;
 }
 
+DrawnPlaces PicturePoints::drawn(const ShownSamples& shown) const {
+  DrawnPlaces places;
+  for (std::size_t i = 0; i < shown.count; ++i) {
+    places.x[i] = shown.places[i].x;
+    places.y[i] = static_cast<float>(grid_.height) - shown.places[i].y;
+  }
+  numbers_.of({shown.numbers, shown.count}, places.shown);
+  return places;
+}
+
 std::vector<SurfacePoint> PicturePoints::traced(std::span<const std::uint32_t> pixels) const {
   const std::vector<glm::vec2> places = samplesOf(grid_, pixels);
   std::vector<SurfacePoint> points(places.size());

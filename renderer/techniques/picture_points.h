@@ -47,9 +47,12 @@ inline std::uint8_t unorm8(float share) {
 struct ShownNumbers {
   std::span<const std::uint32_t> numbers;
   std::vector<std::uint32_t> ofColumn, ofRow; ///< a pixel's first sample is number ofRow[y] + ofColumn[x]
+  std::uint32_t ofSample = 1;                 ///< from there to the next sample
 
-  /// Of a pixel's first sample; not checked.
-  std::uint32_t at(int x, int y) const { return numbers.data()[ofRow.data()[y] + ofColumn.data()[x]]; }
+  /// Not checked.
+  std::uint32_t at(int x, int y, std::size_t sample = 0) const {
+    return numbers.data()[ofRow.data()[y] + ofColumn.data()[x] + sample * ofSample];
+  }
 };
 
 /// Pixels, up to DrawnPlaces::kCount of them, and the numbers that their first samples show.
@@ -60,6 +63,19 @@ struct ShownPixels {
 
   void add(const glm::ivec2& pixel, std::uint32_t number) {
     pixels[count] = pixel;
+    numbers[count++] = number;
+  }
+  bool full() const { return count == DrawnPlaces::kCount; }
+};
+
+/// Samples, up to DrawnPlaces::kCount of them, and the numbers that they show.
+struct ShownSamples {
+  glm::vec2 places[DrawnPlaces::kCount]; ///< pixels from the picture's lower left corner
+  std::uint32_t numbers[DrawnPlaces::kCount];
+  std::size_t count = 0;
+
+  void add(const glm::vec2& place, std::uint32_t number) {
+    places[count] = place;
     numbers[count++] = number;
   }
   bool full() const { return count == DrawnPlaces::kCount; }
@@ -80,8 +96,10 @@ class PicturePoints {
   const TraceInput& rays() const { return rays_; }
   const SampleGrid& grid() const { return grid_; }
 
-  /// What was drawn at a pixel's first sample; kNoNumber = nothing.
-  std::uint32_t numberAt(const glm::ivec2& pixel) const { return shown_.at(pixel.x, pixel.y); }
+  /// What was drawn at one of a pixel's samples; kNoNumber = nothing.
+  std::uint32_t numberAt(const glm::ivec2& pixel, std::size_t sample = 0) const {
+    return shown_.at(pixel.x, pixel.y, sample);
+  }
 
   /// What all first samples of a block show, where that is one number. REQUIRES: the block lies in the picture.
   std::optional<std::uint32_t> onlyNumberIn(const Rect& block) const;
@@ -92,6 +110,11 @@ class PicturePoints {
   /// What these pixels show at their first samples, as it was drawn: the exact points are there, but for samples that
   /// the rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
   DrawnPlaces drawn(const ShownPixels& shown) const;
+
+  DrawnPlaces drawn(const ShownSamples& shown) const;
+
+  /// Where these lie in their triangles.
+  DrawnWeights weights(const DrawnPlaces& places) const { return camera_.weights(places); }
 
   /// What a ray through each of their samples meets first. Runs on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;

@@ -153,6 +153,7 @@ int serve(const ServeOptions& options) {
   auto queue = RenderQueue::start({.backend = options.backend,
                                    .gpuSceneBytes = options.gpuSceneBytes,
                                    .tracedSceneBytes = options.tracedSceneBytes,
+                                   .lightMapBytes = options.lightMapBytes,
                                    .tileCacheBytes = options.tileCacheBytes},
                                   options.queueLimit);
   if (!queue) {

@@ -22,6 +22,7 @@ struct ServeOptions {
   std::size_t gpuSceneBytes = 1u << 30;    ///< bytes of scenes kept on the graphics device
   std::size_t tileCacheBytes = 1u << 28;   ///< bytes of shadow atlases kept for later frames; 0 = none
   std::size_t tracedSceneBytes = 1u << 30; ///< bytes of ray-tracing structures of scenes
+  std::size_t lightMapBytes = 1u << 28;    ///< bytes of baked light maps
 
   // Limits
   std::size_t queueLimit = 64;               ///< >= 1; frames that may wait; 429 beyond it

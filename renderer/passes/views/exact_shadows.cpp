@@ -10,6 +10,7 @@
 #include "protocol/spec/traits.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
+#include "renderer/techniques/baked_shadow.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
@@ -90,6 +91,12 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
         masks = std::move(*covered);
         points.emplace(TraceInput{*traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes}, grid,
                        surfaces.numbers, shown, masks);
+      }
+      if (traits.baked) {
+        writeVisibility(shadows.layers, layer, bakedShadow(*points, *work.baked(light)));
+        shadow.cpuMilliseconds = millisecondsSince(start);
+        shadows.lights.push_back(shadow);
+        continue;
       }
       auto found = traits.mapSparesRays()
                        ? hybridShadow(inputs, shading, surfaces, *points, light)

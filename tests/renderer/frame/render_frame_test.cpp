@@ -144,8 +144,8 @@ FrameSpec sunlit() {
 
 TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
   FakeDevice device;
-  TracedSceneCache traced(0);
-  const auto frame = renderFrame(device, traced, squares(), sunlit());
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
+  const auto frame = renderFrame(device, caches, squares(), sunlit());
   ASSERT_TRUE(frame) << frame.problems().front().detail;
   EXPECT_EQ(device.asked.calls, (std::vector<std::string>{"begin", "survey", "cast", "show"}));
   EXPECT_EQ(device.asked.tiles, 2u);
@@ -170,10 +170,10 @@ TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
 
 TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
   FakeDevice device;
-  TracedSceneCache traced(1 << 20);
+  FrameCaches caches{TracedSceneCache(1 << 20), LightMapCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.views = {View::error, View::depth};
-  const auto frame = renderFrame(device, traced, squares(), spec);
+  const auto frame = renderFrame(device, caches, squares(), spec);
   ASSERT_TRUE(frame) << frame.problems().front().detail;
   ASSERT_EQ(device.asked.views.size(), 3u) << "the error itself is drawn by no device";
   EXPECT_EQ(device.asked.views[0].view, View::depth);
@@ -189,10 +189,10 @@ TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
 
 TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
   FakeDevice device;
-  TracedSceneCache traced(0);
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.width = 5000;
-  const auto frame = renderFrame(device, traced, squares(), spec);
+  const auto frame = renderFrame(device, caches, squares(), spec);
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.problems().front().pointer, "/width");
   EXPECT_TRUE(device.asked.calls.empty());
@@ -200,8 +200,8 @@ TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
 
 TEST(RenderFrame, AProblemOfTheDeviceIsTheFrames) {
   FakeDevice device(Problem{ProblemCode::backend, "", "The device is gone.", "", ""});
-  TracedSceneCache traced(0);
-  const auto frame = renderFrame(device, traced, squares(), sunlit());
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
+  const auto frame = renderFrame(device, caches, squares(), sunlit());
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.problems().front().code, ProblemCode::backend);
 }

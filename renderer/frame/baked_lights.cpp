@@ -1,0 +1,66 @@
+#include "renderer/frame/baked_lights.h"
+
+#include <algorithm>
+
+#include "protocol/spec/traits.h"
+#include "renderer/resolve/plan_input.h"
+
+namespace gnomon {
+namespace {
+
+std::string shadowPointer(const FrameSpec& asked, int light) {
+  const bool own = asked.lights && (*asked.lights)[static_cast<std::size_t>(light)].shadow;
+  return own ? "/lights/" + std::to_string(light) + "/shadow" : "/shadow";
+}
+
+/// The node that a pose moves away from where the file has it, or whose mesh it deforms; -1 = there is none.
+int movedNode(const FrameScene& scene, int index) {
+  if (scene.loaded == scene.posed) return -1;
+  const std::vector<Instance>& still = scene.loaded->scenes[static_cast<std::size_t>(index)].instances;
+  const std::vector<Instance>& posed = scene.posed->scenes[static_cast<std::size_t>(index)].instances;
+  const auto differs = [](const Instance& a, const Instance& b) {
+    return a.worldFromLocal != b.worldFromLocal || a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max;
+  };
+  const auto [a, b] = std::mismatch(still.begin(), still.end(), posed.begin(), posed.end(),
+                                    [&](const Instance& x, const Instance& y) { return !differs(x, y); });
+  if (b != posed.end()) return b->node;
+  if (scene.loaded->positions == scene.posed->positions || posed.empty()) return -1;
+  return posed.front().node; // a mesh changes within its bounds
+}
+
+std::string nameOf(const Scene& scene, int node) {
+  const std::string& name = scene.nodes[static_cast<std::size_t>(node)].name;
+  return name.empty() ? std::to_string(node) : "\"" + name + "\"";
+}
+
+} // namespace
+
+Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, TracedSceneCache& traced,
+                                                      const FrameScene& scene, const FrameSpec& asked,
+                                                      const ResolvedFrame& frame) {
+  std::vector<LightMapCache::Found> found;
+  for (const int light : layeredLights(frame)) {
+    const Shadow& shadow = *(*frame.spec.lights)[static_cast<std::size_t>(light)].shadow;
+    if (!traitsOf(shadow.technique).baked) continue;
+    const std::string pointer = shadowPointer(asked, light);
+    if (const int node = movedNode(scene, frame.scene); node >= 0) {
+      return Problem{ProblemCode::unsupportedFeature, pointer + "/technique",
+                     "A light map holds the shadow of what stands still, but this pose moves node " +
+                         nameOf(*scene.loaded, node) + ".",
+                     "another technique, or no animation", "lightMap"};
+    }
+    const auto rays = traced.get(scene.posed, frame.scene);
+    if (!rays) return rays.problems();
+    auto made = maps.get({scene.posed, frame.scene, **rays, *frame.spec.lights, frame.nodes}, light);
+    if (!made) {
+      Problems problems = made.problems();
+      for (Problem& problem : problems) problem.pointer = pointer + "/lightMap" + problem.pointer;
+      return problems;
+    }
+    found.resize(frame.spec.lights->size());
+    found[static_cast<std::size_t>(light)] = *std::move(made);
+  }
+  return found;
+}
+
+} // namespace gnomon

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "renderer/bake/baked_light.h"
+#include "renderer/reference/trace.h"
+
+namespace gnomon {
+
+/// What a bake takes place on.
+struct BakeInput {
+  std::shared_ptr<const Scene> scene; ///< posed
+  int index = 0;                      ///< into Scene::scenes
+  const TracedScene& traced;
+  std::span<const Light> lights;       ///< effective
+  std::span<const NodeSwitches> nodes; ///< one a node of the file
+};
+
+/// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
+/// scenes that nobody holds any more. A map serves as long as all that its shadow depends on is the same: the scene and
+/// its pose, where the light is and how large, what the nodes switch, and how finely it is baked. Any thread; one that
+/// asks for a map waits while another is made.
+class LightMapCache {
+ public:
+  explicit LightMapCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
+
+  struct Found {
+    std::shared_ptr<const BakedLight> baked;
+    bool reused = false;
+  };
+
+  /// Baked now if need be. `light`: index into the lights, of technique lightMap. A problem where the map would be too
+  /// large; its pointer begins at the light's `shadow.lightMap`. The newest stays, whatever its size.
+  Result<Found> get(const BakeInput& input, int light);
+
+ private:
+  struct Key {
+    std::weak_ptr<const Scene> scene;
+    int index = 0;
+    Light light; ///< what its shadow depends on; the rest as a default light has it
+    std::vector<NodeSwitches> nodes;
+  };
+  struct Entry {
+    Key key;
+    std::shared_ptr<const BakedLight> baked;
+  };
+
+  static bool isOf(const Entry& entry, const BakeInput& input, const Light& light);
+  std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options) const;
+  void drop();
+
+  std::size_t budgetBytes_;
+  std::mutex mutex_;
+  std::list<Entry> entries_; ///< most recently used first
+};
+
+} // namespace gnomon
