@@ -3,7 +3,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { startBrowser } from './browser.mjs';
+import { startDrawing } from './draw.mjs';
 import { markdownOf } from './tables.mjs';
 
 const [bin, scenes, hardCases, executable, work, output] = process.argv.slice(2);
@@ -76,7 +76,7 @@ async function compare(browser, one) {
 
 fs.mkdirSync(work, { recursive: true });
 fs.mkdirSync(output, { recursive: true });
-const browser = await startBrowser({ executable, scenes });
+const browser = await startDrawing({ executable, scenes });
 const report = { cores: os.cpus().length, chromium: browser.version, cases: [] };
 try {
   for (const one of casesOf()) {
