@@ -27,15 +27,22 @@ function scenesOf() {
     .map((scene) => ({ ...scene, file: path.join(build, scene.glb) }));
 }
 
-async function openAll(contestants) {
+// Those that open; `absent` gets what the others say.
+async function openAll(contestants, absent) {
   const opened = [];
-  for (const contestant of contestants) opened.push({ ...contestant, ...await contestant.open() });
+  for (const contestant of contestants) {
+    try {
+      opened.push({ ...contestant, ...await contestant.open() });
+    } catch ({ message }) {
+      absent[contestant.name] = message.split('\n')[0];
+    }
+  }
   return opened;
 }
 
 // Milliseconds of a warm frame, by the contestant's name. In each round all draw a turn.
-async function warmTimes(contestants, { label, frames }) {
-  const opened = await openAll(contestants);
+async function warmTimes(contestants, { label, frames, absent }) {
+  const opened = await openAll(contestants, absent);
   const times = new Map(opened.map(({ name }) => [name, []]));
   const abouts = opened.map(({ name, about }) => ({ name, ...about }));
   try {
@@ -63,13 +70,14 @@ async function coldTimes(contestants) {
     [name, { cold: medianOf(all, 'fromProcess'), coldPage: medianOf(all, 'fromPage') }])));
 }
 
-async function compare(scene, make) {
+async function compare(scene, make, absent) {
   console.error(scene.name);
   const frames = scene.orbit_frames;
-  const plain = await warmTimes(make(scene, false), { label: scene.name, frames });
-  const smooth = await warmTimes(make(scene, true), { label: `${scene.name} 4x`, frames });
-  const cold = await coldTimes(make(scene, false));
-  const rows = make(scene, false).map(({ kind, name, says }) => (
+  const plain = await warmTimes(make(scene, false), { label: scene.name, frames, absent });
+  const smooth = await warmTimes(make(scene, true), { label: `${scene.name} 4x`, frames, absent });
+  const present = make(scene, false).filter(({ name }) => name in plain.times);
+  const cold = await coldTimes(present);
+  const rows = present.map(({ kind, name, says }) => (
     { kind, name, says, warm: plain.times[name], warm4x: smooth.times[name], ...cold[name] }));
   return { abouts: plain.abouts, result: { scene: scene.name, width: scene.width, height: scene.height, rows } };
 }
@@ -82,11 +90,11 @@ const vtk = await vtkContestants({ work });
 const make = (...of) => [...gnomon(...of), ...browsers(...of), ...vtk.make(...of)];
 const report = {
   machine: os.cpus()[0].model.trim(), cores: os.cpus().length, frames: kRounds * kCounted, coldRounds: kColdRounds,
-  loadBefore: os.loadavg()[0], ...(vtk.absent && { absent: { VTK: vtk.absent } }), scenes: [],
+  loadBefore: os.loadavg()[0], absent: vtk.absent ? { VTK: vtk.absent } : {}, scenes: [],
 };
 try {
   for (const scene of scenesOf()) {
-    const { abouts, result } = await compare(scene, make);
+    const { abouts, result } = await compare(scene, make, report.absent);
     report.scenes.push(result);
     report.versions = abouts.filter(({ version }) => version);
   }

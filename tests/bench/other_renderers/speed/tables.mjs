@@ -53,7 +53,7 @@ function versionsText(versions) {
 }
 
 export function markdownOf(report) {
-  const { machine, cores, frames, coldRounds, loadBefore, loadAfter, versions, absent = {}, scenes } = report;
+  const { machine, cores, frames, coldRounds, loadBefore, loadAfter, versions, absent, scenes } = report;
   const { width, height } = scenes[0];
   const missing = Object.entries(absent).map(([name, reason]) => `\n\n${name} is not in the table: ${reason}.`).join('');
   return `# Times of other renderers
