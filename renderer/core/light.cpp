@@ -35,6 +35,11 @@ glm::dvec3 linearSrgbOf(const glm::dvec3& xyz) {
 
 } // namespace
 
+double radiusOf(const Light& light) {
+  if (light.type != LightType::directional) return light.radius.value_or(0.0);
+  return std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
+}
+
 glm::dvec3 directionOf(const Light& light) {
   if (light.sun) {
     const double azimuth = glm::radians(light.sun->azimuthDegrees);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "renderer/core/aabb.h"
+
+namespace gnomon {
+
+/// How far from a receiver's own place a caster may stand that takes a share of a light's disc from it.
+struct PenumbraReach {
+  double nearest = 0; ///< light space z of the caster nearest to the light
+  double radius = 0;  ///< metres across the light
+};
+
+/// The least z (light space) of the part of a box that lies over a rectangle of the map; none where no part does.
+/// `lightFromBox`: a turn and a shift.
+std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
+                                  const glm::dvec2& highest);
+
+/// Parallel light whose disc's edge is `lightRadius` off its middle (a tangent): the casters in `scene`, a box that
+/// `lightFromScene` takes to light space, and the receivers in a box of light space. Only the casters over the
+/// receivers and the penumbra around them count: each bounds how far the others matter. Never too little.
+PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const glm::dmat4& lightFromScene,
+                            double lightRadius);
+
+/// The same for light from a ball of `lightRadius` metres as a tangent: the widest that the penumbra shows from the
+/// light between casters no nearer than `nearest` and receivers no farther than `farthest`, metres along the tile's
+/// direction.
+double penumbraTangent(double nearest, double farthest, double lightRadius);
+
+} // namespace gnomon
