@@ -4,7 +4,7 @@
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
 // Views of one light, chosen by debug.light.
 const showsOneLight = ({ state: { view } }) => ['cascades', 'shadow'].includes(view) || kDebugViews.some(([name]) => name === view);
-const soft = (store) => shadowed(store) && store.effective('shadow.filter.type') !== 'hard';
+const soft = (store) => shadowed(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
 const one = (path, value) => (store) => store.effective(path) === value;
 
 // A manual range needs both its ends, an automatic one takes none.
@@ -14,9 +14,9 @@ function chooseDepthRange(mode, store) {
   store.setSpec('shadow.depthRange', { mode, min: 0, max: Number(far.toPrecision(3)) });
 }
 
-// A hard edge has no radius.
+// A hard edge has no radius, and pcss takes the light's own size.
 function chooseFilter(type, store) {
-  if (type === 'hard') store.clearSpec('shadow.filter.radius');
+  if (type === 'hard' || type === 'pcss') store.clearSpec('shadow.filter.radius');
   store.setSpec('shadow.filter.type', type);
 }
 
@@ -37,7 +37,7 @@ export const kSections = [
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: shadowed },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: shadowed },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: shadowed },
-      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM']], choose: chooseFilter, needs: shadowed },
+      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: shadowed },
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across; wider is softer and slower', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => soft(store) && store.effective('shadow.filter.radius') == null },
       { path: 'shadow.filter.radius', label: 'Filter radius', says: 'Softness in metres, the same everywhere, instead of a width in texels', unit: 'm', needs: soft },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },

@@ -30,6 +30,7 @@ void appendTechniques(std::vector<ShadowVariant>& variants) {
   variants.push_back(filtered(FilterType::hard));
   variants.push_back(filtered(FilterType::pcf, 3));
   variants.push_back(filtered(FilterType::pcf, 5));
+  variants.push_back(filtered(FilterType::pcss));
   for (const TechniqueTraits& technique : kTechniqueTraits) {
     const std::string name(spell(technique.technique));
     if (technique.layered) variants.push_back({name, {{"technique", name}}});
@@ -39,7 +40,7 @@ void appendTechniques(std::vector<ShadowVariant>& variants) {
 void appendFilters(std::vector<ShadowVariant>& variants) {
   for (const Spelling& spelling : kSpellings<FilterType>) {
     const auto type = static_cast<FilterType>(spelling.value);
-    if (type == FilterType::hard) {
+    if (type == FilterType::hard || type == FilterType::pcss) {
       variants.push_back(filtered(type));
       continue;
     }

@@ -87,6 +87,9 @@ inline constexpr std::array kSpellings<FilterType>{
     spelling(FilterType::vsm, "vsm", "variance shadow map, blurred"),
     spelling(FilterType::evsm, "evsm", "exponential variance shadow map, blurred: leaks less light"),
     spelling(FilterType::msm, "msm", "moment shadow map of four moments, blurred: leaks less light"),
+    spelling(FilterType::pcss, "pcss",
+             "percentage-closer soft shadows: sharp at the caster's foot, the softer the farther the caster, from the "
+             "light's `angularDiameterDegrees` or `radius`"),
 };
 static_assert(spellsAll<FilterType>());
 

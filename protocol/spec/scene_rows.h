@@ -140,13 +140,13 @@ inline constexpr auto kRows<Light> =
                 .range = {0, 90, true, true}}),
          field("angularDiameterDegrees", &Light::angularDiameterDegrees,
                {.says = "Angle that the light's disc spans in the sky, 0.53 for the real sun; directional lights only; "
-                        "absent = 0. Only technique rayTraced and the exact reference draw a soft shadow for it; the "
-                        "other techniques draw a sharp one.",
+                        "absent = 0. Technique rayTraced, filter pcss and the exact reference draw a soft shadow for "
+                        "it; the others know no size.",
                 .unit = "degrees",
                 .range = {0, 90}}),
          field("radius", &Light::radius,
-               {.says = "Radius of the glowing ball; spot and point lights; absent = 0. Only technique rayTraced and "
-                        "the exact reference draw a soft shadow for it; the other techniques draw a sharp one.",
+               {.says = "Radius of the glowing ball; spot and point lights; absent = 0. Technique rayTraced, filter "
+                        "pcss and the exact reference draw a soft shadow for it; the others know no size.",
                 .unit = "metres",
                 .range = {0, 1e6}}),
          field("color", &Light::color,

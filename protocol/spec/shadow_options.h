@@ -12,7 +12,7 @@ enum class ShadowImportance { low, medium, high };
 enum class PartitionMode { manual, uniform, logarithmic };
 enum class DepthRangeMode { automatic, manual };
 enum class Stabilization { none, projectionSnapping, viewSnapping };
-enum class FilterType { hard, pcf, vsm, evsm, msm };
+enum class FilterType { hard, pcf, vsm, evsm, msm, pcss };
 enum class BiasMode { automatic, manual };
 enum class BlendedCasters { dither, threshold };
 
@@ -47,8 +47,9 @@ struct DepthRange {
 
 struct Filter {
   FilterType type = FilterType::pcf;
-  int size = 5;                   ///< texels across, 3, 5 or 7; not for hard, nor with a radius
-  std::optional<double> radius{}; ///< metres in the world, instead of size: one softness for all tiles; not for hard
+  int size = 5; ///< texels across, 3, 5 or 7; not for hard and pcss, nor with a radius
+  std::optional<double>
+      radius{}; ///< metres in the world, instead of size: one softness for all tiles; not for hard and pcss
 
   bool operator==(const Filter&) const = default;
 };

@@ -61,17 +61,18 @@ template <>
 inline constexpr auto kRows<Filter> =
     rows("Filter", "How the shadow map is sampled.",
          field("type", &Filter::type,
-               {.says = "How the texels of the map are combined. `hard` is fastest; `pcf` costs time when shading; the "
-                        "others blur every tile first."}),
+               {.says = "How the texels of the map are combined. `hard` is fastest; `pcf` costs time when shading, and "
+                        "`pcss` more: 32 texels searched and 32 comparisons where a caster is near; the others blur "
+                        "every tile first."}),
          field("size", &Filter::size,
                {.says = "Width of the kernel. Wider is softer and slower, and darkens concave corners farther out. "
-                        "Ignored by `hard` and when `radius` is set.",
+                        "Ignored by `hard`, `pcss` and when `radius` is set.",
                 .unit = "texels",
                 .range = {3, 7},
                 .choices = choices(3, 5, 7)}),
          field("radius", &Filter::radius,
                {.says = "Radius of the kernel in the world, instead of `size`: the same softness in every cascade. "
-                        "Larger is slower; refused with `hard`.",
+                        "Larger is slower; refused with `hard`, and with `pcss`, which takes the light's own size.",
                 .unit = "metres",
                 .range = kLengthRange}));
 static_assert(kRowsAreComplete<Filter>);

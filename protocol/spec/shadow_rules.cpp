@@ -88,12 +88,15 @@ void appendPreviousRangeRules(const DepthRange& range, const std::string& pointe
 }
 
 void appendFilterRules(const Filter& filter, const std::string& pointer, std::vector<BrokenRule>& broken) {
-  if (filter.type != FilterType::hard || !filter.radius) return;
+  if (!filter.radius || (filter.type != FilterType::hard && filter.type != FilterType::pcss)) return;
+  const bool hard = filter.type == FilterType::hard;
   broken.push_back({{.code = ProblemCode::invalidValue,
                      .pointer = pointer + "/radius",
-                     .detail = "A hard shadow has no radius.",
+                     .detail = hard ? "A hard shadow has no radius."
+                                    : "Filter pcss is as soft as the light's own size: angularDiameterDegrees or "
+                                      "radius of the light.",
                      .limit = "filter type pcf, vsm, evsm or msm",
-                     .actual = "hard"},
+                     .actual = std::string(spell(filter.type))},
                     {pointer + "/type"}});
 }
 

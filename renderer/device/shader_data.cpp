@@ -55,6 +55,8 @@ int filterKind(const FilterKernel& filter) {
       return GNOMON_FILTER_KERNEL;
     case MapReadingKind::disc:
       return GNOMON_FILTER_DISC;
+    case MapReadingKind::pcss:
+      return GNOMON_FILTER_PCSS;
     case MapReadingKind::vsm:
       return GNOMON_FILTER_VSM;
     case MapReadingKind::evsm:
@@ -80,7 +82,8 @@ shared::LightData packed(const LitLight& light) {
     out.coneScale = falloff.x;
     out.coneOffset = falloff.y;
   }
-  out.filterRadius = static_cast<float>(light.filter.radius);
+  out.filterRadius =
+      static_cast<float>(light.filter.kind == MapReadingKind::pcss ? light.filter.lightRadius : light.filter.radius);
   out.fadesOut = light.fadesOut ? 1 : 0;
   out.firstTile = static_cast<unsigned>(light.firstTile);
   out.tileCount = static_cast<unsigned>(light.tileCount);
@@ -133,6 +136,7 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   out.texelDepth = static_cast<float>(std::abs(step.x));
   out.right = glm::vec3(tile.space.basis.right * step.x);
   out.up = glm::vec3(tile.space.basis.up * step.y);
+  out.filterReach = static_cast<float>(fit.radius);
   return out;
 }
 

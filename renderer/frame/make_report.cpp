@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "renderer/core/light.h"
 #include "renderer/shadow/filter_kernel.h"
 
 namespace gnomon {
@@ -124,10 +125,17 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
   if (part) sum = sum.value_or(0.0) + *part;
 }
 
-/// What a light with a size loses to a technique that knows none.
+/// What a light with a size loses to a technique that knows none, and one without to a filter that needs it.
 std::string sharpNote(const Light& light) {
-  const bool sized = light.angularDiameterDegrees.value_or(0) > 0 || light.radius.value_or(0) > 0;
-  if (!sized || traitsOf(light.shadow->technique).knowsSize) return "";
+  const bool sized = radiusOf(light) > 0;
+  const TechniqueTraits& technique = traitsOf(light.shadow->technique);
+  if (technique.mapped && !technique.layered) {
+    const bool wanted = light.shadow->filter.type == FilterType::pcss;
+    if (wanted == sized) return "";
+    return wanted ? "it has no size: filter pcss draws its shadow sharp"
+                  : "its size is ignored: of all filters only pcss knows it";
+  }
+  if (!sized || technique.knowsSize) return "";
   return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 

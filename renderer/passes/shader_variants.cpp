@@ -40,6 +40,7 @@ void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& d
   if (shadows.kinds.size() == 1) defines.push_back("FILTER_KIND " + std::to_string(*shadows.kinds.begin()));
   if (shadows.texels.size() == 1) defines.push_back("FILTER_SIZE " + std::to_string(*shadows.texels.begin()));
   if (shadows.kinds.contains(GNOMON_FILTER_DISC)) defines.emplace_back("FILTER_DISC");
+  if (shadows.kinds.contains(GNOMON_FILTER_PCSS)) defines.emplace_back("FILTER_PCSS");
   if (shadows.moments) defines.emplace_back("FILTER_MOMENTS");
   if (shadows.manualBias) defines.emplace_back("MANUAL_BIAS");
   if (shadows.atlasSamples > 1) defines.push_back("ATLAS_SAMPLES " + std::to_string(shadows.atlasSamples));

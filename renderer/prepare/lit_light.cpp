@@ -47,7 +47,7 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
     LitLight& light = lit[index];
     light.firstTile = planned.firstTile;
     light.tileCount = planned.tileCount;
-    light.filter = kernelOf(shadow.filter);
+    light.filter = kernelOf(shadow.filter, radiusOf(lights[index]));
     light.manualBias = manualBias(shadow.bias);
     light.fadesOut = planned.fadeOut;
     light.strength = shadow.strength;

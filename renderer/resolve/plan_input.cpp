@@ -76,6 +76,7 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Re
     }
     if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
     caster.range = light.range.value_or(0.0);
+    caster.lightRadius = radiusOf(light);
     caster.outerCone = glm::radians(light.outerConeDegrees);
     caster.casts = (light.cullingMask & frame.layers.casting) != 0;
     caster.shadows = (light.cullingMask & frame.layers.receiving) != 0;

@@ -2,6 +2,7 @@
 #include "common_shadow_lookup.glsl"
 #include "common_shadow_filter.glsl"
 #include "common_shadow_disc.glsl"
+#include "common_shadow_pcss.glsl"
 #include "common_shadow_moments.glsl"
 #include "common_shadow_choice.glsl"
 
@@ -23,7 +24,12 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
   if (kind == GNOMON_FILTER_DISC) {
     vec2 radius = light.filterRadius * tile.atlasPerMetre * atlasTexelCount() / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + max(radius.x, radius.y));
-    return discVisibility(tile, at, slope, light.filterRadius);
+    return discVisibility(tile, at, slope, discRadius(tile, at, light.filterRadius));
+  }
+#endif
+#ifdef FILTER_PCSS
+  if (kind == GNOMON_FILTER_PCSS) {
+    return pcssVisibility(light, tile, at, slope) * shareAbovePlane(light, receiver, toLight);
   }
 #endif
 #ifdef FILTER_SIZE

@@ -1,6 +1,7 @@
-// Percentage-closer filtering over a disc of the world.
-#ifdef FILTER_DISC
+// Percentage-closer filtering over a disc of the world, and over one as wide as the penumbra.
+#if defined(FILTER_DISC) || defined(FILTER_PCSS)
 const int kDiscTaps = 32;
+const float kGoldenAngle = 2.39996323;
 
 // Where the picture shows the receiver.
 #ifndef SHADED_PIXEL
@@ -11,16 +12,14 @@ const int kDiscTaps = 32;
 // (Jimenez, "Next Generation Post Processing in Call of Duty", 2014: interleaved gradient noise.)
 float discTurn() { return 6.2831853 * fract(52.9829189 * fract(dot(SHADED_PIXEL, vec2(0.06711056, 0.00583715)))); }
 
+// `radius`: a length across the light.
 float discVisibility(TileData tile, Lookup at, vec2 slope, float radius) {
   vec2 texels = atlasTexelCount();
-#ifdef PUNCTUAL
-  if (!isParallel(tile)) radius = min(radius / at.divisor, 0.5); // kWidestTangent of renderer/shadow/fit.h
-#endif
   float turn = discTurn();
   float sum = 0.0;
   for (int i = 0; i < kDiscTaps; ++i) {
     // Vogel's spiral: equal areas.
-    float angle = turn + float(i) * 2.39996323;
+    float angle = turn + float(i) * kGoldenAngle;
     vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(kDiscTaps)));
     vec2 place = at.coordinate.xy + step * tile.atlasPerMetre;
     bool outside = any(lessThan(place, tile.lowest)) || any(greaterThan(place, tile.highest));
@@ -28,5 +27,15 @@ float discVisibility(TileData tile, Lookup at, vec2 slope, float radius) {
     sum += outside ? 1.0 : tapVisibility(place * texels, PlaneDepths(depth, slope));
   }
   return sum / float(kDiscTaps);
+}
+#endif
+
+#ifdef FILTER_DISC
+// `radius`: metres; as a length across the light.
+float discRadius(TileData tile, Lookup at, float radius) {
+#ifdef PUNCTUAL
+  if (!isParallel(tile)) return min(radius / at.divisor, 0.5); // kWidestTangent of renderer/shadow/fit.h
+#endif
+  return radius;
 }
 #endif

@@ -25,12 +25,13 @@ constexpr std::array kFilters{
     FilterTraits{FilterType::vsm, MapReadingKind::vsm, MapReadingKind::vsm, true, true},
     FilterTraits{FilterType::evsm, MapReadingKind::evsm, MapReadingKind::evsm, true, true},
     FilterTraits{FilterType::msm, MapReadingKind::msm, MapReadingKind::msm, true, true},
+    FilterTraits{FilterType::pcss, MapReadingKind::pcss, MapReadingKind::pcss, false, false},
 };
 static_assert(rowsAreComplete(kFilters, &FilterTraits::type));
 
 } // namespace
 
-FilterKernel kernelOf(const Filter& filter) {
+FilterKernel kernelOf(const Filter& filter, double lightRadius) {
   const FilterTraits& traits = kFilters[static_cast<std::size_t>(filter.type)];
   FilterKernel kernel;
   kernel.moments = traits.moments;
@@ -40,6 +41,10 @@ FilterKernel kernelOf(const Filter& filter) {
   } else {
     kernel.kind = traits.bySize;
     kernel.size = traits.sized ? filter.size : 1;
+  }
+  if (kernel.kind == MapReadingKind::pcss) {
+    kernel.lightRadius = lightRadius;
+    if (!(lightRadius > 0)) kernel.kind = MapReadingKind::texels;
   }
   kernel.reach = 0.5 * (kernel.size + 1);
   kernel.border = static_cast<int>(std::ceil(kernel.reach)) + 1;

@@ -11,6 +11,7 @@ namespace gnomon {
 enum class MapReadingKind {
   texels, ///< comparisons over a square of texels
   disc,   ///< comparisons over a disc of the world
+  pcss,   ///< the same, as wide as the penumbra of the casters that a search finds
   vsm,    ///< moments of blurred depths, as all that follow
   evsm,
   msm
@@ -19,9 +20,10 @@ enum class MapReadingKind {
 /// What a filter reads around the point that it is asked for: all that any stage knows of a filter.
 struct FilterKernel {
   MapReadingKind kind = MapReadingKind::texels;
-  int size = 1;         ///< texels along a side that are compared or blurred; 1 with a radius
-  double radius = 0;    ///< metres around the point that are read besides; 0 = none
-  bool moments = false; ///< the map's depths are blurred, not compared one by one
+  int size = 1;           ///< texels along a side that are compared or blurred; 1 with a radius
+  double radius = 0;      ///< metres around the point that are read besides; 0 = none
+  double lightRadius = 0; ///< pcss: of the light, see radiusOf in renderer/core/light.h
+  bool moments = false;   ///< the map's depths are blurred, not compared one by one
   /// Texels along an axis to the farthest texel centre that gets a weight. A comparison is bilinear: it weighs centres
   /// up to 1 away. hard is one of them; pcf is `size` of them a texel apart, the outermost (size - 1) / 2 away. So it
   /// is the row's r + 0.5 with the bilinear kernel's r = size / 2: 1 (hard), 2, 3, 4 (pcf 3, 5, 7).
@@ -32,7 +34,8 @@ struct FilterKernel {
   int border = 2;
 };
 
-FilterKernel kernelOf(const Filter& filter);
+/// `lightRadius`: of the light; without one, pcss is a sharp comparison.
+FilterKernel kernelOf(const Filter& filter, double lightRadius = 0);
 
 /// Texels of error in a lookup's position, at most: see finestTexel.
 inline constexpr double kTexelNoise = 1.0 / 32.0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/shadow/penumbra_reach.h"
+
 namespace gnomon {
 
 namespace {
@@ -27,6 +29,12 @@ double depthMargin(double depthLength, double moved, double magnitude) {
 /// plane, and must still stand clear of what it shades, for moments can't tell close depths apart.
 double clearance(const FitTarget& target, double depthLength, double width) {
   return target.kernel.moments ? std::max(depthLength, 0.25 * width) : 0.0;
+}
+
+/// Where a tile's depths begin that must hold these: pcss asks how far the casters are, and a clamped one doesn't say.
+double beginOfDepths(double near, const FitTarget& target) {
+  if (!target.nearestCaster) return near;
+  return std::min(near, *target.nearestCaster - 2.0 * depthRounding(target.magnitude));
 }
 
 /// The normal offset N of a box of `extent` metres on `inner` texels that must have room for N on every side:
@@ -74,8 +82,9 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   fit.lowest = glm::dvec2(receiversLs.center()) - fit.texelSize * (0.5 * target.tileSize);
   const double margin = depthMargin(length.z, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
   const double clear = clearance(target, length.z, std::max(read.x, read.y));
-  fit.depthNear = receiversLs.min.z - margin - clear;
-  fit.depthExtent = length.z + 2.0 * margin + clear;
+  const double near = receiversLs.min.z - margin - clear;
+  fit.depthNear = beginOfDepths(near, target);
+  fit.depthExtent = length.z + 2.0 * margin + clear + (near - fit.depthNear);
   return fit;
 }
 
@@ -100,8 +109,9 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   const double depthLength = 2.0 * sphere.radius + step;
   const double margin = depthMargin(depthLength, fit.normalOffset + planeRoom(target, fit.texelSize), target.magnitude);
   const double clear = clearance(target, depthLength, depthLength);
-  fit.depthNear = snapped.z - 0.5 * depthLength - margin - clear;
-  fit.depthExtent = depthLength + 2.0 * margin + clear;
+  const double near = snapped.z - 0.5 * depthLength - margin - clear;
+  fit.depthNear = beginOfDepths(near, target);
+  fit.depthExtent = depthLength + 2.0 * margin + clear + (near - fit.depthNear);
   return fit;
 }
 
@@ -126,6 +136,10 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   fit.perspective = true;
   fit.radius =
       target.kernel.moments ? std::min(target.kernel.radius / blurred, kWidestTangent) : tangent(target.kernel.radius);
+  if (target.nearestCaster) {
+    const double nearest = std::max(*target.nearestCaster, kNearShare * seen.max.z);
+    fit.radius = std::min(penumbraTangent(nearest, seen.max.z, target.kernel.lightRadius), kWidestTangent);
+  }
   const double offset = target.kernel.moments ? std::sqrt(2.0) * fit.radius : 0.0;
   glm::dvec2 room(0.0);
   for (int turn = 0; turn < 16; ++turn) {
@@ -142,7 +156,7 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
   const double near = seen.min.z * (1.0 - std::min(fit.normalOffset + planeRoom(target, fit.texelSize), 0.5)) -
                       2.0 * depthRounding(target.magnitude);
   const double clear = target.kernel.moments ? std::max(0.5 * near, far - near) : 0.0;
-  fit.depthNear = std::max(near - clear, kNearShare * far);
+  fit.depthNear = std::max(beginOfDepths(near - clear, target), kNearShare * far);
   fit.depthExtent = far - fit.depthNear;
   return fit;
 }

@@ -64,9 +64,10 @@ struct Fit {
 struct FitTarget {
   int tileSize = 0; ///< texels along a side, border included; at least kSmallestTile (tile_size.h)
   FilterKernel kernel;
-  double reach = 0;                     ///< metres from the eye to the farthest receiver
-  double magnitude = 0;                 ///< metres from the eye to the farthest thing drawn, see depthRounding
-  std::optional<double> manualOffset{}; ///< metres along the normal that were asked for, instead of the analytic ones
+  double reach = 0;                      ///< metres from the eye to the farthest receiver
+  double magnitude = 0;                  ///< metres from the eye to the farthest thing drawn, see depthRounding
+  std::optional<double> nearestCaster{}; ///< pcss: light space z; no caster's depth is clamped
+  std::optional<double> manualOffset{};  ///< metres along the normal that were asked for, instead of the analytic ones
 };
 
 /// The widest radius of a filter as light from a point sees it, a tangent: nearer to the light, softness shrinks.

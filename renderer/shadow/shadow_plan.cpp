@@ -9,6 +9,7 @@
 #include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/fit.h"
 #include "renderer/shadow/light_draft.h"
+#include "renderer/shadow/penumbra_reach.h"
 #include "renderer/shadow/receiver_pieces.h"
 #include "renderer/shadow/tile_size.h"
 
@@ -118,6 +119,31 @@ double orthographicReach(const CameraView& view) {
   return view.perspective ? 0.0 : 0.1 * (view.far - view.near);
 }
 
+glm::dmat4 lightFromAnchored(const TileDraft& draft, const PlanInput& input) {
+  return lightFromRelative(draft.basis, anchoredOrigin(input, draft));
+}
+
+Aabb anchoredScene(const PlanInput& input) {
+  return {input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
+}
+
+/// The reach of a search for casters. A stable fit's is one for every place of the camera: between the scene's two ends
+/// along the light, and what a slice of the view may lie beyond them.
+void addPenumbra(const TileDraft& draft, const LightDraft& light, const PlanInput& input, const DepthInterval& depths,
+                 FitTarget& target) {
+  const Aabb scene = anchoredScene(input);
+  const glm::dmat4 toLight = lightFromAnchored(draft, input);
+  if (light.stable) {
+    const Aabb box = transformed(toLight, scene);
+    target.nearestCaster = box.min.z;
+    target.kernel.radius = target.kernel.lightRadius * (box.max.z - box.min.z + sliceSphere(input.view, depths).radius);
+    return;
+  }
+  const PenumbraReach reach = penumbraReach(boxAround(draft.receivers), scene, toLight, target.kernel.lightRadius);
+  target.nearestCaster = reach.nearest;
+  target.kernel.radius = reach.radius;
+}
+
 Fit cascadeFit(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster, const PlanInput& input,
                FitTarget& target) {
   const DepthInterval depths{draft.cascade.near - depthSlack(input.view, draft.cascade.near),
@@ -126,6 +152,7 @@ Fit cascadeFit(const TileDraft& draft, const LightDraft& light, const ShadowCast
   target.reach = sliceReach(input.view, depths);
   target.magnitude =
       target.reach + glm::length(input.sceneBounds.max - input.sceneBounds.min) + orthographicReach(input.view);
+  if (target.kernel.kind == MapReadingKind::pcss) addPenumbra(draft, light, input, depths, target);
   const int snapTexels = caster.shadow.stabilization == Stabilization::viewSnapping ? 4 : 1;
   return light.stable ? stableFit(sliceSphere(input.view, depths), draft.basis, input.view.eye - input.anchor,
                                   snapTexels, target)
@@ -139,6 +166,9 @@ Fit faceFit(const TileDraft& draft, const LightDraft& light, const PlanInput& in
                                       : glm::length(draft.origin); // a stable fit knows no eye
   target.magnitude =
       std::max(fromEye, fromAnchor) + reach * (1.0 + std::sqrt(2.0) * draft.tanHalf) + orthographicReach(input.view);
+  if (target.kernel.kind == MapReadingKind::pcss) {
+    target.nearestCaster = transformed(lightFromAnchored(draft, input), anchoredScene(input)).min.z;
+  }
   return punctualFit(draft.receivers, draft.tanHalf, target);
 }
 
@@ -148,7 +178,7 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   tile.near = draft.cascade.near;
   tile.far = draft.cascade.far;
   tile.blendNear = draft.cascade.blendNear;
-  tile.filter = kernelOf(caster.shadow.filter);
+  tile.filter = kernelOf(caster.shadow.filter, caster.lightRadius);
   tile.space.basis = draft.basis;
   if (draft.receivers.empty()) return tile;
 

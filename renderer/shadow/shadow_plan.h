@@ -47,6 +47,7 @@ struct ShadowCaster {
   glm::dvec3 position{0}; ///< relative to the eye; spot and point
   double range = 0;       ///< metres; spot and point; 0 = no end
   double outerCone = 0;   ///< half angle, radians, less than a quarter turn; spot
+  double lightRadius = 0; ///< of the light itself, see radiusOf in renderer/core/light.h
   bool casts = true;      ///< something of its layers throws shadows
   bool shadows = true;    ///< something of its layers that the camera may see receives them
 };

@@ -58,7 +58,7 @@ std::vector<NamedScene> scenesFrom(const fs::path& assets) {
 /// Filtered before it is read, which costs as much as a dozen other maps.
 bool isPrefiltered(const FrameSpec& spec) {
   const FilterType type = spec.shadow.filter.type;
-  return type != FilterType::hard && type != FilterType::pcf;
+  return type != FilterType::hard && type != FilterType::pcf && type != FilterType::pcss;
 }
 
 /// Hard maps first: all others are held against them. Prefiltered ones last, and of them the middle size alone.

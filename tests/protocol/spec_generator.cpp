@@ -149,7 +149,8 @@ void mend(Shadow& shadow, const Atlas& atlas) {
   if (range.mode == DepthRangeMode::manual) range.previous.reset();
   if (!range.previous) range.guardDistance.reset();
   if (range.previous) order(range.previous->near, range.previous->far);
-  if (shadow.filter.type == FilterType::hard) shadow.filter.radius.reset();
+  const FilterType filter = shadow.filter.type;
+  if (filter == FilterType::hard || filter == FilterType::pcss) shadow.filter.radius.reset();
   if (shadow.bias.mode == BiasMode::automatic) shadow.bias = {};
   if (atlas.samples != 1 && shadow.technique == ShadowTechnique::hybrid) shadow.technique = ShadowTechnique::rayTraced;
   while (shadow.size && tileSide(*shadow.size, atlas) > atlas.size) {

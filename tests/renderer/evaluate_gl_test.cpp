@@ -43,7 +43,7 @@ TEST(Evaluate, ASweepMeasuresEveryFilterAgainstOneReference) {
   const ScenePtr box = testing::generatedScene("box_on_plane");
   const auto report = evaluated(box, evaluationOf(R"("sweep": "filters")"));
   ASSERT_TRUE(report) << report.problems()[0].detail;
-  ASSERT_EQ(report->rows.size(), 13u);
+  ASSERT_EQ(report->rows.size(), 14u);
   EXPECT_EQ(report->reference.frames, 1);
   EXPECT_GT(report->reference.milliseconds, 0);
   EXPECT_GT(report->reference.buildMilliseconds, 0);

@@ -160,9 +160,9 @@ TEST(Filters, X27_ManualBiasOfNothingShowsAcneAndASlopeCuresIt) {
 TEST(Filters, H4_AShadowBeginsAtItsCastersFoot) {
   const ScenePtr scene = testing::generatedScene("box_on_plane"); // 2 m wide, its middle at 0
   const Json lights = Json::parse(R"([
-      {"type":"directional","direction":[1,-1,0]},
-      {"type":"spot","position":[-6,6,0],"direction":[1,-1,0],"outerConeDegrees":40},
-      {"type":"point","position":[-6,6,0]}])");
+      {"type":"directional","direction":[1,-1,0],"angularDiameterDegrees":3},
+      {"type":"spot","position":[-6,6,0],"direction":[1,-1,0],"outerConeDegrees":40,"radius":0.2},
+      {"type":"point","position":[-6,6,0],"radius":0.2}])");
   for (const Json& light : lights) {
     for (const Json& filter : testing::everyFilter()) {
       Json spec = shadowSpec(light, filter);
@@ -202,8 +202,8 @@ TEST(Filters, H4_NoKernelReachesThroughARoof) {
   const ScenePtr scene = boardOverGround(0, 0, 20, 20, 0.5);
   for (const Json& filter : testing::everyFilter()) {
     // Blurred depths of a roof and of the ground under it can't be told apart.
-    if (filter["type"] != "pcf" && filter["type"] != "hard") continue;
-    Json spec = shadowSpec({{"type", "directional"}, {"direction", {1, -1, 0}}}, filter);
+    if (filter["type"] != "pcf" && filter["type"] != "hard" && filter["type"] != "pcss") continue;
+    Json spec = shadowSpec({{"type", "directional"}, {"direction", {1, -1, 0}}, {"angularDiameterDegrees", 3}}, filter);
     spec["shadow"]["size"] = "XSmall";
     spec["shadow"]["cascadeCount"] = 1;
     spec["camera"] = {{"eye", {0, 0.3, 3}}, {"target", {0, 0, 0}}};
@@ -236,8 +236,8 @@ TEST(Filters, D4_FourSamplesATexelAreComparedOneByOne) {
 
 TEST(Filters, D4_H4_FourSamplesShowNoAcne) {
   const ScenePtr scene = boardOverGround(0, -20, 1, 1, 1);
-  for (const char* light :
-       {R"({"type":"directional","direction":[1,-0.2,0.3]})", R"({"type":"point","position":[-8,2,0]})"}) {
+  for (const char* light : {R"({"type":"directional","direction":[1,-0.2,0.3],"angularDiameterDegrees":3})",
+                            R"({"type":"point","position":[-8,2,0],"radius":0.2})"}) {
     for (const Json& filter : testing::everyFilter()) {
       Json spec = shadowSpec(Json::parse(light), filter);
       spec["shadow"]["size"] = "XSmall";
@@ -245,7 +245,7 @@ TEST(Filters, D4_H4_FourSamplesShowNoAcne) {
       spec["camera"] = {{"eye", {0, 6, 6}}, {"target", {0, 0, 0}}};
       const Frame frame = renderJson(scene, spec.dump());
       // Blurred depths of a slope in a point light's map are no slope: they take a little light from it.
-      const bool blurred = filter["type"] != "hard" && filter["type"] != "pcf";
+      const bool blurred = filter["type"] != "hard" && filter["type"] != "pcf" && filter["type"] != "pcss";
       const float lit = blurred ? 0.8f : 0.999f;
       EXPECT_LE(std::count_if(floatsOf(frame).begin(), floatsOf(frame).end(), [&](float v) { return v < lit; }),
                 blurred ? 5 : 0)

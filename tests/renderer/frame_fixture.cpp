@@ -28,7 +28,7 @@ const Json& everyFilter() {
   static const Json filters = Json::parse(R"([
       {"type":"hard"},{"type":"pcf","size":3},{"type":"pcf","size":5},{"type":"pcf","size":7},{"type":"pcf","radius":0.1},
       {"type":"vsm","size":3},{"type":"vsm","radius":0.1},{"type":"evsm","size":5},{"type":"evsm","radius":0.1},
-      {"type":"msm","size":7},{"type":"msm","radius":0.1}])");
+      {"type":"msm","size":7},{"type":"msm","radius":0.1},{"type":"pcss"}])");
   return filters;
 }
 

@@ -48,9 +48,9 @@ Json planeSpec(double degrees, const Json& light, const Json& filter, const std:
 
 TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
   const Json lights = Json::parse(R"([
-      {"type":"point","position":[1,8,2]},
-      {"type":"spot","position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40},
-      {"type":"spot","position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":80}])");
+      {"type":"point","radius":0.2,"position":[1,8,2]},
+      {"type":"spot","radius":0.2,"position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40},
+      {"type":"spot","radius":0.2,"position":[1,8,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":80}])");
   for (const double degrees : {0.0, 20.0, 45.0, 75.0, 85.0, 89.0}) {
     const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
     for (const Json& light : lights) {
@@ -64,9 +64,9 @@ TEST(PunctualFrames, H4_NoAcneOnPlanesOfAnyTilt) {
 
 TEST(PunctualFrames, X24_H4_NoAcneWhereFacesAreStabilized) {
   const Json lights = Json::parse(R"([
-      {"type":"point","position":[1,3,2]},
-      {"type":"spot","position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40,"range":12},
-      {"type":"spot","position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":85}])");
+      {"type":"point","radius":0.1,"position":[1,3,2]},
+      {"type":"spot","radius":0.1,"position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":40,"range":12},
+      {"type":"spot","radius":0.1,"position":[1,3,2],"direction":[-0.1,-1,-0.2],"outerConeDegrees":85}])");
   for (const double degrees : {0.0, 30.0, 60.0}) {
     const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
     for (const Json& light : lights) {
@@ -83,9 +83,10 @@ TEST(PunctualFrames, X24_H4_NoAcneWhereFacesAreStabilized) {
 
 TEST(PunctualFrames, G5_H4_NoAcneUnderAnOrthographicCameraOfGreatDepth) {
   const ScenePtr scene = testing::sceneOf(tiltedPlane(0));
-  for (const Json& light :
-       Json::parse(R"([{"type":"point","position":[0,2,-2]},{"type":"directional","direction":[0,-1,0]},
-      {"type":"spot","position":[0,2,-2],"direction":[0,-1,0],"outerConeDegrees":50}])")) {
+  for (
+      const Json& light : Json::parse(
+          R"([{"type":"point","radius":0.2,"position":[0,2,-2]},{"type":"directional","direction":[0,-1,0],"angularDiameterDegrees":3},
+      {"type":"spot","radius":0.2,"position":[0,2,-2],"direction":[0,-1,0],"outerConeDegrees":50}])")) {
     for (const Json& filter : testing::everyFilter()) {
       Json spec = planeSpec(0, light, filter, "Small");
       spec["camera"] = {{"eye", {0, 8, 0}},
@@ -103,7 +104,8 @@ TEST(PunctualFrames, X32_NoSeamShowsWhereFacesMeet) {
     const ScenePtr scene = testing::sceneOf(tiltedPlane(degrees));
     const double angle = degrees * 3.14159265358979 / 180;
     for (const double height : {0.7, 2.0, 5.0}) {
-      const Json light = {{"type", "point"}, {"position", {0.3, height * std::cos(angle), height * std::sin(angle)}}};
+      const Json light = {
+          {"type", "point"}, {"radius", 0.1}, {"position", {0.3, height * std::cos(angle), height * std::sin(angle)}}};
       for (const char* size : {"XSmall", "Small", "Large"}) {
         for (const Json& filter : testing::everyFilter()) {
           const Frame frame = renderJson(scene, planeSpec(degrees, light, filter, size).dump());

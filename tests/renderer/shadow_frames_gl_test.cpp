@@ -29,7 +29,7 @@ std::string acneSpec(double degrees, const Json& filter, double eyeLift, int cas
   return Json{{"width", 128},
               {"height", 128},
               {"camera", {{"eye", {1.7, y, z}}, {"target", {0, 0, 0}}, {"up", {0.1, 0, -1}}}},
-              {"lights", {{{"type", "directional"}, {"direction", {0.03, -1, 0}}}}},
+              {"lights", {{{"type", "directional"}, {"direction", {0.03, -1, 0}}, {"angularDiameterDegrees", 1}}}},
               {"shadow", {{"filter", filter}, {"cascadeCount", cascades}, {"size", "Small"}}},
               {"antialiasing", "none"},
               {"views", {"shadow"}},

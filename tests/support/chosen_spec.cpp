@@ -59,8 +59,8 @@ json chosenCamera(Choices& choices, const ChosenScene& scene) {
 }
 
 json chosenFilter(Choices& choices, double metres) {
-  json filter = {{"type", choices.of({"pcf", "hard", "vsm", "evsm", "msm"})}};
-  if (filter["type"] != "hard" && choices.oneIn(4)) {
+  json filter = {{"type", choices.of({"pcf", "hard", "vsm", "evsm", "msm", "pcss"})}};
+  if (filter["type"] != "hard" && filter["type"] != "pcss" && choices.oneIn(4)) {
     filter["radius"] = metres * choices.factor(0.05, 0.005);
   } else if (choices.oneIn(2)) {
     filter["size"] = choices.of({3, 5, 7});

@@ -27,14 +27,13 @@ HWY_INLINE Float discRadius(const shared::TileData& tile, float lightRadius, con
   return min(lightRadius / divisor, 0.5f); // kWidestTangent of renderer/shadow/fit.h
 }
 
-/// `lightRadius`: metres. `asked`: lanes whose share counts.
+/// `radius`: a length across the light. `asked`: lanes whose share counts.
 inline Float discVisibility(const ShadowMaps& maps, int tileIndex, const Lookup& at, const Float2& slope,
-                            float lightRadius, const Float2& pixel, const Mask& asked) {
+                            const Float& radius, const Float2& pixel, const Mask& asked) {
   const shared::TileData& tile = maps.tiles[tileIndex];
   const TileMap& map = maps.maps[tileIndex];
   const Float2 texels(maps.atlasTexels);
   const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
-  const Float radius = discRadius(tile, lightRadius, at.divisor);
   const Float2 turn = discTurn(pixel);
   Float sum = 0.0f;
   for (const glm::vec2& tap : discSteps()) {

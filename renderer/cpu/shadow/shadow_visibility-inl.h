@@ -10,6 +10,7 @@
 #include "renderer/cpu/shadow/shadow_filter-inl.h"
 #include "renderer/cpu/shadow/shadow_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_moments-inl.h"
+#include "renderer/cpu/shadow/shadow_pcss-inl.h"
 #include "renderer/cpu/shadow/tile_choice-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,8 +35,12 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
     const glm::vec2 texels = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels;
     const Float radius = std::max(texels.x, texels.y) / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius);
-    return select(at.inside, discVisibility(maps, tileIndex, at, slope, light.filterRadius, receiver.place, read),
-                  1.0f);
+    const Float across = discRadius(tile, light.filterRadius, at.divisor);
+    return select(at.inside, discVisibility(maps, tileIndex, at, slope, across, receiver.place, read), 1.0f);
+  }
+  if (light.filterKind == GNOMON_FILTER_PCSS) {
+    const Float lit = pcssVisibility(maps, light, tileIndex, at, slope, receiver.place, read);
+    return select(at.inside, lit * shareAbovePlane(light, receiver, toLight), 1.0f);
   }
   at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
   return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize), 1.0f);

@@ -105,6 +105,7 @@ using glm::vec4;
 #define GNOMON_FILTER_VSM 2    // moments of blurred depths
 #define GNOMON_FILTER_EVSM 3
 #define GNOMON_FILTER_MSM 4
+#define GNOMON_FILTER_PCSS 5 // comparisons over a disc as wide as the penumbra
 #define GNOMON_READS_MOMENTS(kind) \
   ((kind) == GNOMON_FILTER_VSM || (kind) == GNOMON_FILTER_EVSM || (kind) == GNOMON_FILTER_MSM)
 
@@ -144,7 +145,7 @@ struct LightData {
   float strength;  // of its shadow; 0 = casts none
   float coneScale; // spot: the falloff is the square of cosine * coneScale + coneOffset, within 0..1
   float coneOffset;
-  float filterRadius; // metres; GNOMON_FILTER_DISC
+  float filterRadius; // GNOMON_FILTER_DISC: metres; GNOMON_FILTER_PCSS: the light's own, metres or a tangent
   uint fadesOut;      // 1 = its last tile fades to lit at the far end
   uint firstTile;
   uint tileCount;             // cascades or faces; 0 = no map
@@ -173,10 +174,10 @@ struct TileData {
   vec2 atlasPerMetre;  // atlas u v of a length across the light, at a divisor of 1
   vec3 axis;           // where the light travels in the tile's middle
   float texelDepth;    // length of `right`
-  vec3 right; // along u, as long as the depth that one texel's width along the light is worth (parallel), or its
-              // tangent times the negative of what 1 / distance is multiplied by in depths
-  float padding0;
-  vec3 up; // the same along v
+  vec3 right;        // along u, as long as the depth that one texel's width along the light is worth (parallel), or its
+                     // tangent times the negative of what 1 / distance is multiplied by in depths
+  float filterReach; // of its filter's disc at most, a length across the light
+  vec3 up;           // the same along v
   float padding1;
 };
 

@@ -37,7 +37,7 @@ TEST(FieldList, TellsTypeBoundsUnitAndDefault) {
   EXPECT_EQ(width.allowed, "1..16384");
   EXPECT_EQ(width.unit, "pixels");
   EXPECT_EQ(width.preset, "1280");
-  EXPECT_EQ(entryAt(entries, "shadow.filter.type").type, "hard | pcf | vsm | evsm | msm");
+  EXPECT_EQ(entryAt(entries, "shadow.filter.type").type, "hard | pcf | vsm | evsm | msm | pcss");
   EXPECT_EQ(entryAt(entries, "shadow.filter.size").allowed, "3, 5 or 7");
   EXPECT_EQ(entryAt(entries, "camera.eye").preset, "");
   EXPECT_EQ(entryAt(entries, "camera.node").type, "whole number or string");
@@ -56,8 +56,8 @@ TEST(FieldList, TheTableHasARowForEachFieldAndFiveCellsInEach) {
   }
   EXPECT_EQ(rows, frameFields().size() + 2);
   EXPECT_THAT(table, testing::HasSubstr(R"(| `atlas.samples` | whole number | 1 or 4 | `1` | Depths in each texel)"));
-  EXPECT_THAT(table,
-              testing::HasSubstr(R"(| `shadow.filter.type` | hard \| pcf \| vsm \| evsm \| msm |  | `"pcf"` | How)"));
+  EXPECT_THAT(table, testing::HasSubstr(
+                         R"(| `shadow.filter.type` | hard \| pcf \| vsm \| evsm \| msm \| pcss |  | `"pcf"` | How)"));
   EXPECT_THAT(table, testing::HasSubstr("hard = one sample, a sharp edge; pcf = ")) << "what each value means";
 }
 

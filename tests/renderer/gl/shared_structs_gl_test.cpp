@@ -62,7 +62,7 @@ const std::vector<Member> kTile{
     MEMBER(TileData, axis),
     MEMBER(TileData, texelDepth),
     MEMBER(TileData, right),
-    MEMBER(TileData, padding0),
+    MEMBER(TileData, filterReach),
     MEMBER(TileData, up),
     MEMBER(TileData, padding1),
 };

@@ -20,6 +20,16 @@ TEST(Bias, X13_KernelsAndTheirBorders) {
   EXPECT_EQ(kernelOf(pcf(5)).border, 4);
   EXPECT_EQ(kernelOf(pcf(7)).reach, 4);
   EXPECT_EQ(kernelOf(pcf(7)).border, 5);
+  EXPECT_EQ(kernelOf({FilterType::pcss, 7}, 0.1).reach, 1);
+  EXPECT_EQ(kernelOf({FilterType::pcss, 7}, 0.1).border, 2);
+}
+
+TEST(Bias, N6_PcssOfALightWithoutASizeIsOneComparison) {
+  EXPECT_EQ(kernelOf({FilterType::pcss}, 0.1).kind, MapReadingKind::pcss);
+  EXPECT_EQ(kernelOf({FilterType::pcss}, 0.1).lightRadius, 0.1);
+  EXPECT_EQ(kernelOf({FilterType::pcss}).kind, MapReadingKind::texels);
+  EXPECT_EQ(kernelOf({FilterType::pcss}).size, 1);
+  EXPECT_EQ(kernelOf({FilterType::pcf}, 0.1).lightRadius, 0) << "knows no size";
 }
 
 /// By how much the map's plane stands nearer the light than the moved receiver, at worst over the texels that a lookup

@@ -93,5 +93,38 @@ TEST(PenumbraReach, N1_OfALampItIsItsSizeAsTheCasterMakesItSeen) {
   EXPECT_GT(penumbraTangent(-1, 3, 0.2), 1e9) << "a caster may stand in the lamp";
 }
 
+TEST(PenumbraReach, N6_NoCasterOfATileIsClamped) {
+  EXPECT_TRUE(rc::check([](const RandomPlan& random) {
+    PlanInput input = random.input;
+    for (ShadowCaster& caster : input.casters) {
+      caster.shadow.filter = Filter{FilterType::pcss};
+      caster.lightRadius = std::max(caster.lightRadius, 1e-3);
+    }
+    const ShadowPlan plan = planShadows(input);
+    Dice dice(random.seed + 5);
+    for (std::size_t l = 0; l < plan.lights.size(); ++l) {
+      const PlannedLight& light = plan.lights[l];
+      for (int i = 0; i < light.tileCount; ++i) {
+        const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(light.firstTile + i)];
+        if (tile.rect.width == 0) continue;
+        RC_ASSERT(tile.filter.kind == MapReadingKind::pcss);
+        for (int k = 0; k < 50; ++k) {
+          const ReceiverPoint point = randomReceiver(dice, input);
+          if (point.depth < tile.near || point.depth > tile.far) continue;
+          const glm::dvec3 at = tileCoordinates(tile, point.relative);
+          const glm::dvec3 caster = tileCoordinates(tile, pointIn(dice, input.sceneBounds) - input.view.eye);
+          const double height = (at.z - caster.z) * tile.space.fit.depthExtent;
+          const double aside = glm::length(glm::dvec2(at - caster) * tile.space.fit.texelSize);
+          if (!(height > 0) || aside > tile.filter.lightRadius * height) continue;
+          RC_ASSERT(caster.z >= -1e-9);
+          // A stable tile's size can't follow receivers far below the scene.
+          if (input.casters[l].shadow.stabilization != Stabilization::none) continue;
+          RC_ASSERT(caster.x >= 0 && caster.y >= 0 && caster.x <= tile.rect.width && caster.y <= tile.rect.width);
+        }
+      }
+    }
+  }));
+}
+
 } // namespace
 } // namespace gnomon

@@ -107,8 +107,9 @@ inline Shadow randomShadow(Dice& dice) {
   }
   shadow.stabilization = static_cast<Stabilization>(dice.below(3));
   shadow.blendCascades = dice.chance(0.7);
-  shadow.filter.type = dice.chance(0.5) ? FilterType::pcf : static_cast<FilterType>(dice.below(5));
-  if (shadow.filter.type != FilterType::hard && dice.chance(0.3)) shadow.filter.radius = dice.between(0.01, 3);
+  shadow.filter.type = dice.chance(0.5) ? FilterType::pcf : static_cast<FilterType>(dice.below(6));
+  if (shadow.filter.type != FilterType::hard && shadow.filter.type != FilterType::pcss && dice.chance(0.3))
+    shadow.filter.radius = dice.between(0.01, 3);
   shadow.filter.size = 3 + 2 * dice.below(3);
   return shadow;
 }
@@ -142,7 +143,10 @@ inline RandomPlan randomPlan(const CameraView& view, unsigned seed) {
   input.atlas.size = 1 << (7 + dice.below(6));
   input.atlas.baseSize = 1 << (7 + dice.below(4));
   const int lights = 1 + dice.below(5);
-  for (int i = 0; i < lights; ++i) input.casters.push_back({i * 2, randomLightDirection(dice), randomShadow(dice)});
+  for (int i = 0; i < lights; ++i) {
+    input.casters.push_back({i * 2, randomLightDirection(dice), randomShadow(dice)});
+    input.casters.back().lightRadius = dice.chance(0.2) ? 0.0 : std::pow(10.0, dice.between(-3, 0));
+  }
   return plan;
 }
 

@@ -83,6 +83,7 @@ shared::TileData tileData(const Rect& rect, const Axes& axes, const vec3& origin
   tile.axis = axes.along;
   const vec2 step = texel * (perspective ? -kNearest * perspectiveDepth : 1.0f / 40);
   tile.texelDepth = std::abs(step.x);
+  tile.filterReach = 0.06f * across;
   tile.right = axes.right * step.x;
   tile.up = axes.up * step.y;
   return tile;

@@ -107,9 +107,30 @@ struct Reading {
     }
     return sum / all;
   }
+  /// The mean z from the receiver to what stands before it; negative where nothing does.
+  float casterHeight(const Lookup& at, float radius, vec2 pixel) const {
+    const vec2 texels = maps.atlasTexels;
+    const float turn = 6.2831853f * fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
+    const float lowered = map.depths->samples > 1 ? 0.5f * (abs(slope.x) + abs(slope.y)) : 0.0f;
+    float sum = 0;
+    int count = 0;
+    for (int i = 0; i < 32; ++i) {
+      const float angle = turn + static_cast<float>(i) * 2.39996323f;
+      const vec2 step = vec2(std::cos(angle), std::sin(angle)) * (radius * static_cast<float>(i * i) / (31.0f * 31.0f));
+      const vec2 place = vec2(at.coordinate) + step * tile.atlasPerMetre;
+      if (glm::any(glm::lessThan(place, tile.lowest)) || glm::any(glm::greaterThan(place, tile.highest))) continue;
+      const ivec2 texel(place * texels);
+      const float plane = at.coordinate.z + dot(slope, vec2(texel) + 0.5f - vec2(at.coordinate) * texels) - lowered;
+      const float seen = depth(texel, i % map.depths->samples);
+      if (seen >= min(plane, 1.0f)) continue;
+      sum += max(at.coordinate.z - seen, 0.0f);
+      ++count;
+    }
+    return count > 0 ? sum / static_cast<float>(count) : -1.0f;
+  }
+  /// `radius`: a length across the light.
   float disc(const Lookup& at, float radius, vec2 pixel) const {
     const vec2 texels = maps.atlasTexels;
-    if (!isParallel(tile)) radius = min(radius / at.divisor, 0.5f);
     const float turn = 6.2831853f * fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
     float sum = 0;
     for (int i = 0; i < 32; ++i) {
@@ -184,6 +205,15 @@ float momentDepth(const TileData& tile, const Lookup& at) {
   return clamp((at.divisor - tile.near) / (tile.far - tile.near) - bias, 0.0f, 1.0f);
 }
 
+/// The share of a disc that stands above the receiver's plane.
+float shareAbovePlane(const LightData& light, const AskedPoint& receiver) {
+  const float cosine = dot(receiver.normal, receiver.toLight);
+  const float away = light.type == GNOMON_DIRECTIONAL ? 1.0f : glm::length(light.position - receiver.relative);
+  const float x =
+      clamp(cosine * away / (std::sqrt(max(1.0f - cosine * cosine, 1e-12f)) * light.filterRadius), -1.0f, 1.0f);
+  return 0.5f + (std::asin(x) + x * std::sqrt(1.0f - x * x)) / 3.14159265f;
+}
+
 float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t index, const AskedPoint& receiver) {
   const TileData& tile = maps.tiles[index];
   Lookup at = lookupIn(light, tile, receiver);
@@ -197,7 +227,22 @@ float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t
   if (light.filterKind == GNOMON_FILTER_DISC) {
     const vec2 radius = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + max(radius.x, radius.y));
-    return reading.disc(at, light.filterRadius, receiver.place);
+    const bool parallel = isParallel(tile);
+    return reading.disc(at, parallel ? light.filterRadius : min(light.filterRadius / at.divisor, 0.5f), receiver.place);
+  }
+  if (light.filterKind == GNOMON_FILTER_PCSS) {
+    const vec2 perLength = tile.atlasPerMetre * maps.atlasTexels;
+    const float widest = max(perLength.x, perLength.y);
+    const float perDepth = light.filterRadius / (tile.texelDepth * perLength.x);
+    const float reach = min(perDepth * max(at.coordinate.z, 0.0f), tile.filterReach);
+    Lookup searched = at;
+    searched.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + reach * widest);
+    const float height = reading.casterHeight(searched, reach, receiver.place);
+    const float above = shareAbovePlane(light, receiver);
+    if (height < 0.0f) return above;
+    const float radius = min(perDepth * height, reach);
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius * widest);
+    return above * reading.disc(at, radius, receiver.place);
   }
   at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
   return reading.kernel(place, at.coordinate.z, light.filterSize);

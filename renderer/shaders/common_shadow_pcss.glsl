@@ -1,0 +1,67 @@
+// Percentage-closer soft shadows. (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005.) Depths of light from a
+// point are lines in 1 / distance, as the width of a penumbra is, seen from the light: one formula serves all lights.
+#ifdef FILTER_PCSS
+const int kSearchTaps = 32;
+
+// The radius of the penumbra, a length across the light, for each z between caster and receiver.
+float penumbraPerDepth(LightData light, TileData tile) {
+  return light.filterRadius / (tile.texelDepth * tile.atlasPerMetre.x * atlasTexelCount().x);
+}
+
+// Texels of a length across the light.
+float texelsAcross(TileData tile, float radius) {
+  vec2 texels = radius * tile.atlasPerMetre * atlasTexelCount();
+  return max(texels.x, texels.y);
+}
+
+// The mean z between the receiver and what stands before it within `radius`; negative where nothing does. The places are the
+// denser the nearer: they find low casters beside high ones.
+float casterHeight(TileData tile, Lookup at, vec2 slope, float radius) {
+  vec2 texels = atlasTexelCount();
+  float turn = discTurn();
+  float sum = 0.0;
+  float count = 0.0;
+  for (int i = 0; i < kSearchTaps; ++i) {
+    float angle = turn + float(i) * kGoldenAngle;
+    float share = float(i) / float(kSearchTaps - 1);
+    vec2 step = vec2(cos(angle), sin(angle)) * (radius * share * share);
+    vec2 place = at.coordinate.xy + step * tile.atlasPerMetre;
+    bool outside = any(lessThan(place, tile.lowest)) || any(greaterThan(place, tile.highest));
+    ivec2 texel = ivec2(place * texels);
+    float plane = at.coordinate.z + dot(slope, vec2(texel) + 0.5 - at.coordinate.xy * texels);
+#if ATLAS_SAMPLES > 1
+    plane -= 0.5 * (abs(slope.x) + abs(slope.y)); // a sample may lie half a texel off the centre
+#endif
+    float depth = outside ? 1.0 : texelFetch(atlas, texel, i % ATLAS_SAMPLES).r;
+    bool stands = depth < min(plane, 1.0);
+    sum += stands ? max(at.coordinate.z - depth, 0.0) : 0.0;
+    count += stands ? 1.0 : 0.0;
+  }
+  return count > 0.0 ? sum / count : -1.0;
+}
+
+// The share of the light's disc that stands above the receiver's own plane: (asin x + x sqrt(1 - x^2)) / pi + 1/2 to
+// within 0.0006, x from the light's middle to the plane in radii of the disc.
+float shareAbovePlane(LightData light, Receiver receiver, vec3 toLight) {
+  float cosine = dot(receiver.normal, toLight);
+  float x = cosine / (sqrt(max(1.0 - cosine * cosine, 1e-12)) * light.filterRadius);
+#ifdef PUNCTUAL
+  if (light.type != GNOMON_DIRECTIONAL) x *= length(light.position - receiver.relative);
+#endif
+  x = clamp(x, -1.0, 1.0);
+  float square = x * x;
+  return 0.5 + x * (0.6387 + square * (-0.1288 + square * (0.0457 - 0.0556 * square)));
+}
+
+float pcssVisibility(LightData light, TileData tile, Lookup at, vec2 slope) {
+  float perDepth = penumbraPerDepth(light, tile);
+  float reach = min(perDepth * max(at.coordinate.z, 0.0), tile.filterReach);
+  Lookup searched = at;
+  searched.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, reach));
+  float height = casterHeight(tile, searched, slope, reach);
+  if (height < 0.0) return 1.0;
+  float radius = min(perDepth * height, reach);
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, radius));
+  return discVisibility(tile, at, slope, radius);
+}
+#endif
