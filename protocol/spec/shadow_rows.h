@@ -152,8 +152,9 @@ inline constexpr auto kRows<Shadow> = rows(
     field("lightMap", &Shadow::lightMap,
           {.says = "Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces."}),
     field("raySamples", &Shadow::raySamples,
-          {.says = "Technique rayTraced: rays for each pixel towards a light that has a size. Noise falls with the "
-                   "square root of the number, time grows with it; lights without a size take one ray.",
+          {.says = "Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only "
+                   "penumbras take so many; where a pixel and its neighbours agree, and for lights without a size, one "
+                   "ray does.",
            .unit = "rays",
            .range = {1, kLimits.maxRaySamples}}));
 static_assert(kRowsAreComplete<Shadow>);

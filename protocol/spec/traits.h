@@ -85,7 +85,7 @@ struct TechniqueTraits {
 inline constexpr std::array kTechniqueTraits{
     //               technique                    mapped layered traced baked  edges  size   opaque one depth
     TechniqueTraits{ShadowTechnique::shadowMap,    true,  false, false, false, false, false, false, false},
-    TechniqueTraits{ShadowTechnique::hybrid,       true,  true,  true,  false, true,  false, false, true},
+    TechniqueTraits{ShadowTechnique::hybrid,       true,  true,  true,  false, true,  true,  false, true},
     TechniqueTraits{ShadowTechnique::shadowVolume, false, true,  false, false, true,  false, true,  false},
     TechniqueTraits{ShadowTechnique::rayTraced,    false, true,  true,  false, false, true,  false, false},
     TechniqueTraits{ShadowTechnique::lightMap,     false, true,  true,  true,  false, true,  false, false},

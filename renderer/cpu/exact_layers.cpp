@@ -19,10 +19,9 @@ SampleGrid gridOf(const DepthBuffer& surfaces) {
 }
 
 ShownNumbers shownNumbers(const DepthBuffer& surfaces) {
-  ShownNumbers shown{surfaces.triangles, {}, {}};
+  ShownNumbers shown{surfaces.triangles, {}, {}, static_cast<std::uint32_t>(kBlockPlaces)};
   for (int x = 0; x < surfaces.width; ++x) shown.ofColumn.push_back(static_cast<std::uint32_t>(surfaces.at(x, 0)));
   for (int y = 0; y < surfaces.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(surfaces.at(0, y)));
-  shown.ofSample = kBlockPlaces;
   return shown;
 }
 
@@ -85,7 +84,6 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   const auto traced = work.traced();
   if (!traced) return traced.problems();
   const std::vector<Light>& lights = *work.frame.spec.lights;
-  const std::vector<Light> sharp = withoutSizes(lights);
   const SampleGrid grid = gridOf(surfaces);
   const ShownNumbers shown = shownNumbers(surfaces);
   const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
@@ -96,16 +94,12 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   for (const int light : work.layered) {
     const auto start = std::chrono::steady_clock::now();
     const Shadow& shadow = *lights[static_cast<std::size_t>(light)].shadow;
-    TraceInput own = rays;
     if (traitsOf(shadow.technique).baked) {
-      const auto baked = work.baked(light);
-      exact.values.push_back(bakedShadow(points, *baked));
+      exact.values.push_back(bakedShadow(points, *work.baked(light)));
       exact.lights.push_back({light, millisecondsSince(start), {}});
       continue;
     }
-    const bool isHybrid = traitsOf(shadow.technique).mapSparesRays();
-    if (isHybrid) own.lights = sharp;
-    TracedShadow found = tracedShadow(points, own, light, isHybrid ? 1 : shadow.raySamples);
+    TracedShadow found = tracedShadow(points, rays, light, shadow.raySamples);
     exact.values.push_back(std::move(found.values));
     exact.lights.push_back({light, millisecondsSince(start), found.tracedPixels});
   }

@@ -127,7 +127,7 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
 
 /// What a light with a size loses to a technique that knows none, and one without to a filter that needs it.
 std::string sharpNote(const Light& light) {
-  const bool sized = radiusOf(light) > 0;
+  const bool sized = hasSize(light);
   const TechniqueTraits& technique = traitsOf(light.shadow->technique);
   if (technique.mapped && !technique.layered) {
     const bool wanted = light.shadow->filter.type == FilterType::pcss;
@@ -159,7 +159,10 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
     const std::string sharp = sharpNote(light);
     const bool unmapped = traitsOf(light.shadow->technique).mapSparesRays();
-    report.note = unmapped ? "rays alone decide: a map would cost more than the rays that it saves" : "";
+    report.note = !unmapped ? ""
+                  : hasSize(light)
+                      ? "rays alone decide: a map knows the middle of a light that has a size, not all of it"
+                      : "rays alone decide: a map would cost more than the rays that it saves";
     report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
   }
   for (std::size_t i = 0; i < plan.lights.size(); ++i) {

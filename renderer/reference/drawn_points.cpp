@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "renderer/core/instruction_sets.h"
 
@@ -62,6 +63,7 @@ DrawnView drawnView(const Sight& sight, double scale) {
 DrawnLight drawnLight(const LightSource& source, const glm::dvec3& eye, double scale) {
   DrawnLight light;
   light.directional = source.type == LightType::directional;
+  light.radius = static_cast<float>(light.directional ? source.radius : source.radius * scale);
   light.toward = glm::vec3(-source.axis);
   light.position = glm::vec3((source.position - eye) * scale);
   light.range = static_cast<float>(source.range * scale);
@@ -192,6 +194,49 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void aimAtLamp(DrawnLight light, DrawnPoints& po
 }
 
 } // namespace
+
+namespace {
+
+/// As discFromSquare of light_source.cpp.
+[[gnu::always_inline]] inline glm::vec2 discPlace(std::uint32_t x, std::uint32_t y) {
+  const float px = static_cast<float>(static_cast<std::int32_t>(x ^ 0x80000000u)) * 0x1p-31f;
+  const float py = static_cast<float>(static_cast<std::int32_t>(y ^ 0x80000000u)) * 0x1p-31f;
+  const int wide = when(std::fabs(px) > std::fabs(py));
+  const float radius = select(wide, px, py);
+  const float ratio = select(wide, py, px) / select(when(radius == 0), 1.0f, radius);
+  const float angle = 0.25f * std::numbers::pi_v<float> * ratio;
+  const float z = angle * angle;
+  const float along = radius * (1 + z * (-1.0f / 2 + z * (1.0f / 24 + z * (-1.0f / 720 + z * (1.0f / 40320)))));
+  const float aside = radius * angle * (1 + z * (-1.0f / 6 + z * (1.0f / 120 + z * (-1.0f / 5040))));
+  return {select(wide, along, aside), select(wide, aside, along)};
+}
+
+} // namespace
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void aimAside(const DrawnLight& to, const SquarePlaces& places, DrawnPoints& points) {
+  const DrawnLight light = to;
+  const int isLamp = when(!light.directional);
+  const float infinite = light.directional ? HUGE_VALF : 0.0f;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const glm::vec3 middle = select(isLamp, light.position - lane(points.relative, i), light.toward);
+    const glm::vec3 n = middle * (1.0f / std::sqrt(glm::dot(middle, middle)));
+    // As discFacing.
+    const float sign = select(when(n.z < 0), -1.0f, 1.0f);
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    const glm::vec3 across(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    const glm::vec3 up(b, sign + n.y * n.y * a, -n.y);
+    const glm::vec2 place = discPlace(places.x[i], places.y[i]) * light.radius;
+    const glm::vec3 offset = middle + across * place.x + up * place.y;
+    const float length = std::sqrt(glm::dot(offset, offset));
+    const glm::vec3 toward = offset * (1.0f / length);
+    const float cosine = glm::dot(lane(points.normal, i), toward);
+    points.sure[i] &= when(std::fabs(cosine) > points.turn[i] + 0x1p-12f);
+    points.leaves[i] = when(cosine > 0);
+    points.length[i] = length + infinite;
+    put(toward, points.toward, i);
+  }
+}
 
 void aim(const DrawnLight& light, DrawnPoints& points) {
   if (light.directional) {

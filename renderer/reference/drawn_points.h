@@ -20,9 +20,9 @@ struct DrawnView {
   glm::vec2 spread{0}, slope{0}; ///< as Sight
 };
 
-/// A light without a size.
 struct DrawnLight {
   bool directional = true;
+  float radius = 0;      ///< as LightSource::radius, in the tree's units; 0 = a point
   glm::vec3 toward{0};   ///< of a directional light; unit length
   glm::vec3 position{0}; ///< of the others, relative to the eye, in the tree's units
   float range = 0;       ///< in the tree's units; may be infinite
@@ -43,10 +43,11 @@ struct alignas(64) DrawnPoints {
   float start[3][kLanes];     ///< of rays, lifted off the surface by what rounding may have lowered it
   float unsure[kLanes];       ///< how far off the triangle's plane the point may lie
   float turn[kLanes];         ///< how wrong a cosine of the normal may be
-  float toward[3][kLanes];    ///< the light; unit length
+  float toward[3][kLanes];    ///< the light, or a place on it; unit length
   float length[kLanes];       ///< to the light; infinite for directional ones
   int faces[kLanes];          ///< the surface is turned to the light
   int reached[kLanes];        ///< the light shines as far as here, and in this direction
+  int leaves[kLanes];         ///< the way leads off the surface; of a light with a size some may not
   int sure[kLanes];           ///< floats can tell all that; else nothing else means anything
 
   /// `shown`: a triangle of the tree.
@@ -60,7 +61,15 @@ void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, Draw
 /// Finds each lane's point from its corners. (`view` is a copy, which no lane that is written can change.)
 void findPoints(DrawnView view, const DrawnPlaces& places, DrawnPoints& points);
 
-/// Finds the way from there to the light.
+/// Finds the way from there to the light's middle.
 void aim(const DrawnLight& light, DrawnPoints& points);
+
+/// Places in the unit square, one a lane, in units of 2^-32.
+struct SquarePlaces {
+  std::uint32_t x[kLanes], y[kLanes];
+};
+
+/// Turns the way to a place of the light's disc, as discFacing and discSample have it. REQUIRES: aim.
+void aimAside(const DrawnLight& light, const SquarePlaces& places, DrawnPoints& points);
 
 } // namespace gnomon

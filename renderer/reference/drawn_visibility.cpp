@@ -31,6 +31,14 @@ SurfacePoint exactly(const DrawnQuery& query, unsigned lane) {
   return point;
 }
 
+/// A place on a light is where the float says.
+WayToLight exactWay(const DrawnQuery& query, const SurfacePoint& point, unsigned lane) {
+  if (!(query.source->radius > 0)) return wayTo(*query.source, point.position);
+  const DrawnPoints& points = *query.points;
+  return {glm::normalize(glm::dvec3(laneOf(points.toward, lane))),
+          double{points.length[lane]} / query.casters->tree.scale};
+}
+
 /// The float's word where it is sure; else the exact point decides.
 double opacityOf(const DrawnQuery& query, const Candidate& hit) {
   const Casters& casters = *query.casters;
@@ -49,7 +57,7 @@ double opacityOf(const DrawnQuery& query, const Candidate& hit) {
     if (surelyMeets(ray, casters.tree.triangle(hit.instance, hit.triangle), rounding)) return 1;
   }
   const SurfacePoint point = exactly(query, hit.lane);
-  return opacityOf(casters, RayToLight{&point, wayTo(*query.source, point.position)}, hit);
+  return opacityOf(casters, RayToLight{&point, exactWay(query, point, hit.lane)}, hit);
 }
 
 void keepOpaque(const RTCFilterFunctionNArguments* call) {
@@ -83,6 +91,40 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   return shares;
 }
 
+/// The mean over rays `first` up to `last` to places all over the light, for each lane that is active. Lanes that
+/// floats can't tell one of the rays of become unsure instead.
+std::array<float, kLanes> meanThrough(DrawnQuery& query, DrawnPoints& points, const DrawnLight& light,
+                                      std::uint32_t first, std::uint32_t last, Lanes& lanes, Lanes& unsure) {
+  SquarePlaces shifts;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const SquarePlace shift =
+        shiftOf(static_cast<std::uint32_t>(query.places->x[i]), static_cast<std::uint32_t>(query.places->y[i]));
+    shifts.x[i] = shift.x;
+    shifts.y[i] = shift.y;
+  }
+  std::array<float, kLanes> sums{};
+  for (std::uint32_t ray = first; ray < last; ++ray) {
+    const SquarePlace place = sequencePlace(ray);
+    SquarePlaces places;
+    for (unsigned i = 0; i < kLanes; ++i) {
+      places.x[i] = place.x ^ shifts.x[i];
+      places.y[i] = place.y ^ shifts.y[i];
+    }
+    aimAside(light, places, points);
+    Lanes traced;
+    for (unsigned i = 0; i < kLanes; ++i) {
+      unsure.active[i] |= lanes.active[i] & ~points.sure[i];
+      lanes.active[i] &= points.sure[i];
+      traced.active[i] = lanes.active[i] & points.leaves[i];
+    }
+    if (!traced.any()) continue;
+    const std::array<float, kLanes> found = sharesThrough(query, traced);
+    for (unsigned i = 0; i < kLanes; ++i) sums[i] += traced.active[i] != 0 ? found[i] : 0.0f;
+  }
+  for (float& sum : sums) sum /= static_cast<float>(last - first);
+  return sums;
+}
+
 /// Of the lanes that are asked for: which ones a ray decides, which ones floats can't, and what the others see.
 void sort(const DrawnPoints& points, const Lanes& asked, Lanes& lit, Lanes& unsure, float* shares,
           std::uint8_t* turnedAway) {
@@ -103,8 +145,8 @@ void sort(const DrawnPoints& points, const Lanes& asked, Lanes& lit, Lanes& unsu
 
 } // namespace
 
-void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes, int samples, std::span<float> shares,
-                                  std::span<std::uint8_t> turnedAway) const {
+void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes, const LightSamples& samples,
+                                  std::span<float> shares, std::span<std::uint8_t> turnedAway) const {
   std::array<glm::vec2, kLanes> at;
   std::array<PlacedTriangle, kLanes> shown;
   std::array<unsigned, kLanes> laneOf{};
@@ -126,8 +168,8 @@ void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes,
   }
 }
 
-void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
-                             std::span<std::uint8_t> turnedAway) const {
+void TracedLight::visibility(const DrawnPlaces& places, std::uint32_t first, std::uint32_t last,
+                             std::span<float> shares, std::span<std::uint8_t> turnedAway) const {
   const State& of = *state_;
   const std::uint8_t* shadowed = of.shadowed.data();
   Lanes asked;
@@ -139,7 +181,6 @@ void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<f
   std::fill_n(turnedAway.data(), kLanes, std::uint8_t{0});
   std::fill_n(shares.data(), kLanes, 1.0f);
   if (!asked.any()) return;
-  if (hasSize()) return exactVisibility(places, asked, samples, shares, turnedAway);
   DrawnPoints points;
   setTriangles(of.casters.tree, places, points);
   findPoints(of.view, places, points);
@@ -149,10 +190,11 @@ void TracedLight::visibility(const DrawnPlaces& places, int samples, std::span<f
   sort(points, asked, lit, unsure, shares.data(), turnedAway.data());
   if (lit.any()) {
     DrawnQuery query{{}, &of.casters, &of.source, &of.input, &places, &points};
-    const std::array<float, kLanes> found = sharesThrough(query, lit);
+    const std::array<float, kLanes> found =
+        hasSize() ? meanThrough(query, points, of.light, first, last, lit, unsure) : sharesThrough(query, lit);
     for (unsigned i = 0; i < kLanes; ++i) shares[i] = lit.active[i] != 0 ? found[i] : shares[i];
   }
-  if (unsure.any()) exactVisibility(places, unsure, samples, shares, turnedAway);
+  if (unsure.any()) exactVisibility(places, unsure, {first, last, 0}, shares, turnedAway);
 }
 
 } // namespace gnomon

@@ -65,6 +65,11 @@ inline double cosineOf(double x) {
 /// 1992, 3.2): shifted along x, scrambled in y, which leaves one in each of the `count` strips either way.
 glm::dvec2 squareSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed) {
   constexpr double kUnit = 1.0 / 4294967296.0;
+  if (count == 0) {
+    const SquarePlace place = sequencePlace(index);
+    return {(static_cast<double>(place.x ^ static_cast<std::uint32_t>(seed >> 32)) + 0.5) * kUnit,
+            (static_cast<double>(place.y ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
+  }
   const double shift = static_cast<double>(seed >> 32) * kUnit;
   return {(index + shift) / count,
           (static_cast<double>(reversed(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
@@ -128,16 +133,35 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void waysToAll(const LightDisc& disc, const doub
 
 } // namespace
 
-void waysTo(const LightDisc& disc, std::uint32_t first, std::uint32_t count, std::uint64_t seed,
-            const glm::dvec3& normal, SampleWays& ways) {
+void waysTo(const LightDisc& disc, const LightSamples& samples, std::uint64_t seed, const glm::dvec3& normal,
+            SampleWays& ways) {
   double x[kLanes];
   double y[kLanes];
   for (unsigned i = 0; i < kLanes; ++i) {
-    const glm::dvec2 square = squareSample(first + i, count, seed);
+    const glm::dvec2 square = squareSample(samples.first + i, samples.of, seed);
     x[i] = square.x;
     y[i] = square.y;
   }
   waysToAll(disc, x, y, normal, ways);
+}
+
+SquarePlace sequencePlace(std::uint32_t index) {
+  SquarePlace place{reversed(index), 0};
+  // Sobol, "On the distribution of points in a cube", 1967: Pascal's triangle modulo 2.
+  for (std::uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1) {
+    if ((index & 1u) != 0) place.y ^= column;
+  }
+  return place;
+}
+
+SquarePlace shiftOf(std::uint32_t x, std::uint32_t y) {
+  const std::uint32_t inSquare = (x & 1u) | (y & 1u) << 1 | (x & 2u) << 1 | (y & 2u) << 2;
+  const std::uint64_t square = mixed((std::uint64_t{x >> 2} << 32) | (y >> 2));
+  const std::uint64_t pixel = mixed(square + inSquare);
+  const SquarePlace place = sequencePlace(inSquare);
+  constexpr std::uint32_t kWithin = ~0u >> 4; // the 16 sixteenths of the square's side are shared among the pixels
+  return {place.x ^ static_cast<std::uint32_t>(square >> 32) ^ (static_cast<std::uint32_t>(pixel >> 32) & kWithin),
+          place.y ^ static_cast<std::uint32_t>(square) ^ (static_cast<std::uint32_t>(pixel) & kWithin)};
 }
 
 std::uint64_t seedOf(const SurfacePoint& point) {

@@ -50,6 +50,14 @@ struct LightDisc {
 
 LightDisc discFacing(const LightSource& light, const glm::dvec3& point);
 
+/// Which of a point's places on a light's disc rays go to: those from `first` up to `last`.
+struct LightSamples {
+  std::uint32_t first = 0, last = 1;
+  /// How many there are in all, where that is known from the start (discSample); 0 = the places of an endless sequence,
+  /// whose first ones fill the disc evenly however many they are (sequencePlace).
+  std::uint32_t of = 0;
+};
+
 /// Rays from a point to places all over a light's disc, a coordinate after the other.
 struct SampleWays {
   double direction[3][kLanes];
@@ -57,9 +65,9 @@ struct SampleWays {
   double cosine[kLanes]; ///< of the direction and `normal`
 };
 
-/// The ways to places `first` .. `first` + kLanes of the disc (discSample). `normal`: of the point's surface.
-void waysTo(const LightDisc& disc, std::uint32_t first, std::uint32_t count, std::uint64_t seed,
-            const glm::dvec3& normal, SampleWays& ways);
+/// The ways to the first kLanes of these samples. `normal`: of the point's surface.
+void waysTo(const LightDisc& disc, const LightSamples& samples, std::uint64_t seed, const glm::dvec3& normal,
+            SampleWays& ways);
 
 /// Whether the light shines as far as the end of this way, and in its direction (KHR_lights_punctual).
 inline bool reaches(const LightSource& light, const WayToLight& way) {
@@ -77,6 +85,19 @@ inline bool faces(const glm::vec3& normal, const WayToLight& way) {
 
 /// Number `index` of `count` places in the unit disc, spread evenly over its area for any count. `seed` shifts them.
 glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed);
+
+/// A place in the unit square, in units of 2^-32.
+struct SquarePlace {
+  std::uint32_t x = 0, y = 0;
+};
+
+/// Number `index` of Sobol's sequence in two dimensions: each 2^k from a multiple of 2^k on leave none of the 2^k
+/// rectangles of any one shape empty, whatever the places are XORed with.
+SquarePlace sequencePlace(std::uint32_t index);
+
+/// What a pixel's sequence is XORed with: the sequences of the 16 pixels of an aligned 4 x 4 square lie evenly between
+/// each other, those of two squares are strangers. `x`, `y`: of the pixel.
+SquarePlace shiftOf(std::uint32_t x, std::uint32_t y);
 
 /// From what the point is, and not from where it stands in a list: it gets the same samples every time.
 std::uint64_t seedOf(const SurfacePoint& point);

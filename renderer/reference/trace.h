@@ -102,6 +102,7 @@ struct DrawnBlock {
 enum class LightAcross { lit, turnedAway, unsure };
 
 struct Lanes;
+struct LightSamples;
 
 /// One light of a frame as rays meet it. Made once, asked for any number of points; any thread. What the input refers
 /// to outlives it.
@@ -116,8 +117,10 @@ class TracedLight {
   void visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway = {}) const;
 
-  /// The same of what drawn places show, as pointsOn finds it: a share and a mark for each of the sixteen.
-  void visibility(const DrawnPlaces& places, int samples, std::span<float> shares,
+  /// The same of what drawn places show, as pointsOn finds it: a share and a mark for each of the sixteen. To a light
+  /// that has a size go the rays from number `first` up to `last` of an endless sequence, which has been even all over
+  /// the light since number 0, and which is another for every pixel of a square of 4 x 4.
+  void visibility(const DrawnPlaces& places, std::uint32_t first, std::uint32_t last, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway) const;
 
   /// What visibility would say of every point of a block: all of the light, or none because the surface does not face
@@ -134,9 +137,11 @@ class TracedLight {
 
  private:
   struct State;
+  void visibility(std::span<const SurfacePoint> points, const LightSamples& samples, std::span<float> shares,
+                  std::span<std::uint8_t> turnedAway) const;
   /// Of the places of some lanes, by their exact points.
-  void exactVisibility(const DrawnPlaces& places, const Lanes& lanes, int samples, std::span<float> shares,
-                       std::span<std::uint8_t> turnedAway) const;
+  void exactVisibility(const DrawnPlaces& places, const Lanes& lanes, const LightSamples& samples,
+                       std::span<float> shares, std::span<std::uint8_t> turnedAway) const;
   std::unique_ptr<const State> state_;
 };
 

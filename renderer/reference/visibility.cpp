@@ -59,16 +59,16 @@ bool leavesSurface(const Casters& casters, const SurfacePoint& point, const glm:
 }
 
 /// Rays to places all over the light's disc; none to those that the surface itself hides.
-void addSamples(const LightSource& source, const Casters& casters, const SurfacePoint& point, std::uint32_t samples,
-                std::size_t index, RayQueue& queue) {
+void addSamples(const LightSource& source, const Casters& casters, const SurfacePoint& point,
+                const LightSamples& samples, std::size_t index, RayQueue& queue) {
   const std::uint64_t seed = seedOf(point);
   const LightDisc disc = discFacing(source, point.position);
   const glm::dvec3 normal(point.normal);
   const glm::vec3 start = startOf(casters.tree, point);
   SampleWays ways;
-  for (std::uint32_t first = 0; first < samples; first += kLanes) {
-    waysTo(disc, first, samples, seed, normal, ways);
-    for (std::uint32_t k = 0; k < std::min(kLanes, samples - first); ++k) {
+  for (LightSamples left = samples; left.first < left.last; left.first += kLanes) {
+    waysTo(disc, left, seed, normal, ways);
+    for (std::uint32_t k = 0; k < std::min(kLanes, left.last - left.first); ++k) {
       const WayToLight way{{ways.direction[0][k], ways.direction[1][k], ways.direction[2][k]}, ways.length[k]};
       if (leavesSurface(casters, point, way.direction, ways.cosine[k])) queue.add(point, start, way, index);
     }
@@ -114,7 +114,13 @@ bool TracedLight::hasSize() const {
 
 void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
                              std::span<std::uint8_t> turnedAway) const {
-  const auto rays = hasSize() ? static_cast<std::uint32_t>(std::max(samples, 1)) : 1u;
+  const auto count = static_cast<std::uint32_t>(std::max(samples, 1));
+  visibility(points, LightSamples{0, count, count}, shares, turnedAway);
+}
+
+void TracedLight::visibility(std::span<const SurfacePoint> points, const LightSamples& samples, std::span<float> shares,
+                             std::span<std::uint8_t> turnedAway) const {
+  const std::uint32_t rays = hasSize() ? samples.last - samples.first : 1u;
   std::fill(turnedAway.begin(), turnedAway.end(), std::uint8_t{0});
   RayQueue queue(state_->casters, shares);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -127,7 +133,7 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, 
     }
     shares[i] = 0;
     if (hasSize()) {
-      addSamples(state_->source, state_->casters, point, rays, i, queue);
+      addSamples(state_->source, state_->casters, point, samples, i, queue);
     } else {
       queue.add(point, startOf(state_->casters.tree, point), way, i);
     }

@@ -111,8 +111,9 @@ double texelsOf(const Light& light, const FrameSpec& spec) {
 
 bool drawsHybridMap(const ResolvedFrame& frame, const SceneView& scene, int light, const RendererInfo& device) {
   const FrameSpec& spec = frame.spec;
-  if (!device.software) return true;
   if (std::any_of(spec.views.begin(), spec.views.end(), [](View view) { return traitsOf(view).tiles; })) return true;
+  if (hasSize((*spec.lights)[static_cast<std::size_t>(light)])) return false; // a map knows the light's middle alone
+  if (!device.software) return true;
   if (device.device == DeviceChoice::cpu) return false; // its rays take less time than the map
   const double pixels = static_cast<double>(spec.width) * spec.height;
   const double map = static_cast<double>(scene.triangles) * (kCost.tileTriangle + kCost.outlines) +

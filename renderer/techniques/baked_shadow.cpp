@@ -34,7 +34,7 @@ class Lookup {
     const std::size_t number =
         static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(pixel.x);
     std::uint16_t* own = shares_ + number * grid.samples();
-    for (std::size_t i = 0; i < grid.samples(); ++i) {
+    for (std::uint32_t i = 0; i < grid.samples(); ++i) {
       const std::uint32_t shown = points_.numberAt(pixel, i);
       if (shown == kNoNumber) {
         own[i] = 65535;

@@ -7,12 +7,19 @@
 namespace gnomon {
 
 ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numbers) {
-  ShownNumbers shown{numbers, {}, {}};
+  ShownNumbers shown{numbers, {}, {}, 1};
   const auto samples = static_cast<std::uint32_t>(grid.samples());
   for (int x = 0; x < grid.width; ++x) shown.ofColumn.push_back(static_cast<std::uint32_t>(x) * samples);
   const std::uint32_t row = static_cast<std::uint32_t>(grid.width) * samples;
   for (int y = 0; y < grid.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(y) * row);
   return shown;
+}
+
+bool PicturePoints::showsSeveral(const glm::ivec2& pixel) const {
+  for (std::uint32_t i = 1; i < grid_.samples(); ++i) {
+    if (shown_.at(pixel.x, pixel.y, i) != numberAt(pixel)) return true;
+  }
+  return false;
 }
 
 std::optional<std::uint32_t> PicturePoints::onlyNumberIn(const Rect& block) const {

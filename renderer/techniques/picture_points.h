@@ -47,11 +47,11 @@ inline std::uint8_t unorm8(float share) {
 struct ShownNumbers {
   std::span<const std::uint32_t> numbers;
   std::vector<std::uint32_t> ofColumn, ofRow; ///< a pixel's first sample is number ofRow[y] + ofColumn[x]
-  std::uint32_t ofSample = 1;                 ///< from there to the next sample
+  std::uint32_t step = 1;                     ///< from one sample of a pixel to the next
 
-  /// Not checked.
-  std::uint32_t at(int x, int y, std::size_t sample = 0) const {
-    return numbers.data()[ofRow.data()[y] + ofColumn.data()[x] + sample * ofSample];
+  /// Of a pixel's sample; not checked.
+  std::uint32_t at(int x, int y, std::uint32_t sample = 0) const {
+    return numbers.data()[ofRow.data()[y] + ofColumn.data()[x] + sample * step];
   }
 };
 
@@ -97,9 +97,12 @@ class PicturePoints {
   const SampleGrid& grid() const { return grid_; }
 
   /// What was drawn at one of a pixel's samples; kNoNumber = nothing.
-  std::uint32_t numberAt(const glm::ivec2& pixel, std::size_t sample = 0) const {
+  std::uint32_t numberAt(const glm::ivec2& pixel, std::uint32_t sample = 0) const {
     return shown_.at(pixel.x, pixel.y, sample);
   }
+
+  /// Whether the samples of a pixel show more than one triangle, or some of them none.
+  bool showsSeveral(const glm::ivec2& pixel) const;
 
   /// What all first samples of a block show, where that is one number. REQUIRES: the block lies in the picture.
   std::optional<std::uint32_t> onlyNumberIn(const Rect& block) const;

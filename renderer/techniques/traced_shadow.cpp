@@ -5,26 +5,20 @@
 #include <numeric>
 
 #include "renderer/core/parallel.h"
-#include "renderer/core/rect.h"
 #include "renderer/techniques/neighbours.h"
+#include "renderer/techniques/penumbras.h"
 
 namespace gnomon {
 namespace {
 
 /// Pixels that one core has in hand at a time: what is kept of them stays in its caches.
 constexpr std::size_t kPixels = 512;
-
-/// Blocks of the picture, in which a packet of rays takes squares of 4 x 4 pixels: rays of a packet stay together.
-constexpr int kBlockWidth = 32;
-constexpr int kBlockHeight = 16;
-constexpr int kSquare = 4;
-constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 static_assert(kBlockWidth * kBlockHeight == kPixels);
 
-/// Shares of 255 that differ by less show no edge between them.
-constexpr int kEdge = 26;
+constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 
-using Pixels = std::vector<std::uint32_t>;
+/// Shares of a soft shadow that differ by less lie within a penumbra some pixels wide.
+constexpr int kSoftEdge = 128;
 
 Pixels eachOnce(Pixels pixels) {
   std::sort(pixels.begin(), pixels.end());
@@ -32,31 +26,11 @@ Pixels eachOnce(Pixels pixels) {
   return pixels;
 }
 
-/// Calls `each(pixel)` for the pixels of a block of the picture, square by square.
-template <class Each>
-void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
-  const int right = std::min(block.x + block.width, grid.width);
-  const int top = std::min(block.y + block.height, grid.height);
-  for (int y = block.y; y < top; y += kSquare) {
-    for (int x = block.x; x < right; x += kSquare) {
-      for (int row = y; row < std::min(y + kSquare, top); ++row) {
-        for (int column = x; column < std::min(x + kSquare, right); ++column) each(glm::ivec2(column, row));
-      }
-    }
-  }
-}
-
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
  public:
   ShadowTracing(const PicturePoints& points, const TraceInput& rays, int light, int samples)
-      : points_(points),
-        light_(rays, light),
-        samples_(samples),
-        places_(grid().samples()),
-        values_(count() + count() % 2), // read by pairs
-        shares_(grid().pixels()),
-        marks_(grid().pixels()) {}
+      : points_(points), light_(rays, light), samples_(samples), places_(grid().samples()), known_(grid()) {}
 
   /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn, but from blocks
   /// that are lit or turned away as a whole. Gives how many pixels rays were sent from.
@@ -79,14 +53,14 @@ class ShadowTracing {
       const auto piece = std::span(pixels).subspan(first, last - first);
       const std::vector<SurfacePoint> hits = points_.traced(piece);
       std::vector<float> found(hits.size());
-      light_.visibility(hits, samples_, found);
+      light_.visibility(hits, samplesOfPoint(), found);
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const auto own = std::span(found).subspan(i * places_, places_);
-        std::transform(own.begin(), own.end(), valuesOf(piece[i]), unorm16);
+        std::transform(own.begin(), own.end(), known_.valuesOf(piece[i]), unorm16);
         const float mean = std::accumulate(own.begin(), own.end(), 0.0f) / static_cast<float>(places_);
-        changed[first + i] = unorm8(mean) != shares_[piece[i]] ? 1 : 0;
-        shares_[piece[i]] = unorm8(mean);
-        marks_[piece[i]] |= kExact;
+        changed[first + i] = unorm8(mean) != known_.shares[piece[i]] ? 1 : 0;
+        known_.shares[piece[i]] = unorm8(mean);
+        known_.marks[piece[i]] |= kExact;
       }
     });
     Pixels moved;
@@ -98,67 +72,69 @@ class ShadowTracing {
 
   /// The pixels to both sides of where surfaces that are turned away end. REQUIRES: no point is exact yet.
   Pixels whereTurnedAwayEnds() const {
-    return pixelsWhere(grid(), marks_, [](std::uint8_t least, std::uint8_t most) { return least != most; });
+    return pixelsWhere(grid(), known_.marks, [](std::uint8_t least, std::uint8_t most) { return least != most; });
+  }
+
+  /// Sends the other rays to a light that has a size. REQUIRES: no point is exact yet.
+  void tracePenumbras() {
+    if (isSoft()) gnomon::tracePenumbras(points_, light_, samples_, known_);
   }
 
   /// The pixels at edges of the shadow whose points are not exact yet.
   Pixels atEdges() const {
-    Pixels pixels = pixelsWhere(grid(), shares_, [](std::uint8_t least, std::uint8_t most) {
-      return static_cast<int>(most) - static_cast<int>(least) >= kEdge;
-    });
+    const auto apartBy = [&](int apart) {
+      return pixelsWhere(grid(), known_.shares, [&](std::uint8_t least, std::uint8_t most) {
+        return static_cast<int>(most) - static_cast<int>(least) >= apart;
+      });
+    };
+    Pixels pixels = apartBy(isSoft() ? kSoftEdge : kEdge);
+    if (isSoft()) {
+      Pixels apart = apartBy(kEdge);
+      std::erase_if(apart, [&](std::uint32_t pixel) { return !isEdge(pixel, kEdge); });
+      pixels.insert(pixels.end(), apart.begin(), apart.end());
+      pixels = eachOnce(std::move(pixels));
+    }
     std::erase_if(pixels, [&](std::uint32_t pixel) { return isExact(pixel); });
     return pixels;
   }
 
   /// Those of them that lie next to one of `moved`, or to a corner.
   Pixels atEdgesBeside(const Pixels& moved) const {
-    Pixels pixels;
-    const int width = grid().width;
-    for (const std::uint32_t pixel : moved) {
-      const int x = static_cast<int>(pixel) % width;
-      const int row = static_cast<int>(pixel) / width;
-      for (int line = std::max(row - 1, 0); line <= std::min(row + 1, grid().height - 1); ++line) {
-        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1); ++column) {
-          const auto other = static_cast<std::uint32_t>(line * width + column);
-          const int apart = std::abs(static_cast<int>(shares_[other]) - static_cast<int>(shares_[pixel]));
-          if (!isExact(other) && apart >= kEdge) pixels.push_back(other);
-        }
-      }
-    }
-    return eachOnce(std::move(pixels));
+    return pixelsBeside(known_, moved, [&](std::uint32_t pixel, std::uint32_t other) {
+      return !isExact(pixel) && isEdge(pixel, known_.apart(pixel, other));
+    });
   }
 
   UnfilledVector<std::uint16_t> takeValues() {
-    values_.resize(count());
-    return std::move(values_);
+    known_.values.resize(grid().pixels() * places_);
+    return std::move(known_.values);
   }
 
  private:
-  static constexpr std::uint8_t kAway = 1;  ///< what was drawn there is turned away from the light
-  static constexpr std::uint8_t kExact = 2; ///< camera rays led to its points
+  static constexpr std::uint8_t kAway = PictureShares::kAway;
+  static constexpr std::uint8_t kExact = PictureShares::kExact;
 
-  bool isExact(std::uint32_t pixel) const { return (marks_[pixel] & kExact) != 0; }
+  bool isExact(std::uint32_t pixel) const { return (known_.marks[pixel] & kExact) != 0; }
+
+  /// Whether an edge shows between a pixel and those beside it, which differ by so much. In a penumbra one does where
+  /// the samples of the pixel show several triangles, each of which may see another share.
+  bool isEdge(std::uint32_t pixel, int apart) const {
+    return apart >= (isSoft() ? kSoftEdge : kEdge) || (apart >= kEdge && points_.showsSeveral(known_.pixelAt(pixel)));
+  }
 
   void setLit(const Rect& block) {
     const std::size_t width = static_cast<std::size_t>(std::min(block.width, grid().width - block.x));
     for (int y = block.y; y < std::min(block.y + block.height, grid().height); ++y) {
       const std::uint32_t first = numberOf({block.x, y});
-      std::fill_n(valuesOf(first), width * places_, std::uint16_t{65535});
-      std::fill_n(shares_.begin() + first, width, std::uint8_t{255});
-      std::fill_n(marks_.begin() + first, width, std::uint8_t{0});
+      std::fill_n(known_.valuesOf(first), width * places_, std::uint16_t{65535});
+      std::fill_n(known_.shares.begin() + first, width, std::uint8_t{255});
+      std::fill_n(known_.marks.begin() + first, width, std::uint8_t{0});
     }
   }
 
-  void set(std::uint32_t pixel, float share) {
-    std::uint16_t* values = valuesOf(pixel);
-    *values = unorm16(share);
-    for (std::size_t i = 1; i < places_; ++i) values[i] = *values;
-    shares_[pixel] = unorm8(share);
-  }
+  void set(std::uint32_t pixel, float share) { known_.set(pixel, share); }
 
-  std::uint32_t numberOf(const glm::ivec2& pixel) const {
-    return static_cast<std::uint32_t>(pixel.y * grid().width + pixel.x);
-  }
+  std::uint32_t numberOf(const glm::ivec2& pixel) const { return known_.numberOf(pixel); }
 
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
@@ -222,34 +198,35 @@ class ShadowTracing {
 
   void setTurnedAway(const glm::ivec2& pixel) {
     set(numberOf(pixel), 0);
-    marks_[numberOf(pixel)] = kAway;
+    known_.marks[numberOf(pixel)] = kAway;
   }
 
   /// Then none wait any more.
   void traceDrawn(ShownPixels& waiting) {
     float found[DrawnPlaces::kCount];
     std::uint8_t away[DrawnPlaces::kCount];
-    light_.visibility(points_.drawn(waiting), samples_, found, away);
+    light_.visibility(points_.drawn(waiting), 0, 1, found, away);
     for (std::size_t i = 0; i < waiting.count; ++i) {
       if (found[i] == 1) continue;
       const std::uint32_t pixel = numberOf(waiting.pixels[i]);
       set(pixel, found[i]);
-      marks_[pixel] = away[i] != 0 ? kAway : 0;
+      known_.marks[pixel] = away[i] != 0 ? kAway : 0;
     }
     waiting.count = 0;
   }
 
   const SampleGrid& grid() const { return points_.grid(); }
-  std::size_t count() const { return grid().pixels() * grid().samples(); }
-  std::uint16_t* valuesOf(std::uint32_t pixel) { return values_.data() + pixel * places_; }
+
+  /// The samples of a pixel share its rays.
+  int samplesOfPoint() const { return std::max(1, samples_ / static_cast<int>(places_)); }
+
+  bool isSoft() const { return light_.hasSize(); }
 
   const PicturePoints& points_;
   TracedLight light_;
   int samples_;
   std::size_t places_; ///< samples of a pixel
-  UnfilledVector<std::uint16_t> values_;
-  UnfilledVector<std::uint8_t> shares_; ///< 0..255, one a pixel: the mean of its samples
-  UnfilledVector<std::uint8_t> marks_;  ///< one a pixel
+  PictureShares known_;
 };
 
 } // namespace
@@ -265,20 +242,12 @@ TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, i
     return shadow.traceExactly(pixels);
   };
   Pixels doubtful = shadow.whereTurnedAwayEnds();
+  shadow.tracePenumbras();
   const Pixels masked = points.besideMasks();
   doubtful.insert(doubtful.end(), masked.begin(), masked.end());
   traceExactly(eachOnce(std::move(doubtful)));
   for (Pixels next = shadow.atEdges(); !next.empty();) next = shadow.atEdgesBeside(traceExactly(next));
   return {shadow.takeValues(), traced};
-}
-
-std::vector<Light> withoutSizes(std::span<const Light> lights) {
-  std::vector<Light> sharp(lights.begin(), lights.end());
-  for (Light& light : sharp) {
-    light.angularDiameterDegrees.reset();
-    light.radius.reset();
-  }
-  return sharp;
 }
 
 } // namespace gnomon

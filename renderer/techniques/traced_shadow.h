@@ -24,11 +24,9 @@ struct TracedShadow {
 /// is decided by rays from the point that was drawn there. What was drawn may differ from what a camera ray meets
 /// within rounding of a surface's rim, and an edge may pass between the samples of a pixel. So a camera ray finds the
 /// point of every sample next to masks, where a surface that is turned away from the light ends, and wherever a pixel's
-/// share differs from a neighbour's. `samples`: rays a point, towards a light that has a size.
+/// share differs from a neighbour's. `samples`: most rays a pixel towards a light that has a size, which takes them in
+/// penumbras alone (penumbras.h); REQUIRES: no verdicts there.
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
                           std::span<const Verdict> verdicts = {});
-
-/// Hybrid shadows are sharp: a size would blur what rays see, and not what the map does.
-std::vector<Light> withoutSizes(std::span<const Light> lights);
 
 } // namespace gnomon

@@ -8,6 +8,7 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
+#include "renderer/core/light.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/baked_shadow.h"
@@ -34,15 +35,15 @@ Status volumeShadow(const PassInputs& inputs, const Shading& shading, const Surf
   return Done{};
 }
 
-/// The shadow map, if there is one, decides where it is sure, rays do elsewhere.
+/// The shadow map, if there is one, decides where it is sure, rays do elsewhere: everywhere towards a light that has a
+/// size, of which the map knows the middle alone.
 Result<TracedShadow> hybridShadow(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces,
                                   const PicturePoints& points, int light) {
+  const Light& source = points.rays().lights[static_cast<std::size_t>(light)];
+  if (hasSize(source)) return tracedShadow(points, points.rays(), light, source.shadow->raySamples);
   const auto verdicts = mapVerdicts(inputs, shading, surfaces, light);
   if (!verdicts) return verdicts.problems();
-  const std::vector<Light> lights = withoutSizes(points.rays().lights);
-  TraceInput sharp = points.rays();
-  sharp.lights = lights;
-  return tracedShadow(points, sharp, light, 1, *verdicts);
+  return tracedShadow(points, points.rays(), light, 1, *verdicts);
 }
 
 } // namespace

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <rapidcheck.h>
 #include <set>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -69,7 +71,7 @@ TEST(LightSamples, WaysLeadToTheSamplesOfTheDisc) {
     const LightDisc disc = discFacing(light, {far, 0, 2 * far});
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 1, -0.2));
     SampleWays ways;
-    waysTo(disc, first, count, seed, normal, ways);
+    waysTo(disc, {first, count, count}, seed, normal, ways);
     for (std::uint32_t k = 0; k < std::min(kLanes, count - first); ++k) {
       const glm::dvec2 place = discSample(first + k, count, seed);
       const WayToLight way = wayAlong(disc.middle + disc.across * place.x + disc.up * place.y);
@@ -78,6 +80,50 @@ TEST(LightSamples, WaysLeadToTheSamplesOfTheDisc) {
       RC_ASSERT(ways.cosine[k] == glm::dot(way.direction, normal));
     }
   }));
+}
+
+/// How many of the places lie in the fullest of 2^across by 2^up equal rectangles of the unit square.
+std::size_t fullest(const std::vector<SquarePlace>& places, int across, int up) {
+  std::map<std::uint64_t, std::size_t> counts;
+  for (const SquarePlace& place : places) {
+    const std::uint64_t column = std::uint64_t{place.x} >> (32 - across);
+    const std::uint64_t row = std::uint64_t{place.y} >> (32 - up);
+    ++counts[column << 32 | row];
+  }
+  std::size_t most = 0;
+  for (const auto& [rectangle, count] : counts) most = std::max(most, count);
+  return most;
+}
+
+TEST(LightSamples, TheFirstOfASequenceFillEveryRectangleWhateverTheirNumber) {
+  EXPECT_TRUE(rc::check([] {
+    const int bits = *rc::gen::inRange(0, 11);
+    const auto block = *rc::gen::inRange<std::uint32_t>(0, 5);
+    const SquarePlace shift = shiftOf(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::arbitrary<std::uint32_t>());
+    std::vector<SquarePlace> places;
+    for (std::uint32_t i = 0; i < (1u << bits); ++i) {
+      const SquarePlace place = sequencePlace((block << bits) + i);
+      places.push_back({place.x ^ shift.x, place.y ^ shift.y});
+    }
+    for (int across = 0; across <= bits; ++across) RC_ASSERT(fullest(places, across, bits - across) == 1u);
+  }));
+}
+
+TEST(LightSamples, TheSequencesOfASquareOfPixelsLieBetweenEachOther) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> shifts;
+  for (std::uint32_t square = 0; square < 50; ++square) {
+    for (const std::uint32_t ray : {0u, 1u, 2u, 77u}) {
+      std::vector<SquarePlace> places;
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        const SquarePlace shift = shiftOf(4 * square + i % 4, 8 + i / 4);
+        const SquarePlace place = sequencePlace(ray);
+        places.push_back({place.x ^ shift.x, place.y ^ shift.y});
+        shifts.insert({shift.x, shift.y});
+      }
+      for (int across = 0; across <= 4; ++across) EXPECT_EQ(fullest(places, across, 4 - across), 1u);
+    }
+  }
+  EXPECT_EQ(shifts.size(), 50u * 16);
 }
 
 TEST(LightSamples, SeedsDifferFromPointToPointAndStayForOne) {

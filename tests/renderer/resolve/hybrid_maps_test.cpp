@@ -45,6 +45,18 @@ TEST(HybridMaps, AreDrawnOnEveryGpu) {
   EXPECT_TRUE(draws(frameOf(64, 64, 1024), 600'000, false));
 }
 
+TEST(HybridMaps, AreLeftOutForLightsWithASize) {
+  ResolvedFrame frame = frameOf(3840, 2160, 1024);
+  (*frame.spec.lights)[0].angularDiameterDegrees = 0.53;
+  EXPECT_FALSE(draws(frame, 10'000, true));
+  EXPECT_FALSE(draws(frame, 10'000, false));
+  frame.spec.views = {View::tile};
+  EXPECT_TRUE(draws(frame, 10'000, true));
+  frame.spec.views = {View::color};
+  (*frame.spec.lights)[0].angularDiameterDegrees = 0;
+  EXPECT_TRUE(draws(frame, 10'000, false));
+}
+
 TEST(HybridMaps, AreDrawnWhereAViewShowsThem) {
   ResolvedFrame frame = frameOf(64, 64, 1024);
   frame.spec.views = {View::color, View::depth};

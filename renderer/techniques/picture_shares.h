@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/core/rect.h"
+#include "renderer/core/unfilled.h"
+#include "renderer/techniques/picture_points.h"
+
+namespace gnomon {
+
+/// Blocks of the picture, in which a packet of rays takes squares of 4 x 4 pixels: rays of a packet stay together, and
+/// what one core has in hand of them stays in its caches.
+inline constexpr int kBlockWidth = 32;
+inline constexpr int kBlockHeight = 16;
+inline constexpr int kSquare = 4;
+
+/// Shares of 255 that differ by less show no edge between them, and are as sure as rays have to make them.
+inline constexpr int kEdge = 26;
+
+using Pixels = std::vector<std::uint32_t>;
+
+/// Calls `each(pixel)` for the pixels of a block of the picture, square by square.
+template <class Each>
+void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
+  const int right = std::min(block.x + block.width, grid.width);
+  const int top = std::min(block.y + block.height, grid.height);
+  for (int y = block.y; y < top; y += kSquare) {
+    for (int x = block.x; x < right; x += kSquare) {
+      for (int row = y; row < std::min(y + kSquare, top); ++row) {
+        for (int column = x; column < std::min(x + kSquare, right); ++column) each(glm::ivec2(column, row));
+      }
+    }
+  }
+}
+
+/// What is known so far of one light's shadow over a picture.
+struct PictureShares {
+  explicit PictureShares(const SampleGrid& picture)
+      : grid(picture),
+        places(picture.samples()),
+        values(places * picture.pixels() + places * picture.pixels() % 2),
+        shares(picture.pixels()),
+        marks(picture.pixels()) {}
+
+  static constexpr std::uint8_t kAway = 1;  ///< what was drawn there is turned away from the light
+  static constexpr std::uint8_t kExact = 2; ///< camera rays led to its points
+  static constexpr std::uint8_t kAsked = 4; ///< more rays are about to be sent from there
+  static constexpr std::uint8_t kRound = 8; ///< a round of rays was; as often as there were rounds
+
+  const SampleGrid& grid;
+  std::size_t places;                   ///< samples of a pixel
+  UnfilledVector<std::uint16_t> values; ///< as TracedShadow::values, and one more where they are odd: read by pairs
+  UnfilledVector<std::uint8_t> shares;  ///< 0..255, one a pixel: the mean of its samples
+  UnfilledVector<std::uint8_t> marks;   ///< one a pixel
+
+  std::uint32_t numberOf(const glm::ivec2& pixel) const {
+    return static_cast<std::uint32_t>(pixel.y * grid.width + pixel.x);
+  }
+  glm::ivec2 pixelAt(std::uint32_t number) const {
+    return {static_cast<int>(number) % grid.width, static_cast<int>(number) / grid.width};
+  }
+  std::uint16_t* valuesOf(std::uint32_t pixel) { return values.data() + pixel * places; }
+  int apart(std::uint32_t a, std::uint32_t b) const {
+    return std::abs(static_cast<int>(shares[a]) - static_cast<int>(shares[b]));
+  }
+
+  /// Of a pixel whose samples are all told by one of them.
+  void set(std::uint32_t pixel, float share) {
+    std::uint16_t* own = valuesOf(pixel);
+    *own = unorm16(share);
+    for (std::size_t i = 1; i < places; ++i) own[i] = *own;
+    shares[pixel] = unorm8(share);
+  }
+};
+
+/// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; in order,
+/// each once.
+template <class Keep>
+Pixels pixelsBeside(const PictureShares& shares, const Pixels& pixels, Keep keep) {
+  Pixels beside;
+  for (const std::uint32_t pixel : pixels) {
+    const glm::ivec2 at = shares.pixelAt(pixel);
+    for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
+      for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
+        const std::uint32_t other = shares.numberOf({column, row});
+        if (keep(other, pixel)) beside.push_back(other);
+      }
+    }
+  }
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  return beside;
+}
+
+} // namespace gnomon
