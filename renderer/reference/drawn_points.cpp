@@ -15,10 +15,6 @@ inline float sumOfSizes(const glm::vec3& v) {
   return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
-inline float larger(float a, float b) {
-  return a > b ? a : b;
-}
-
 inline float clamped(float value, float low, float high) {
   return value < low ? low : (high < value ? high : value);
 }

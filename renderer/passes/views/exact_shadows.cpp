@@ -9,6 +9,7 @@
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
+#include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/baked_shadow.h"
