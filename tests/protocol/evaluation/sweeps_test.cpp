@@ -20,8 +20,8 @@ std::vector<std::string> namesOf(const char* sweep) {
 }
 
 TEST(Sweeps, EachHasItsVariantsOnce) {
-  EXPECT_EQ(namesOf("techniques"),
-            (std::vector<std::string>{"hard", "pcf 3", "pcf 5", "pcss", "hybrid", "shadowVolume", "rayTraced", "lightMap"}));
+  EXPECT_EQ(namesOf("techniques"), (std::vector<std::string>{"hard", "pcf 3", "pcf 5", "pcss", "hybrid", "shadowVolume",
+                                                             "rayTraced", "lightMap"}));
   EXPECT_EQ(namesOf("filters").size(), 2u + 4 * 3);
   EXPECT_EQ(namesOf("sizes").size(), 5u * 3);
   const auto all = namesOf("all");
