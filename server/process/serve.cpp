@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <malloc.h>
 #include <poll.h>
 #include <sys/resource.h>
@@ -13,6 +14,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "renderer/core/parallel.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/request_log.h"
@@ -80,12 +82,17 @@ void raiseDescriptorLimit() {
   }
 }
 
-/// Large blocks come from the system and go back to it at once, and no thread's heap keeps more free memory at its end
-/// than a frame takes: pages that go and come with every frame cost a thirtieth of it. By default the allocator raises
-/// both bounds as it sees larger blocks (mallopt(3)), and a server never returns memory.
+/// Large blocks come from the system and go back to it at once. A heap keeps what a frame takes free at its end: pages
+/// that go and come with every frame cost an eighth of a small one. Threads share heaps, one for each core and one
+/// more, so that what all of them keep is bounded. By default (mallopt(3)) the allocator makes eight for each core and
+/// raises the sizes as it sees larger blocks, and a server never returns memory. Its own variables have the last word.
 void boundHeaps() {
-  mallopt(M_MMAP_THRESHOLD, 4 << 20); // bytes
-  mallopt(M_TRIM_THRESHOLD, 16 << 20);
+  const auto unlessSet = [](const char* variable, int parameter, int value) {
+    if (std::getenv(variable) == nullptr) mallopt(parameter, value);
+  };
+  unlessSet("MALLOC_ARENA_MAX", M_ARENA_MAX, coresToUse() + 1);
+  unlessSet("MALLOC_MMAP_THRESHOLD_", M_MMAP_THRESHOLD, 4 << 20); // bytes
+  unlessSet("MALLOC_TRIM_THRESHOLD_", M_TRIM_THRESHOLD, 16 << 20);
 }
 
 std::string addressOf(const std::string& bind, int port) {

@@ -11,7 +11,7 @@ NAMES = ("box_on_plane", "normal_mapped", "multi_scene", "leaves", "lights", "ci
 CUTS = 6
 CHANGES = 6
 ROUNDS = 6
-SLACK = 2 << 20  # bytes: one more thread's stack, and a heap of what it may keep free (1 MiB)
+SLACK = 1 << 20  # bytes: one more thread's stack, and what the heaps keep free at their ends
 
 
 def mended(glb):
@@ -30,6 +30,9 @@ def broken(glb, generator):
 
 
 class BrokenUploads(ServerTest):
+    # A heap may keep as much free as a frame takes, which would hide what is lost.
+    variables = {"MALLOC_TRIM_THRESHOLD_": str(128 << 10)}
+
     def upload(self, glb):
         return self.server.ask("POST", "/v1/scenes", glb, {"Content-Type": "model/gltf-binary"})
 
@@ -58,7 +61,7 @@ class BrokenUploads(ServerTest):
             self.assertEqual(self.a_round(), refused)
         after = self.server.resident_bytes()
         print(f"resident: {before >> 20} MiB before, {after >> 20} MiB after {ROUNDS * len(NAMES) * (CUTS + CHANGES)} uploads")
-        self.assertLess(after, before + max(before * 0.05, SLACK))
+        self.assertLess(after, before + SLACK)
 
     def test_a_limit_is_quoted(self):
         limits = self.server.get("/v1/capabilities").json()["limits"]

@@ -31,12 +31,17 @@ class Reply:
 
 
 class Server:
-    """`gnomon serve` with further flags, on any free port unless one is given. Use it in a `with` statement."""
+    """`gnomon serve` with further flags, on any free port unless one is given, with further variables in its
+    environment. Use it in a `with` statement."""
 
-    def __init__(self, *flags, port=0):
+    def __init__(self, *flags, port=0, variables=None):
         self.log = tempfile.TemporaryFile(mode="w+")
         self.process = subprocess.Popen(
-            [BINARY, "serve", "--port", str(port), *flags], stdout=subprocess.PIPE, stderr=self.log, text=True
+            [BINARY, "serve", "--port", str(port), *flags],
+            stdout=subprocess.PIPE,
+            stderr=self.log,
+            text=True,
+            env=os.environ | (variables or {}),
         )
         line = self.process.stdout.readline()  # printed once requests are taken
         if not line.startswith("listening on http://"):
@@ -123,10 +128,11 @@ class ServerTest(unittest.TestCase):
     """A server for all tests of the class; it must still live after each of them."""
 
     flags = ()
+    variables = {}
 
     @classmethod
     def setUpClass(cls):
-        cls.server = Server(*cls.flags)
+        cls.server = Server(*cls.flags, variables=cls.variables)
         cls.addClassCleanup(cls.server.__exit__)
 
     def tearDown(self):
