@@ -56,7 +56,7 @@ MAY_INCLUDE = {
     "server/frames": ["protocol", "server/http", "server/scenes", "server/frames"],
     "server/evaluations": BELOW_HANDLERS,
     "server/handlers": BELOW_HANDLERS + ["server/handlers"],
-    "server/process": BELOW_HANDLERS + ["server/handlers", "server/process"],
+    "server/process": BELOW_HANDLERS + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],
     "clients/cli": ["protocol", "clients/cli"],
     "clients/web": ["clients/web"],
