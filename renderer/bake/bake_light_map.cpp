@@ -34,7 +34,7 @@ std::vector<Band> bandsOf(const LightMapLayout& layout) {
       return first + static_cast<std::size_t>(row / kBandRows);
     };
     for (const std::uint32_t triangle : placed.triangles) {
-      const FlatTriangle flat = layout.corners3(placed.instance, triangle);
+      const FlatTriangle flat = layout.flat({placed.instance, triangle});
       const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
       for (std::size_t band = bandAt(low); band <= bandAt(high); ++band) bands[band].triangles.push_back(triangle);
     }
@@ -217,7 +217,7 @@ std::optional<LightMap> bakeLightMap(const TraceInput& rays, int light, const Li
     BandSums sums(traced, band.rect, samplesOfPlace);
     const std::uint32_t instance = layout.charts[band.chart].instance;
     for (const std::uint32_t triangle : band.triangles) {
-      addPlaces(traced, {instance, triangle}, layout.corners3(instance, triangle), band.rect, sums);
+      addPlaces(traced, {instance, triangle}, layout.flat({instance, triangle}), band.rect, sums);
     }
     const std::vector<std::int32_t> means = sums.means();
     const auto rowLength = static_cast<std::size_t>(band.rect.width);

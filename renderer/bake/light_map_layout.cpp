@@ -41,7 +41,7 @@ std::vector<glm::dvec2> sizesOf(const std::vector<InstanceCharts>& all) {
 
 /// A chart's rectangle at so many texels a metre. Far larger than any map where it would be.
 glm::ivec2 texelsOf(const glm::dvec2& size, double density) {
-  const glm::dvec2 texels = glm::clamp(glm::ceil(size * density), 1.0, 4.0 * kLargestLightMap);
+  const glm::dvec2 texels = glm::clamp(glm::ceil(size * density), 1.0, 4.0 * kLimits.maxLightMapSide);
   return glm::ivec2(texels) + 2 * kGutter;
 }
 
@@ -52,7 +52,7 @@ struct Packed {
   int longest() const { return std::max(width, packing.height); }
 };
 
-/// About square; nothing where that is larger than kLargestLightMap.
+/// About square; nothing where that is larger than kLimits.maxLightMapSide.
 std::optional<Packed> packed(const std::vector<glm::dvec2>& sizes, double density) {
   std::vector<glm::ivec2> texels;
   double area = 0;
@@ -62,11 +62,13 @@ std::optional<Packed> packed(const std::vector<glm::dvec2>& sizes, double densit
     area += static_cast<double>(texels.back().x) * texels.back().y;
     widest = std::max({widest, texels.back().x, texels.back().y});
   }
-  if (widest > kLargestLightMap || area > double{kLargestLightMap} * kLargestLightMap) return std::nullopt;
+  if (widest > kLimits.maxLightMapSide || area > double{kLimits.maxLightMapSide} * kLimits.maxLightMapSide)
+    return std::nullopt;
   // What charts leave free between them is seldom more than a tenth.
   const int side = (std::max(widest, static_cast<int>(std::sqrt(1.1 * area))) + 3) / 4 * 4;
-  Packed result{std::min(side, kLargestLightMap), packRectangles(texels, std::min(side, kLargestLightMap))};
-  if (result.packing.height > kLargestLightMap) return std::nullopt;
+  Packed result{std::min(side, kLimits.maxLightMapSide),
+                packRectangles(texels, std::min(side, kLimits.maxLightMapSide))};
+  if (result.packing.height > kLimits.maxLightMapSide) return std::nullopt;
   return result;
 }
 
@@ -93,11 +95,12 @@ Problem tooLarge(const LightMapFineness& fineness, std::size_t charts) {
     return {
         ProblemCode::invalidValue, "/size",
         "The scene's surfaces fall into " + std::to_string(charts) + " charts, which do not fit into the light map.",
-        std::to_string(*fineness.size + 1) + ".." + std::to_string(kLargestLightMap), std::to_string(*fineness.size)};
+        std::to_string(*fineness.size + 1) + ".." + std::to_string(kLimits.maxLightMapSide),
+        std::to_string(*fineness.size)};
   }
   return {ProblemCode::invalidValue, "/texelsPerMetre",
-          "At this fineness the light map of the scene has sides of more than " + std::to_string(kLargestLightMap) +
-              " texels.",
+          "At this fineness the light map of the scene has sides of more than " +
+              std::to_string(kLimits.maxLightMapSide) + " texels.",
           "", std::to_string(*fineness.texelsPerMetre)};
 }
 

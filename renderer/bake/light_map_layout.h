@@ -17,8 +17,6 @@ struct LightMapFineness {
   std::optional<int> size; ///< texels along the longer side of the map, at most: as fine as fits
 };
 
-inline constexpr int kLargestLightMap = kLimits.maxLightMapSide; ///< texels along a side
-
 /// A chart in the map. No other chart's texels lie in its rectangle, which leaves a texel free around it: what is read
 /// between four texels there is the chart's own.
 struct PlacedChart {
@@ -37,15 +35,19 @@ struct LightMapLayout {
   std::vector<glm::vec2> corners;       ///< three a triangle, texels; of a triangle without an area 0 0
   std::vector<std::uint8_t> authored;   ///< one an instance: its charts are those of TEXCOORD_1
 
-  FlatTriangle corners3(std::uint32_t instance, std::uint32_t triangle) const {
-    const glm::vec2* at = &corners[firstCorner[instance] + 3 * std::size_t{triangle}];
+  /// The three of a triangle.
+  const glm::vec2* cornersOf(const PlacedTriangle& placed) const {
+    return &corners[firstCorner[placed.instance] + 3 * std::size_t{placed.triangle}];
+  }
+  FlatTriangle flat(const PlacedTriangle& placed) const {
+    const glm::vec2* at = cornersOf(placed);
     return {glm::dvec2(at[0]), glm::dvec2(at[1]), glm::dvec2(at[2])};
   }
 };
 
 /// Every instance has its place, as each is shadowed in its own way: by its TEXCOORD_1 where that makes sound charts
 /// (authoredChartsOf), else by charts made here. The same for the same scene. A problem where the map would be larger
-/// than kLargestLightMap, or where not even one texel a chart fits.
+/// than kLimits.maxLightMapSide, or where not even one texel a chart fits.
 Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness);
 
 } // namespace gnomon

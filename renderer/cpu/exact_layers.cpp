@@ -86,20 +86,18 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   const std::vector<Light>& lights = *work.frame.spec.lights;
   const SampleGrid grid = gridOf(surfaces);
   const ShownNumbers shown = shownNumbers(surfaces);
-  const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
+  const auto shadowOf = [&](int light) -> const Shadow& { return *lights[static_cast<std::size_t>(light)].shadow; };
+  std::vector<std::uint8_t> masks;
+  if (sendsRays(work.layered, lights)) masks = maskCoverage(camera, survey);
   const TriangleNumbers numbers(camera.scene.geometry);
   const TraceInput rays{**traced, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};
   const PicturePoints points(rays, grid, numbers, shown, masks);
   ExactLayers exact;
   for (const int light : work.layered) {
     const auto start = std::chrono::steady_clock::now();
-    const Shadow& shadow = *lights[static_cast<std::size_t>(light)].shadow;
-    if (traitsOf(shadow.technique).baked) {
-      exact.values.push_back(bakedShadow(points, *work.baked(light)));
-      exact.lights.push_back({light, millisecondsSince(start), {}});
-      continue;
-    }
-    TracedShadow found = tracedShadow(points, rays, light, shadow.raySamples);
+    TracedShadow found = traitsOf(shadowOf(light).technique).baked
+                             ? bakedShadow(points, *work.baked(light))
+                             : tracedShadow(points, rays, light, shadowOf(light).raySamples);
     exact.values.push_back(std::move(found.values));
     exact.lights.push_back({light, millisecondsSince(start), found.tracedPixels});
   }

@@ -1,5 +1,6 @@
 #include "renderer/reference/crossings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/core/instruction_sets.h"
@@ -28,12 +29,6 @@ inline void clip(double min, double max, double origin, double direction, double
   const double high = (max - origin) / direction;
   from = greater(from, lesser(low, high));
   to = lesser(to, greater(low, high));
-}
-
-void setCorner(const glm::vec3& corner, float (&to)[3][kLanes], unsigned lane) {
-  to[0][lane] = corner.x;
-  to[1][lane] = corner.y;
-  to[2][lane] = corner.z;
 }
 
 } // namespace
@@ -84,18 +79,6 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void enter(const Aabb& box, double near, double 
   }
 }
 
-void Crossings::setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& hit) {
-  const std::uint32_t* corner = tree.corners(hit.instance, hit.triangle);
-  const glm::vec3* placed = &tree.positions[tree.firstPosition[hit.instance]];
-  setCorner(placed[corner[0]], a, lane);
-  setCorner(placed[corner[1]], b, lane);
-  setCorner(placed[corner[2]], c, lane);
-}
-
-void Crossings::setNothing(unsigned lane) {
-  for (auto* corner : {&a, &b, &c}) setCorner(glm::vec3(0), *corner, lane);
-}
-
 // The operations of crossing() in the same order: so the same bits.
 GNOMON_FOR_EACH_INSTRUCTION_SET void cross(const Lines& lines, double scale, Crossings& m) {
   const double metres = 1.0 / scale;
@@ -131,6 +114,18 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void cross(const Lines& lines, double scale, Cro
     m.normal[1][i] = static_cast<float>(area.y * side / divisor);
     m.normal[2][i] = static_cast<float>(area.z * side / divisor);
   }
+}
+
+Crossings crossingsOf(const Sight& sight, const TracedScene::Tree& tree, const Places& places,
+                      std::span<const PlacedTriangle> shown) {
+  Crossings found{};
+  for (unsigned i = 0; i < shown.size(); ++i) found.setTriangle(tree, i, shown[i]);
+  std::fill_n(found.u, kLanes, 1.0 / 3.0);
+  std::fill_n(found.v, kLanes, 1.0 / 3.0);
+  Lines lines;
+  setLines(sight, places, lines);
+  cross(lines, tree.scale, found);
+  return found;
 }
 
 } // namespace gnomon

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include "renderer/core/aabb.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
 #include "renderer/reference/tree.h"
+#include "renderer/reference/triangle_lanes.h"
 
 /// Camera rays and triangles in double precision, kLanes at a time and a coordinate after the other, so that loops over
 /// the lanes become vectors. Metres, relative to the scene's anchor.
@@ -44,17 +46,13 @@ struct Stretches {
 /// the distance of the eye takes nothing from its precision.
 void enter(const Aabb& box, double near, double far, Lines& lines, Stretches& stretches);
 
-struct Crossings {
-  float a[3][kLanes], b[3][kLanes], c[3][kLanes]; ///< corners, in the tree's units
-  double u[kLanes],
-      v[kLanes];         ///< where the line crosses, as crossing() finds it; before: where it runs along the plane
+struct Crossings : TriangleLanes {
+  /// Where the line crosses, as crossing() finds it; before: where it runs along the plane.
+  double u[kLanes], v[kLanes];
   double facing[kLanes]; ///< more than 0 where the line leads along the triangle's normal
   double position[3][kLanes];
   float normal[3][kLanes]; ///< unit length, against the line; zero where the triangle has no area
 
-  /// `hit`: a triangle of the tree.
-  void setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& hit);
-  void setNothing(unsigned lane);
   SurfacePoint point(unsigned lane, const PlacedTriangle& hit) const {
     return {{position[0][lane], position[1][lane], position[2][lane]},
             {normal[0][lane], normal[1][lane], normal[2][lane]},
@@ -65,5 +63,10 @@ struct Crossings {
 
 /// Crosses each line with its triangle. `scale`: of the tree.
 void cross(const Lines& lines, double scale, Crossings& crossings);
+
+/// Where the lines through up to kLanes places cross what shows there; no surface = nothing. Lines along a triangle's
+/// plane: its middle.
+Crossings crossingsOf(const Sight& sight, const TracedScene::Tree& tree, const Places& places,
+                      std::span<const PlacedTriangle> shown);
 
 } // namespace gnomon

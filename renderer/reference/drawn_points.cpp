@@ -68,18 +68,6 @@ DrawnLight drawnLight(const LightSource& source, const glm::dvec3& eye, double s
   return light;
 }
 
-void DrawnPoints::setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& shown) {
-  const std::uint32_t* corner = tree.corners(shown.instance, shown.triangle);
-  const glm::vec3* placed = &tree.positions[tree.firstPosition[shown.instance]];
-  put(placed[corner[0]], a, lane);
-  put(placed[corner[1]], b, lane);
-  put(placed[corner[2]], c, lane);
-}
-
-void DrawnPoints::setNothing(unsigned lane) {
-  for (auto* corner : {&a, &b, &c}) put(glm::vec3(0), *corner, lane);
-}
-
 namespace {
 
 bool showsOne(const DrawnPlaces& places) {
@@ -91,20 +79,14 @@ bool showsOne(const DrawnPlaces& places) {
 } // namespace
 
 void setTriangles(const TracedScene::Tree& tree, const DrawnPlaces& places, DrawnPoints& points) {
-  if (places.shown[0].instance != kNoSurface && showsOne(places)) {
+  if (showsOne(places)) {
     points.setTriangle(tree, 0, places.shown[0]);
     for (auto* corner : {&points.a, &points.b, &points.c}) {
       for (auto& axis : *corner) std::fill_n(axis, kLanes, axis[0]);
     }
     return;
   }
-  for (unsigned i = 0; i < kLanes; ++i) {
-    if (places.shown[i].instance == kNoSurface) {
-      points.setNothing(i);
-    } else {
-      points.setTriangle(tree, i, places.shown[i]);
-    }
-  }
+  for (unsigned i = 0; i < kLanes; ++i) points.setTriangle(tree, i, places.shown[i]);
 }
 
 // A point is where the line of sight crosses the plane (Moeller and Trumbore, 1997). Of a triangle that is small beside
@@ -188,10 +170,6 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void aimAtLamp(DrawnLight light, DrawnPoints& po
     put(toward, points.toward, i);
   }
 }
-
-} // namespace
-
-namespace {
 
 /// As discFromSquare of light_source.cpp.
 [[gnu::always_inline]] inline glm::vec2 discPlace(std::uint32_t x, std::uint32_t y) {

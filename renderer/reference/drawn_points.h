@@ -7,6 +7,7 @@
 #include "renderer/reference/light_source.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
+#include "renderer/reference/triangle_lanes.h"
 
 /// The points of drawn triangles as rays to a light start from them, in floats, kLanes at a time: they say of nearly
 /// all points whether a ray is needed and where it runs, and know of which ones they can't.
@@ -34,9 +35,7 @@ DrawnView drawnView(const Sight& sight, double scale);
 DrawnLight drawnLight(const LightSource& light, const glm::dvec3& eye, double scale);
 
 /// Lanes of what is decided hold -1, or 0 where it does not hold.
-struct alignas(64) DrawnPoints {
-  float a[3][kLanes], b[3][kLanes], c[3][kLanes]; ///< corners, in the tree's units
-
+struct alignas(64) DrawnPoints : TriangleLanes {
   float u[kLanes], v[kLanes]; ///< weights of the second and third corner, in the triangle
   float relative[3][kLanes];  ///< the point, from the eye
   float normal[3][kLanes];    ///< unit length, on the eye's side
@@ -49,10 +48,6 @@ struct alignas(64) DrawnPoints {
   int reached[kLanes];        ///< the light shines as far as here, and in this direction
   int leaves[kLanes];         ///< the way leads off the surface; of a light with a size some may not
   int sure[kLanes];           ///< floats can tell all that; else nothing else means anything
-
-  /// `shown`: a triangle of the tree.
-  void setTriangle(const TracedScene::Tree& tree, unsigned lane, const PlacedTriangle& shown);
-  void setNothing(unsigned lane);
 };
 
 /// Sets each lane's corners to those of what is drawn there.

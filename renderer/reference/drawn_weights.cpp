@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "renderer/reference/crossings.h"
 #include "renderer/reference/drawn_points.h"
 #include "renderer/reference/trace.h"
@@ -7,21 +9,10 @@ namespace {
 
 /// The float's word where it is sure; else lines and triangles in doubles decide, all sixteen.
 void findExactly(const TraceInput& input, const DrawnPlaces& places, DrawnWeights& weights) {
-  Places at{};
-  Lines lines;
-  Crossings found{};
-  for (unsigned i = 0; i < kLanes; ++i) {
-    at.x[i] = places.x[i];
-    at.y[i] = places.y[i];
-    if (places.shown[i].instance == kNoSurface) {
-      found.setNothing(i);
-    } else {
-      found.setTriangle(input.traced.tree(), i, places.shown[i]);
-    }
-    found.u[i] = found.v[i] = 1.0 / 3.0;
-  }
-  setLines(sightOf(input), at, lines);
-  cross(lines, input.traced.tree().scale, found);
+  Places at;
+  std::copy_n(places.x, kLanes, at.x);
+  std::copy_n(places.y, kLanes, at.y);
+  const Crossings found = crossingsOf(sightOf(input), input.traced.tree(), at, places.shown);
   for (unsigned i = 0; i < kLanes; ++i) {
     weights.u[i] = static_cast<float>(found.u[i]);
     weights.v[i] = static_cast<float>(found.v[i]);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "renderer/core/parallel.h"
 #include "renderer/reference/crossings.h"
 #include "renderer/reference/trace.h"
@@ -14,23 +16,13 @@ void pointsOn(const TraceInput& input, std::span<const glm::vec2> places, std::s
   const TracedScene::Tree& tree = input.traced.tree();
   const Sight sight = sightOf(input);
   Places at{};
-  Lines lines;
-  Crossings found{};
   for (std::size_t first = 0; first < places.size(); first += kLanes) {
     const auto count = static_cast<unsigned>(std::min<std::size_t>(kLanes, places.size() - first));
     for (unsigned i = 0; i < count; ++i) {
       at.x[i] = places[first + i].x;
       at.y[i] = places[first + i].y;
-      if (triangles[first + i].instance == kNoSurface) {
-        found.setNothing(i);
-      } else {
-        found.setTriangle(tree, i, triangles[first + i]);
-      }
     }
-    std::fill_n(found.u, kLanes, 1.0 / 3.0);
-    std::fill_n(found.v, kLanes, 1.0 / 3.0);
-    setLines(sight, at, lines);
-    cross(lines, tree.scale, found);
+    const Crossings found = crossingsOf(sight, tree, at, triangles.subspan(first, count));
     for (unsigned i = 0; i < count; ++i) {
       const PlacedTriangle& on = triangles[first + i];
       points[first + i] = on.instance == kNoSurface ? SurfacePoint{} : found.point(i, on);

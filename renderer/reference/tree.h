@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <embree3/rtcore.h>
@@ -64,16 +65,16 @@ struct TracedScene::Tree {
   RTCIntersectContextFlags closeRays() const {
     return shared.empty() ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
-  /// Its corners' places among the positions of its instance.
-  const std::uint32_t* corners(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
-    return &scene->indices[firstIndex[instanceIndex] + 3 * std::size_t{triangleIndex}];
+  /// Its corners, times `scale`. REQUIRES: a triangle of the scene.
+  std::array<glm::vec3, 3> corners(const PlacedTriangle& of) const {
+    const std::uint32_t* corner = &scene->indices[firstIndex[of.instance] + 3 * std::size_t{of.triangle}];
+    const glm::vec3* placed = &positions[firstPosition[of.instance]];
+    return {placed[corner[0]], placed[corner[1]], placed[corner[2]]};
   }
   Triangle triangle(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
-    const std::uint32_t* corner = corners(instanceIndex, triangleIndex);
-    const glm::vec3* placed = &positions[firstPosition[instanceIndex]];
+    const auto [a, b, c] = corners({instanceIndex, triangleIndex});
     const double metres = 1.0 / scale;
-    return {glm::dvec3(placed[corner[0]]) * metres, glm::dvec3(placed[corner[1]]) * metres,
-            glm::dvec3(placed[corner[2]]) * metres};
+    return {glm::dvec3(a) * metres, glm::dvec3(b) * metres, glm::dvec3(c) * metres};
   }
 };
 

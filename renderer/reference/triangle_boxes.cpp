@@ -50,12 +50,6 @@ std::vector<BoxRow> rowsOf(std::size_t count, const ExtentAt& extentAt) {
   return rows;
 }
 
-std::array<glm::vec3, 3> cornersOf(const TracedScene::Tree& tree, const PlacedTriangle& triangle) {
-  const std::uint32_t* corner = tree.corners(triangle.instance, triangle.triangle);
-  const glm::vec3* placed = &tree.positions[tree.firstPosition[triangle.instance]];
-  return {placed[corner[0]], placed[corner[1]], placed[corner[2]]};
-}
-
 bool reachesInto(const Shaft& shaft, const std::array<glm::vec3, 3>& corners) {
   return std::none_of(shaft.planes.begin(), shaft.planes.end(), [&](const glm::vec4& plane) {
     return std::all_of(corners.begin(), corners.end(),
@@ -92,7 +86,7 @@ TriangleBoxes::TriangleBoxes(const TracedScene::Tree& tree) {
     Extent extent;
     for (std::uint32_t i = 0; i < runs_[run].count; ++i) {
       const PlacedTriangle& first = runs_[run].first;
-      for (const glm::vec3& corner : cornersOf(tree, {first.instance, first.triangle + i})) extent.add(corner);
+      for (const glm::vec3& corner : tree.corners({first.instance, first.triangle + i})) extent.add(corner);
     }
     return extent;
   }));
@@ -125,7 +119,7 @@ bool TriangleBoxes::mayReachInto(const Shaft& shaft, const TracedScene::Tree& tr
       const Run& run = runs_[box];
       for (std::uint32_t i = 0; i < run.count; ++i) {
         const PlacedTriangle triangle{run.first.instance, run.first.triangle + i};
-        if (reachesInto(shaft, cornersOf(tree, triangle)) && casts(triangle)) return true;
+        if (reachesInto(shaft, tree.corners(triangle)) && casts(triangle)) return true;
       }
     }
   }

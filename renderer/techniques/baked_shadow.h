@@ -1,13 +1,13 @@
 #pragma once
 
 #include "renderer/bake/baked_light.h"
-#include "renderer/core/unfilled.h"
 #include "renderer/techniques/picture_points.h"
+#include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
 
-/// Looks up what each sample of the picture sees of a baked light: a share, 0..65535, in the grid's order. Lit where
-/// nothing shows. What is turned away from the light has the share of the surface's other side, and is dark.
-UnfilledVector<std::uint16_t> bakedShadow(const PicturePoints& points, const BakedLight& baked);
+/// Looks up what each sample of the picture sees of a baked light. Lit where nothing shows. What is turned away from
+/// the light has the share of the surface's other side, and is dark.
+TracedShadow bakedShadow(const PicturePoints& points, const BakedLight& baked);
 
 } // namespace gnomon

@@ -13,14 +13,14 @@ struct Round {
 };
 
 /// Adds what the rays of a round see to what was seen before. None wait any more.
-void add(const PicturePoints& points, const TracedLight& light, const Round& round, ShownPixels& waiting,
+void add(const PicturePoints& points, const TracedLight& light, const Round& round, ShownSamples& waiting,
          PictureShares& shares) {
   float found[DrawnPlaces::kCount];
   std::uint8_t away[DrawnPlaces::kCount];
   light.visibility(points.drawn(waiting), round.first, round.last, found, away);
   const float before = static_cast<float>(round.first) / static_cast<float>(round.last);
   for (std::size_t i = 0; i < waiting.count; ++i) {
-    const std::uint32_t pixel = shares.numberOf(waiting.pixels[i]);
+    const std::uint32_t pixel = shares.grid.numberOf(waiting.pixels[i]);
     const float known = static_cast<float>(*shares.valuesOf(pixel)) / 65535.0f;
     shares.set(pixel, before * known + (1 - before) * found[i]);
   }
@@ -30,25 +30,22 @@ void add(const PicturePoints& points, const TracedLight& light, const Round& rou
 /// From all of `pixels`, which are of this round.
 void trace(const PicturePoints& points, const TracedLight& light, const Round& round, const Pixels& pixels,
            PictureShares& shares) {
-  const int columns = (shares.grid.width + kBlockWidth - 1) / kBlockWidth;
-  std::vector<std::uint32_t> blocks;
+  const int columns = blockColumns(shares.grid);
+  Pixels blocks;
   for (const std::uint32_t pixel : pixels) {
     shares.marks[pixel] |= PictureShares::kAsked;
-    const glm::ivec2 at = shares.pixelAt(pixel);
+    const glm::ivec2 at = shares.grid.pixelAt(pixel);
     const auto block = static_cast<std::uint32_t>(at.y / kBlockHeight * columns + at.x / kBlockWidth);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
   }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  blocks = eachOnce(std::move(blocks));
   forEach(blocks.size(), [&](std::size_t i) {
-    const int block = static_cast<int>(blocks[i]);
-    const Rect rect{block % columns * kBlockWidth, block / columns * kBlockHeight, kBlockWidth, kBlockHeight};
-    ShownPixels waiting;
-    forEachPixel(shares.grid, rect, [&](const glm::ivec2& pixel) {
-      std::uint8_t& mark = shares.marks[shares.numberOf(pixel)];
+    ShownSamples waiting;
+    forEachPixel(shares.grid, blockOf(shares.grid, blocks[i]), [&](const glm::ivec2& pixel) {
+      std::uint8_t& mark = shares.marks[shares.grid.numberOf(pixel)];
       if ((mark & PictureShares::kAsked) == 0) return;
       mark = static_cast<std::uint8_t>(mark - PictureShares::kAsked + PictureShares::kRound);
-      waiting.add(pixel, points.numberAt(pixel));
+      waiting.add(pixel, 0, points.numberAt(pixel));
       if (waiting.full()) add(points, light, round, waiting, shares);
     });
     if (waiting.count > 0) add(points, light, round, waiting, shares);
@@ -62,7 +59,7 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
   const auto isOf = [&](const Round& round, std::uint32_t pixel) {
     const std::uint8_t mark = shares.marks[pixel];
     return mark / PictureShares::kRound == round.number && (mark & PictureShares::kAway) == 0 &&
-           points.numberAt(shares.pixelAt(pixel)) != kNoNumber;
+           points.numberAt(shares.grid.pixelAt(pixel)) != kNoNumber;
   };
   for (Round round; round.last < most; ++round.number) {
     round.first = round.last;

@@ -46,23 +46,13 @@ DrawnBlock PicturePoints::drawnBlock(const Rect& block, std::uint32_t number) co
   return drawn;
 }
 
-DrawnPlaces PicturePoints::drawn(const ShownPixels& shown) const {
-  DrawnPlaces places;
-  const glm::vec2 sample = grid_.positions.front();
-  const auto height = static_cast<float>(grid_.height);
-  for (std::size_t i = 0; i < shown.count; ++i) {
-    places.x[i] = static_cast<float>(shown.pixels[i].x) + sample.x;
-    places.y[i] = height - (static_cast<float>(shown.pixels[i].y) + sample.y);
-  }
-  numbers_.of({shown.numbers, shown.count}, places.shown);
-  return places;
-}
-
 DrawnPlaces PicturePoints::drawn(const ShownSamples& shown) const {
   DrawnPlaces places;
+  const auto height = static_cast<float>(grid_.height);
   for (std::size_t i = 0; i < shown.count; ++i) {
-    places.x[i] = shown.places[i].x;
-    places.y[i] = static_cast<float>(grid_.height) - shown.places[i].y;
+    const glm::vec2 sample = grid_.positions.data()[shown.samples[i]];
+    places.x[i] = static_cast<float>(shown.pixels[i].x) + sample.x;
+    places.y[i] = height - (static_cast<float>(shown.pixels[i].y) + sample.y);
   }
   numbers_.of({shown.numbers, shown.count}, places.shown);
   return places;

@@ -22,6 +22,12 @@ struct SampleGrid {
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   std::size_t samples() const { return positions.size(); }
+  std::uint32_t numberOf(const glm::ivec2& pixel) const {
+    return static_cast<std::uint32_t>(pixel.y * width + pixel.x);
+  }
+  glm::ivec2 pixelAt(std::uint32_t number) const {
+    return {static_cast<int>(number) % width, static_cast<int>(number) / width};
+  }
 };
 
 /// Where rays go through, as firstHits takes it: from the picture's upper left corner.
@@ -55,27 +61,16 @@ struct ShownNumbers {
   }
 };
 
-/// Pixels, up to DrawnPlaces::kCount of them, and the numbers that their first samples show.
-struct ShownPixels {
-  glm::ivec2 pixels[DrawnPlaces::kCount];
-  std::uint32_t numbers[DrawnPlaces::kCount];
-  std::size_t count = 0;
-
-  void add(const glm::ivec2& pixel, std::uint32_t number) {
-    pixels[count] = pixel;
-    numbers[count++] = number;
-  }
-  bool full() const { return count == DrawnPlaces::kCount; }
-};
-
-/// Samples, up to DrawnPlaces::kCount of them, and the numbers that they show.
+/// Samples of pixels, up to DrawnPlaces::kCount of them, and the numbers that they show.
 struct ShownSamples {
-  glm::vec2 places[DrawnPlaces::kCount]; ///< pixels from the picture's lower left corner
+  glm::ivec2 pixels[DrawnPlaces::kCount];
+  std::uint32_t samples[DrawnPlaces::kCount]; ///< of those pixels
   std::uint32_t numbers[DrawnPlaces::kCount];
   std::size_t count = 0;
 
-  void add(const glm::vec2& place, std::uint32_t number) {
-    places[count] = place;
+  void add(const glm::ivec2& pixel, std::uint32_t sample, std::uint32_t number) {
+    pixels[count] = pixel;
+    samples[count] = sample;
     numbers[count++] = number;
   }
   bool full() const { return count == DrawnPlaces::kCount; }
@@ -110,10 +105,8 @@ class PicturePoints {
   /// The block as rays know it. `number`: of the triangle that it shows alone.
   DrawnBlock drawnBlock(const Rect& block, std::uint32_t number) const;
 
-  /// What these pixels show at their first samples, as it was drawn: the exact points are there, but for samples that
-  /// the rim of a surface passes within the device's rounding, and for masks, which are filtered as they are drawn.
-  DrawnPlaces drawn(const ShownPixels& shown) const;
-
+  /// What these show, as it was drawn: the exact points are there, but for samples that the rim of a surface passes
+  /// within the device's rounding, and for masks, which are filtered as they are drawn.
   DrawnPlaces drawn(const ShownSamples& shown) const;
 
   /// Where these lie in their triangles.

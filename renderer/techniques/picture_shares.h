@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
+#include "renderer/core/parallel.h"
 #include "renderer/core/rect.h"
 #include "renderer/core/unfilled.h"
 #include "renderer/techniques/picture_points.h"
@@ -14,16 +17,43 @@ namespace gnomon {
 /// what one core has in hand of them stays in its caches.
 inline constexpr int kBlockWidth = 32;
 inline constexpr int kBlockHeight = 16;
-inline constexpr int kSquare = 4;
 
 /// Shares of 255 that differ by less show no edge between them, and are as sure as rays have to make them.
 inline constexpr int kEdge = 26;
 
 using Pixels = std::vector<std::uint32_t>;
 
+/// In order, each once.
+inline Pixels eachOnce(Pixels pixels) {
+  std::sort(pixels.begin(), pixels.end());
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  return pixels;
+}
+
+inline int blockColumns(const SampleGrid& grid) {
+  return (grid.width + kBlockWidth - 1) / kBlockWidth;
+}
+inline int blockRows(const SampleGrid& grid) {
+  return (grid.height + kBlockHeight - 1) / kBlockHeight;
+}
+
+/// Block number `number`, row by row from the lowest. It may reach over the picture's right and upper side.
+inline Rect blockOf(const SampleGrid& grid, std::uint32_t number) {
+  const int columns = blockColumns(grid);
+  const int at = static_cast<int>(number);
+  return {at % columns * kBlockWidth, at / columns * kBlockHeight, kBlockWidth, kBlockHeight};
+}
+
+/// Calls `each(block)` for all blocks of the picture, in parallel.
+inline void forEachBlock(const SampleGrid& grid, const std::function<void(const Rect&)>& each) {
+  const std::size_t count = static_cast<std::size_t>(blockColumns(grid)) * static_cast<std::size_t>(blockRows(grid));
+  forEach(count, [&](std::size_t i) { each(blockOf(grid, static_cast<std::uint32_t>(i))); });
+}
+
 /// Calls `each(pixel)` for the pixels of a block of the picture, square by square.
 template <class Each>
 void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
+  constexpr int kSquare = 4;
   const int right = std::min(block.x + block.width, grid.width);
   const int top = std::min(block.y + block.height, grid.height);
   for (int y = block.y; y < top; y += kSquare) {
@@ -55,12 +85,6 @@ struct PictureShares {
   UnfilledVector<std::uint8_t> shares;  ///< 0..255, one a pixel: the mean of its samples
   UnfilledVector<std::uint8_t> marks;   ///< one a pixel
 
-  std::uint32_t numberOf(const glm::ivec2& pixel) const {
-    return static_cast<std::uint32_t>(pixel.y * grid.width + pixel.x);
-  }
-  glm::ivec2 pixelAt(std::uint32_t number) const {
-    return {static_cast<int>(number) % grid.width, static_cast<int>(number) / grid.width};
-  }
   std::uint16_t* valuesOf(std::uint32_t pixel) { return values.data() + pixel * places; }
   int apart(std::uint32_t a, std::uint32_t b) const {
     return std::abs(static_cast<int>(shares[a]) - static_cast<int>(shares[b]));
@@ -81,17 +105,15 @@ template <class Keep>
 Pixels pixelsBeside(const PictureShares& shares, const Pixels& pixels, Keep keep) {
   Pixels beside;
   for (const std::uint32_t pixel : pixels) {
-    const glm::ivec2 at = shares.pixelAt(pixel);
+    const glm::ivec2 at = shares.grid.pixelAt(pixel);
     for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
       for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
-        const std::uint32_t other = shares.numberOf({column, row});
+        const std::uint32_t other = shares.grid.numberOf({column, row});
         if (keep(other, pixel)) beside.push_back(other);
       }
     }
   }
-  std::sort(beside.begin(), beside.end());
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-  return beside;
+  return eachOnce(std::move(beside));
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <numeric>
 
+#include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbras.h"
@@ -20,12 +21,6 @@ constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 /// Shares of a soft shadow that differ by less lie within a penumbra some pixels wide.
 constexpr int kSoftEdge = 128;
 
-Pixels eachOnce(Pixels pixels) {
-  std::sort(pixels.begin(), pixels.end());
-  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
-  return pixels;
-}
-
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
  public:
@@ -35,14 +30,8 @@ class ShadowTracing {
   /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn, but from blocks
   /// that are lit or turned away as a whole. Gives how many pixels rays were sent from.
   std::uint64_t traceDrawn(std::span<const Verdict> verdicts) {
-    const int columns = (grid().width + kBlockWidth - 1) / kBlockWidth;
-    const int rows = (grid().height + kBlockHeight - 1) / kBlockHeight;
     std::atomic<std::uint64_t> traced = 0;
-    forEach(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i) {
-      const int block = static_cast<int>(i);
-      traced += traceBlock({block % columns * kBlockWidth, block / columns * kBlockHeight, kBlockWidth, kBlockHeight},
-                           verdicts);
-    });
+    forEachBlock(grid(), [&](const Rect& block) { traced += traceBlock(block, verdicts); });
     return traced;
   }
 
@@ -119,7 +108,7 @@ class ShadowTracing {
   /// Whether an edge shows between a pixel and those beside it, which differ by so much. In a penumbra one does where
   /// the samples of the pixel show several triangles, each of which may see another share.
   bool isEdge(std::uint32_t pixel, int apart) const {
-    return apart >= (isSoft() ? kSoftEdge : kEdge) || (apart >= kEdge && points_.showsSeveral(known_.pixelAt(pixel)));
+    return apart >= (isSoft() ? kSoftEdge : kEdge) || (apart >= kEdge && points_.showsSeveral(grid().pixelAt(pixel)));
   }
 
   void setLit(const Rect& block) {
@@ -134,19 +123,19 @@ class ShadowTracing {
 
   void set(std::uint32_t pixel, float share) { known_.set(pixel, share); }
 
-  std::uint32_t numberOf(const glm::ivec2& pixel) const { return known_.numberOf(pixel); }
+  std::uint32_t numberOf(const glm::ivec2& pixel) const { return grid().numberOf(pixel); }
 
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
     setLit(block);
-    ShownPixels waiting;
+    ShownSamples waiting;
     const std::uint64_t traced =
         verdicts.empty() ? traceWhereUnsure(block, waiting) : traceJudged(block, verdicts, waiting);
     traceDrawn(waiting);
     return traced;
   }
 
-  std::uint64_t traceJudged(const Rect& block, std::span<const Verdict> verdicts, ShownPixels& waiting) {
+  std::uint64_t traceJudged(const Rect& block, std::span<const Verdict> verdicts, ShownSamples& waiting) {
     std::uint64_t traced = 0;
     forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
       const Verdict verdict = verdicts[numberOf(pixel)];
@@ -162,7 +151,7 @@ class ShadowTracing {
   }
 
   /// Asks for a block as a whole where it shows one triangle, or none; then for its quarters; at last for its pixels.
-  std::uint64_t traceWhereUnsure(const Rect& block, ShownPixels& waiting) {
+  std::uint64_t traceWhereUnsure(const Rect& block, ShownSamples& waiting) {
     const Rect shown{block.x, block.y, std::min(block.width, grid().width - block.x),
                      std::min(block.height, grid().height - block.y)};
     if (shown.width <= 0 || shown.height <= 0) return 0;
@@ -188,10 +177,10 @@ class ShadowTracing {
   }
 
   /// Whether that takes rays.
-  bool trace(const glm::ivec2& pixel, ShownPixels& waiting) {
+  bool trace(const glm::ivec2& pixel, ShownSamples& waiting) {
     const std::uint32_t number = points_.numberAt(pixel);
     if (number == kNoNumber) return false;
-    waiting.add(pixel, number);
+    waiting.add(pixel, 0, number);
     if (waiting.full()) traceDrawn(waiting);
     return true;
   }
@@ -202,7 +191,7 @@ class ShadowTracing {
   }
 
   /// Then none wait any more.
-  void traceDrawn(ShownPixels& waiting) {
+  void traceDrawn(ShownSamples& waiting) {
     float found[DrawnPlaces::kCount];
     std::uint8_t away[DrawnPlaces::kCount];
     light_.visibility(points_.drawn(waiting), 0, 1, found, away);
@@ -230,6 +219,13 @@ class ShadowTracing {
 };
 
 } // namespace
+
+bool sendsRays(std::span<const int> layered, std::span<const Light> lights) {
+  return std::any_of(layered.begin(), layered.end(), [&](int light) {
+    const TechniqueTraits& traits = traitsOf(lights[static_cast<std::size_t>(light)].shadow->technique);
+    return traits.traced && !traits.baked;
+  });
+}
 
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
                           std::span<const Verdict> verdicts) {

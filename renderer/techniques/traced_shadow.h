@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "renderer/core/unfilled.h"
@@ -15,10 +17,14 @@ enum class Verdict : std::uint8_t {
   lit = 255
 };
 
+/// One light's shadow over a picture.
 struct TracedShadow {
-  UnfilledVector<std::uint16_t> values; ///< share of the light at every sample, 0..65535, in the grid's order
-  std::uint64_t tracedPixels = 0;       ///< that rays decided
+  UnfilledVector<std::uint16_t> values;      ///< share of the light at every sample, 0..65535, in the grid's order
+  std::optional<std::uint64_t> tracedPixels; ///< that rays decided; nothing where all was looked up
 };
+
+/// Whether any of these lights is traced when a frame is drawn. `layered`: indices of those that fill layers.
+bool sendsRays(std::span<const int> layered, std::span<const Light> lights);
 
 /// What arrives of light `light` of `rays`. A pixel that the verdicts leave unsure (all of them where there are none)
 /// is decided by rays from the point that was drawn there. What was drawn may differ from what a camera ray meets

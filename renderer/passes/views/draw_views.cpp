@@ -73,7 +73,8 @@ class ViewDrawing {
 
   Status needSurfaces(int samples) {
     if (drawn_.surfaces.contains(samples)) return Done{};
-    auto surfaces = drawSurfaces(inputs_, shading_.survey, samples, needsRays(work_.layered, *shading_.spec.lights));
+    auto surfaces =
+        drawSurfaces(inputs_, shading_.survey, samples, needsTriangles(work_.layered, *shading_.spec.lights));
     if (!surfaces) return surfaces.problems();
     drawn_.surfaces.emplace(samples, std::move(*surfaces));
     return Done{};

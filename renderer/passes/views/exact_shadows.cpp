@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
@@ -36,12 +37,48 @@ Status volumeShadow(const PassInputs& inputs, const Shading& shading, const Surf
   return Done{};
 }
 
-/// The shadow map, if there is one, decides where it is sure, rays do elsewhere: everywhere towards a light that has a
-/// size, of which the map knows the middle alone.
-Result<TracedShadow> hybridShadow(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces,
-                                  const PicturePoints& points, int light) {
+/// What was drawn, as rays and light maps start from it.
+struct ShownPicture {
+  SampleGrid grid;
+  std::shared_ptr<const TracedScene> traced;
+  std::vector<std::uint32_t> numbers;
+  ShownNumbers shown;
+  std::vector<std::uint8_t> masks;
+  std::optional<PicturePoints> points; ///< refers to all of these
+};
+
+Result<std::unique_ptr<ShownPicture>> readPicture(const PassInputs& inputs, const Shading& shading,
+                                                  const FrameWork& work, const Surfaces& surfaces) {
+  const std::vector<Light>& lights = *shading.spec.lights;
+  auto picture = std::make_unique<ShownPicture>();
+  picture->grid = {inputs.width, inputs.height, surfaces.samplePositions};
+  const auto traced = work.traced();
+  if (!traced) return traced.problems();
+  picture->traced = *traced;
+  auto numbers = shownTriangles(inputs, surfaces);
+  if (!numbers) return numbers.problems();
+  picture->numbers = std::move(*numbers);
+  picture->shown = inOrder(picture->grid, picture->numbers);
+  if (sendsRays(work.layered, lights)) {
+    auto masks = maskCoverage(inputs, shading.survey);
+    if (!masks) return masks.problems();
+    picture->masks = std::move(*masks);
+  }
+  const TraceInput rays{*picture->traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes};
+  picture->points.emplace(rays, picture->grid, surfaces.numbers, picture->shown, picture->masks);
+  return picture;
+}
+
+/// A light map, if there is one, has it all. A shadow map decides where it is sure, rays do elsewhere: everywhere
+/// towards a light that has a size, of which the map knows the middle alone.
+Result<TracedShadow> shadowOf(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
+                              const Surfaces& surfaces, const PicturePoints& points, int light) {
   const Light& source = points.rays().lights[static_cast<std::size_t>(light)];
-  if (hasSize(source)) return tracedShadow(points, points.rays(), light, source.shadow->raySamples);
+  const TechniqueTraits& traits = traitsOf(source.shadow->technique);
+  if (traits.baked) return bakedShadow(points, *work.baked(light));
+  if (!traits.mapSparesRays() || hasSize(source)) {
+    return tracedShadow(points, points.rays(), light, source.shadow->raySamples);
+  }
   const auto verdicts = mapVerdicts(inputs, shading, surfaces, light);
   if (!verdicts) return verdicts.problems();
   return tracedShadow(points, points.rays(), light, 1, *verdicts);
@@ -49,7 +86,7 @@ Result<TracedShadow> hybridShadow(const PassInputs& inputs, const Shading& shadi
 
 } // namespace
 
-bool needsRays(std::span<const int> layered, std::span<const Light> lights) {
+bool needsTriangles(std::span<const int> layered, std::span<const Light> lights) {
   return std::any_of(layered.begin(), layered.end(), [&](int light) {
     return traitsOf(lights[static_cast<std::size_t>(light)].shadow->technique).traced;
   });
@@ -57,58 +94,31 @@ bool needsRays(std::span<const int> layered, std::span<const Light> lights) {
 
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
                                   const Surfaces& surfaces) {
-  const SampleGrid grid{inputs.width, inputs.height, surfaces.samplePositions};
-  auto layers = makeVisibilityLayers(inputs.width, inputs.height, static_cast<int>(grid.samples()),
+  auto layers = makeVisibilityLayers(inputs.width, inputs.height, static_cast<int>(surfaces.samplePositions.size()),
                                      static_cast<int>(work.layered.size()));
   if (!layers) return layers.problems();
   ExactShadows shadows{std::move(*layers), {}, gl::Timer::start()};
-
-  const std::vector<Light>& lights = *shading.spec.lights;
-  std::shared_ptr<const TracedScene> traced;
-  std::vector<std::uint32_t> numbers;
-  ShownNumbers shown;
-  std::vector<std::uint8_t> masks;
-  std::optional<PicturePoints> points; // after what it refers to
+  std::unique_ptr<ShownPicture> picture;
   std::optional<VolumeCounts> counts;
   for (const int light : work.layered) {
     const auto start = std::chrono::steady_clock::now();
-    const int layer = static_cast<int>(shadows.lights.size());
-    LayerFacts shadow{light};
-    const Light& source = lights[static_cast<std::size_t>(light)];
-    const TechniqueTraits& traits = traitsOf(source.shadow->technique);
-    if (!traits.traced) {
-      const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows);
-      if (!drawn) return drawn.problems();
-    } else {
-      if (!points) {
-        const auto made = work.traced();
-        if (!made) return made.problems();
-        traced = *made;
-        auto read = shownTriangles(inputs, surfaces);
+    LayerFacts facts{light};
+    const Light& source = (*shading.spec.lights)[static_cast<std::size_t>(light)];
+    if (traitsOf(source.shadow->technique).traced) {
+      if (!picture) {
+        auto read = readPicture(inputs, shading, work, surfaces);
         if (!read) return read.problems();
-        numbers = std::move(*read);
-        shown = inOrder(grid, numbers);
-        auto covered = maskCoverage(inputs, shading.survey);
-        if (!covered) return covered.problems();
-        masks = std::move(*covered);
-        points.emplace(TraceInput{*traced, inputs.camera, inputs.width, inputs.height, lights, inputs.nodes}, grid,
-                       surfaces.numbers, shown, masks);
+        picture = std::move(*read);
       }
-      if (traits.baked) {
-        writeVisibility(shadows.layers, layer, bakedShadow(*points, *work.baked(light)));
-        shadow.cpuMilliseconds = millisecondsSince(start);
-        shadows.lights.push_back(shadow);
-        continue;
-      }
-      auto found = traits.mapSparesRays()
-                       ? hybridShadow(inputs, shading, surfaces, *points, light)
-                       : Result(tracedShadow(*points, points->rays(), light, source.shadow->raySamples));
+      const auto found = shadowOf(inputs, shading, work, surfaces, *picture->points, light);
       if (!found) return found.problems();
-      writeVisibility(shadows.layers, layer, found->values);
-      shadow.tracedPixels = found->tracedPixels;
+      writeVisibility(shadows.layers, static_cast<int>(shadows.lights.size()), found->values);
+      facts.tracedPixels = found->tracedPixels;
+    } else if (const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows); !drawn) {
+      return drawn.problems();
     }
-    shadow.cpuMilliseconds = millisecondsSince(start);
-    shadows.lights.push_back(shadow);
+    facts.cpuMilliseconds = millisecondsSince(start);
+    shadows.lights.push_back(facts);
   }
   shadows.timer.stop();
   return shadows;

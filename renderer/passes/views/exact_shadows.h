@@ -20,8 +20,9 @@ struct ExactShadows {
   std::size_t countBytes = 0;     ///< of the stencil that they were counted in
 };
 
-/// Some of the lights ask rays: surfaces have to be numbered (surface_pass.h). `layered`: as in FrameWork.
-bool needsRays(std::span<const int> layered, std::span<const Light> lights);
+/// Whether some of the lights ask which triangles show: surfaces have to be numbered (surface_pass.h). `layered`: as in
+/// FrameWork.
+bool needsTriangles(std::span<const int> layered, std::span<const Light> lights);
 
 /// The visibility of every light of `work.layered` at each sample of the surfaces.
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,

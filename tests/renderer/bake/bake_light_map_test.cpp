@@ -36,7 +36,7 @@ double rmsOf(const Traced& traced, const LightMapLayout& layout, const LightMap&
   int count = 0;
   for (const PlacedChart& chart : layout.charts) {
     for (const std::uint32_t triangle : chart.triangles) {
-      const FlatTriangle flat = layout.corners3(chart.instance, triangle);
+      const FlatTriangle flat = layout.flat({chart.instance, triangle});
       const int places = 1 + static_cast<int>(std::abs(signedArea(flat)) / 16);
       for (int i = 0; i < places; ++i) {
         glm::dvec2 weights(unit(random), unit(random));
@@ -85,7 +85,7 @@ TEST(BakeLightMap, WhatNothingHidesIsLitAndWhatASquareHidesIsDark) {
   const auto map = bakeLightMap(traced.input(), 0, layout, 1, {});
   ASSERT_TRUE(map.has_value());
   const auto shareOn = [&](std::uint32_t instance, const glm::dvec2& weights) {
-    const FlatTriangle t = layout.corners3(instance, 0);
+    const FlatTriangle t = layout.flat({instance, 0});
     return shareAt(*map, glm::vec2(t[0] + weights.x * (t[1] - t[0]) + weights.y * (t[2] - t[0])));
   };
   EXPECT_EQ(shareOn(0, {0.02, 0.49}), 0) << "the middle of the floor, under the square";

@@ -121,7 +121,7 @@ TEST(LightMapLayout, GivesEveryChartTexelsOfItsOwn) {
       }
     }
     for (const std::uint32_t triangle : chart.triangles) {
-      for (const glm::dvec2& corner : layout->corners3(chart.instance, triangle)) {
+      for (const glm::dvec2& corner : layout->flat({chart.instance, triangle})) {
         // Half a texel more is read around it.
         EXPECT_GE(corner.x - 0.5, chart.rect.x);
         EXPECT_GE(corner.y - 0.5, chart.rect.y);
