@@ -1,6 +1,7 @@
 #include "renderer/frame/baked_lights.h"
 
 #include <algorithm>
+#include <span>
 
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
@@ -13,19 +14,24 @@ std::string shadowPointer(const FrameSpec& asked, int light) {
   return own ? "/lights/" + std::to_string(light) + "/shadow" : "/shadow";
 }
 
+std::span<const glm::vec3> verticesOf(const Scene& scene, const Instance& instance) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  return std::span(scene.positions).subspan(primitive.baseVertex, primitive.vertexCount);
+}
+
 /// The node that a pose moves away from where the file has it, or whose mesh it deforms; -1 = there is none.
 int movedNode(const FrameScene& scene, int index) {
   if (scene.loaded == scene.posed) return -1;
   const std::vector<Instance>& still = scene.loaded->scenes[static_cast<std::size_t>(index)].instances;
   const std::vector<Instance>& posed = scene.posed->scenes[static_cast<std::size_t>(index)].instances;
-  const auto differs = [](const Instance& a, const Instance& b) {
-    return a.worldFromLocal != b.worldFromLocal || a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max;
+  const bool deformed = scene.loaded->positions != scene.posed->positions;
+  const auto same = [&](const Instance& a, const Instance& b) {
+    if (a.worldFromLocal != b.worldFromLocal || a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max)
+      return false;
+    return !deformed || std::ranges::equal(verticesOf(*scene.loaded, a), verticesOf(*scene.posed, b));
   };
-  const auto [a, b] = std::mismatch(still.begin(), still.end(), posed.begin(), posed.end(),
-                                    [&](const Instance& x, const Instance& y) { return !differs(x, y); });
-  if (b != posed.end()) return b->node;
-  if (scene.loaded->positions == scene.posed->positions || posed.empty()) return -1;
-  return posed.front().node; // a mesh changes within its bounds
+  const auto [a, b] = std::mismatch(still.begin(), still.end(), posed.begin(), posed.end(), same);
+  return b == posed.end() ? -1 : b->node;
 }
 
 std::string nameOf(const Scene& scene, int node) {

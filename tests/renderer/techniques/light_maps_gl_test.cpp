@@ -123,18 +123,34 @@ TEST(LightMaps, SamplesOfAPixelAreLookedUpOneByOne) {
   EXPECT_LT(static_cast<double>(off), 0.01 * static_cast<double>(a.size()));
 }
 
+void expectMovedNode(const testing::GlbBuilder& builder, const std::string& name) {
+  Json spec = specOf();
+  spec["camera"] = {{"eye", {3, 3, 3}}, {"target", {0, 0, 0}}};
+  spec["animation"] = {{"name", "Move"}, {"timeSeconds", 1}};
+  const Problems problems = refusedJson(testing::sceneOf(builder), spec.dump());
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/shadow/technique");
+  EXPECT_NE(problems[0].detail.find("\"" + name + "\""), std::string::npos) << problems[0].detail;
+}
+
 TEST(LightMaps, APoseThatMovesANodeIsRefusedAndNamesIt) {
   testing::GlbBuilder builder = testing::plane();
   builder.json["nodes"][0]["name"] = "raft";
   animate(builder, 0, "translation", {0, 2}, {0, 0, 0, 1, 0, 0}, "VEC3");
-  const ScenePtr scene = testing::sceneOf(builder);
-  Json spec = specOf();
-  spec["camera"] = {{"eye", {3, 3, 3}}, {"target", {0, 0, 0}}};
-  spec["animation"] = {{"name", "Move"}, {"timeSeconds", 1}};
-  const Problems problems = refusedJson(scene, spec.dump());
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].pointer, "/shadow/technique");
-  EXPECT_NE(problems[0].detail.find("\"raft\""), std::string::npos);
+  expectMovedNode(builder, "raft");
+}
+
+TEST(LightMaps, APoseThatBendsAMeshWithinItsBoundsIsRefusedAndNamesItsNode) {
+  testing::GlbBuilder builder = testing::plane();
+  const int position = builder.addPoints({{0, 0.5, 0}, {1, 0.5, 0}, {1, 1.5, 1}, {0, 1.5, 1}, {0.5, 1, 0.5}});
+  const int target = builder.addPoints({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0.25f, 0, 0.125f}});
+  builder.addMeshNode(builder.addMesh({{"attributes", {{"POSITION", position}}},
+                                       {"indices", builder.addShortIndices({0, 1, 2, 0, 3, 4})},
+                                       {"targets", {{{"POSITION", target}}}}}));
+  builder.json["nodes"][0]["name"] = "raft";
+  builder.json["nodes"][1]["name"] = "sail";
+  animate(builder, 1, "weights", {0, 2}, {0, 1}, "SCALAR");
+  expectMovedNode(builder, "sail");
 }
 
 TEST(LightMaps, AMapThatWouldBeTooLargeIsAProblemAtItsField) {
