@@ -51,7 +51,7 @@ async function show({ report, images, roundTripMs }, draft) {
   showTimings(report, roundTripMs);
   if (draft) return;
   showReport(byId('report'), report);
-  byId('report-section').hidden = !report.lights.some(({ tiles, note }) => tiles.length || note) && !report.warnings.length;
+  byId('report-section').hidden = !report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap) && !report.warnings.length;
   store.update({ report });
 }
 

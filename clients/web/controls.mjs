@@ -27,20 +27,17 @@ export function createControl(field, store) {
   store.subscribe(() => {
     row.hidden = field.needs ? !field.needs(store) : false;
     row.classList.toggle('set', isSet(field, store));
-    show(store.effective(field.path));
+    show(store.effective(field.path) ?? field.absent);
   });
   return row;
 }
 
-const kindOf = ({ toggle, slider }) => (toggle ? 'toggle' : slider ? 'slider' : 'choice');
+const kindOf = ({ toggle, slider, whole }) => (toggle ? 'toggle' : slider ? 'slider' : whole ? 'choice whole' : 'choice');
 
 const isSet = ({ sizes, path }, store) => (sizes ? store.isSet('width') : store.isSet(path));
 
-function clear({ sizes, choices: list, choose, path }, store) {
-  if (choose) return choose(list[0][0], store);
-  if (!sizes) return store.clearSpec(path);
-  store.clearSpec('width');
-  store.clearSpec('height');
+function clear({ sizes, clears, path }, store) {
+  for (const each of sizes ? ['width', 'height'] : [clears ?? path]) store.clearSpec(each);
 }
 
 function inputOf(field, store, id) {

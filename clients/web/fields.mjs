@@ -1,11 +1,16 @@
 // The controls of the panel, as data. `path` is the field's place in the FrameSpec; `slider` is the comfortable range:
-// the number beside it takes any value, and the server says what it refuses.
+// the number beside it takes any value, and the server says what it refuses. `choose` does more than to set the field;
+// `clears` is what goes with it when it is given back, where that is more; `absent` is what its absence means; `whole`
+// gives it a row of its own.
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
 // Views of one light, chosen by debug.light.
 const showsOneLight = ({ state: { view } }) => ['cascades', 'shadow'].includes(view) || kDebugViews.some(([name]) => name === view);
-const soft = (store) => shadowed(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
 const one = (path, value) => (store) => store.effective(path) === value;
+const by = (...techniques) => (store) => shadowed(store) && techniques.includes(store.effective('shadow.technique'));
+const tiled = by('shadowMap', 'hybrid');
+const soft = (store) => by('shadowMap')(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
+const lightHasSize = ({ state }) => (state.spec.lights ?? state.report?.spec.lights ?? []).some((light) => light.angularDiameterDegrees || light.radius);
 
 // A manual range needs both its ends, an automatic one takes none.
 function chooseDepthRange(mode, store) {
@@ -20,11 +25,18 @@ function chooseFilter(type, store) {
   store.setSpec('shadow.filter.type', type);
 }
 
+// Either says how fine a light map is.
+function chooseMapSize(size, store) {
+  store.clearSpec('shadow.lightMap.texelsPerMetre');
+  store.setSpec('shadow.lightMap.size', size);
+}
+
 export const kSections = [
   {
     title: 'Light',
     fields: [
       { path: 'lights.0.intensity', label: 'Sun strength', says: 'Lux', slider: [0, 20, 0.1], needs: (store) => store.isSet('lights') },
+      { path: 'lights.0.angularDiameterDegrees', label: 'Sun size', says: 'Degrees that its disc spans, 0.53 for the real one; exact and baked shadows and the filter PCSS are soft by it', slider: [0, 10, 0.01], absent: 0, needs: (store) => store.isSet('lights') },
       { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light from the surroundings' },
       { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
       { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
@@ -34,10 +46,25 @@ export const kSections = [
     title: 'Shadows',
     fields: [
       { path: 'shadow.enabled', label: 'Shadows', toggle: true },
-      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: shadowed },
-      { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: shadowed },
-      { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: shadowed },
-      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: shadowed },
+      {
+        path: 'shadow.technique',
+        label: 'Technique',
+        whole: true,
+        choices: [
+          ['shadowMap', 'Maps', 'Shadow maps: fast, as sharp as their texels'],
+          ['hybrid', 'Hybrid', 'Exact: a map where it is sure, rays elsewhere'],
+          ['rayTraced', 'Rays', 'Exact: rays for every pixel in doubt'],
+          ['shadowVolume', 'Volumes', 'Exact, by the stencil buffer; drawn by OpenGL alone'],
+          ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move'],
+        ],
+        needs: shadowed,
+      },
+      { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('hybrid', 'rayTraced')(store) && lightHasSize(store) },
+      { path: 'shadow.lightMap.size', label: 'Map size', says: 'Texels along the longer side of the light map; twice as many take four times as long to bake', choices: [[512, '512'], [1024, '1k'], [2048, '2k'], [4096, '4k']], choose: chooseMapSize, needs: by('lightMap') },
+      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: tiled },
+      { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
+      { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },
+      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: by('shadowMap') },
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across; wider is softer and slower', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => soft(store) && store.effective('shadow.filter.radius') == null },
       { path: 'shadow.filter.radius', label: 'Filter radius', says: 'Softness in metres, the same everywhere, instead of a width in texels', unit: 'm', needs: soft },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },
@@ -49,7 +76,7 @@ export const kSections = [
     fields: [
       { path: 'shadow.partition.mode', label: 'Partition', choices: [['logarithmic', 'Log'], ['uniform', 'Uniform']], says: 'How split distances are chosen; the API also takes manual ones' },
       { path: 'shadow.partition.pssmFactor', label: 'PSSM factor', slider: [0, 1, 0.01], says: '0 = logarithmic, 1 = uniform', needs: one('shadow.partition.mode', 'logarithmic') },
-      { path: 'shadow.depthRange.mode', label: 'Depth range', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = from the nearest to the farthest surface in view', choose: chooseDepthRange },
+      { path: 'shadow.depthRange.mode', label: 'Depth range', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = from the nearest to the farthest surface in view', choose: chooseDepthRange, clears: 'shadow.depthRange' },
       { path: 'shadow.depthRange.min', label: 'From', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
       { path: 'shadow.depthRange.max', label: 'To', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
       { path: 'shadow.stabilization', label: 'Stabilise', choices: [['none', 'None'], ['projectionSnapping', 'Proj.', 'Projection snapping'], ['viewSnapping', 'View', 'View snapping']] },

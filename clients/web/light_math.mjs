@@ -24,7 +24,7 @@ export function sunInForce({ spec, report }) {
 // A light of the user's own with its sun there; at first it has the colour and strength of the one that it replaces.
 export function lightsWithSun(state, sun) {
   const [own, ...others] = state.spec.lights ?? [];
-  const kept = ['color', 'temperatureKelvin', 'intensity', 'cullingMask'];
+  const kept = ['color', 'temperatureKelvin', 'intensity', 'angularDiameterDegrees', 'cullingMask'];
   const base = own ?? pick(firstDirectional(state.report?.spec.lights) ?? {}, kept);
   return [{ type: 'directional', ...base, sun: { ...sunInForce(state), ...sun } }, ...others];
 }

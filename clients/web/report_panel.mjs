@@ -1,4 +1,4 @@
-// What the frame's report says about each light's tiles, and its warnings.
+// What the frame's report says about each light's tiles or light map, and its warnings.
 
 import { count, element, short } from './dom.mjs';
 
@@ -29,5 +29,16 @@ function lightOf(light) {
     element('thead', {}, element('tr', {}, ...head.map(([text, says]) => element('th', { scope: 'col', title: says }, text)))),
     element('tbody', {}, ...rows),
   );
-  return element('div', { class: 'light-report' }, light.note && element('p', { class: 'note' }, light.note), rows.length ? table : null);
+  return element(
+    'div',
+    { class: 'light-report' },
+    light.note && element('p', { class: 'note' }, light.note),
+    light.lightMap && element('p', { class: 'fact' }, mapOf(light.lightMap)),
+    rows.length ? table : null,
+  );
+}
+
+function mapOf({ width, height, texelsPerMetre, reused, bakeMilliseconds }) {
+  const made = `baked ${reused ? 'before' : 'now'} in ${short(bakeMilliseconds)} ms`;
+  return `Light map: ${width} × ${height} texels, ${short(texelsPerMetre)} a metre, ${made}.`;
 }

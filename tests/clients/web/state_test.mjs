@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { fromHash, toHash } from '../../../clients/web/deep_link.mjs';
+import { kSections } from '../../../clients/web/fields.mjs';
 import { flatten, getPath, pointerOf, removePath, setPath } from '../../../clients/web/paths.mjs';
 import { curlCommand, draftSpec, fullSpec } from '../../../clients/web/spec.mjs';
 import { createStore } from '../../../clients/web/store.mjs';
@@ -75,4 +76,28 @@ test('what is in force is the choice, else what the server resolved', () => {
   assert.equal(store.effective('exposure'), 0);
   store.clearSpec('exposure');
   assert.equal(store.effective('exposure'), 0.5);
+});
+
+test('each technique shows the controls that it heeds', () => {
+  const shadows = kSections.find(({ title }) => title === 'Shadows').fields;
+  const shownFor = (shadow, light) => {
+    const store = createStore({ spec: { lights: [{ type: 'directional', ...light }], shadow } });
+    return shadows.filter(({ needs }) => !needs || needs(store)).map(({ path }) => path);
+  };
+  const always = ['shadow.enabled', 'shadow.technique', 'shadow.strength'];
+  const tiles = ['shadow.cascadeCount', 'shadow.size', 'shadow.importance'];
+  const [on, technique, strength] = always;
+  assert.deepEqual(shownFor({ technique: 'rayTraced' }), always);
+  assert.deepEqual(shownFor({ technique: 'rayTraced' }, { angularDiameterDegrees: 1 }), [on, technique, 'shadow.raySamples', strength]);
+  assert.deepEqual(shownFor({ technique: 'lightMap' }), [on, technique, 'shadow.lightMap.size', strength]);
+  assert.deepEqual(shownFor({ technique: 'hybrid' }), [on, technique, ...tiles, strength]);
+  assert.deepEqual(shownFor({ technique: 'shadowMap', filter: { type: 'pcss' } }), [on, technique, ...tiles, 'shadow.filter.type', strength]);
+  assert.deepEqual(shownFor({ enabled: false, technique: 'lightMap' }), [on]);
+});
+
+test('a finer light map takes the place of texels a metre', () => {
+  const store = createStore({ spec: { shadow: { lightMap: { texelsPerMetre: 9 } } } });
+  const field = kSections.flatMap(({ fields }) => fields).find(({ path }) => path === 'shadow.lightMap.size');
+  field.choose(2048, store);
+  assert.deepEqual(store.state.spec, { shadow: { lightMap: { size: 2048 } } });
 });
