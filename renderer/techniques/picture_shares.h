@@ -72,10 +72,11 @@ struct PictureShares {
         places(picture.samples()),
         values(places * picture.pixels() + places * picture.pixels() % 2),
         shares(picture.pixels()),
-        marks(picture.pixels()) {}
+        marks(picture.pixels()),
+        taken(picture.pixels()) {}
 
   static constexpr std::uint8_t kAway = 1;  ///< what was drawn there is turned away from the light
-  static constexpr std::uint8_t kExact = 2; ///< camera rays led to its points
+  static constexpr std::uint8_t kExact = 2; ///< rays were sent from each of its samples
   static constexpr std::uint8_t kAsked = 4; ///< more rays are about to be sent from there
   static constexpr std::uint8_t kRound = 8; ///< a round of rays was; as often as there were rounds
 
@@ -84,6 +85,7 @@ struct PictureShares {
   UnfilledVector<std::uint16_t> values; ///< as TracedShadow::values, and one more where they are odd: read by pairs
   UnfilledVector<std::uint8_t> shares;  ///< 0..255, one a pixel: the mean of its samples
   UnfilledVector<std::uint8_t> marks;   ///< one a pixel
+  std::vector<std::uint8_t> taken;      ///< one a pixel: 0 but while pixelsBeside looks for them
 
   std::uint16_t* valuesOf(std::uint32_t pixel) { return values.data() + pixel * places; }
   int apart(std::uint32_t a, std::uint32_t b) const {
@@ -99,21 +101,23 @@ struct PictureShares {
   }
 };
 
-/// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; in order,
-/// each once.
+/// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; each once.
 template <class Keep>
-Pixels pixelsBeside(const PictureShares& shares, const Pixels& pixels, Keep keep) {
+Pixels pixelsBeside(PictureShares& shares, const Pixels& pixels, Keep keep) {
   Pixels beside;
   for (const std::uint32_t pixel : pixels) {
     const glm::ivec2 at = shares.grid.pixelAt(pixel);
     for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
       for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
         const std::uint32_t other = shares.grid.numberOf({column, row});
-        if (keep(other, pixel)) beside.push_back(other);
+        if (shares.taken[other] != 0 || !keep(other, pixel)) continue;
+        shares.taken[other] = 1;
+        beside.push_back(other);
       }
     }
   }
-  return eachOnce(std::move(beside));
+  for (const std::uint32_t pixel : beside) shares.taken[pixel] = 0;
+  return beside;
 }
 
 } // namespace gnomon

@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
+#include "renderer/techniques/edge_samples.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbras.h"
 
 namespace gnomon {
 namespace {
-
-/// Pixels that one core has in hand at a time: what is kept of them stays in its caches.
-constexpr std::size_t kPixels = 512;
-static_assert(kBlockWidth * kBlockHeight == kPixels);
 
 constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 
@@ -35,33 +31,27 @@ class ShadowTracing {
     return traced;
   }
 
-  /// Sends rays from where camera rays lead. Gives the pixels that other shares came of.
+  /// Finds out where camera rays lead, and gives the pixels that other shares came of.
   Pixels traceExactly(const Pixels& pixels) {
-    std::vector<std::uint8_t> changed(pixels.size());
-    forEachPiece(pixels.size(), kPixels, [&](std::size_t first, std::size_t last) {
-      const auto piece = std::span(pixels).subspan(first, last - first);
-      const std::vector<SurfacePoint> hits = points_.traced(piece);
-      std::vector<float> found(hits.size());
-      light_.visibility(hits, samplesOfPoint(), found);
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        const auto own = std::span(found).subspan(i * places_, places_);
-        std::transform(own.begin(), own.end(), known_.valuesOf(piece[i]), unorm16);
-        const float mean = std::accumulate(own.begin(), own.end(), 0.0f) / static_cast<float>(places_);
-        changed[first + i] = unorm8(mean) != known_.shares[piece[i]] ? 1 : 0;
-        known_.shares[piece[i]] = unorm8(mean);
-        known_.marks[piece[i]] |= kExact;
-      }
-    });
-    Pixels moved;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (changed[i] != 0) moved.push_back(pixels[i]);
-    }
-    return moved;
+    return isSoft() ? traceDoubtful(points_, light_, samplesOfPoint(), pixels, known_)
+                    : gnomon::traceExactly(points_, light_, pixels, known_);
   }
 
-  /// The pixels to both sides of where surfaces that are turned away end. REQUIRES: no point is exact yet.
-  Pixels whereTurnedAwayEnds() const {
-    return pixelsWhere(grid(), known_.marks, [](std::uint8_t least, std::uint8_t most) { return least != most; });
+  /// The same at edges. Towards a light that has a size the points as they were drawn do, of which rays have told the
+  /// only one of a pixel that has one sample.
+  Pixels traceEdges(const Pixels& pixels) {
+    if (!isSoft()) return traceExactly(pixels);
+    return places_ == 1 ? Pixels{} : traceSamples(points_, light_, samplesOfPoint(), pixels, known_);
+  }
+
+  /// The pixels next to masks, and to both sides of where surfaces that are turned away end. REQUIRES: no point is
+  /// exact yet.
+  Pixels doubtful() const {
+    Pixels pixels = points_.besideMasks();
+    const Pixels ends =
+        pixelsWhere(grid(), known_.marks, [](std::uint8_t least, std::uint8_t most) { return least != most; });
+    pixels.insert(pixels.end(), ends.begin(), ends.end());
+    return eachOnce(std::move(pixels));
   }
 
   /// Sends the other rays to a light that has a size. REQUIRES: no point is exact yet.
@@ -88,7 +78,7 @@ class ShadowTracing {
   }
 
   /// Those of them that lie next to one of `moved`, or to a corner.
-  Pixels atEdgesBeside(const Pixels& moved) const {
+  Pixels atEdgesBeside(const Pixels& moved) {
     return pixelsBeside(known_, moved, [&](std::uint32_t pixel, std::uint32_t other) {
       return !isExact(pixel) && isEdge(pixel, known_.apart(pixel, other));
     });
@@ -231,18 +221,19 @@ TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, i
                           std::span<const Verdict> verdicts) {
   ShadowTracing shadow(points, rays, light, samples);
   std::uint64_t traced = shadow.traceDrawn(verdicts);
-  const auto traceExactly = [&](const Pixels& pixels) {
+  const auto countSure = [&](const Pixels& pixels) {
     traced += static_cast<std::uint64_t>(std::count_if(pixels.begin(), pixels.end(), [&](std::uint32_t pixel) {
       return !verdicts.empty() && verdicts[pixel] != Verdict::unsure;
     }));
-    return shadow.traceExactly(pixels);
   };
-  Pixels doubtful = shadow.whereTurnedAwayEnds();
+  const Pixels doubtful = shadow.doubtful();
   shadow.tracePenumbras();
-  const Pixels masked = points.besideMasks();
-  doubtful.insert(doubtful.end(), masked.begin(), masked.end());
-  traceExactly(eachOnce(std::move(doubtful)));
-  for (Pixels next = shadow.atEdges(); !next.empty();) next = shadow.atEdgesBeside(traceExactly(next));
+  countSure(doubtful);
+  shadow.traceExactly(doubtful);
+  for (Pixels next = shadow.atEdges(); !next.empty();) {
+    countSure(next);
+    next = shadow.atEdgesBeside(shadow.traceEdges(next));
+  }
   return {shadow.takeValues(), traced};
 }
 

@@ -3,57 +3,24 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "protocol/evaluation/sweeps.h"
+#include "protocol/json/json_codec.h"
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/render.h"
 #include "tests/bench/accuracy_sum.h"
+#include "tests/bench/gathered_scenes.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedScene {
-  std::string name;
-  ScenePtr scene;
-};
-
-SceneBundle bundleOf(const fs::path& assets, const nlohmann::json& model) {
-  const fs::path path = assets / model.at("path").get<std::string>();
-  SceneBundle bundle{testing::readFile(path), {}};
-  for (const auto& file : model.at("files")) {
-    const fs::path other = assets / file.get<std::string>();
-    if (other == path) continue;
-    bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
-  }
-  return bundle;
-}
-
-/// The gathered models that load; where there are none, the project's own scenes.
-std::vector<NamedScene> scenesFrom(const fs::path& assets) {
-  std::vector<NamedScene> scenes;
-  const auto add = [&](const std::string& name, const SceneBundle& bundle) {
-    if (auto scene = loadScene(bundle)) scenes.push_back({name, std::move(*scene)});
-  };
-  if (fs::exists(assets / "manifest.json")) {
-    const auto manifest = nlohmann::json::parse(std::ifstream(assets / "manifest.json"));
-    for (const auto& model : manifest.at("models")) add(model.at("id"), bundleOf(assets, model));
-    return scenes;
-  }
-  for (const auto& entry : fs::directory_iterator(GNOMON_TEST_SCENES)) {
-    if (entry.path().extension() == ".glb") add(entry.path().stem(), {testing::readFile(entry.path()), {}});
-  }
-  return scenes;
-}
 
 /// Filtered before it is read, which costs as much as a dozen other maps.
 bool isPrefiltered(const FrameSpec& spec) {
@@ -148,7 +115,7 @@ int main(int argc, char** argv) {
   const FrameSpec decoded = *decodeFrameSpec(spec.dump());
   const std::vector<Variant> variants = variantsOf(spec);
   AccuracySums sums(variants);
-  for (const NamedScene& scene : scenesFrom(assets)) {
+  for (const NamedScene& scene : gatheredScenes(assets)) {
     const std::vector<EvaluationRow> rows = rowsOf(*renderer, scene.scene, decoded, variants, repeats);
     if (rows.empty()) continue;
     sums.add(scene.name, rows);

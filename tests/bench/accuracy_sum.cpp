@@ -1,23 +1,12 @@
 #include "tests/bench/accuracy_sum.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "tests/bench/median.h"
+#include "tests/bench/rounded.h"
 
 namespace gnomon::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-std::string rounded(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 std::string percent(double share) {
   return rounded(100 * share, 4);
@@ -25,6 +14,10 @@ std::string percent(double share) {
 
 std::string orDash(const std::optional<double>& value) {
   return value ? rounded(*value, 2) : "-";
+}
+
+std::optional<double> medianOf(const std::vector<double>& values) {
+  return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
 } // namespace
@@ -94,7 +87,7 @@ std::string AccuracySums::table(const EvaluationReport& all) const {
            rounded(std::ranges::max(sums_[i].ratios), 2) + " | " + percent(row.metrics->misclassified) + " | " +
            percent(row.metrics->falseShadow) + " | " + percent(row.metrics->falseLit) + " | " +
            percent(row.metrics->interior) + " | " + percent(sums_[i].worst) + " | " +
-           rounded(median(sums_[i].displacements), 2) + " | " + std::to_string(sums_[i].refused) + " |\n";
+           orDash(medianOf(sums_[i].displacements)) + " | " + std::to_string(sums_[i].refused) + " |\n";
   }
   return out;
 }

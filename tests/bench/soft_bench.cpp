@@ -1,0 +1,192 @@
+// How right soft shadows are over many scenes, against rays to all of the light, and what being soft costs each
+// technique. Prints Markdown.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "renderer/evaluation/evaluate.h"
+#include "renderer/render.h"
+#include "tests/bench/gathered_scenes.h"
+#include "tests/bench/median.h"
+#include "tests/bench/rounded.h"
+
+namespace gnomon::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Way {
+  const char* name;
+  Json shadow;
+};
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> all{{"rayTraced", {{"technique", "rayTraced"}}},
+                                    {"hybrid", {{"technique", "hybrid"}}},
+                                    {"lightMap", {{"technique", "lightMap"}}},
+                                    {"pcss", {{"filter", {{"type", "pcss"}}}}},
+                                    {"pcf 5", {{"filter", {{"type", "pcf"}, {"size", 5}}}}}};
+  return all;
+}
+
+/// A light as JSON, with its size and without.
+struct SizedLight {
+  const char* name;
+  Json soft, sharp;
+};
+
+Json with(Json light, const char* field, double value) {
+  light[field] = value;
+  return light;
+}
+
+/// Two suns, and a lamp above the middle of a scene that is taken for one of 10 m.
+std::vector<SizedLight> lightsOver(const Aabb& bounds) {
+  const Json sun = {{"type", "directional"}, {"sun", {{"azimuthDegrees", 135}, {"elevationDegrees", 40}}}};
+  const double size = glm::length(bounds.max - bounds.min);
+  const glm::dvec3 middle = bounds.center();
+  const glm::dvec3 lamp = glm::dvec3(middle.x, bounds.max.y, middle.z) + glm::dvec3(0.15, 0.35, 0.2) * size;
+  const glm::dvec3 down = middle - lamp;
+  const Json spot = {{"type", "spot"},
+                     {"position", {lamp.x, lamp.y, lamp.z}},
+                     {"direction", {down.x, down.y, down.z}},
+                     {"outerConeDegrees", 50},
+                     {"intensity", 4 * size * size}};
+  return {{"sun, 0.53 degrees", with(sun, "angularDiameterDegrees", 0.53), sun},
+          {"sun, 5 degrees", with(sun, "angularDiameterDegrees", 5), sun},
+          {"lamp, 0.2 m", with(spot, "radius", 0.02 * size), spot}};
+}
+
+struct Found {
+  std::vector<double> rms, times; ///< one a scene
+  std::string worst;              ///< scene of the largest rms
+};
+
+class SoftBench {
+ public:
+  SoftBench(Renderer& renderer, int repeats, int samples) : renderer_(renderer), repeats_(repeats), samples_(samples) {}
+
+  void add(const NamedScene& scene, const SizedLight& light, std::vector<Found>& found) {
+    Evaluation evaluation;
+    evaluation.repeats = 1;
+    evaluation.referenceSamples = samples_;
+    evaluation.spec = specOf(light.soft, {});
+    for (const Way& way : ways()) evaluation.variants.push_back({{}, way.name, specOf(light.soft, way.shadow)});
+    const EvaluationTools tools{[&](const FrameSpec& spec) { return draw(scene, spec); }, {}};
+    const auto report = evaluate(scene.scene, evaluation, renderer_.info(), tools);
+    if (!report) return;
+    for (std::size_t i = 0; i < ways().size(); ++i) {
+      const EvaluationRow& row = report->rows[i];
+      if (!row.metrics || row.metrics->receivers == 0) continue;
+      const double rms = row.metrics->rms;
+      if (found[i].rms.empty() || rms > std::ranges::max(found[i].rms)) found[i].worst = scene.name;
+      found[i].rms.push_back(rms);
+      found[i].times.push_back(timeRatio(scene, light, ways()[i].shadow));
+      std::cerr << scene.name << ", " << light.name << ", " << ways()[i].name << ": " << rms << ", "
+                << found[i].times.back() << " x\n";
+    }
+  }
+
+ private:
+  static FrameSpec specOf(const Json& light, const Json& shadow) {
+    Json spec = {{"width", 640},
+                 {"height", 360},
+                 {"antialiasing", "none"},
+                 {"views", {"color"}},
+                 {"camera", {{"fit", true}}},
+                 {"lights", {light}}};
+    if (!shadow.empty()) spec["shadow"] = shadow;
+    return *decodeFrameSpec(spec.dump());
+  }
+
+  Result<Frame> draw(const NamedScene& scene, const FrameSpec& spec) {
+    return renderer_.render(scene.scene, spec, TileUse::drawnAnew);
+  }
+
+  /// Of warm frames, soft and sharp ones taking turns.
+  double timeRatio(const NamedScene& scene, const SizedLight& light, const Json& shadow) {
+    const FrameSpec specs[] = {specOf(light.soft, shadow), specOf(light.sharp, shadow)};
+    std::vector<double> times[2];
+    for (int turn = 0; turn <= repeats_; ++turn) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto frame = draw(scene, specs[i]);
+        if (turn > 0 && frame) times[i].push_back(millisecondsSince(start));
+      }
+    }
+    return median(times[0]) / median(times[1]);
+  }
+
+  Renderer& renderer_;
+  int repeats_, samples_;
+};
+
+std::string tableOf(const std::vector<std::pair<std::string, std::vector<Found>>>& lights) {
+  std::string out =
+      "| light | technique | rms, median | rms, worst | worst scene | x sharp light, median | at most x |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const auto& [light, found] : lights) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].rms.empty()) continue;
+      out += "| " + light + " | " + ways()[i].name + " | " + rounded(median(found[i].rms), 4) + " | " +
+             rounded(std::ranges::max(found[i].rms), 3) + " | " + found[i].worst + " | " +
+             rounded(median(found[i].times), 2) + " | " + rounded(std::ranges::max(found[i].times), 2) + " |\n";
+    }
+  }
+  return out;
+}
+
+} // namespace
+} // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  using namespace gnomon;
+  using namespace gnomon::bench;
+  CLI::App app{"How right soft shadows are over many scenes, and what they cost. Times need a quiet machine."};
+  std::filesystem::path assets = GNOMON_TEST_ASSETS;
+  int repeats = 5;
+  int samples = 1024;
+  DeviceChoice device = DeviceChoice::auto_;
+  const std::map<std::string, DeviceChoice> devices{
+      {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
+  app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
+  app.add_option("--repeats", repeats, "Timed pairs of frames")->check(CLI::Range(1, 100));
+  app.add_option("--samples", samples, "Rays a pixel of the reference")->check(CLI::Range(1, 1024));
+  app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
+  CLI11_PARSE(app, argc, argv);
+
+  auto renderer = Renderer::create({.backend = {.device = device}});
+  if (!renderer) {
+    std::cerr << renderer.problems().front().detail << '\n';
+    return 1;
+  }
+  SoftBench bench(*renderer, repeats, samples);
+  std::vector<std::pair<std::string, std::vector<Found>>> lights;
+  std::size_t scenes = 0;
+  std::set<std::string> models;
+  for (const NamedScene& scene : gatheredScenes(assets)) {
+    if (!models.insert(scene.name.substr(0, scene.name.find('/'))).second) continue; // another file of the same model
+    if (scene.scene->scenes.front().bounds.empty()) continue;
+    const std::vector<SizedLight> over = lightsOver(scene.scene->scenes.front().bounds);
+    if (lights.empty()) {
+      for (const SizedLight& light : over) lights.emplace_back(light.name, std::vector<Found>(ways().size()));
+    }
+    for (std::size_t i = 0; i < over.size(); ++i) bench.add(scene, over[i], lights[i].second);
+    ++scenes;
+  }
+  std::cout << "# Soft shadows against rays\n\n<!-- readme -->\n\nMade by `bench_soft` on " << renderer->info().renderer
+            << ", " << std::thread::hardware_concurrency() << " cores, 640 x 360, antialiasing none, " << scenes
+            << " scenes, each as a whole in view, against " << samples
+            << " rays a pixel. The lamp is a spot of 0.2 m over a scene taken for one of 10 m. Times are of whole warm "
+               "frames, tiles drawn anew, as multiples of the same frame's under a light without a size.\n\n"
+            << tableOf(lights) << "\n<!-- /readme -->\n";
+  return 0;
+}
