@@ -4,7 +4,7 @@
 usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
 
 Who may include whom, one way:
-  protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow} <- renderer/prepare
+  protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame <- renderer/evaluation
            <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations
            <- server/handlers <- server/process;
@@ -35,6 +35,7 @@ MAY_INCLUDE = {
     "renderer/image": ["protocol", "renderer/core", "renderer/image"],
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
+    "renderer/volume": ["protocol", "renderer/core", "renderer/volume"],
     "renderer/reference": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/reference"],
     "renderer/bake": ["protocol", "renderer/core", "renderer/scene", "renderer/reference", "renderer/bake"],
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],

@@ -38,6 +38,7 @@ BROKEN = [
     ("renderer/scene/bad.cpp", "#include <OpenImageIO/imageio.h>\n", "belongs to renderer/image alone"),
     ("renderer/shadow/bad.cpp", "#include <glad/gl.h>\n", "belongs to renderer/gl"),
     ("renderer/shadow/bad.h", '#include "renderer/scene/scene.h"\n', "not below renderer/shadow"),
+    ("renderer/volume/bad.h", '#include "renderer/shadow/plan.h"\n', "not below renderer/volume"),
     ("renderer/gl/bad.h", '#include "renderer/passes/shade.h"\n', "not below renderer/gl"),
     ("renderer/passes/bad.h", '#include "renderer/render.h"\n', "not below renderer/passes"),
     ("renderer/attic/bad.h", '#include "protocol/result.h"\n', "has no rule"),

@@ -113,6 +113,15 @@ def forms(folder, scenes):
     write(folder / "multipart", "stored", stored)
 
 
+def grids(folder):
+    shape = "'shape': (2, 1, 3), }\n"
+    for name, descr, numbers in (("float32", "<f4", struct.pack("<6f", 0, 1, -2, 0.5, 1e9, 3)),
+                                 ("float16", "<f2", struct.pack("<6e", 0, 1, -2, 0.5, 1000, 3)), ("uint8", "|u1", bytes(range(6)))):
+        header = f"{{'descr': '{descr}', 'fortran_order': False, {shape}".encode()
+        write(folder / "npy", name, b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header + numbers)
+        write(folder / "npy", f"{name}_2", b"\x93NUMPY\2\0" + struct.pack("<I", len(header)) + header + numbers)
+
+
 def choices(folder):
     """Scenes and specs for both devices: any bytes are some."""
     for number in range(24):
@@ -127,6 +136,7 @@ def main(folder, scenes, assets=None):
     images(folder, assets)
     requests(folder)
     forms(folder, scenes)
+    grids(folder)
     choices(folder)
     for target in sorted(folder.iterdir()):
         print(f"{target.name}: {len(list(target.iterdir()))} seeds")

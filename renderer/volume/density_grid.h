@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "protocol/base/result.h"
+
+namespace gnomon {
+
+inline constexpr std::int64_t kMaxGridSide = 2048;
+inline constexpr std::int64_t kMaxGridVoxels = std::int64_t{1} << 27; ///< half a gigabyte of floats
+
+/// Numbers at the centres of voxels that fill a unit cube.
+struct DensityGrid {
+  glm::ivec3 size{0};        ///< voxels along x, y, z; at least 1 each
+  std::vector<float> values; ///< x fastest, then y, then z; all finite
+
+  float at(int x, int y, int z) const {
+    return values[(static_cast<std::size_t>(z) * size.y + y) * static_cast<std::size_t>(size.x) + x];
+  }
+};
+
+/// How many voxels a grid of so many along x, y and z has, or the side or count that is beyond the limits.
+Result<std::size_t> voxelCount(std::int64_t x, std::int64_t y, std::int64_t z);
+
+/// The first value that is no finite number is a problem with its place; the grid otherwise.
+Result<DensityGrid> requireFinite(DensityGrid grid);
+
+/// Trilinear between the eight nearest centres; the outermost centres' values go on beyond them. `unit`: 0..1 in the
+/// cube, and brought there.
+double valueAt(const DensityGrid& grid, const glm::dvec3& unit);
+
+} // namespace gnomon
