@@ -9,9 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "renderer/volume/density_grid.h"
-#include "renderer/volume/transfer_function.h"
-#include "renderer/volume/volume_space.h"
+#include "renderer/volume/medium.h"
 
 namespace gnomon {
 
@@ -64,6 +62,20 @@ inline VolumeSpace turnedSpace(const glm::dvec3& middle, const glm::dvec3& size,
   const glm::dmat4 matrix = glm::translate(glm::dmat4(1), middle) * glm::rotate(glm::dmat4(1), angle, axis) *
                             glm::scale(glm::dmat4(1), size) * glm::translate(glm::dmat4(1), glm::dvec3(-0.5));
   return *spaceOf(matrix);
+}
+
+/// The same extinction everywhere.
+inline Medium homogeneous(const VolumeSpace& space, double perMetre, const glm::ivec3& size = {4, 4, 4}) {
+  return makeMedium(gridOf(size, [](const glm::dvec3&) { return 1.0; }), proportional(perMetre), space);
+}
+
+/// A ball of the largest radius in the cube, densest in its middle, smooth towards its border.
+inline Medium ball(const VolumeSpace& space, double perMetre, int side) {
+  const auto density = [](const glm::dvec3& unit) {
+    const double radius = 2 * glm::length(unit - 0.5);
+    return radius < 1 ? std::pow(std::cos(radius * 1.5707963267948966), 2) : 0.0;
+  };
+  return makeMedium(gridOf(glm::ivec3(side), density), proportional(perMetre), space);
 }
 
 } // namespace gnomon

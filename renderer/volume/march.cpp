@@ -1,0 +1,128 @@
+#include "renderer/volume/march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+constexpr double kHardlyAny = 0x1p-16; // of the light behind
+constexpr double kNudge = 1e-6;        // steps: surely beyond a brick's face
+
+/// A medium that the ray meets.
+struct Passage {
+  const Medium* medium = nullptr;
+  std::size_t index = 0;
+  Ray ray{}; ///< in the unit cube
+  Interval inside{};
+  double step = 0; ///< metres
+};
+
+std::vector<Passage> passagesOf(std::span<const Medium* const> media, const Ray& ray, const Interval& piece,
+                                double stepVoxels) {
+  std::vector<Passage> passages;
+  for (std::size_t i = 0; i < media.size(); ++i) {
+    const Ray unit = toUnit(media[i]->space, ray);
+    const auto line = insideUnitCube(unit);
+    if (!line) continue;
+    const Interval inside{std::max(line->from, piece.from), std::min(line->to, piece.to)};
+    if (!(inside.from < inside.to)) continue;
+    const double step = stepVoxels / glm::length(unit.direction * glm::dvec3(media[i]->grid->size));
+    passages.push_back({media[i], i, unit, inside, step});
+  }
+  return passages;
+}
+
+/// What comes next on the ray: a step through what is filled, or none.
+struct Stretch {
+  double to = 0;
+  bool filled = false;
+};
+
+Stretch stretchAt(std::span<const Passage> passages, double from) {
+  double bound = std::numeric_limits<double>::infinity(), empty = bound, step = bound;
+  bool filled = false;
+  for (const Passage& passage : passages) {
+    if (passage.inside.to <= from) continue;
+    if (passage.inside.from > from) {
+      bound = std::min(bound, passage.inside.from);
+      continue;
+    }
+    bound = std::min(bound, passage.inside.to);
+    step = std::min(step, passage.step);
+    const double nudged = from + kNudge * passage.step;
+    const double until = emptyUntil(*passage.medium, passage.ray, nudged);
+    filled = filled || until <= nudged;
+    empty = std::min(empty, std::max(until, nudged));
+  }
+  // Far away a step may be too short for the digits of the distance.
+  const double next = std::max(filled ? from + step : empty, std::nextafter(from, bound));
+  return {std::min(bound, next), filled};
+}
+
+/// Calls `visit(passage, matter)` for each medium that holds something in the middle of the step from..to, which lies
+/// wholly inside or outside each.
+template <class Visit>
+void visitMatter(std::span<const Passage> passages, double from, double to, Visit visit) {
+  const double middle = from + (to - from) / 2;
+  for (const Passage& passage : passages) {
+    if (middle < passage.inside.from || middle > passage.inside.to) continue;
+    const glm::dvec3 unit = pointAt(passage.ray, middle);
+    const Matter matter = matterAt(*passage.medium, unit);
+    if (matter.extinction > 0) visit(passage, unit, matter);
+  }
+}
+
+/// Calls `each(from, to)` for all steps through what is filled, near to far, until one gives false.
+template <class Each>
+void forEachStep(std::span<const Passage> passages, Each each) {
+  double from = std::numeric_limits<double>::infinity(), end = -from;
+  for (const Passage& passage : passages) {
+    from = std::min(from, passage.inside.from);
+    end = std::max(end, passage.inside.to);
+  }
+  while (from < end) {
+    const Stretch stretch = stretchAt(passages, from);
+    if (stretch.filled && !each(from, stretch.to)) return;
+    from = stretch.to;
+  }
+}
+
+} // namespace
+
+Marched march(std::span<const Medium* const> media, const Ray& ray, const Interval& piece, const LightAt& lightAt,
+              double stepVoxels) {
+  const std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
+  Marched marched;
+  forEachStep(passages, [&](double from, double to) {
+    glm::dvec3 scattered(0);
+    double extinction = 0;
+    visitMatter(passages, from, to, [&](const Passage& passage, const glm::dvec3& unit, const Matter& matter) {
+      extinction += matter.extinction;
+      scattered += matter.extinction * matter.color * lightAt(passage.index, unit);
+    });
+    if (extinction == 0) return true;
+    const double taken = -std::expm1(-extinction * (to - from));
+    marched.color += marched.transmittance * taken / extinction * scattered;
+    marched.transmittance *= 1 - taken;
+    if (marched.transmittance < kHardlyAny) marched.transmittance = 0;
+    return marched.transmittance > 0;
+  });
+  return marched;
+}
+
+double opticalDepth(std::span<const Medium* const> media, const Ray& ray, const Interval& piece, double stepVoxels) {
+  const std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
+  double depth = 0;
+  forEachStep(passages, [&](double from, double to) {
+    visitMatter(passages, from, to, [&](const Passage&, const glm::dvec3&, const Matter& matter) {
+      depth += matter.extinction * (to - from);
+    });
+    return true;
+  });
+  return depth;
+}
+
+} // namespace gnomon
