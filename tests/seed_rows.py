@@ -50,6 +50,7 @@ MAY_HAVE_TESTS = {
     "H5": "the same bytes again", "H6": "shimmer", "H7": "report on the atlas", "H8": "a plan without a picture",
     "H9": "debug views as files", "H10": "times of passes", "H11": "techniques side by side", "H12": "large worlds",
     "H13": "tiles kept between requests",
+    "D5": "volumetric light map", "D6": "a volume's shadow on what lies outside and inside",
     "D7": "volumes: Beer-Lambert at any step and resolution, and its traps",
     "N1": "umbra and penumbra", "N2": "equal depth is lit", "N3": "shadow volumes",
     "N4": "light falls where no volume is", "N5": "static shadows in a light map", "N6": "soft shadows against a reference",

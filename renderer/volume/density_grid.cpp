@@ -41,16 +41,21 @@ Result<DensityGrid> requireFinite(DensityGrid grid) {
 }
 
 double valueAt(const DensityGrid& grid, const glm::dvec3& unit) {
-  const glm::dvec3 last = glm::dvec3(grid.size - 1);
-  const glm::dvec3 place = glm::clamp(unit * glm::dvec3(grid.size) - 0.5, glm::dvec3(0.0), last);
+  const glm::dvec3 size(grid.size);
+  const glm::dvec3 place = glm::clamp(unit * size - 0.5, glm::dvec3(0.0), size - 1.0);
   const glm::ivec3 low = glm::ivec3(place);
-  const glm::ivec3 high = glm::min(low + 1, grid.size - 1);
   const glm::dvec3 share = place - glm::dvec3(low);
-  const auto alongX = [&](int y, int z) {
-    return glm::mix(double{grid.at(low.x, y, z)}, double{grid.at(high.x, y, z)}, share.x);
-  };
-  const auto alongY = [&](int z) { return glm::mix(alongX(low.y, z), alongX(high.y, z), share.y); };
-  return glm::mix(alongY(low.z), alongY(high.z), share.z);
+  // To the next centre along each axis, where there is one.
+  const auto rowStep = static_cast<std::size_t>(grid.size.x);
+  const std::size_t layerStep = rowStep * static_cast<std::size_t>(grid.size.y);
+  const std::size_t x = low.x + 1 < grid.size.x ? 1 : 0;
+  const std::size_t y = low.y + 1 < grid.size.y ? rowStep : 0;
+  const std::size_t z = low.z + 1 < grid.size.z ? layerStep : 0;
+  const float* at = grid.values.data() + static_cast<std::size_t>(low.z) * layerStep +
+                    static_cast<std::size_t>(low.y) * rowStep + static_cast<std::size_t>(low.x);
+  const auto alongX = [&](std::size_t row) { return glm::mix(double{at[row]}, double{at[row + x]}, share.x); };
+  const auto alongY = [&](std::size_t layer) { return glm::mix(alongX(layer), alongX(layer + y), share.y); };
+  return glm::mix(alongY(0), alongY(z), share.z);
 }
 
 } // namespace gnomon

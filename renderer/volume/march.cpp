@@ -17,7 +17,8 @@ struct Passage {
   std::size_t index = 0;
   Ray ray{}; ///< in the unit cube
   Interval inside{};
-  double step = 0; ///< metres
+  double step = 0;      ///< metres
+  BrickPassage brick{}; ///< the last that was looked up
 };
 
 std::vector<Passage> passagesOf(std::span<const Medium* const> media, const Ray& ray, const Interval& piece,
@@ -29,8 +30,9 @@ std::vector<Passage> passagesOf(std::span<const Medium* const> media, const Ray&
     if (!line) continue;
     const Interval inside{std::max(line->from, piece.from), std::min(line->to, piece.to)};
     if (!(inside.from < inside.to)) continue;
-    const double step = stepVoxels / glm::length(unit.direction * glm::dvec3(media[i]->grid->size));
-    passages.push_back({media[i], i, unit, inside, step});
+    const double voxelsPerMetre = glm::length(unit.direction * glm::dvec3(media[i]->grid->size));
+    if (!(voxelsPerMetre > 0)) continue; // a ray without a direction
+    passages.push_back({media[i], i, unit, inside, stepVoxels / voxelsPerMetre, {inside.from, false}});
   }
   return passages;
 }
@@ -41,10 +43,10 @@ struct Stretch {
   bool filled = false;
 };
 
-Stretch stretchAt(std::span<const Passage> passages, double from) {
+Stretch stretchAt(std::span<Passage> passages, double from) {
   double bound = std::numeric_limits<double>::infinity(), empty = bound, step = bound;
   bool filled = false;
-  for (const Passage& passage : passages) {
+  for (Passage& passage : passages) {
     if (passage.inside.to <= from) continue;
     if (passage.inside.from > from) {
       bound = std::min(bound, passage.inside.from);
@@ -53,9 +55,9 @@ Stretch stretchAt(std::span<const Passage> passages, double from) {
     bound = std::min(bound, passage.inside.to);
     step = std::min(step, passage.step);
     const double nudged = from + kNudge * passage.step;
-    const double until = emptyUntil(*passage.medium, passage.ray, nudged);
-    filled = filled || until <= nudged;
-    empty = std::min(empty, std::max(until, nudged));
+    if (passage.brick.until <= nudged) passage.brick = brickAt(*passage.medium, passage.ray, nudged);
+    filled = filled || passage.brick.filled;
+    empty = std::min(empty, passage.brick.until);
   }
   // Far away a step may be too short for the digits of the distance.
   const double next = std::max(filled ? from + step : empty, std::nextafter(from, bound));
@@ -77,7 +79,7 @@ void visitMatter(std::span<const Passage> passages, double from, double to, Visi
 
 /// Calls `each(from, to)` for all steps through what is filled, near to far, until one gives false.
 template <class Each>
-void forEachStep(std::span<const Passage> passages, Each each) {
+void forEachStep(std::span<Passage> passages, Each each) {
   double from = std::numeric_limits<double>::infinity(), end = -from;
   for (const Passage& passage : passages) {
     from = std::min(from, passage.inside.from);
@@ -94,7 +96,7 @@ void forEachStep(std::span<const Passage> passages, Each each) {
 
 Marched march(std::span<const Medium* const> media, const Ray& ray, const Interval& piece, const LightAt& lightAt,
               double stepVoxels) {
-  const std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
+  std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
   Marched marched;
   forEachStep(passages, [&](double from, double to) {
     glm::dvec3 scattered(0);
@@ -114,7 +116,7 @@ Marched march(std::span<const Medium* const> media, const Ray& ray, const Interv
 }
 
 double opticalDepth(std::span<const Medium* const> media, const Ray& ray, const Interval& piece, double stepVoxels) {
-  const std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
+  std::vector<Passage> passages = passagesOf(media, ray, piece, stepVoxels);
   double depth = 0;
   forEachStep(passages, [&](double from, double to) {
     visitMatter(passages, from, to, [&](const Passage&, const glm::dvec3&, const Matter& matter) {

@@ -52,18 +52,17 @@ Medium makeMedium(std::shared_ptr<const DensityGrid> grid, TransferFunction func
   return {.grid = std::move(grid), .function = std::move(function), .space = space, .bricks = std::move(bricks)};
 }
 
-double emptyUntil(const Medium& medium, const Ray& unitRay, double distance) {
+BrickPassage brickAt(const Medium& medium, const Ray& unitRay, double distance) {
   const glm::dvec3 perBrick = glm::dvec3(medium.grid->size) / double{kBrickSide};
   const glm::dvec3 place = pointAt(unitRay, distance) * perBrick;
   const glm::ivec3 brick = glm::ivec3(glm::clamp(place, glm::dvec3(0), glm::dvec3(medium.bricks.size - 1)));
-  if (medium.bricks.filled[indexOf(brick, medium.bricks.size)] != 0) return distance;
   double until = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     const double speed = unitRay.direction[axis] * perBrick[axis];
     if (speed == 0) continue;
     until = std::min(until, distance + (brick[axis] + (speed > 0 ? 1 : 0) - place[axis]) / speed);
   }
-  return std::max(until, distance);
+  return {std::max(until, distance), medium.bricks.filled[indexOf(brick, medium.bricks.size)] != 0};
 }
 
 } // namespace gnomon

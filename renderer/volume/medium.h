@@ -38,7 +38,11 @@ inline Matter matterAt(const Medium& medium, const glm::dvec3& unit) {
   return matterOf(medium.function, valueAt(*medium.grid, unit));
 }
 
-/// How far along the ray the brick at `distance` reaches, where nothing is in it; `distance` where something is.
-double emptyUntil(const Medium& medium, const Ray& unitRay, double distance);
+/// The brick that a ray is in.
+struct BrickPassage {
+  double until = 0;    ///< distance along the ray; not before the one that was asked for
+  bool filled = false; ///< otherwise nothing is in it
+};
+BrickPassage brickAt(const Medium& medium, const Ray& unitRay, double distance);
 
 } // namespace gnomon
