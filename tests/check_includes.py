@@ -96,6 +96,7 @@ KEPT_IN = {
     "EGL/": ["renderer/gl"],
     "embree3/": ["renderer/reference"],
     "hwy/": ["renderer/cpu"],
+    "openvdb/": ["renderer/volume/vdb"],
     "tbb/": ["renderer/core/parallel.cpp"],
 }
 

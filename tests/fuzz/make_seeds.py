@@ -10,6 +10,7 @@ import shutil
 import struct
 import sys
 import urllib.parse
+import zlib
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parent.parent
@@ -21,6 +22,15 @@ WEBP = {
     "lossy": "UklGRmAAAABXRUJQVlA4WAoAAAAQAAAAAQAAAQAAQUxQSAUAAAAAAAFk/wBWUDggNAAAALABAJ0BKgIAAgACgEIliAJ0AQ72o4AA/ub5et3n"
     "7Dy1SW2wA+HqaL1f6+8odiY6yd4gAAA=",
 }
+
+# A float grid of two voxels as OpenVDB writes it, deflated.
+VDB = (
+    "eNrt2stKw0AUBuCkeCnipS4KLrOXQDVJ0Y0VcevKy3aYyUxkIJeSpKHd9RF8Fd+oj9AX0DjTJjWl4Ebqxv+DwwyHc5KTSekq1t39i6HMVBwYFe"
+    "pfu/yKU9v1KLNd1+E2417PDnj/ohd4zL9kjq4zVeyr4CLOZD7pqO1TKgQJwoTmxCMucYwf7FXtRyoCGQrCWDImER3vqkQhfEceqs1nWZY6ITYr"
+    "ZbxW+VFVchWdutJPomEqskwmsb5flqcyfu2qHQuTzLfOLernshBWQcORyE7rNi5COhGcqCfh+q6kzuhEt3r2Fataj+v2SESETXKR6XlknPfdtt"
+    "q8ve8sylbDFclYhGrEUZyvFbaq6+nymEbie/LGcZ+o7XMsgySNHn0aigc6XHbNB9tdZxvr8jCmN/WPwpiXpQEAAAAAAAAAf8bEEQAAAAAAAADA"
+    "tnWqtWU6i88fzEYO/sGLB9jaH0PdYP1yiGb/WWMw/TlWe5WbDlTl7ReJLYBe"
+)
 
 
 def write(folder, name, content):
@@ -120,6 +130,9 @@ def grids(folder):
         header = f"{{'descr': '{descr}', 'fortran_order': False, {shape}".encode()
         write(folder / "npy", name, b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header + numbers)
         write(folder / "npy", f"{name}_2", b"\x93NUMPY\2\0" + struct.pack("<I", len(header)) + header + numbers)
+    vdb = zlib.decompress(base64.b64decode(VDB))
+    write(folder / "vdb", "grid", vdb)
+    write(folder / "vdb", "cut", vdb[:4000])
 
 
 def choices(folder):
