@@ -24,23 +24,51 @@ std::optional<Interval> wayThrough(const VolumeSpace& space, const Ray& ray) {
   return inside;
 }
 
-double meanExtinction(const Medium& medium, const glm::dvec3& unit, const glm::dvec3& towards) {
-  if (!medium.castShadow) return 0;
+/// What the volume itself has between a point and where the ray towards the chosen light leaves it.
+struct OwnWay {
+  double meanExtinction = 0;
+  double opticalDepth = 0;
+};
+
+OwnWay ownWay(const Medium& medium, const glm::dvec3& unit, const glm::dvec3& towards) {
+  if (!medium.castShadow) return {};
   const Ray ray{toWorld(medium.space, unit), towards};
   const auto way = wayThrough(medium.space, ray);
-  if (!way || way->to <= kNoWay * longestEdge(medium.space)) return matterAt(medium, unit).extinction;
+  if (!way || way->to <= kNoWay * longestEdge(medium.space)) return {matterAt(medium, unit).extinction, 0};
   const Medium* alone[]{&medium};
-  return opticalDepth(alone, ray, {0, way->to}) / way->to;
+  const double depth = opticalDepth(alone, ray, {0, way->to});
+  return {depth / way->to, depth};
 }
 
-glm::dvec3 lightArriving(const LightMapInput& input, std::span<const Medium* const> casting, const glm::dvec3& place) {
+/// The media that dim light for one of them, all and without itself.
+struct Dimming {
+  std::vector<const Medium*> all, others;
+};
+
+Dimming dimmingOf(const LightMapInput& input) {
+  Dimming dimming;
+  for (std::size_t i = 0; i < input.media.size(); ++i) {
+    if (!input.media[i]->castShadow) continue;
+    dimming.all.push_back(input.media[i]);
+    if (i != input.chosen) dimming.others.push_back(input.media[i]);
+  }
+  return dimming;
+}
+
+glm::dvec3 lightArriving(const LightMapInput& input, const Dimming& dimming, const glm::dvec3& place,
+                         const OwnWay& own) {
   const bool shadowed = input.media[input.chosen]->receiveShadow;
   glm::dvec3 sum(0);
   for (const ArrivalAt& arrivalAt : input.lights) {
     const Arrival arrival = arrivalAt(place);
     double share = shadowed ? arrival.surfaceVisibility : 1.0;
     if (share == 0) continue;
-    if (shadowed) share *= std::exp(-opticalDepth(casting, {place, arrival.towards}, {0, arrival.distance}));
+    if (shadowed) {
+      const bool known = input.towards && arrival.towards == *input.towards && std::isinf(arrival.distance);
+      const Ray ray{place, arrival.towards};
+      const double rest = opticalDepth(known ? dimming.others : dimming.all, ray, {0, arrival.distance});
+      share *= std::exp(-rest - (known ? own.opticalDepth : 0.0));
+    }
     sum += share * arrival.irradiance;
   }
   return sum;
@@ -81,14 +109,12 @@ glm::ivec3 lightMapSize(const DensityGrid& grid, int most) {
 
 LightMap bakeLightMap(const LightMapInput& input) {
   const Medium& medium = *input.media[input.chosen];
-  std::vector<const Medium*> casting;
-  std::copy_if(input.media.begin(), input.media.end(), std::back_inserter(casting),
-               [](const Medium* each) { return each->castShadow; });
+  const Dimming dimming = dimmingOf(input);
   std::vector<glm::dvec4> numbers(countOf(input.size));
   forEach(numbers.size(), [&](std::size_t i) {
     const glm::dvec3 unit = latticePoint(i, input.size);
-    const double taken = input.towards ? meanExtinction(medium, unit, *input.towards) : 0.0;
-    numbers[i] = glm::dvec4(lightArriving(input, casting, toWorld(medium.space, unit)), taken);
+    const OwnWay own = input.towards ? ownWay(medium, unit, *input.towards) : OwnWay{};
+    numbers[i] = glm::dvec4(lightArriving(input, dimming, toWorld(medium.space, unit), own), own.meanExtinction);
   });
   glm::dvec4 full(0);
   for (const glm::dvec4& each : numbers) full = glm::max(full, each);
@@ -113,6 +139,12 @@ double shareTaken(const Medium& medium, const LightMap& map, const glm::dvec3& p
   const glm::dvec3 entry = pointAt(toUnit(medium.space, ray), way->from);
   const double extinction = map.fullExtinction * interpolated(map, entry).w;
   return -std::expm1(-extinction * (way->to - way->from));
+}
+
+double volumeVisibility(std::span<const MappedMedium> media, const glm::dvec3& place, const glm::dvec3& towards) {
+  double visibility = 1;
+  for (const MappedMedium& each : media) visibility *= 1 - shareTaken(*each.medium, *each.map, place, towards);
+  return visibility;
 }
 
 } // namespace gnomon

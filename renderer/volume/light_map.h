@@ -37,9 +37,9 @@ struct LightMap {
 };
 
 struct LightMapInput {
-  std::span<const Medium* const> media; ///< all of the frame
-  std::size_t chosen = 0;               ///< the one that gets its map
-  std::span<const ArrivalAt> lights;
+  std::span<const Medium* const> media{}; ///< all of the frame
+  std::size_t chosen = 0;                 ///< the one that gets its map
+  std::span<const ArrivalAt> lights{};
   std::optional<glm::dvec3> towards{}; ///< the directional light whose share is kept in alpha; none = 0
   glm::ivec3 size{2};                  ///< at least 2 each
 };
@@ -57,5 +57,14 @@ glm::dvec3 lightAt(const LightMap& map, const glm::dvec3& unit);
 /// The share that the volume takes of the chosen light on its way to a place of the world: of all that is between there
 /// and the light, inside of the volume or not. 0 where the ray towards the light does not meet the volume.
 double shareTaken(const Medium& medium, const LightMap& map, const glm::dvec3& place, const glm::dvec3& towards);
+
+struct MappedMedium {
+  const Medium* medium = nullptr;
+  const LightMap* map = nullptr;
+};
+
+/// The share of the chosen light that all of these let through to a place of the world: what a surface there gets is
+/// this times what other surfaces let through.
+double volumeVisibility(std::span<const MappedMedium> media, const glm::dvec3& place, const glm::dvec3& towards);
 
 } // namespace gnomon

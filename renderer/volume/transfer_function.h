@@ -14,16 +14,22 @@ inline constexpr double kMaxExtinction = 1e6; ///< per metre
 struct Matter {
   glm::dvec3 color{0};   ///< the share of each component that is scattered of what is taken away, 0..1
   double extinction = 0; ///< what is taken away, per metre, >= 0
+
+  bool operator==(const Matter&) const = default;
 };
 
 struct TransferPoint {
   double value = 0; ///< of the grid
   Matter matter;
+
+  bool operator==(const TransferPoint&) const = default;
 };
 
 /// Piecewise linear between its points; the first and last go on beyond them. Values increase.
 struct TransferFunction {
   std::vector<TransferPoint> points;
+
+  bool operator==(const TransferFunction&) const = default;
 };
 
 /// A function of these points, or all that is wrong with them, as "/INDEX/value", "/INDEX/color/0" or

@@ -30,6 +30,8 @@ struct VolumeSpace {
   glm::dvec3 corner{0}; ///< of the world: where the cube's 0, 0, 0 lies
   glm::dmat3 axes{1};   ///< columns: the cube's edges, metres
   glm::dmat3 inverse{1};
+
+  bool operator==(const VolumeSpace&) const = default;
 };
 
 /// From an affine matrix, world from unit cube. A problem where it is not finite, not affine or flat.

@@ -130,6 +130,19 @@ TEST(LightMap, D5_LightThatArrivesIsDimmedByAllMediaAndBySurfaces) {
   EXPECT_NEAR(shareTaken(low, dark, {0.1, -3, 0.5}, kUp), -std::expm1(-1.0), 1e-3);
 }
 
+TEST(LightMap, D6_SharesOfSeveralVolumesMultiply) {
+  const Medium low = homogeneous(boxSpace({0, 2, 0}, {4, 4, 4}), 0.3),
+               high = homogeneous(boxSpace({2, 3, 0}, {6, 8, 4}), 0.2);
+  const LightMap lowMap = mapOf({&low, &high}, 0, kUp, {3, 3, 3}), highMap = mapOf({&low, &high}, 1, kUp, {3, 3, 3});
+  const MappedMedium media[]{{&low, &lowMap}, {&high, &highMap}};
+  EXPECT_NEAR(volumeVisibility(media, {1, 0, 2}, kUp), std::exp(-0.6), 1e-3);
+  EXPECT_NEAR(volumeVisibility(media, {3, 0, 2}, kUp), std::exp(-0.6 - 1.0), 1e-3);
+  EXPECT_NEAR(volumeVisibility(media, {3, 3.5, 2}, kUp), std::exp(-0.15 - 0.9), 1e-3);
+  EXPECT_NEAR(volumeVisibility(media, {5, 0, 2}, kUp), std::exp(-1.0), 1e-3);
+  EXPECT_EQ(volumeVisibility(media, {7, 0, 2}, kUp), 1);
+  EXPECT_EQ(volumeVisibility({}, {3, 0, 2}, kUp), 1);
+}
+
 TEST(LightMap, ALampDimsWithTheWayToItOnly) {
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {8, 1, 1}), 0.5);
   const Medium* media[]{&medium};
