@@ -20,7 +20,8 @@ void forEachPixel(const SeenSurfaces& seen, Each each) {
   const std::size_t width = static_cast<std::size_t>(seen.width);
   forEachPiece(width * static_cast<std::size_t>(seen.height), kPiece, [&](std::size_t first, std::size_t last) {
     for (std::size_t pixel = first; pixel < last; ++pixel) {
-      const glm::dvec2 place(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
+      const std::size_t row = pixel / width, column = pixel % width;
+      const glm::dvec2 place(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
       each(pixel, viewRayAt(seen.view, {2 * place.x / seen.width - 1, 1 - 2 * place.y / seen.height}));
     }
   });
