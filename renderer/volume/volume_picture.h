@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/volume/light_map.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 

@@ -15,7 +15,7 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// A box in the light of a sun overhead, and its map.
 struct LitBox {
   Medium medium;
-  LightMap map;
+  VolumeLight map;
 
   LitBox(const glm::dvec3& low, const glm::dvec3& high, double sigma)
       : medium(homogeneous(boxSpace(low, high), sigma)) {
@@ -23,7 +23,7 @@ struct LitBox {
     const ArrivalAt lights[]{[](const glm::dvec3&) {
       return Arrival{.towards = {0, 1, 0}, .irradiance = glm::dvec3(3.141592653589793)};
     }};
-    map = bakeLightMap({.media = media, .lights = lights, .towards = glm::dvec3(0, 1, 0), .size = {2, 33, 2}});
+    map = makeVolumeLight({.media = media, .lights = lights, .towards = glm::dvec3(0, 1, 0), .size = {2, 33, 2}});
   }
 };
 

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-inline constexpr int kMaxLightMapSide = 64; ///< texels, of a map whose size nobody chose
+inline constexpr int kMaxVolumeLightSide = 64; ///< texels, of a map whose size nobody chose
 
 /// Light on its way to one place.
 struct Arrival {
@@ -29,14 +29,14 @@ using ArrivalAt = std::function<Arrival(const glm::dvec3& place)>;
 /// through all media, in shares of `fullLight`. Alpha is the mean extinction that this volume alone has between the
 /// point and where the ray towards the chosen light leaves it, in shares of `fullExtinction`: times the length of that
 /// way, which is known for each point, it gives what is taken without any error in a homogeneous medium.
-struct LightMap {
+struct VolumeLight {
   glm::ivec3 size{0};            ///< points along each axis, at least 2
   std::vector<glm::vec4> texels; ///< 0..1, each number one that a 16-bit float can hold
   glm::dvec3 fullLight{0};
   double fullExtinction = 0; ///< per metre
 };
 
-struct LightMapInput {
+struct VolumeLightInput {
   std::span<const Medium* const> media{}; ///< all of the frame
   std::size_t chosen = 0;                 ///< the one that gets its map
   std::span<const ArrivalAt> lights{};
@@ -45,22 +45,22 @@ struct LightMapInput {
 };
 
 /// A point for each face between voxels, as far as there are no more than `most` along an axis. REQUIRES: most >= 2.
-glm::ivec3 lightMapSize(const DensityGrid& grid, int most = kMaxLightMapSide);
+glm::ivec3 volumeLightSize(const DensityGrid& grid, int most = kMaxVolumeLightSide);
 
 /// By marching from each point to each light. A medium that casts no shadow dims nothing; one that receives none gets
 /// the light as through clear air and past no surface.
-LightMap bakeLightMap(const LightMapInput& input);
+VolumeLight makeVolumeLight(const VolumeLightInput& input);
 
 /// What arrives at a place of the unit cube.
-glm::dvec3 lightAt(const LightMap& map, const glm::dvec3& unit);
+glm::dvec3 lightAt(const VolumeLight& map, const glm::dvec3& unit);
 
 /// The share that the volume takes of the chosen light on its way to a place of the world: of all that is between there
 /// and the light, inside of the volume or not. 0 where the ray towards the light does not meet the volume.
-double shareTaken(const Medium& medium, const LightMap& map, const glm::dvec3& place, const glm::dvec3& towards);
+double shareTaken(const Medium& medium, const VolumeLight& map, const glm::dvec3& place, const glm::dvec3& towards);
 
 struct MappedMedium {
   const Medium* medium = nullptr;
-  const LightMap* map = nullptr;
+  const VolumeLight* map = nullptr;
 };
 
 /// The share of the chosen light that all of these let through to a place of the world: what a surface there gets is

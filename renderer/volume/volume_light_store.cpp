@@ -1,17 +1,17 @@
-#include "renderer/volume/light_map_store.h"
+#include "renderer/volume/volume_light_store.h"
 
 #include <algorithm>
 
 namespace gnomon {
 namespace {
 
-std::size_t bytesOf(const LightMap& map) {
+std::size_t bytesOf(const VolumeLight& map) {
   return map.texels.size() * sizeof(map.texels.front());
 }
 
 } // namespace
 
-LightMapKey::LightMapKey(const LightMapInput& input, std::string lights, std::string casters)
+VolumeLightKey::VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters)
     : chosen_(input.chosen),
       towards_(input.towards),
       size_(input.size),
@@ -22,32 +22,32 @@ LightMapKey::LightMapKey(const LightMapInput& input, std::string lights, std::st
   }
 }
 
-bool LightMapKey::same(const Part& a, const Part& b) {
+bool VolumeLightKey::same(const Part& a, const Part& b) {
   const bool sameGrid = !a.grid.owner_before(b.grid) && !b.grid.owner_before(a.grid);
   return sameGrid && a.function == b.function && a.space == b.space && a.castShadow == b.castShadow &&
          a.receiveShadow == b.receiveShadow;
 }
 
-bool LightMapKey::operator==(const LightMapKey& other) const {
+bool VolumeLightKey::operator==(const VolumeLightKey& other) const {
   return chosen_ == other.chosen_ && towards_ == other.towards_ && size_ == other.size_ && lights_ == other.lights_ &&
          casters_ == other.casters_ &&
          std::equal(media_.begin(), media_.end(), other.media_.begin(), other.media_.end(), same);
 }
 
-LightMapStore::Found LightMapStore::mapOf(const LightMapKey& key, const std::function<LightMap()>& make) {
+VolumeLightStore::Found VolumeLightStore::mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make) {
   const auto found =
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.first == key; });
   if (found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
     return {entries_.front().second, false};
   }
-  entries_.emplace_front(key, std::make_shared<const LightMap>(make()));
+  entries_.emplace_front(key, std::make_shared<const VolumeLight>(make()));
   std::size_t bytes = 0;
   const auto beyond = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     bytes += bytesOf(*entry.second);
     return bytes > maxBytes_;
   });
-  const std::shared_ptr<const LightMap> made = entries_.front().second;
+  const std::shared_ptr<const VolumeLight> made = entries_.front().second;
   entries_.erase(beyond, entries_.end());
   return {made, true};
 }

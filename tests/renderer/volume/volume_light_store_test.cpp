@@ -1,4 +1,4 @@
-#include "renderer/volume/light_map_store.h"
+#include "renderer/volume/volume_light_store.h"
 
 #include <gtest/gtest.h>
 
@@ -11,19 +11,19 @@ constexpr std::size_t kTexelBytes = 16;
 
 /// Asks for the map of one medium again and again, each time with something else changed.
 struct Asking {
-  LightMapStore store{1u << 20};
+  VolumeLightStore store{1u << 20};
   Medium medium = homogeneous(boxSpace({0, 0, 0}, {1, 1, 1}), 1);
-  LightMapInput input{.towards = glm::dvec3(0, 1, 0), .size = {2, 2, 2}};
+  VolumeLightInput input{.towards = glm::dvec3(0, 1, 0), .size = {2, 2, 2}};
   std::string lights = "sun", casters = "house";
 
   bool makes() {
     const Medium* media[]{&medium};
     input.media = media;
-    return store.mapOf(LightMapKey(input, lights, casters), [&] { return bakeLightMap(input); }).made;
+    return store.mapOf(VolumeLightKey(input, lights, casters), [&] { return makeVolumeLight(input); }).made;
   }
 };
 
-TEST(LightMapStore, D5_AMapIsMadeAnewOnlyWhenVolumeLightOrCastersChange) {
+TEST(VolumeLightStore, D5_AMapIsMadeAnewOnlyWhenVolumeLightOrCastersChange) {
   Asking asking;
   EXPECT_TRUE(asking.makes());
   EXPECT_FALSE(asking.makes());
@@ -49,13 +49,15 @@ TEST(LightMapStore, D5_AMapIsMadeAnewOnlyWhenVolumeLightOrCastersChange) {
   }
 }
 
-TEST(LightMapStore, AnotherVolumesMapIsAnother) {
-  LightMapStore store(1u << 20);
+TEST(VolumeLightStore, AnotherVolumesMapIsAnother) {
+  VolumeLightStore store(1u << 20);
   const Medium a = homogeneous(boxSpace({0, 0, 0}, {1, 1, 1}), 1), b = homogeneous(boxSpace({0, 2, 0}, {1, 3, 1}), 1);
   const Medium* both[]{&a, &b};
   const Medium* one[]{&a};
-  LightMapInput input{.media = both, .towards = glm::dvec3(0, 1, 0), .size = {2, 2, 2}};
-  const auto makes = [&] { return store.mapOf(LightMapKey(input, "", ""), [&] { return bakeLightMap(input); }).made; };
+  VolumeLightInput input{.media = both, .towards = glm::dvec3(0, 1, 0), .size = {2, 2, 2}};
+  const auto makes = [&] {
+    return store.mapOf(VolumeLightKey(input, "", ""), [&] { return makeVolumeLight(input); }).made;
+  };
   EXPECT_TRUE(makes());
   input.chosen = 1;
   EXPECT_TRUE(makes());
@@ -65,9 +67,9 @@ TEST(LightMapStore, AnotherVolumesMapIsAnother) {
   EXPECT_TRUE(makes());
 }
 
-TEST(LightMapStore, TheLatestUsedAreKeptWithinTheBound) {
+TEST(VolumeLightStore, TheLatestUsedAreKeptWithinTheBound) {
   Asking asking;
-  asking.store = LightMapStore(2 * 8 * kTexelBytes);
+  asking.store = VolumeLightStore(2 * 8 * kTexelBytes);
   for (const char* lights : {"a", "b", "a", "c"}) {
     asking.lights = lights;
     asking.makes();
@@ -82,7 +84,7 @@ TEST(LightMapStore, TheLatestUsedAreKeptWithinTheBound) {
   EXPECT_TRUE(asking.makes());
 }
 
-TEST(LightMapStore, AMapKeepsNoGridAlive) {
+TEST(VolumeLightStore, AMapKeepsNoGridAlive) {
   Asking asking;
   asking.makes();
   const std::weak_ptr<const DensityGrid> grid = asking.medium.grid;

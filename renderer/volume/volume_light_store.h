@@ -8,18 +8,18 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/volume/light_map.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 
 /// Everything that a light map depends on. Grids are the same where they are the same object.
-class LightMapKey {
+class VolumeLightKey {
  public:
   /// `lights`, `casters`: any text that differs where the lights, or the surfaces that throw shadows and where they
   /// stand, differ.
-  LightMapKey(const LightMapInput& input, std::string lights, std::string casters);
+  VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters);
 
-  bool operator==(const LightMapKey& other) const;
+  bool operator==(const VolumeLightKey& other) const;
 
  private:
   struct Part {
@@ -39,20 +39,20 @@ class LightMapKey {
 };
 
 /// Light maps of earlier frames, the latest used ones, within a bound on their bytes. For one thread.
-class LightMapStore {
+class VolumeLightStore {
  public:
   struct Found {
-    std::shared_ptr<const LightMap> map;
+    std::shared_ptr<const VolumeLight> map;
     bool made = false; ///< now; otherwise it was kept
   };
 
-  explicit LightMapStore(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+  explicit VolumeLightStore(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
   /// The map of this key, by `make` where there is none.
-  Found mapOf(const LightMapKey& key, const std::function<LightMap()>& make);
+  Found mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make);
 
  private:
-  using Entry = std::pair<LightMapKey, std::shared_ptr<const LightMap>>;
+  using Entry = std::pair<VolumeLightKey, std::shared_ptr<const VolumeLight>>;
 
   std::size_t maxBytes_;
   std::list<Entry> entries_; ///< the latest used first

@@ -1,4 +1,4 @@
-#include "renderer/volume/light_map.h"
+#include "renderer/volume/volume_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ struct Dimming {
   std::vector<const Medium*> all, others;
 };
 
-Dimming dimmingOf(const LightMapInput& input) {
+Dimming dimmingOf(const VolumeLightInput& input) {
   Dimming dimming;
   for (std::size_t i = 0; i < input.media.size(); ++i) {
     if (!input.media[i]->castShadow) continue;
@@ -55,7 +55,7 @@ Dimming dimmingOf(const LightMapInput& input) {
   return dimming;
 }
 
-glm::dvec3 lightArriving(const LightMapInput& input, const Dimming& dimming, const glm::dvec3& place,
+glm::dvec3 lightArriving(const VolumeLightInput& input, const Dimming& dimming, const glm::dvec3& place,
                          const OwnWay& own) {
   const bool shadowed = input.media[input.chosen]->receiveShadow;
   glm::dvec3 sum(0);
@@ -88,7 +88,7 @@ float rounded(double share) {
   return fromHalf(toHalf(static_cast<float>(share)));
 }
 
-glm::dvec4 interpolated(const LightMap& map, const glm::dvec3& unit) {
+glm::dvec4 interpolated(const VolumeLight& map, const glm::dvec3& unit) {
   const glm::dvec3 place = glm::clamp(unit, glm::dvec3(0), glm::dvec3(1)) * glm::dvec3(map.size - 1);
   const glm::ivec3 low = glm::min(glm::ivec3(place), map.size - 2);
   const glm::vec3 share(place - glm::dvec3(low));
@@ -103,11 +103,11 @@ glm::dvec4 interpolated(const LightMap& map, const glm::dvec3& unit) {
 
 } // namespace
 
-glm::ivec3 lightMapSize(const DensityGrid& grid, int most) {
+glm::ivec3 volumeLightSize(const DensityGrid& grid, int most) {
   return glm::min(grid.size + 1, glm::ivec3(most));
 }
 
-LightMap bakeLightMap(const LightMapInput& input) {
+VolumeLight makeVolumeLight(const VolumeLightInput& input) {
   const Medium& medium = *input.media[input.chosen];
   const Dimming dimming = dimmingOf(input);
   std::vector<glm::dvec4> numbers(countOf(input.size));
@@ -118,7 +118,7 @@ LightMap bakeLightMap(const LightMapInput& input) {
   });
   glm::dvec4 full(0);
   for (const glm::dvec4& each : numbers) full = glm::max(full, each);
-  LightMap map{input.size, {}, glm::dvec3(full), full.w};
+  VolumeLight map{input.size, {}, glm::dvec3(full), full.w};
   map.texels.reserve(numbers.size());
   const glm::dvec4 scale = 1.0 / glm::mix(full, glm::dvec4(1), glm::equal(full, glm::dvec4(0)));
   for (const glm::dvec4& each : numbers) {
@@ -128,11 +128,11 @@ LightMap bakeLightMap(const LightMapInput& input) {
   return map;
 }
 
-glm::dvec3 lightAt(const LightMap& map, const glm::dvec3& unit) {
+glm::dvec3 lightAt(const VolumeLight& map, const glm::dvec3& unit) {
   return map.fullLight * glm::dvec3(interpolated(map, unit));
 }
 
-double shareTaken(const Medium& medium, const LightMap& map, const glm::dvec3& place, const glm::dvec3& towards) {
+double shareTaken(const Medium& medium, const VolumeLight& map, const glm::dvec3& place, const glm::dvec3& towards) {
   const Ray ray{place, towards};
   const auto way = wayThrough(medium.space, ray);
   if (!way) return 0;

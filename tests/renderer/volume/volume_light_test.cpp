@@ -1,4 +1,4 @@
-#include "renderer/volume/light_map.h"
+#include "renderer/volume/volume_light.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,13 +17,13 @@ ArrivalAt sun(const glm::dvec3& towards, const glm::dvec3& irradiance = glm::dve
 }
 
 /// The map of `media[chosen]` in the light of one sun.
-LightMap mapOf(const std::vector<const Medium*>& media, std::size_t chosen, const glm::dvec3& towards,
-               const glm::ivec3& size, const glm::dvec3& irradiance = glm::dvec3(1)) {
+VolumeLight mapOf(const std::vector<const Medium*>& media, std::size_t chosen, const glm::dvec3& towards,
+                  const glm::ivec3& size, const glm::dvec3& irradiance = glm::dvec3(1)) {
   const ArrivalAt lights[]{sun(towards, irradiance)};
-  return bakeLightMap({.media = media, .chosen = chosen, .lights = lights, .towards = towards, .size = size});
+  return makeVolumeLight({.media = media, .chosen = chosen, .lights = lights, .towards = towards, .size = size});
 }
 
-LightMap mapOf(const Medium& medium, const glm::dvec3& towards, const glm::ivec3& size) {
+VolumeLight mapOf(const Medium& medium, const glm::dvec3& towards, const glm::ivec3& size) {
   return mapOf({&medium}, 0, towards, size);
 }
 
@@ -32,7 +32,7 @@ double lengthAhead(const VolumeSpace& space, const Ray& ray) {
   return line ? std::max(0.0, line->to - std::max(line->from, 0.0)) : 0.0;
 }
 
-TEST(LightMap, D6_D7_AHomogeneousBoxTakesOneLessExpOfSigmaLOfTheLightForAnyPlaceLightAndResolution) {
+TEST(VolumeLight, D6_D7_AHomogeneousBoxTakesOneLessExpOfSigmaLOfTheLightForAnyPlaceLightAndResolution) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     Chances chances(seed);
     const glm::dvec3 middle = chances.below(2) * 1e5 * chances.direction();
@@ -45,7 +45,7 @@ TEST(LightMap, D6_D7_AHomogeneousBoxTakesOneLessExpOfSigmaLOfTheLightForAnyPlace
     // Along a face or edge of the box as often as anywhere.
     const glm::dvec3 along = glm::normalize(space.axes[chances.below(3)]);
     const glm::dvec3 towards = chances.below(2) == 0 ? (chances.below(2) == 0 ? along : -along) : chances.direction();
-    const LightMap map = mapOf(medium, towards, {2 + chances.below(6), 2 + chances.below(6), 2 + chances.below(6)});
+    const VolumeLight map = mapOf(medium, towards, {2 + chances.below(6), 2 + chances.below(6), 2 + chances.below(6)});
     for (int i = 0; i < 50; ++i) {
       const glm::dvec3 place = toWorld(space, 3.0 * chances.place() - 1.0);
       const double wanted = -std::expm1(-sigma * lengthAhead(space, {place, towards}));
@@ -54,9 +54,9 @@ TEST(LightMap, D6_D7_AHomogeneousBoxTakesOneLessExpOfSigmaLOfTheLightForAnyPlace
   }));
 }
 
-TEST(LightMap, D7_OnlyWhatIsBehindTheVolumeIsShaded) {
+TEST(VolumeLight, D7_OnlyWhatIsBehindTheVolumeIsShaded) {
   const Medium medium = homogeneous(boxSpace({0, 10, 0}, {4, 12, 4}), 0.5);
-  const LightMap map = mapOf(medium, kUp, {4, 4, 4});
+  const VolumeLight map = mapOf(medium, kUp, {4, 4, 4});
   EXPECT_NEAR(shareTaken(medium, map, {2, 0, 2}, kUp), -std::expm1(-1.0), 1e-3);
   EXPECT_NEAR(shareTaken(medium, map, {2, 11, 2}, kUp), -std::expm1(-0.5), 1e-3);
   EXPECT_EQ(shareTaken(medium, map, {2, 12.001, 2}, kUp), 0); // the lit side
@@ -65,20 +65,20 @@ TEST(LightMap, D7_OnlyWhatIsBehindTheVolumeIsShaded) {
   EXPECT_EQ(shareTaken(medium, map, {-3, 11, 2}, kUp), 0);
 }
 
-TEST(LightMap, D7_AGrazingLightAlongAFaceIsNeitherLostNorDoubled) {
+TEST(VolumeLight, D7_AGrazingLightAlongAFaceIsNeitherLostNorDoubled) {
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {4, 2, 4}), 0.5);
   for (const double tilt : {0.0, 1e-16, -1e-16, 1e-9, -1e-9}) {
     const glm::dvec3 towards = glm::normalize(glm::dvec3(1, tilt, 0));
-    const LightMap map = mapOf(medium, towards, {3, 3, 3});
+    const VolumeLight map = mapOf(medium, towards, {3, 3, 3});
     EXPECT_NEAR(shareTaken(medium, map, {-1, 1, 2}, towards), -std::expm1(-2.0), 1e-3) << tilt;
     EXPECT_NEAR(shareTaken(medium, map, {1, 1e-6, 2}, towards), -std::expm1(-1.5), 1e-3) << tilt;
     EXPECT_EQ(shareTaken(medium, map, {-1, -1e-6, 2}, towards), 0) << tilt;
   }
 }
 
-TEST(LightMap, D7_SharesAreFineEnoughToShowNoBands) {
+TEST(VolumeLight, D7_SharesAreFineEnoughToShowNoBands) {
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {1, 1, 1}), 0.1);
-  const LightMap map = mapOf(medium, kUp, {8, 8, 8});
+  const VolumeLight map = mapOf(medium, kUp, {8, 8, 8});
   double last = 1;
   for (int i = 0; i <= 1000; ++i) {
     const double taken = shareTaken(medium, map, {0.5, i / 1000.0, 0.5}, kUp);
@@ -88,14 +88,14 @@ TEST(LightMap, D7_SharesAreFineEnoughToShowNoBands) {
   }
 }
 
-TEST(LightMap, D5_ACloudsShareIsThatOfARayFromAnyPlace) {
+TEST(VolumeLight, D5_ACloudsShareIsThatOfARayFromAnyPlace) {
   const VolumeSpace space = turnedSpace({3, 20, -5}, {12, 6, 9}, 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
   const Medium cloud = ball(space, 0.8, 48);
   const Medium* alone[]{&cloud};
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.4, 1, 0.2));
   double error[2]{};
   for (const int pass : {0, 1}) {
-    const LightMap map = mapOf(cloud, towards, glm::ivec3(pass == 0 ? 17 : 49));
+    const VolumeLight map = mapOf(cloud, towards, glm::ivec3(pass == 0 ? 17 : 49));
     Chances chances(7);
     for (int i = 0; i < 300; ++i) {
       const glm::dvec3 place = toWorld(space, 2.0 * chances.place() - 0.5);
@@ -107,11 +107,11 @@ TEST(LightMap, D5_ACloudsShareIsThatOfARayFromAnyPlace) {
   EXPECT_LT(error[1], 0.01);
 }
 
-TEST(LightMap, D5_LightThatArrivesIsDimmedByAllMediaAndBySurfaces) {
+TEST(VolumeLight, D5_LightThatArrivesIsDimmedByAllMediaAndBySurfaces) {
   const Medium low = homogeneous(boxSpace({0, 0, 0}, {1, 1, 1}), 1),
                high = homogeneous(boxSpace({0, 5, 0}, {1, 6, 1}), 2);
   const glm::dvec3 irradiance(100000, 50000, 1);
-  const LightMap map = mapOf({&low, &high}, 0, kUp, {2, 9, 2}, irradiance);
+  const VolumeLight map = mapOf({&low, &high}, 0, kUp, {2, 9, 2}, irradiance);
   for (const double height : {0.0, 0.5, 1.0}) {
     const glm::dvec3 wanted = irradiance * std::exp(-(1 - height) - 2.0);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(lightAt(map, {0.3, height, 0.8})[i] / wanted[i], 1, 2e-3);
@@ -123,17 +123,17 @@ TEST(LightMap, D5_LightThatArrivesIsDimmedByAllMediaAndBySurfaces) {
   const ArrivalAt shaded[]{[](const glm::dvec3& place) {
     return Arrival{.towards = kUp, .irradiance = glm::dvec3(3), .surfaceVisibility = place.x < 0.5 ? 0.25 : 1.0};
   }};
-  const LightMap dark =
-      bakeLightMap({.media = media, .chosen = 0, .lights = shaded, .towards = kUp, .size = {2, 2, 2}});
+  const VolumeLight dark =
+      makeVolumeLight({.media = media, .chosen = 0, .lights = shaded, .towards = kUp, .size = {2, 2, 2}});
   EXPECT_NEAR(lightAt(dark, {0, 1, 0}).x, 0.75, 1e-3);
   EXPECT_NEAR(lightAt(dark, {1, 1, 0}).x, 3, 1e-3);
   EXPECT_NEAR(shareTaken(low, dark, {0.1, -3, 0.5}, kUp), -std::expm1(-1.0), 1e-3);
 }
 
-TEST(LightMap, D6_SharesOfSeveralVolumesMultiply) {
+TEST(VolumeLight, D6_SharesOfSeveralVolumesMultiply) {
   const Medium low = homogeneous(boxSpace({0, 2, 0}, {4, 4, 4}), 0.3),
                high = homogeneous(boxSpace({2, 3, 0}, {6, 8, 4}), 0.2);
-  const LightMap lowMap = mapOf({&low, &high}, 0, kUp, {3, 3, 3}), highMap = mapOf({&low, &high}, 1, kUp, {3, 3, 3});
+  const VolumeLight lowMap = mapOf({&low, &high}, 0, kUp, {3, 3, 3}), highMap = mapOf({&low, &high}, 1, kUp, {3, 3, 3});
   const MappedMedium media[]{{&low, &lowMap}, {&high, &highMap}};
   EXPECT_NEAR(volumeVisibility(media, {1, 0, 2}, kUp), std::exp(-0.6), 1e-3);
   EXPECT_NEAR(volumeVisibility(media, {3, 0, 2}, kUp), std::exp(-0.6 - 1.0), 1e-3);
@@ -143,7 +143,7 @@ TEST(LightMap, D6_SharesOfSeveralVolumesMultiply) {
   EXPECT_EQ(volumeVisibility({}, {3, 0, 2}, kUp), 1);
 }
 
-TEST(LightMap, ALampDimsWithTheWayToItOnly) {
+TEST(VolumeLight, ALampDimsWithTheWayToItOnly) {
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {8, 1, 1}), 0.5);
   const Medium* media[]{&medium};
   const glm::dvec3 lamp(4, 0.5, 0.5);
@@ -151,16 +151,16 @@ TEST(LightMap, ALampDimsWithTheWayToItOnly) {
     const double distance = std::max(glm::distance(place, lamp), 1e-9);
     return Arrival{.towards = (lamp - place) / distance, .distance = distance, .irradiance = glm::dvec3(1)};
   }};
-  const LightMap map = bakeLightMap({.media = media, .chosen = 0, .lights = lights, .size = {9, 3, 3}});
+  const VolumeLight map = makeVolumeLight({.media = media, .chosen = 0, .lights = lights, .size = {9, 3, 3}});
   EXPECT_NEAR(lightAt(map, {0, 0.5, 0.5}).x, std::exp(-2.0), 1e-3);
   EXPECT_NEAR(lightAt(map, {0.75, 0.5, 0.5}).x, std::exp(-1.0), 1e-3);
   EXPECT_EQ(shareTaken(medium, map, {4, -5, 0.5}, kUp), 0); // no light was chosen
 }
 
-TEST(LightMap, D7_AVolumeShadowsItselfOnce) {
+TEST(VolumeLight, D7_AVolumeShadowsItselfOnce) {
   // Seen from where the light comes from: the light is dimmed on its way in, what is scattered on its way out.
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {1, 2, 1}), 1);
-  const LightMap map = mapOf(medium, kUp, {2, 65, 2});
+  const VolumeLight map = mapOf(medium, kUp, {2, 65, 2});
   const Medium* media[]{&medium};
   const Marched marched = march(
       media, {{0.5, 5, 0.5}, {0, -1, 0}}, {0, 10},
@@ -168,29 +168,29 @@ TEST(LightMap, D7_AVolumeShadowsItselfOnce) {
   EXPECT_NEAR(marched.color.x, 0.5 * -std::expm1(-4.0) / 2, 1e-3);
 }
 
-TEST(LightMap, CastingAndReceivingAreEachByThemselves) {
+TEST(VolumeLight, CastingAndReceivingAreEachByThemselves) {
   Medium medium = homogeneous(boxSpace({0, 0, 0}, {1, 1, 1}), 1);
   medium.castShadow = false;
-  const LightMap clear = mapOf(medium, kUp, {2, 3, 2});
+  const VolumeLight clear = mapOf(medium, kUp, {2, 3, 2});
   EXPECT_EQ(shareTaken(medium, clear, {0.5, -1, 0.5}, kUp), 0);
   EXPECT_NEAR(lightAt(clear, {0.5, 0, 0.5}).x, 1, 1e-3);
   medium.castShadow = true;
   medium.receiveShadow = false;
-  const LightMap bright = mapOf(medium, kUp, {2, 3, 2});
+  const VolumeLight bright = mapOf(medium, kUp, {2, 3, 2});
   EXPECT_NEAR(shareTaken(medium, bright, {0.5, -1, 0.5}, kUp), -std::expm1(-1.0), 1e-3);
   EXPECT_NEAR(lightAt(bright, {0.5, 0, 0.5}).x, 1, 1e-3);
 }
 
-TEST(LightMap, IsAsFineAsTheGridUpToALimit) {
+TEST(VolumeLight, IsAsFineAsTheGridUpToALimit) {
   const auto grid = gridOf({1, 40, 300}, [](const glm::dvec3&) { return 0.0; });
-  EXPECT_EQ(lightMapSize(*grid), glm::ivec3(2, 41, 64));
-  EXPECT_EQ(lightMapSize(*grid, 16), glm::ivec3(2, 16, 16));
+  EXPECT_EQ(volumeLightSize(*grid), glm::ivec3(2, 41, 64));
+  EXPECT_EQ(volumeLightSize(*grid, 16), glm::ivec3(2, 16, 16));
 }
 
-TEST(LightMap, NothingInItTakesNothing) {
+TEST(VolumeLight, NothingInItTakesNothing) {
   const Medium medium = makeMedium(gridOf({3, 3, 3}, [](const glm::dvec3&) { return 0.0; }), proportional(1),
                                    boxSpace({0, 0, 0}, {1, 1, 1}));
-  const LightMap map = mapOf(medium, kUp, {2, 2, 2});
+  const VolumeLight map = mapOf(medium, kUp, {2, 2, 2});
   EXPECT_EQ(shareTaken(medium, map, {0.5, -1, 0.5}, kUp), 0);
   EXPECT_NEAR(lightAt(map, {0.5, 0.5, 0.5}).x, 1, 1e-3);
 }
