@@ -64,7 +64,8 @@ double opacityOf(const Casters& casters, const RayToLight& ray, const Candidate&
   if (opacity == Opacity::none) return 0;
   if (hit.instance == ray.from->instance && hit.triangle == ray.from->triangle) return 0;
   const Triangle triangle = casters.tree.triangle(hit.instance, hit.triangle);
-  if (!meetsCaster(casters, ray, triangle)) return 0;
+  const bool inAir = ray.from->instance == kNoSurface; // no plane that rounding moves
+  if (!inAir && !meetsCaster(casters, ray, triangle)) return 0;
   if (opacity == Opacity::full) return 1;
   const Material& material = casters.tree.material(hit.instance);
   const Barycentric at = crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v});

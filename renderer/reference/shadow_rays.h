@@ -36,7 +36,7 @@ struct ShadowRay {
 
 /// The same, as little as rays need until a caster comes near the planes that rounding moves.
 struct RayToLight {
-  const SurfacePoint* from = nullptr; ///< outlives the ray
+  const SurfacePoint* from = nullptr; ///< outlives the ray; of no surface: a place in the air
   WayToLight way;
 };
 

@@ -130,6 +130,11 @@ class TracedLight {
   /// A point of a triangle: `weights`, those of its second and third corner. Its normal is on the light's side.
   SurfacePoint pointFacing(const PlacedTriangle& triangle, const glm::dvec2& weights) const;
 
+  /// The share of the middle of the light that casters let through to places in the air, which turn their back to no
+  /// light; relative to anchorOf(view). Whether the light shines there is not asked. On the calling thread. REQUIRES:
+  /// as many of each.
+  void airVisibility(std::span<const glm::dvec3> places, std::span<float> shares) const;
+
   /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
   void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;
 

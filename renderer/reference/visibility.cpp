@@ -152,6 +152,17 @@ SurfacePoint TracedLight::pointFacing(const PlacedTriangle& triangle, const glm:
   return {position, glm::vec3(faces ? normal : -normal), triangle.instance, triangle.triangle};
 }
 
+void TracedLight::airVisibility(std::span<const glm::dvec3> places, std::span<float> shares) const {
+  std::vector<SurfacePoint> points(places.size());
+  std::fill(shares.begin(), shares.end(), 0.0f);
+  RayQueue queue(state_->casters, shares);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    points[i].position = places[i];
+    queue.add(points[i], startOf(state_->casters.tree, points[i]), wayTo(state_->source, places[i]), i);
+  }
+  queue.trace();
+}
+
 void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const {
   const TracedScene::Tree& tree = state_->casters.tree;
   RaysToLight rays;

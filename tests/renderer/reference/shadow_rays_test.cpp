@@ -83,6 +83,23 @@ Traced twoTriangles(const std::vector<Point>& corners, const nlohmann::json& nod
   return Traced(builder);
 }
 
+TEST(ShadowRays, PlacesInTheAirAreShadedByAllThatStandsBetweenThemAndTheLight) {
+  const Traced base =
+      twoTriangles({{-9, 5, -9}, {9, 5, -9}, {0, 5, 9}, {-9, 0, -9}, {9, 0, -9}, {0, 0, 9}}, nlohmann::json::object());
+  std::vector<Light> lights{Light{.direction = Vec3{0, -1, 0}},
+                            Light{.type = LightType::point, .position = Vec3{0, 3, 0}}};
+  TraceInput input = base.input();
+  input.lights = lights;
+  const std::vector<glm::dvec3> world{{0, 6, 0}, {0, 4, 0}, {0, 1, 0}, {0, -1, 0}, {20, 4, 0}};
+  std::vector<glm::dvec3> places;
+  for (const glm::dvec3& place : world) places.push_back(place - base.anchor());
+  std::vector<float> shares(places.size());
+  TracedLight(input, 0).airVisibility(places, shares);
+  EXPECT_EQ(shares, (std::vector<float>{1, 0, 0, 0, 1}));
+  TracedLight(input, 1).airVisibility(places, shares);
+  EXPECT_EQ(shares, (std::vector<float>{0, 1, 1, 0, 1}));
+}
+
 TEST(SurelyMeets, OnlyWhatMeetsFindsWhateverTheDistanceOfThePlanes) {
   int sure = 0;
   int unsure = 0;
