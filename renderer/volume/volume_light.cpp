@@ -55,12 +55,12 @@ Dimming dimmingOf(const VolumeLightInput& input) {
   return dimming;
 }
 
-glm::dvec3 lightArriving(const VolumeLightInput& input, const Dimming& dimming, const glm::dvec3& place,
-                         const OwnWay& own) {
+glm::dvec3 lightArriving(const VolumeLightInput& input, const Dimming& dimming, std::size_t point,
+                         const glm::dvec3& place, const OwnWay& own) {
   const bool shadowed = input.media[input.chosen]->receiveShadow;
   glm::dvec3 sum(0);
   for (const ArrivalAt& arrivalAt : input.lights) {
-    const Arrival arrival = arrivalAt(place);
+    const Arrival arrival = arrivalAt(point, place);
     double share = shadowed ? arrival.surfaceVisibility : 1.0;
     if (share == 0) continue;
     if (shadowed) {
@@ -72,10 +72,6 @@ glm::dvec3 lightArriving(const VolumeLightInput& input, const Dimming& dimming, 
     sum += share * arrival.irradiance;
   }
   return sum;
-}
-
-std::size_t countOf(const glm::ivec3& size) {
-  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
 }
 
 glm::dvec3 latticePoint(std::size_t index, const glm::ivec3& size) {
@@ -107,18 +103,26 @@ glm::ivec3 volumeLightSize(const DensityGrid& grid, int most) {
   return glm::min(grid.size + 1, glm::ivec3(most));
 }
 
+std::size_t pointsOf(const glm::ivec3& size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+}
+
+glm::dvec3 latticePlace(const VolumeSpace& space, const glm::ivec3& size, std::size_t point) {
+  return toWorld(space, latticePoint(point, size));
+}
+
 VolumeLight makeVolumeLight(const VolumeLightInput& input) {
   const Medium& medium = *input.media[input.chosen];
   const Dimming dimming = dimmingOf(input);
-  std::vector<glm::dvec4> numbers(countOf(input.size));
+  std::vector<glm::dvec4> numbers(pointsOf(input.size));
   forEach(numbers.size(), [&](std::size_t i) {
     const glm::dvec3 unit = latticePoint(i, input.size);
     const OwnWay own = input.towards ? ownWay(medium, unit, *input.towards) : OwnWay{};
-    numbers[i] = glm::dvec4(lightArriving(input, dimming, toWorld(medium.space, unit), own), own.meanExtinction);
+    numbers[i] = glm::dvec4(lightArriving(input, dimming, i, toWorld(medium.space, unit), own), own.meanExtinction);
   });
   glm::dvec4 full(0);
   for (const glm::dvec4& each : numbers) full = glm::max(full, each);
-  VolumeLight map{input.size, {}, glm::dvec3(full), full.w};
+  VolumeLight map{input.size, {}, glm::dvec3(full), full.w, 0};
   map.texels.reserve(numbers.size());
   const glm::dvec4 scale = 1.0 / glm::mix(full, glm::dvec4(1), glm::equal(full, glm::dvec4(0)));
   for (const glm::dvec4& each : numbers) {

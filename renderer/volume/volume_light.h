@@ -21,8 +21,9 @@ struct Arrival {
   double surfaceVisibility = 1.0; ///< the share that surfaces between let through
 };
 
-/// What of a light arrives at a place of the world. Called from any thread.
-using ArrivalAt = std::function<Arrival(const glm::dvec3& place)>;
+/// What of a light arrives at a place of the world, which is a point's of the map (latticePlace). Called from any
+/// thread.
+using ArrivalAt = std::function<Arrival(std::size_t point, const glm::dvec3& place)>;
 
 /// What the light is in a volume, and how much of it the volume takes: numbers at the points of a lattice that reaches
 /// from face to face of the unit cube, x fastest. Red, green and blue are the light that arrives, past surfaces and
@@ -34,6 +35,7 @@ struct VolumeLight {
   std::vector<glm::vec4> texels; ///< 0..1, each number one that a 16-bit float can hold
   glm::dvec3 fullLight{0};
   double fullExtinction = 0; ///< per metre
+  double milliseconds = 0;   ///< that making it took
 };
 
 struct VolumeLightInput {
@@ -46,6 +48,11 @@ struct VolumeLightInput {
 
 /// A point for each face between voxels, as far as there are no more than `most` along an axis. REQUIRES: most >= 2.
 glm::ivec3 volumeLightSize(const DensityGrid& grid, int most = kMaxVolumeLightSide);
+
+std::size_t pointsOf(const glm::ivec3& size);
+
+/// Where a point of a map lies in the world; x fastest, then y, then z. REQUIRES: point < pointsOf(size).
+glm::dvec3 latticePlace(const VolumeSpace& space, const glm::ivec3& size, std::size_t point);
 
 /// By marching from each point to each light. A medium that casts no shadow dims nothing; one that receives none gets
 /// the light as through clear air and past no surface.

@@ -34,6 +34,10 @@ bool VolumeLightKey::operator==(const VolumeLightKey& other) const {
          std::equal(media_.begin(), media_.end(), other.media_.begin(), other.media_.end(), same);
 }
 
+bool VolumeLightStore::holds(const VolumeLightKey& key) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.first == key; });
+}
+
 VolumeLightStore::Found VolumeLightStore::mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make) {
   const auto found =
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.first == key; });

@@ -48,6 +48,8 @@ class VolumeLightStore {
 
   explicit VolumeLightStore(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
+  bool holds(const VolumeLightKey& key) const;
+
   /// The map of this key, by `make` where there is none.
   Found mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make);
 

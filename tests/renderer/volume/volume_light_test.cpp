@@ -13,7 +13,7 @@ namespace {
 const glm::dvec3 kUp(0, 1, 0);
 
 ArrivalAt sun(const glm::dvec3& towards, const glm::dvec3& irradiance = glm::dvec3(1)) {
-  return [=](const glm::dvec3&) { return Arrival{.towards = towards, .irradiance = irradiance}; };
+  return [=](std::size_t, const glm::dvec3&) { return Arrival{.towards = towards, .irradiance = irradiance}; };
 }
 
 /// The map of `media[chosen]` in the light of one sun.
@@ -120,7 +120,7 @@ TEST(VolumeLight, D5_LightThatArrivesIsDimmedByAllMediaAndBySurfaces) {
   EXPECT_NEAR(shareTaken(low, map, {0.5, -3, 0.5}, kUp), -std::expm1(-1.0), 1e-3);
 
   const Medium* media[]{&low};
-  const ArrivalAt shaded[]{[](const glm::dvec3& place) {
+  const ArrivalAt shaded[]{[](std::size_t, const glm::dvec3& place) {
     return Arrival{.towards = kUp, .irradiance = glm::dvec3(3), .surfaceVisibility = place.x < 0.5 ? 0.25 : 1.0};
   }};
   const VolumeLight dark =
@@ -147,7 +147,7 @@ TEST(VolumeLight, ALampDimsWithTheWayToItOnly) {
   const Medium medium = homogeneous(boxSpace({0, 0, 0}, {8, 1, 1}), 0.5);
   const Medium* media[]{&medium};
   const glm::dvec3 lamp(4, 0.5, 0.5);
-  const ArrivalAt lights[]{[&](const glm::dvec3& place) {
+  const ArrivalAt lights[]{[&](std::size_t, const glm::dvec3& place) {
     const double distance = std::max(glm::distance(place, lamp), 1e-9);
     return Arrival{.towards = (lamp - place) / distance, .distance = distance, .irradiance = glm::dvec3(1)};
   }};

@@ -1,5 +1,6 @@
 #include "renderer/volume/volume_picture.h"
 
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@ namespace gnomon {
 namespace {
 
 constexpr int kWidth = 31, kHeight = 17;
+constexpr std::array kMiddle{glm::vec2(0.5f)};
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 /// A box in the light of a sun overhead, and its map.
@@ -20,7 +22,7 @@ struct LitBox {
   LitBox(const glm::dvec3& low, const glm::dvec3& high, double sigma)
       : medium(homogeneous(boxSpace(low, high), sigma)) {
     const Medium* media[]{&medium};
-    const ArrivalAt lights[]{[](const glm::dvec3&) {
+    const ArrivalAt lights[]{[](std::size_t, const glm::dvec3&) {
       return Arrival{.towards = {0, 1, 0}, .irradiance = glm::dvec3(3.141592653589793)};
     }};
     map = makeVolumeLight({.media = media, .lights = lights, .towards = glm::dvec3(0, 1, 0), .size = {2, 33, 2}});
@@ -44,12 +46,12 @@ TEST(VolumePicture, D7_SurfacesInFrontInsideAndBehindCutEachPixelsRay) {
     for (const double eyeZ : {0.0, -12.0}) { // before the box, and inside it
       for (const float depth : {2.0f, 7.0f, 14.0f, 40.0f, kNothing}) {
         const std::vector<float> depths(kWidth * kHeight, depth);
-        const SeenSurfaces seen{cameraAt({0, 0, eyeZ}, perspective), kWidth, kHeight, depths};
+        const SeenSurfaces seen{cameraAt({0, 0, eyeZ}, perspective), kWidth, kHeight, kMiddle, depths};
         const auto picture = marchPicture(seen, media, glm::dvec3(0));
         ASSERT_EQ(picture.size(), depths.size());
         for (int y = 0; y < kHeight; ++y) {
           for (int x = 0; x < kWidth; ++x) {
-            const ViewRay ray = viewRayAt(seen.view, {(2 * x + 1.0) / kWidth - 1, 1 - (2 * y + 1.0) / kHeight});
+            const ViewRay ray = viewRayAt(seen.view, {(2 * x + 1.0) / kWidth - 1, (2 * y + 1.0) / kHeight - 1});
             const auto line = insideUnitCube(toUnit(box.medium.space, ray.ray));
             const double end = std::min(ray.seen.to, depth * ray.metresPerDepth);
             const double length =
@@ -69,7 +71,7 @@ TEST(VolumePicture, AWhiteMediumIsAsBrightAsAWhiteSurfaceInTheSameLight) {
   opaque.function = *makeTransferFunction({{0, {glm::dvec3(1), 50}}});
   const MappedMedium media[]{{&opaque, &dense.map}};
   const std::vector<float> depths(kWidth * kHeight, kNothing);
-  const SeenSurfaces seen{cameraAt({0, 0, 0}, true), kWidth, kHeight, depths};
+  const SeenSurfaces seen{cameraAt({0, 0, 0}, true), kWidth, kHeight, kMiddle, depths};
   const auto picture = marchPicture(seen, media, glm::dvec3(0.25));
   const glm::vec4 middle = picture[kWidth * (kHeight / 2) + kWidth / 2];
   EXPECT_NEAR(middle.r, 1 + 0.25, 0.01);
@@ -83,16 +85,33 @@ TEST(VolumePicture, D6_OnlySurfacesBehindTheVolumeAreInItsShadow) {
   const MappedMedium media[]{{&box.medium, &box.map}};
   std::vector<float> depths(kWidth * kHeight, 10.0f);
   depths[0] = kNothing;
-  const SeenSurfaces seen{cameraAt({0, 0, 0}, false), kWidth, kHeight, depths};
+  const SeenSurfaces seen{cameraAt({0, 0, 0}, false), kWidth, kHeight, kMiddle, depths};
   const auto shadows = volumeShadowPicture(seen, media, {0, 1, 0});
-  EXPECT_EQ(shadows[0], 1);
+  EXPECT_EQ(shadows[0], 65535);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 1; x < kWidth; ++x) {
-      const glm::dvec2 place((2 * x + 1.0) / kWidth * 8 - 8, 4.5 - (2 * y + 1.0) / kHeight * 4.5);
+      const glm::dvec2 place((2 * x + 1.0) / kWidth * 8 - 8, (2 * y + 1.0) / kHeight * 4.5 - 4.5);
       const double above = std::abs(place.x) > 2 ? 0 : std::clamp(1 - place.y, 0.0, 2.0);
-      ASSERT_NEAR(shadows[static_cast<std::size_t>(y * kWidth + x)], std::exp(-0.5 * above), 1e-3) << x << ' ' << y;
+      ASSERT_NEAR(shadows[static_cast<std::size_t>(y * kWidth + x)] / 65535.0, std::exp(-0.5 * above), 1e-3)
+          << x << ' ' << y;
     }
   }
+}
+
+TEST(VolumePicture, SamplesOfAPixelHaveTheirOwnDepths) {
+  const LitBox box({-4, -3, -20}, {4, 3, -10}, 0.2);
+  const MappedMedium media[]{{&box.medium, &box.map}};
+  const std::array<glm::vec2, 4> places{{{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
+  const std::vector<float> depths{5.0f, 5.01f, 15.0f, kNothing};
+  CameraView view = cameraAt({0, 0, 0}, false);
+  view.halfSize = glm::dvec2(1e-3);
+  const auto picture = marchPicture({view, 1, 1, places, depths}, media, glm::dvec3(0));
+  EXPECT_NEAR(picture[0].a, (1 + 1 + std::exp(-0.2 * 5) + std::exp(-0.2 * 10)) / 4, 1e-5);
+  const auto shadows = volumeShadowPicture({view, 1, 1, places, depths}, media, {0, 1, 0});
+  EXPECT_EQ(shadows[0], 65535);
+  EXPECT_EQ(shadows[1], 65535);
+  EXPECT_NEAR(shadows[2] / 65535.0, std::exp(-0.2 * 3), 1e-3);
+  EXPECT_EQ(shadows[3], 65535);
 }
 
 } // namespace
