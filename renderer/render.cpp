@@ -22,7 +22,8 @@ struct Renderer::Impl {
 
 Renderer::Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes)
     : impl_(new Impl{Devices(std::move(device)),
-                     {TracedSceneCache(tracedSceneBytes), LightMapCache(RendererOptions{}.lightMapBytes)}}) {}
+                     {TracedSceneCache(tracedSceneBytes), LightMapCache(RendererOptions{}.lightMapBytes),
+                      VolumeCache(RendererOptions{}.volumeBytes)}}) {}
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -31,8 +32,10 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   auto devices = Devices::open(options);
   if (!devices) return devices.problems();
-  return Renderer(std::unique_ptr<Impl>(new Impl{
-      std::move(*devices), {TracedSceneCache(options.tracedSceneBytes), LightMapCache(options.lightMapBytes)}}));
+  return Renderer(
+      std::unique_ptr<Impl>(new Impl{std::move(*devices),
+                                     {TracedSceneCache(options.tracedSceneBytes), LightMapCache(options.lightMapBytes),
+                                      VolumeCache(options.volumeBytes)}}));
 }
 
 const RendererInfo& Renderer::info() const {

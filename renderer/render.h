@@ -35,6 +35,7 @@ struct RendererOptions {
   std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
   std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, dropped in the same order
   std::size_t lightMapBytes = 1u << 28;    ///< baked shadows kept, dropped in the same order
+  std::size_t volumeBytes = 1u << 28;      ///< grids of volumes kept, and as much for the light in them
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 

@@ -22,7 +22,7 @@ ROOMS = ("protocol", "renderer", "server", "clients")
 VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
 PREPARED = VALUES + ["renderer/shaders/shared", "renderer/prepare"]
 SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
-DEVICE = SETTLED + ["renderer/bake", "renderer/device"]
+DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations"]

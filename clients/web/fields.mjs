@@ -124,6 +124,7 @@ export const kStageColors = {
   load: '#8d7bd6',
   upload: '#b06fc4',
   bake: '#8f7a4a',
+  volume: '#9aa7b8',
   survey: '#3fa7c9',
   plan: '#36c2ae',
   shadow: '#f6b73c',

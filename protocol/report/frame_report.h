@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// One stage's time. Names and order: queue load upload bake survey plan shadow shade predict reference readback
+/// One stage's time. Names and order: queue load upload bake volume survey plan shadow shade predict reference readback
 /// encode. `predict` is there with debug.predictEdges, `reference` where a view compares a shadow with rays, `queue` on
 /// a server.
 struct StageTime {
@@ -57,6 +57,15 @@ struct LightMapReport {
   double bakeMilliseconds = 0;         ///< that baking it took, when it was baked
 };
 
+/// A volume, and the light in it.
+struct VolumeReport {
+  std::array<int, 3> voxels{};    ///< of its grid along x, y and z
+  bool reused = false;            ///< an earlier frame made its light
+  std::array<int, 3> lightSize{}; ///< points at which its light is known, along x, y and z
+  std::uint64_t lightBytes = 0;
+  double lightMilliseconds = 0; ///< that making its light took, when it was made
+};
+
 struct LightReport {
   int light = 0; ///< index into the effective spec's lights
   bool shadowed = false;
@@ -77,8 +86,8 @@ struct LightReport {
   std::optional<double> gpuMilliseconds{};
 };
 
-/// One pass. Names and order: survey, shadow; surfaces, visibility and view as the views ask for them. Two `surfaces`
-/// have other samples a pixel, and so have two `visibility`.
+/// One pass. Names and order: survey, shadow; surfaces, volumes, visibility and view as the views ask for them. Two
+/// `surfaces` have other samples a pixel, and so have two `visibility`.
 struct PassReport {
   std::string pass{};
   std::optional<View> view{};              ///< of pass view
@@ -126,6 +135,7 @@ struct FrameReport {
   std::array<double, 2> depthRange{}; ///< nearest and farthest surface in view, metres; 0 0 = nothing in view
   std::array<int, 2> atlasSize{};     ///< texels that the atlas really took; 0 0 = no atlas
   std::vector<LightReport> lights{};
+  std::vector<VolumeReport> volumes{};            ///< one a volume of the spec
   std::optional<PredictedError> predictedError{}; ///< over all tiles; absent = none is drawn
   std::optional<ErrorMetrics> error{};    ///< of debug.light; present where a view shows an error or a reference
   std::optional<QualityReport> quality{}; ///< present where the spec names a target

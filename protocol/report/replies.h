@@ -50,6 +50,7 @@ struct MemorySummary {
   std::uint64_t vertices = 0;    ///< positions and attributes
   std::uint64_t indices = 0;     ///< and what is found from them
   std::uint64_t images = 0;      ///< decoded
+  std::uint64_t volumes = 0;     ///< files of volumes
   std::uint64_t deformation = 0; ///< of skins and morph targets: what poses are made from
   std::uint64_t animations = 0;  ///< keyframes, and what else poses are made from
   std::uint64_t structure = 0;   ///< nodes, instances, materials

@@ -25,19 +25,20 @@ inline constexpr auto kRows<LightSummary> = replyRows(
 static_assert(kRowsAreComplete<LightSummary>);
 
 template <>
-inline constexpr auto kRows<MemorySummary> =
-    replyRows("MemorySummary", "Bytes of a loaded scene by what they hold; together its `memoryBytes`.",
-              field("vertices", &MemorySummary::vertices, {.says = "Positions and other attributes.", .unit = "bytes"}),
-              field("indices", &MemorySummary::indices,
-                    {.says = "Triangles, their spatial order, and their clusters.", .unit = "bytes"}),
-              field("images", &MemorySummary::images,
-                    {.says = "Images, as if all were decoded; each is when a frame first needs it.", .unit = "bytes"}),
-              field("deformation", &MemorySummary::deformation,
-                    {.says = "Data from which skinned and morphed meshes are posed.", .unit = "bytes"}),
-              field("animations", &MemorySummary::animations,
-                    {.says = "Keyframes, and what else is needed to pose the scene.", .unit = "bytes"}),
-              field("structure", &MemorySummary::structure,
-                    {.says = "Nodes, instances, cameras, lights and materials.", .unit = "bytes"}));
+inline constexpr auto kRows<MemorySummary> = replyRows(
+    "MemorySummary", "Bytes of a loaded scene by what they hold; together its `memoryBytes`.",
+    field("vertices", &MemorySummary::vertices, {.says = "Positions and other attributes.", .unit = "bytes"}),
+    field("indices", &MemorySummary::indices,
+          {.says = "Triangles, their spatial order, and their clusters.", .unit = "bytes"}),
+    field("images", &MemorySummary::images,
+          {.says = "Images, as if all were decoded; each is when a frame first needs it.", .unit = "bytes"}),
+    field("volumes", &MemorySummary::volumes, {.says = "Files of volumes, as they were uploaded.", .unit = "bytes"}),
+    field("deformation", &MemorySummary::deformation,
+          {.says = "Data from which skinned and morphed meshes are posed.", .unit = "bytes"}),
+    field("animations", &MemorySummary::animations,
+          {.says = "Keyframes, and what else is needed to pose the scene.", .unit = "bytes"}),
+    field("structure", &MemorySummary::structure,
+          {.says = "Nodes, instances, cameras, lights and materials.", .unit = "bytes"}));
 static_assert(kRowsAreComplete<MemorySummary>);
 
 template <>
@@ -116,6 +117,12 @@ inline constexpr auto kRows<Limits> = replyRows(
     field("maxRaySamples", &Limits::maxRaySamples, {.says = "Rays for each pixel and light."}),
     field("maxVisibilityBytes", &Limits::maxVisibilityBytes,
           {.says = "What rays and shadow volumes decide for every pixel and light of a frame.", .unit = "bytes"}),
+    field("maxVolumes", &Limits::maxVolumes, {.says = "Entries of a frame's `volumes`."}),
+    field("maxTransferStops", &Limits::maxTransferStops, {.says = "Entries of a volume's transfer function."}),
+    field("maxVolumeLights", &Limits::maxVolumeLights, {.says = "Lights of a frame that has volumes."}),
+    field("maxVolumeSide", &Limits::maxVolumeSide,
+          {.says = "Longest axis of a volume's grid, without the empty ends of a .vdb.", .unit = "voxels"}),
+    field("maxVolumeVoxels", &Limits::maxVolumeVoxels, {.says = "A volume's grid.", .unit = "voxels"}),
     field("maxVariants", &Limits::maxVariants, {.says = "Variants of one evaluation."}),
     field("maxPathFrames", &Limits::maxPathFrames, {.says = "Cameras along the path of an evaluation."}),
     field("maxNodeOptions", &Limits::maxNodeOptions, {.says = "Entries of a frame's `nodes`."}),

@@ -82,6 +82,17 @@ inline constexpr auto kRows<LightMapReport> = replyRows(
 static_assert(kRowsAreComplete<LightMapReport>);
 
 template <>
+inline constexpr auto kRows<VolumeReport> = replyRows(
+    "VolumeReport", "A volume, and the light that arrives in it.",
+    field("voxels", &VolumeReport::voxels, {.says = "Of its grid, along x, y and z."}),
+    field("reused", &VolumeReport::reused, {.says = "True = an earlier frame made its light; false = this one did."}),
+    field("lightSize", &VolumeReport::lightSize, {.says = "Points at which its light is known, along x, y and z."}),
+    field("lightBytes", &VolumeReport::lightBytes, {.says = "What that takes.", .unit = "bytes"}),
+    field("lightMilliseconds", &VolumeReport::lightMilliseconds,
+          {.says = "Time that making its light took when it was made.", .unit = "milliseconds"}));
+static_assert(kRowsAreComplete<VolumeReport>);
+
+template <>
 inline constexpr auto kRows<LightReport> = replyRows(
     "LightReport", "What was decided for one light.",
     field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
@@ -115,10 +126,11 @@ static_assert(kRowsAreComplete<LightReport>);
 template <>
 inline constexpr auto kRows<PassReport> = replyRows(
     "PassReport", "One pass of a frame.",
-    field("pass", &PassReport::pass,
-          {.says = "survey (what the camera sees), shadow (all tiles), surfaces (what each sample shows; once for each "
-                   "number of samples a pixel that the views need), visibility (what rays and shadow volumes decide, "
-                   "as often as surfaces) or view."}),
+    field(
+        "pass", &PassReport::pass,
+        {.says = "survey (what the camera sees), shadow (all tiles), surfaces (what each sample shows; once for each "
+                 "number of samples a pixel that the views need), volumes (clouds and their shadow), visibility (what "
+                 "rays and shadow volumes decide), these as often as surfaces, or view."}),
     field("view", &PassReport::view, {.says = "Which view; only for pass view."}),
     field("cpuMilliseconds", &PassReport::cpuMilliseconds,
           {.says = "CPU time from its first call to its last, whether the device has finished or not.",
@@ -164,6 +176,7 @@ inline constexpr auto kRows<FrameReport> = rows(
     field("atlasSize", &FrameReport::atlasSize,
           {.says = "Width and height of the atlas; 0 0 = no atlas.", .unit = "texels"}),
     field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
+    field("volumes", &FrameReport::volumes, {.says = "What was made for each volume."}),
     field("predictedError", &FrameReport::predictedError,
           {.says = "How large the texels of all tiles appear; absent if no tile was drawn."}),
     field("error", &FrameReport::error,
@@ -173,7 +186,8 @@ inline constexpr auto kRows<FrameReport> = rows(
     field("memory", &FrameReport::memory, {.says = "Memory on the device."}),
     field("passes", &FrameReport::passes, {.says = "Times and counts of each pass, in the order of drawing."}),
     field("stages", &FrameReport::stages,
-          {.says = "Time of each stage: queue, load, upload, bake, survey, plan, shadow, shade, predict (with "
+          {.says = "Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, "
+                   "shade, predict (with "
                    "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
     field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));

@@ -6,6 +6,7 @@
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/scene_rows.h"
 #include "protocol/spec/shadow_rows.h"
+#include "protocol/spec/volume_rows.h"
 
 /// One row for each member of every struct that a frame's specification is made of. A new member without its row
 /// does not compile. A default is not repeated here: it is the member's initialiser.
@@ -108,6 +109,11 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("nodes", &FrameSpec::nodes,
           {.says = "Switches of single nodes; of two entries for one node, the later one applies.",
            .maxCount = kLimits.maxNodeOptions}),
+    field("volumes", &FrameSpec::volumes,
+          {.says = "Clouds, smoke and fog, in view `color`; they shade what the first directional light shines on that "
+                   "casts shadows. Other views show surfaces alone, and `reference`, `error`, `edgeDistance` and "
+                   "evaluations compare the shadows of surfaces alone.",
+           .maxCount = kLimits.maxVolumes}),
     field("scene", &FrameSpec::scene,
           {.says = "Index of the glTF scene; absent = the file's default scene.", .range = kNodeRange}),
     field("materialVariant", &FrameSpec::materialVariant,

@@ -7,6 +7,7 @@
 #include "protocol/spec/output_options.h"
 #include "protocol/spec/scene_options.h"
 #include "protocol/spec/shadow_options.h"
+#include "protocol/spec/volume_options.h"
 
 namespace gnomon {
 
@@ -62,6 +63,7 @@ struct FrameSpec {
   ShadowLightPolicy shadowLightPolicy = ShadowLightPolicy::all;
   Atlas atlas;
   std::vector<NodeOptions> nodes;               ///< of two for one node the later one counts
+  std::vector<VolumeOptions> volumes;           ///< clouds, smoke and fog
   std::optional<int> scene;                     ///< index of the glTF scene; absent = the file's default
   std::optional<std::string> materialVariant{}; ///< of KHR_materials_variants, by name; absent = the materials as given
   std::optional<AnimationMoment> animation{};   ///< absent = the file's rest pose

@@ -21,6 +21,12 @@ struct Limits {
   int maxNodeOptions = 4096;                     ///< entries of a frame's `nodes`
   int maxReceiverGroups = 32;                    ///< different pairs of layers and receiveShadow in one frame
 
+  std::size_t maxVolumes = 16;                ///< entries of a frame's `volumes`
+  std::size_t maxTransferStops = 256;         ///< entries of a transfer function
+  int maxVolumeLights = 16;                   ///< lights of a frame with volumes
+  std::int64_t maxVolumeSide = 2048;          ///< voxels of a grid along an axis
+  std::int64_t maxVolumeVoxels = 134'217'728; ///< of a grid
+
   // Evaluations
   std::size_t maxVariants = 128;   ///< variants of one evaluation
   std::size_t maxPathFrames = 600; ///< cameras along a path

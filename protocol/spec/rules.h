@@ -7,6 +7,7 @@
 #include "protocol/spec/scene_options.h"
 #include "protocol/spec/shadow_options.h"
 #include "protocol/spec/validate.h"
+#include "protocol/spec/volume_options.h"
 
 /// Rules across fields, one function for each part of a request. brokenRules (validate.h) calls them all.
 namespace gnomon {
@@ -32,5 +33,10 @@ void appendAtlasRules(const Atlas& atlas, std::vector<BrokenRule>& broken);
 /// Of one shadow that stands at `pointer`.
 void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::string& pointer,
                        std::vector<BrokenRule>& broken);
+
+// volume_rules.cpp
+
+/// Of one volume that stands at `pointer`.
+void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, std::vector<BrokenRule>& broken);
 
 } // namespace gnomon

@@ -73,6 +73,9 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   appendShadowRules(spec.shadow, spec.atlas, "/shadow", broken);
   appendAtlasRules(spec.atlas, broken);
   appendNodeRules(spec.nodes, broken);
+  for (std::size_t i = 0; i < spec.volumes.size(); ++i) {
+    appendVolumeRules(spec.volumes[i], "/volumes/" + std::to_string(i), broken);
+  }
   appendDebugRules(spec, broken);
   if (spec.quality) appendQualityRules(*spec.quality, broken);
   return broken;

@@ -24,6 +24,11 @@ std::uint64_t bytesOf(const DepthBuffer& buffer) {
   return buffer.depths.size() * sizeof(float) + buffer.triangles.size() * sizeof(std::uint32_t);
 }
 
+std::uint64_t bytesOf(const VolumeLayers& layers) {
+  return layers.depths.size() * sizeof(float) + layers.picture.size() * sizeof(glm::vec4) +
+         layers.shadow.size() * sizeof(std::uint16_t);
+}
+
 std::uint64_t bytesOf(const Image& image) {
   return std::visit([](const auto& pixels) { return pixels.size() * sizeof(pixels[0]); }, image.pixels);
 }
@@ -111,6 +116,24 @@ Status CpuFrame::needLayers(int samples) {
   return Done{};
 }
 
+const VolumeLayers* CpuFrame::needVolumes(const ViewRequest& request) {
+  const bool shadowed = traitsOf(request.view).shadowed;
+  if (work_.volumes == nullptr || work_.volumes->empty() || !shadowed || request.fullStrength) return nullptr;
+  const int samples = samplesOf(request);
+  const DepthBuffer& shown = surfaces(samples);
+  passStart_ = Clock::now();
+  const auto found = volumes_.find(samples);
+  const bool made = found == volumes_.end();
+  VolumeLayers& layers =
+      made ? volumes_.emplace(samples, volumeLayers(work_.frame.view, shown)).first->second : found->second;
+  const bool picture = request.view == View::color && layers.picture.empty();
+  const bool shadow = work_.volumes->light >= 0 && layers.shadow.empty();
+  if (picture) addPicture(*work_.volumes, work_.frame.view, shown, layers);
+  if (shadow) addShadow(*work_.volumes, work_.frame.view, shown, layers);
+  if (picture || shadow) endPass("volumes", 0);
+  return &layers;
+}
+
 Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
   const bool shaded = std::any_of(input.views.begin(), input.views.end(), [](const ViewRequest& request) {
     return traitsOf(request.view).source != ViewSource::atlas;
@@ -178,6 +201,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
   if (const Status made = cached_.textures->need(shownTextures()); !made) return made.problems();
+  const VolumeLayers* volumes = needVolumes(request);
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
   std::vector<LitLight> full;
@@ -185,10 +209,15 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   const ShownLights lights(input.plan, request.fullStrength ? std::span<const LitLight>(full) : input.lights, cast_);
   const auto exact = layers_.find(samples);
   const std::vector<Layer> layers = exact == layers_.end() ? std::vector<Layer>{} : exact->second.layers(shown);
-  const ShadowMaps maps = lights.maps(layers);
+  ShadowMaps maps = lights.maps(layers);
+  if (volumes != nullptr && work_.volumes->light >= 0) {
+    maps.volumeLight = work_.volumes->light;
+    maps.volumes = {volumes->shadow.data(), shown.width, samples};
+  }
   ShowJob job = jobOf(input, shown, maps);
   job.view = request.view;
   job.encoded = request.encoded;
+  if (volumes != nullptr && request.view == View::color) job.volumes = volumes->picture;
   ShownCasters casters;
   if (request.view == View::casterIds) casters = shownCasters(input);
   job.casters = casters.maps;
@@ -272,6 +301,7 @@ Result<FrameFacts> CpuFrame::finish() {
   facts_.memory.scene = cached_.textures->bytes();
   facts_.memory.targets += bytesOf(survey_.buffer);
   for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
+  for (const auto& [samples, layers] : volumes_) facts_.memory.targets += bytesOf(layers);
   return std::move(facts_);
 }
 

@@ -10,6 +10,7 @@
 #include "renderer/cpu/exact_layers.h"
 #include "renderer/cpu/scene_cache.h"
 #include "renderer/cpu/show/show_view.h"
+#include "renderer/cpu/volume_layers.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {
@@ -52,7 +53,8 @@ class CpuFrame : public FrameDrawing {
   Status needHoles();                              ///< textures that tell where surfaces have holes
   std::vector<TextureImage> shownTextures() const; ///< of all that may be seen
   Status needLayers(int samples);
-  int samplesOf(const ViewRequest& request) const; ///< a pixel
+  const VolumeLayers* needVolumes(const ViewRequest& request); ///< null where the view knows none
+  int samplesOf(const ViewRequest& request) const;             ///< a pixel
   std::vector<TexelMarks> readBy(const ShowInput& input);
   void makeTexels(const ShadowPlan& plan, std::span<const TexelMarks> read);
   void add(Image picture);
@@ -73,6 +75,7 @@ class CpuFrame : public FrameDrawing {
   bool surveyShown_ = false;                 ///< its surfaces are those of a view
   std::future<void> decoding_;               ///< of the textures, while shadows are made
   std::map<int, ExactLayers> layers_;        ///< by samples a pixel
+  std::map<int, VolumeLayers> volumes_;      ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;
   std::chrono::steady_clock::time_point stageStart_, passStart_;

@@ -13,6 +13,7 @@
 #include "renderer/prepare/lit_light.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/resolve/resolve_frame.h"
+#include "renderer/volume/frame_volumes.h"
 
 /// What draws frames. A device knows how to draw, and decides nothing: what is seen, planned and reported is told to it
 /// or asked of it in plain values. Calls come in the order in which they stand here, on the thread that made it.
@@ -27,6 +28,7 @@ struct FrameWork {
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
   /// What was baked for a light whose technique says so; asked after the survey.
   std::function<std::shared_ptr<const BakedLight>(int light)> baked;
+  const FrameVolumes* volumes = nullptr; ///< filled when the survey begins; null or empty = none
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.

@@ -70,6 +70,7 @@ FrameReport makeReport(FrameOutcome outcome) {
   if (!outcome.depths.empty()) report.depthRange = {outcome.depths.nearest, outcome.depths.farthest};
   report.atlasSize = {outcome.plan.atlasWidth, outcome.plan.atlasHeight};
   report.lights = drawnLights(outcome);
+  report.volumes.assign(outcome.volumes.begin(), outcome.volumes.end());
   report.predictedError = outcome.errors.all;
   report.error = outcome.error;
   report.counts = countsOf(outcome);

@@ -21,6 +21,7 @@ struct FrameOutcome {
   const PredictedErrors& errors;
   std::span<const int> layered;                ///< as in FrameWork
   std::span<const LightMapCache::Found> baked; ///< bakedLights
+  std::span<const VolumeReport> volumes;       ///< volumesOf
   FrameFacts facts;
   std::optional<ErrorMetrics> error; ///< where a view compares a shadow with rays
 };

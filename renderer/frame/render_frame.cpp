@@ -7,6 +7,7 @@
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/predicted_displacement.h"
+#include "renderer/frame/volumes_of_frame.h"
 #include "renderer/prepare/light_lists.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
@@ -34,7 +35,9 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   std::vector<LightMapCache::Found> baked;
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
-  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight});
+  MadeVolumes made;
+  const auto begun =
+      device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight, &made.volumes});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
@@ -42,6 +45,11 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   if (!found) return found.problems();
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
+
+  auto volumes = volumesOf(caches.volumes, caches.traced, {loaded, scene}, *resolved);
+  if (!volumes) return volumes.problems();
+  made = *std::move(volumes);
+  if (!made.volumes.empty()) drawing.endStage("volume");
 
   const auto receivers = drawing.survey();
   if (!receivers) return receivers.problems();
@@ -82,9 +90,9 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   if (views.needReference()) {
     const auto rays = tracedScene();
     if (!rays) return rays.problems();
-    auto made = measureShadow(*resolved, **rays, subject->light, views.fullShadow(drawing));
-    if (!made) return made.problems();
-    measured = std::move(*made);
+    auto compared = measureShadow(*resolved, **rays, subject->light, views.fullShadow(drawing));
+    if (!compared) return compared.problems();
+    measured = std::move(*compared);
     if (predicted != nullptr) measured->errors.predicted = *predicted;
     drawing.endStage("reference");
   }
@@ -94,9 +102,9 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
-  return Frame{
-      makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked, *std::move(facts), error}),
-      std::move(images)};
+  return Frame{makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked, made.reports,
+                           *std::move(facts), error}),
+               std::move(images)};
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_cache.h"
 #include "renderer/frame/traced_scene_cache.h"
+#include "renderer/frame/volume_cache.h"
 
 namespace gnomon {
 
@@ -11,6 +12,7 @@ namespace gnomon {
 struct FrameCaches {
   TracedSceneCache traced;
   LightMapCache lightMaps;
+  VolumeCache volumes;
 };
 
 /// A frame from top to bottom, whoever draws it: settled, surveyed, planned, cast, shown, compared with rays where a

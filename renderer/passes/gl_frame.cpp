@@ -135,6 +135,9 @@ std::vector<PassReport> passReports(const PassResults& results) {
   for (const auto& [samples, surfaces] : results.drawn.surfaces) {
     passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
   }
+  for (const auto& [samples, layers] : results.drawn.volumes) {
+    passes.push_back(passReport("volumes", layers.timer, 0, 0));
+  }
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     passes.push_back(passReport("visibility", exact.timer, exact.drawCalls, exact.triangles));
   }
@@ -158,6 +161,7 @@ MemoryReport memoryOf(const PassResults& results) {
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     memory.targets += exact.layers.texture.bytes() + exact.countBytes;
   }
+  for (const auto& [samples, layers] : results.drawn.volumes) memory.targets += layers.picture.bytes();
   for (const DrawnView& view : results.drawn.views) memory.targets += view.color.bytes();
   return memory;
 }

@@ -55,7 +55,9 @@ struct ViewVariant {
   int tiles = 0;           ///< of the light that has most
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
-  bool visibilityLayers = false; ///< rays or shadow volumes serve some light
+  bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
+  bool volumes = false;          ///< clouds and the like are seen
+  int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
 };
 
 /// Makes a view from the surfaces.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <string_view>
 
+#include "protocol/base/bytes.h"
 #include "renderer/scene/animation/animations.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
@@ -24,6 +26,17 @@
 namespace gnomon {
 
 namespace {
+
+/// Volumes are named by frames, and not by the model: kept as they are, by their first bytes.
+std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle& bundle) {
+  std::map<std::string, std::shared_ptr<const Bytes>> grids;
+  for (const auto& [name, file] : bundle.files) {
+    const std::string_view text = asText(file);
+    const bool numPy = text.starts_with("\x93NUMPY"), openVdb = text.starts_with(" BDV");
+    if (numPy || openVdb) grids.emplace(name, std::make_shared<const Bytes>(file));
+  }
+  return grids;
+}
 
 Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits) {
   Findings findings;
@@ -78,6 +91,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   scene->images = loadImages(*document, limits, scene->materials, findings);
   if (findings.refused()) return findings.takeProblems();
 
+  scene->grids = gridFiles(bundle);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.warnings = findings.takeWarnings();

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "protocol/base/bytes.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
@@ -168,14 +170,15 @@ struct Scene {
   std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
-  std::vector<Material> materials;                ///< at least one (the default material)
-  SceneImages images;                             ///< decoded when a frame needs them
-  std::vector<SceneNode> nodes;                   ///< as the file numbers them
-  std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
-  std::shared_ptr<const Motion> motion;           ///< of animations; nullptr = nothing moves
-  std::shared_ptr<PoseCache> poses;               ///< the last poses asked for; beside motion
-  std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
-  std::vector<std::string> variants;              ///< names of the file's material variants
+  std::vector<Material> materials;                           ///< at least one (the default material)
+  SceneImages images;                                        ///< decoded when a frame needs them
+  std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
+  std::vector<SceneNode> nodes;                              ///< as the file numbers them
+  std::shared_ptr<const Deformation> deformation;            ///< of skins and morph targets; nullptr = nothing deforms
+  std::shared_ptr<const Motion> motion;                      ///< of animations; nullptr = nothing moves
+  std::shared_ptr<PoseCache> poses;                          ///< the last poses asked for; beside motion
+  std::vector<SceneView> scenes;     ///< the file's, and then all of them again for each variant
+  std::vector<std::string> variants; ///< names of the file's material variants
   int defaultScene = 0;
   SceneSummary summary; ///< id is left to whoever stores it
 };

@@ -57,6 +57,7 @@ MemorySummary memoryOf(const Scene& scene) {
   memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
   memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded) + bytesIn(scene.clusters);
   for (const auto& image : scene.images) memory.images += image->bytes();
+  for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
   memory.structure = bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes);
   for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();
@@ -154,7 +155,8 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   summary.bytes = bundleBytes(bundle);
   summary.memory = memoryOf(scene);
   summary.memoryBytes = summary.memory.vertices + summary.memory.indices + summary.memory.images +
-                        summary.memory.deformation + summary.memory.animations + summary.memory.structure;
+                        summary.memory.volumes + summary.memory.deformation + summary.memory.animations +
+                        summary.memory.structure;
   summary.scenes = fileScenes(scene);
   summary.defaultScene = scene.defaultScene;
   summary.nodes = nodesOf(model, scene.defaultScene);

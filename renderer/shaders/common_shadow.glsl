@@ -49,8 +49,8 @@ bool isTurnedAway(Receiver receiver, vec3 toLight) { return dot(receiver.normal,
 layout(binding = GNOMON_VISIBILITY_UNIT) uniform sampler2DArray visibilityLayers;
 
 // The mean over `samples` of the pixel, a bit each.
-float layerValue(int light, uint samples) {
-  vec4 seen = texelFetch(visibilityLayers, ivec3(gl_FragCoord.xy, int(lights[light].visibilityLayer) - 1), 0);
+float layerMean(int layer, uint samples) {
+  vec4 seen = texelFetch(visibilityLayers, ivec3(gl_FragCoord.xy, layer), 0);
 #if SAMPLES > 1
   uvec4 bits = (uvec4(samples) >> uvec4(0u, 1u, 2u, 3u)) & 1u;
   return dot(seen, vec4(bits)) / float(bitCount(samples));
@@ -58,6 +58,8 @@ float layerValue(int light, uint samples) {
   return seen.r;
 #endif
 }
+
+float layerValue(int light, uint samples) { return layerMean(int(lights[light].visibilityLayer) - 1, samples); }
 
 float layerVisibility(int light, Receiver receiver, vec3 toLight) {
 #ifdef RECEIVER_GROUPS
@@ -70,8 +72,7 @@ float layerVisibility(int light, Receiver receiver, vec3 toLight) {
 }
 #endif
 
-// `needed` false spares the lookups where no light arrives anyway.
-float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
+float surfaceVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
 #ifdef VISIBILITY_LAYERS
   if (lights[light].visibilityLayer > 0u) return layerVisibility(light, receiver, toLight);
 #endif
@@ -93,6 +94,25 @@ float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) 
   }
   visibility = mix(visibility, 1.0, choice.fade);
   return mix(1.0, visibility, strength);
+}
+
+// `needed` false spares the lookups where no light arrives anyway.
+float shadowVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
+  float visibility = surfaceVisibility(light, receiver, toLight, needed);
+#ifdef VOLUME_LIGHT
+#ifdef RECEIVER_GROUPS
+  bool receives = (lights[light].shadowedGroups & receiver.groupBit) != 0u;
+#else
+  const bool receives = true;
+#endif
+  // What volumes let through of it, the last layer: both are shadow, of one strength.
+  if (light == VOLUME_LIGHT && receives) {
+    float left = 1.0 - lights[light].strength;
+    float share = layerMean(textureSize(visibilityLayers, 0).z - 1, receiver.samples);
+    visibility = left + (visibility - left) * share;
+  }
+#endif
+  return visibility;
 }
 
 // The cascades from near to far, or a light's faces; white beyond.

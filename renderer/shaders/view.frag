@@ -56,17 +56,38 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
   return receiver;
 }
 
+#ifdef VOLUMES
+// rgb: what volumes send; a: the share of the light behind them that they let through.
+layout(binding = GNOMON_VOLUMES_UNIT) uniform sampler2D volumes;
+vec4 volumesHere() { return texelFetch(volumes, ivec2(gl_FragCoord.xy), 0); }
+#endif
+
+// The background is neither exposed nor tone mapped, what stands before it is.
+vec4 backgroundSeen() {
+#ifdef VOLUMES
+  vec4 here = volumesHere();
+  vec3 shown = toneMapped(here.rgb * frame.depthRange.z) + here.a * frame.background.rgb;
+  return vec4(shown, 1.0 - here.a * (1.0 - frame.background.a));
+#else
+  return frame.background;
+#endif
+}
+
 vec4 picture(Sample seen, uint samples) {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   if (!seen.hit) return vec4(vec3(0.0), frame.background.a);
 #else
-  if (!seen.hit) return frame.background;
+  if (!seen.hit) return backgroundSeen();
 #endif
   Surface surface = unpackedSurface(seen.bits);
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   Receiver receiver = receiverOf(seen, surface.face, samples);
   vec3 radiance = radianceToEye(s, receiver, emissionAt(seen.index), surface.occlusion);
+#ifdef VOLUMES
+  vec4 before = volumesHere();
+  radiance = before.rgb + before.a * radiance;
+#endif
   vec3 shown = toneMapped(radiance * frame.depthRange.z);
 #if defined(VIEW_CASCADES)
   vec3 tint = hasTiles() ? cascadeTint(debugLight, receiver, towardsDebugLight(receiver)) : vec3(1.0);

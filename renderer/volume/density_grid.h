@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 
-inline constexpr std::int64_t kMaxGridSide = 2048;
-inline constexpr std::int64_t kMaxGridVoxels = std::int64_t{1} << 27; ///< half a gigabyte of floats
+inline constexpr std::int64_t kMaxGridSide = kLimits.maxVolumeSide;
+inline constexpr std::int64_t kMaxGridVoxels = kLimits.maxVolumeVoxels; ///< half a gigabyte of floats
 
 /// Numbers at the centres of voxels that fill a unit cube.
 struct DensityGrid {

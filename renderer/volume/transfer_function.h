@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 
 namespace gnomon {
 
-inline constexpr std::size_t kMaxTransferPoints = 256;
+inline constexpr std::size_t kMaxTransferPoints = kLimits.maxTransferStops;
 inline constexpr double kMaxExtinction = 1e6; ///< per metre
 
 /// What a medium does to light at one place.

@@ -63,13 +63,15 @@ std::vector<glm::vec4> marchPicture(const SeenSurfaces& seen, std::span<const Ma
     std::array<glm::dvec4, kMostSamples> marched;
     glm::dvec4 sum(0);
     for (std::size_t i = 0; i < depths.size(); ++i) {
-      const std::size_t first = firstOf(depths, i);
+      const std::size_t first = firstOf(depths, i); // of a chain of them the one before, which took its own first's
       if (first == i) {
         const double surface = double{depths[i]} * ray.metresPerDepth;
         const Marched seenHere = march(all, ray.ray, {ray.seen.from, std::min(ray.seen.to, surface)}, light);
         marched[i] = glm::dvec4(seenHere.color, seenHere.transmittance);
+      } else {
+        marched[i] = marched[first];
       }
-      sum += marched[first];
+      sum += marched[i];
     }
     picture[pixel] = glm::vec4(sum / static_cast<double>(depths.size()));
   });

@@ -1,6 +1,6 @@
-// Every tests/golden/NAME.json is a case: a scene, a request that any client could send, and how far the picture may be
-// from NAME.png; `cpuTolerance`, with its reason, where the CPU device may be farther off. To accept new pictures, run
-// with GNOMON_GOLDEN_UPDATE=1 and look at what changed.
+// Every tests/golden/NAME.json is a case: a scene, `files` beside it, a request that any client could send, and how far
+// the picture may be from NAME.png; `cpuTolerance`, with its reason, where the CPU device may be farther off. To accept
+// new pictures, run with GNOMON_GOLDEN_UPDATE=1 and look at what changed.
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -34,7 +34,11 @@ std::vector<std::string> caseNames() {
 Bytes renderCase(const Json& golden) {
   const auto spec = decodeFrameSpec(golden.at("request").dump());
   EXPECT_TRUE(spec) << spec.problems().front().pointer << ' ' << spec.problems().front().detail;
-  const auto scene = loadScene({testing::readFile(kScenes / (golden.at("scene").get<std::string>() + ".glb")), {}});
+  SceneBundle bundle{testing::readFile(kScenes / (golden.at("scene").get<std::string>() + ".glb")), {}};
+  for (const auto& file : golden.value("files", std::vector<std::string>{})) {
+    bundle.files[file] = testing::readFile(kScenes / file);
+  }
+  const auto scene = loadScene(bundle);
   EXPECT_TRUE(scene) << scene.problems().front().detail;
   auto renderer = Renderer::create({.backend = testing::testedBackend()});
   EXPECT_TRUE(renderer) << renderer.problems().front().detail;

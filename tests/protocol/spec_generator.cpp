@@ -72,9 +72,13 @@ struct Any<std::variant<int, std::string>> {
     return any<std::string>(notes);
   }
 };
-template <>
-struct Any<Vec3> {
-  static Vec3 make(const Notes& notes) { return {pickIn(notes.range), pickIn(notes.range), pickIn(notes.range)}; }
+template <std::size_t kSize>
+struct Any<std::array<double, kSize>> {
+  static std::array<double, kSize> make(const Notes& notes) {
+    std::array<double, kSize> numbers;
+    for (double& number : numbers) number = pickIn(notes.range);
+    return numbers;
+  }
 };
 template <class T>
 struct Any<std::vector<T>> {
@@ -128,6 +132,14 @@ void mend(Camera& camera) {
     order(*camera.perspective->near, *camera.perspective->far);
   }
   if (camera.orthographic) order(camera.orthographic->near, camera.orthographic->far);
+}
+
+void mend(VolumeOptions& volume) {
+  keepOnly(pick(0, 1), volume.box, volume.matrix);
+  if (!volume.box && !volume.matrix) volume.box.emplace();
+  for (std::size_t axis = 0; volume.box && axis < 3; ++axis) order(volume.box->min[axis], volume.box->max[axis]);
+  double value = -5;
+  for (TransferStop& stop : volume.transferFunction) stop.value = value += 1.5;
 }
 
 void mend(Shadow& shadow, const Atlas& atlas) {
@@ -197,6 +209,7 @@ rc::Gen<FrameSpec> anySpec() {
       keepOnly(pick(0, 2), spec.animation->index, spec.animation->name);
       if (!spec.animation->index && !spec.animation->name) spec.animation->timeSeconds = 0;
     }
+    for (VolumeOptions& volume : spec.volumes) mend(volume);
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/renderer/frame_fixture.h"
+#include "tests/renderer/made_grids.h"
 #include "tests/support/files.h"
 
 namespace gnomon {
@@ -138,6 +139,32 @@ void expectSamePictures(const char* technique) {
   EXPECT_LE(median(of.over16), 0.01);
   EXPECT_LE(Differences::worst(of.over4), 1);
   EXPECT_LE(Differences::worst(of.over16), 0.3);
+}
+
+TEST(Devices, D5_D6_VolumesAreTheSame) {
+  const auto hill = [](int x, int y, int z) {
+    const int dx = x - 6, dz = z - 6;
+    return std::max(0, 255 - 7 * (dx * dx + y * y / 2 + dz * dz));
+  };
+  SceneBundle bundle{testing::readFile(GNOMON_DEMO_SCENE), {}};
+  bundle.files["hill.npy"] = testing::byteGrid(12, 12, 12, hill);
+  const auto scene = loadScene(bundle);
+  ASSERT_TRUE(scene);
+  const Json volumes = Json::parse(R"([{"file": "hill.npy", "box": {"min": [-40, 8, -40], "max": [40, 30, 40]},
+      "transferFunction": [{"value": 0, "extinction": 0}, {"value": 255, "color": [1, 0.9, 0.8], "extinction": 0.3}]}])");
+  for (const int camera : {0, 1}) {
+    for (const char* antialiasing : {"none", "msaa4x"}) {
+      const Json more{{"volumes", volumes}, {"antialiasing", antialiasing}};
+      const Pair pair = bothOf(*scene, specOf(camera, more));
+      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+      EXPECT_LE(percentOver(levels, 4), 1) << camera << antialiasing;
+      EXPECT_LE(percentOver(levels, 16), 0.3) << camera << antialiasing;
+      Json clear = specOf(camera, more);
+      clear.erase("volumes");
+      const Frame without = drawn(DeviceChoice::cpu, *scene, clear);
+      EXPECT_GT(percentOver(levelsBetween(without.images.at(0).image, pair.cpu.images.at(0).image), 16), 1);
+    }
+  }
 }
 
 TEST(Devices, PicturesOfExactShadowsAreTheSame) {

@@ -73,7 +73,7 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
   const auto evaluation = decodeEvaluation(request);
   if (!evaluation) return evaluation.problems();
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene);
+  const auto bundle = readSceneFile(options.scene, evaluation->spec.volumes);
   if (!bundle) return bundle.problems();
   if (!options.where.server.empty()) return evaluateThere(options.where.server, *bundle, request, progress);
   return evaluateHere(*bundle, *evaluation, options.where.backend, progress);

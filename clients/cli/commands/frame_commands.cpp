@@ -24,7 +24,7 @@ struct RenderOptions {
 
 Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene);
+  const auto bundle = readSceneFile(options.scene, spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return renderHere(*bundle, spec, options.where.backend, progress);
   return renderThere(options.where.server, *bundle, spec, progress);
@@ -72,7 +72,7 @@ struct PlanOptions {
 
 Result<std::string> planScene(const PlanOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene);
+  const auto bundle = readSceneFile(options.scene, spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return planHere(*bundle, spec, options.where.backend, progress);
   return planThere(options.where.server, *bundle, spec, progress);

@@ -95,6 +95,11 @@ std::optional<std::filesystem::path> resolve(const std::filesystem::path& folder
 } // namespace
 
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limits& limits) {
+  return readSceneFile(path, {}, limits);
+}
+
+Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<const VolumeOptions> volumes,
+                                  const Limits& limits) {
   auto model = readFile(path, limits.maxSceneBytes);
   if (!model) return model.problems();
   SceneBundle bundle;
@@ -108,26 +113,30 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limit
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::size_t room = limits.maxSceneBytes - bundle.model.size();
   Problems problems;
-  for (const std::string& uri : uris) {
-    const auto name = percentDecoded(uri);
+  const auto add = [&](const std::optional<std::string>& name, const std::string& written, const std::string& pointer,
+                       const std::string& who) {
+    if (name && bundle.files.contains(*name)) return;
     const auto file = name ? resolve(folder, *name) : std::nullopt;
     if (!file) {
-      problems.push_back({ProblemCode::invalidScene, path.string(),
-                          "The model names a file that isn't inside its folder.",
-                          "a relative name without \"..\" or a scheme", uri.substr(0, 200)});
-      continue;
+      problems.push_back({ProblemCode::invalidScene, pointer, who + " names a file that isn't inside its folder.",
+                          "a relative name without \"..\" or a scheme", written.substr(0, 200)});
+      return;
     }
     auto bytes = readFile(*file, room);
     if (!bytes) {
       for (Problem problem : bytes.problems()) {
         problem.pointer = (folder / *name).string();
-        problem.detail += " The model names it.";
+        problem.detail += " " + who + " names it.";
         problems.push_back(std::move(problem));
       }
-      continue;
+      return;
     }
     room -= bytes->size();
     bundle.files[*name] = std::move(*bytes);
+  };
+  for (const std::string& uri : uris) add(percentDecoded(uri), uri, path.string(), "The model");
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    add(volumes[i].file, volumes[i].file, "/volumes/" + std::to_string(i) + "/file", "The volume");
   }
   if (!problems.empty()) return problems;
   return bundle;

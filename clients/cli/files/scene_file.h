@@ -8,6 +8,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
+#include "protocol/spec/volume_options.h"
 #include "renderer/scene/scene_bundle.h"
 
 namespace gnomon::cli {
@@ -19,5 +20,9 @@ std::vector<std::string> externalUris(std::span<const std::uint8_t> model);
 /// Reads a .glb or .gltf and the files that it names beside it. A name must be relative and stay inside the model's
 /// folder, symbolic links followed; anything else is refused, and nothing of it is opened.
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limits& limits = kLimits);
+
+/// The same, and the files of these volumes, which lie in the model's folder, too.
+Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<const VolumeOptions> volumes,
+                                  const Limits& limits = kLimits);
 
 } // namespace gnomon::cli

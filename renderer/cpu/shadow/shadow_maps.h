@@ -39,6 +39,8 @@ struct ShadowMaps {
   std::span<const TileMap> maps; ///< parallel to tiles
   glm::vec2 atlasTexels{1};      ///< width and height of the atlas
   std::span<const Layer> layers = {};
+  int volumeLight = -1; ///< the light that volumes take a share of; -1 = none
+  Layer volumes = {};   ///< the share that they let through
 };
 
 } // namespace gnomon::cpu

@@ -118,13 +118,23 @@ inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const
   return select(reads.served, mix(1.0f, visibility, light.strength), 1.0f);
 }
 
+/// `visibility` of surfaces alone, and what volumes let through of that: both are shadow, of one strength.
+inline HWY_NOINLINE Float throughVolumes(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
+                                         const Float& visibility, const Mask& needed) {
+  const Mask receives = receivesShadow(light, receiver);
+  const Float share = layerValue(maps.volumes, receiver, needed & receiver.shown & receives);
+  const float left = 1.0f - light.strength;
+  return select(receives, left + (visibility - left) * share, visibility);
+}
+
 /// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes
 /// that are not `needed`, because no light arrives anyway, hold anything in 0 to 1.
 inline Float shadowVisibility(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight,
                               const Mask& needed) {
   const LightData& data = maps.lights[light];
-  return data.visibilityLayer > 0u ? layerVisibility(maps, data, receiver, toLight, needed)
-                                   : mapVisibility(maps, data, receiver, toLight, needed);
+  const Float visibility = data.visibilityLayer > 0u ? layerVisibility(maps, data, receiver, toLight, needed)
+                                                     : mapVisibility(maps, data, receiver, toLight, needed);
+  return light == maps.volumeLight ? throughVolumes(maps, data, receiver, visibility, needed) : visibility;
 }
 
 /// The cascades from near to far, or a light's faces; white beyond. Of a light that has tiles.

@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE \
   "renderer/cpu/show/picture_view.cpp" // NOLINT: Highway's foreach_target.h includes this again
 #include <hwy/foreach_target.h>
+#include <optional>
 
 #include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
@@ -27,9 +28,42 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Sur
                       visibility);
 }
 
+/// What volumes send, and what share of the light behind them they let through.
+struct SeenVolumes {
+  Float3 color;
+  Float through;
+};
+
+/// `x`, `y`: pixels of the picture.
+HWY_INLINE SeenVolumes volumesAt(const ShowJob& job, const Int& x, const Int& y) {
+  const float* values = &job.volumes[0].x;
+  const Int at = (y * Int(job.scene.width) + x) * Int(4);
+  return {{gather(values, at), gather(values, at + Int(1)), gather(values, at + Int(2))}, gather(values, at + Int(3))};
+}
+
+/// Where no surface is. The background, which is not tone mapped, comes through what is.
+void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
+  for (int first = 0; first < static_cast<int>(kTilePixels); first += static_cast<int>(kLanes)) {
+    const Int pixel = Int(first) + laneNumbers();
+    const Int x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
+    const Int y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
+    const SeenVolumes seen = volumesAt(job, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
+    const Float3 own = pictureOf(job.scene.frame, maskOf(0xffffu), seen.color, job.toneMapping, job.encoded).rgb;
+    const auto at = static_cast<std::size_t>(first);
+    store(own.x + seen.through * Float(background.x), &colors.channels[0][at]);
+    store(own.y + seen.through * Float(background.y), &colors.channels[1][at]);
+    store(own.z + seen.through * Float(background.z), &colors.channels[2][at]);
+    store(1.0f - seen.through * Float(1.0f - background.w), &colors.channels[3][at]);
+  }
+}
+
 HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
   const Surface surface = surfaceOf(job, packet);
-  const Float3 radiance = radianceOf(job, packet, surface);
+  Float3 radiance = radianceOf(job, packet, surface);
+  if (!job.volumes.empty()) {
+    const SeenVolumes seen = volumesAt(job, packet.fragments.x, packet.fragments.y);
+    radiance = seen.color + radiance * seen.through;
+  }
   const Float3 shown = pictureOf(job.scene.frame, packet.fragments.shown, radiance, job.toneMapping, job.encoded).rgb;
   const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
   if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);
@@ -53,6 +87,11 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
   const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
                                                                    : job.scene.frame.background;
   for (std::size_t c = 0; c < 4; ++c) colors.channels[c].fill(background[static_cast<int>(c)]);
+  std::optional<TileColors> behind; // where volumes stand before the background
+  if (!job.volumes.empty()) {
+    fillBehindVolumes(job, x, y, background, colors);
+    behind = colors;
+  }
   const float share = 1.0f / static_cast<float>(job.buffer.samples);
   const std::int32_t whole = (1 << job.buffer.samples) - 1;
   for (std::size_t i = 0; i < list.count; i += kLanes) {
@@ -82,7 +121,8 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
       const float part = share * static_cast<float>(__builtin_popcount(static_cast<unsigned>(samples)));
       for (std::size_t c = 0; c < 4; ++c) {
         const float own = c < 3 ? shown[c][lane] : 1.0f;
-        colors.channels[c][pixel] += part * (own - background[static_cast<int>(c)]);
+        const float instead = behind ? behind->channels[c][pixel] : background[static_cast<int>(c)];
+        colors.channels[c][pixel] += part * (own - instead);
       }
     }
   }

@@ -27,6 +27,7 @@ struct ShowJob {
   ToneMapping toneMapping = ToneMapping::aces;
   int debugLight = -1;                          ///< what views of one light show; -1 = there is none
   std::span<const TileMap> casters = {};        ///< view casterIds: parallel to the maps', numbered, a sample a texel
+  std::span<const glm::vec4> volumes = {};      ///< marchPicture; empty = none are seen
   std::span<const std::int32_t> slotNodes = {}; ///< view casterIds: the node of each slot
 };
 

@@ -52,16 +52,23 @@ class ViewDrawing {
   }
 
   Result<DrawnView> shade(const ViewRequest& request, const ViewTraits& traits) {
-    const bool averaged = traits.source == ViewSource::picture && request.antialiased;
-    const int samples = averaged ? shading_.survey.samples : 1;
+    const int samples = samplesOf(request);
     if (const Status there = needSurfaces(samples); !there) return there.problems();
+    const bool volumes = hasVolumes() && traits.shadowed;
+    if (volumes) {
+      if (const Status there = needVolumes(samples); !there) return there.problems();
+    }
     if (traits.shadowed) {
       if (const Status there = needExactShadows(samples); !there) return there.problems();
     }
     const auto exact = drawn_.exactShadows.find(samples);
     const VisibilityLayers noLayers;
-    const ViewSources sources{drawn_.surfaces.at(samples),
-                              exact == drawn_.exactShadows.end() ? noLayers : exact->second.layers, drawn_.casters};
+    ViewSources sources{drawn_.surfaces.at(samples),
+                        exact == drawn_.exactShadows.end() ? noLayers : exact->second.layers, drawn_.casters};
+    if (volumes && !request.fullStrength) {
+      sources.volumes = &drawn_.volumes.at(samples);
+      sources.volumeLight = work_.volumes->light;
+    }
     if (!request.fullStrength) return drawView(inputs_, shading_, sources, request.view, request.encoded);
 
     const std::vector<LitLight> lights = atFullStrength({shading_.lights.begin(), shading_.lights.end()});
@@ -80,9 +87,31 @@ class ViewDrawing {
     return Done{};
   }
 
+  int samplesOf(const ViewRequest& request) const {
+    const bool averaged = traitsOf(request.view).source == ViewSource::picture && request.antialiased;
+    return averaged ? shading_.survey.samples : 1;
+  }
+
+  bool hasVolumes() const { return work_.volumes != nullptr && !work_.volumes->empty(); }
+
+  Status needVolumes(int samples) {
+    if (drawn_.volumes.contains(samples)) return Done{};
+    const bool seen = std::any_of(show_.views.begin(), show_.views.end(), [&](const ViewRequest& request) {
+      return request.view == View::color && samplesOf(request) == samples;
+    });
+    auto layers = volumeLayers(inputs_, shading_.survey, drawn_.surfaces.at(samples), *work_.volumes, seen);
+    if (!layers) return layers.problems();
+    drawn_.volumes.emplace(samples, std::move(*layers));
+    return Done{};
+  }
+
   Status needExactShadows(int samples) {
-    if (work_.layered.empty() || drawn_.exactShadows.contains(samples)) return Done{};
-    auto shadows = exactShadows(inputs_, shading_, work_, drawn_.surfaces.at(samples));
+    const auto volumes = drawn_.volumes.find(samples);
+    const auto volumeShadow =
+        volumes == drawn_.volumes.end() ? std::span<const std::uint16_t>{} : std::span(volumes->second.shadow);
+    const bool none = work_.layered.empty() && volumeShadow.empty();
+    if (none || drawn_.exactShadows.contains(samples)) return Done{};
+    auto shadows = exactShadows(inputs_, shading_, work_, drawn_.surfaces.at(samples), volumeShadow);
     if (!shadows) return shadows.problems();
     drawn_.exactShadows.emplace(samples, std::move(*shadows));
     return Done{};

@@ -93,9 +93,9 @@ bool needsTriangles(std::span<const int> layered, std::span<const Light> lights)
 }
 
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
-                                  const Surfaces& surfaces) {
+                                  const Surfaces& surfaces, std::span<const std::uint16_t> volumeShares) {
   auto layers = makeVisibilityLayers(inputs.width, inputs.height, static_cast<int>(surfaces.samplePositions.size()),
-                                     static_cast<int>(work.layered.size()));
+                                     static_cast<int>(work.layered.size() + (volumeShares.empty() ? 0 : 1)));
   if (!layers) return layers.problems();
   ExactShadows shadows{std::move(*layers), {}, gl::Timer::start()};
   std::unique_ptr<ShownPicture> picture;
@@ -120,6 +120,7 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
     facts.cpuMilliseconds = millisecondsSince(start);
     shadows.lights.push_back(facts);
   }
+  if (!volumeShares.empty()) writeVisibility(shadows.layers, static_cast<int>(work.layered.size()), volumeShares);
   shadows.timer.stop();
   return shadows;
 }

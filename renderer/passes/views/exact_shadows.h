@@ -24,8 +24,9 @@ struct ExactShadows {
 /// FrameWork.
 bool needsTriangles(std::span<const int> layered, std::span<const Light> lights);
 
-/// The visibility of every light of `work.layered` at each sample of the surfaces.
+/// The visibility of every light of `work.layered` at each sample of the surfaces; behind them, unless it is empty, a
+/// layer of `volumeShares`, what volumes let through to each.
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
-                                  const Surfaces& surfaces);
+                                  const Surfaces& surfaces, std::span<const std::uint16_t> volumeShares = {});
 
 } // namespace gnomon

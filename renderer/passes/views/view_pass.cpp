@@ -18,8 +18,9 @@ GLenum formatOf(View view, bool encoded) {
 }
 
 /// A variant that holds no more than these lights and surfaces need.
-ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces, View view,
+ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
                        bool encoded) {
+  const Surfaces& surfaces = sources.surfaces;
   const ViewTraits& traits = traitsOf(view);
   // Views of a light's tiles look into them whatever decides its shadow.
   const bool layersDecide = traits.shadowed && !traits.tiles;
@@ -34,6 +35,11 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const S
   variant.visibilityLayers =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.visibilityLayer >= 0; });
+  if (sources.volumes != nullptr) {
+    variant.volumes = view == View::color;
+    variant.volumeLight = sources.volumeLight;
+    variant.visibilityLayers = variant.visibilityLayers || sources.volumeLight >= 0;
+  }
   return variant;
 }
 
@@ -64,7 +70,7 @@ const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey) {
 Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
                            bool encoded) {
   const Surfaces& surfaces = sources.surfaces;
-  const ViewVariant variant = variantFor(inputs, shading, surfaces, view, encoded);
+  const ViewVariant variant = variantFor(inputs, shading, sources, view, encoded);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
 
@@ -89,6 +95,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
   bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
+  if (variant.volumes) bindTexture(sources.volumes->picture, texels, GNOMON_VOLUMES_UNIT);
   bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
   bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);
   if (traitsOf(view).oneLight) {

@@ -13,6 +13,7 @@
 #include "renderer/passes/tiles/atlas_views.h"
 #include "renderer/passes/tiles/shadow_pass.h"
 #include "renderer/passes/views/surface_pass.h"
+#include "renderer/passes/views/volume_layers.h"
 
 namespace gnomon {
 
@@ -49,9 +50,11 @@ struct Shading {
 
 /// What one view is made from.
 struct ViewSources {
-  const Surfaces& surfaces;           ///< data wants one sample a pixel
-  const VisibilityLayers& visibility; ///< of the surfaces' samples; empty where no light has a layer
-  const CasterNodes& casters;         ///< read by the view casterIds
+  const Surfaces& surfaces;              ///< data wants one sample a pixel
+  const VisibilityLayers& visibility;    ///< of the surfaces' samples; empty where no light has a layer
+  const CasterNodes& casters;            ///< read by the view casterIds
+  const VolumeLayers* volumes = nullptr; ///< null where the view knows none
+  int volumeLight = -1;                  ///< the light that they shade surfaces from; -1 = none
 };
 
 /// What looking up these lights' shadows needs and no more; the rest of the variant has its defaults. `layersDecide`:

@@ -74,6 +74,7 @@ using glm::vec4;
 #define GNOMON_OUTLINES_UNIT 11
 #define GNOMON_CASTER_NODE_UNIT 12
 #define GNOMON_CASTER_DEPTH_UNIT 13
+#define GNOMON_VOLUMES_UNIT 14
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8

@@ -219,9 +219,9 @@ TEST(FrameSpecJson, AbsentFieldsAreLeftOutAndKeysKeepTheirOrder) {
   EXPECT_TRUE(json["camera"].empty());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(
-      keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "nodes", "ambient",
-                        "background", "exposure", "toneMapping", "antialiasing", "views", "debug", "device", "output"));
+  EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "nodes", "volumes",
+                                "ambient", "background", "exposure", "toneMapping", "antialiasing", "views", "debug",
+                                "device", "output"));
 }
 
 TEST(FrameSpecJson, TheViewDirectionStandsDirectlyInTheCamera) {

@@ -189,6 +189,22 @@ TEST(Validate, ALightsOwnShadowIsHeldToTheSameRules) {
   EXPECT_THAT(wrongIn(light), ElementsAre("/lights/1/shadow/depthRange/max"));
 }
 
+TEST(Validate, AVolumeHasAFileAPlaceAndATransferFunction) {
+  FrameSpec spec;
+  VolumeOptions volume{.file = "a.npy", .box = VolumeBox{}, .transferFunction = {{.value = 1}, {.value = 2}}};
+  spec.volumes = {volume};
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+  spec.volumes.push_back({});
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/volumes/1/file", "/volumes/1/transferFunction"));
+  spec.volumes[1] = volume;
+  spec.volumes[1].box.reset();
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/volumes/1"));
+  volume.box->max[1] = volume.box->min[1];
+  volume.transferFunction[1].value = 1;
+  spec.volumes = {volume};
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/volumes/0/box/max/1", "/volumes/0/transferFunction/1/value"));
+}
+
 TEST(Validate, ATileFitsTheAtlas) {
   FrameSpec spec;
   spec.atlas = {512, 1024};

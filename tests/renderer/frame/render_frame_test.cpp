@@ -144,7 +144,7 @@ FrameSpec sunlit() {
 
 TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
   FakeDevice device;
-  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   const auto frame = renderFrame(device, caches, squares(), sunlit());
   ASSERT_TRUE(frame) << frame.problems().front().detail;
   EXPECT_EQ(device.asked.calls, (std::vector<std::string>{"begin", "survey", "cast", "show"}));
@@ -170,7 +170,7 @@ TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
 
 TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
   FakeDevice device;
-  FrameCaches caches{TracedSceneCache(1 << 20), LightMapCache(1u << 28)};
+  FrameCaches caches{TracedSceneCache(1 << 20), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.views = {View::error, View::depth};
   const auto frame = renderFrame(device, caches, squares(), spec);
@@ -189,7 +189,7 @@ TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
 
 TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
   FakeDevice device;
-  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.width = 5000;
   const auto frame = renderFrame(device, caches, squares(), spec);
@@ -200,7 +200,7 @@ TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
 
 TEST(RenderFrame, AProblemOfTheDeviceIsTheFrames) {
   FakeDevice device(Problem{ProblemCode::backend, "", "The device is gone.", "", ""});
-  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28)};
+  FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   const auto frame = renderFrame(device, caches, squares(), sunlit());
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.problems().front().code, ProblemCode::backend);

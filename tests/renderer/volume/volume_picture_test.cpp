@@ -114,5 +114,16 @@ TEST(VolumePicture, SamplesOfAPixelHaveTheirOwnDepths) {
   EXPECT_EQ(shadows[3], 65535);
 }
 
+TEST(VolumePicture, DepthsThatEachDifferLittleFromTheNextAreOne) {
+  const LitBox box({-4, -3, -20}, {4, 3, -10}, 0.2);
+  const MappedMedium media[]{{&box.medium, &box.map}};
+  const std::array<glm::vec2, 4> places{{{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
+  const std::vector<float> depths{15.0f, 15.12f, 15.24f, 15.36f};
+  CameraView view = cameraAt({0, 0, 0}, false);
+  view.halfSize = glm::dvec2(1e-3);
+  const auto picture = marchPicture({view, 1, 1, places, depths}, media, glm::dvec3(0));
+  EXPECT_NEAR(picture[0].a, std::exp(-0.2 * 5.2), 0.02);
+}
+
 } // namespace
 } // namespace gnomon

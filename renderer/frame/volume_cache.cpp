@@ -1,0 +1,90 @@
+#include "renderer/frame/volume_cache.h"
+
+#include <algorithm>
+#include <set>
+
+#include "renderer/core/vec3.h"
+#include "renderer/volume/grid_file.h"
+
+namespace gnomon {
+namespace {
+
+Problems at(const std::string& pointer, Problems problems) {
+  for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
+  return problems;
+}
+
+Result<VolumeSpace> spaceOf(const VolumeOptions& options) {
+  if (options.box) {
+    auto space = gnomon::spaceOf(Aabb{toVector(options.box->min), toVector(options.box->max)});
+    return space ? space : Result<VolumeSpace>(at("/box", space.problems()));
+  }
+  glm::dmat4 matrix(1);
+  for (std::size_t i = 0; i < 16; ++i) {
+    matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = (*options.matrix)[i];
+  }
+  auto space = gnomon::spaceOf(matrix);
+  return space ? space : Result<VolumeSpace>(at("/matrix", space.problems()));
+}
+
+Result<TransferFunction> functionOf(const std::vector<TransferStop>& stops) {
+  std::vector<TransferPoint> points;
+  for (const TransferStop& stop : stops) points.push_back({stop.value, {toVector(stop.color), stop.extinction}});
+  auto function = makeTransferFunction(std::move(points));
+  return function ? function : Result<TransferFunction>(at("/transferFunction", function.problems()));
+}
+
+std::size_t bytesOf(const DensityGrid& grid) {
+  return grid.values.size() * sizeof(float);
+}
+
+} // namespace
+
+Result<std::shared_ptr<const DensityGrid>> VolumeCache::gridOf(const std::shared_ptr<const Bytes>& file,
+                                                               const VolumeOptions& options) const {
+  for (const Entry& entry : entries_) {
+    if (entry.file.lock() == file && entry.options.grid == options.grid) return entry.medium->grid;
+  }
+  auto grid = readGridFile(*file, options.grid.value_or(""));
+  if (!grid) return at("/file", grid.problems());
+  return std::make_shared<const DensityGrid>(*std::move(grid));
+}
+
+Result<std::shared_ptr<const Medium>> VolumeCache::medium(const std::shared_ptr<const Bytes>& file,
+                                                          const VolumeOptions& options) {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.options == options && entry.file.lock() == file;
+  });
+  if (found != entries_.end()) {
+    entries_.splice(entries_.begin(), entries_, found);
+    return entries_.front().medium;
+  }
+  const auto space = spaceOf(options);
+  if (!space) return space.problems();
+  auto function = functionOf(options.transferFunction);
+  if (!function) return function.problems();
+  const auto grid = gridOf(file, options);
+  if (!grid) return grid.problems();
+  Medium made = makeMedium(*grid, *std::move(function), *space);
+  made.castShadow = options.castShadow;
+  made.receiveShadow = options.receiveShadow;
+  entries_.push_front({file, options, std::make_shared<const Medium>(std::move(made))});
+  drop();
+  return entries_.front().medium;
+}
+
+void VolumeCache::drop() {
+  entries_.remove_if([](const Entry& entry) { return entry.file.expired(); });
+  std::set<const DensityGrid*> grids;
+  std::size_t bytes = 0;
+  auto entry = entries_.begin();
+  while (entry != entries_.end()) {
+    const DensityGrid* grid = entry->medium->grid.get();
+    if (grids.insert(grid).second) bytes += bytesOf(*grid);
+    bytes += entry->medium->bricks.filled.size();
+    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
+    entry = keep ? std::next(entry) : entries_.erase(entry);
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+
+#include "protocol/base/bytes.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/volume_options.h"
+#include "renderer/volume/medium.h"
+#include "renderer/volume/volume_light_store.h"
+
+namespace gnomon {
+
+/// Volumes of earlier frames: grids that were read, with what their transfer functions say of them, and the light that
+/// arrives in them. The least recently used are dropped first once either takes more than a budget, and grids of files
+/// that nobody holds any more. For one thread.
+class VolumeCache {
+ public:
+  explicit VolumeCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes), lights_(budgetBytes) {}
+
+  /// Read now if need be. A problem's pointer begins at the volume. `file`: what `options.file` names. The newest
+  /// stays, whatever its size.
+  Result<std::shared_ptr<const Medium>> medium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options);
+
+  VolumeLightStore& lights() { return lights_; }
+
+ private:
+  struct Entry {
+    std::weak_ptr<const Bytes> file;
+    VolumeOptions options;
+    std::shared_ptr<const Medium> medium;
+  };
+
+  Result<std::shared_ptr<const DensityGrid>> gridOf(const std::shared_ptr<const Bytes>& file,
+                                                    const VolumeOptions& options) const;
+  void drop();
+
+  std::size_t budgetBytes_;
+  std::list<Entry> entries_; ///< most recently used first
+  VolumeLightStore lights_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/report/frame_report.h"
+#include "renderer/frame/baked_lights.h"
+#include "renderer/frame/traced_scene_cache.h"
+#include "renderer/frame/volume_cache.h"
+#include "renderer/resolve/resolve_frame.h"
+#include "renderer/volume/frame_volumes.h"
+
+namespace gnomon {
+
+struct MadeVolumes {
+  FrameVolumes volumes;
+  std::vector<VolumeReport> reports; ///< parallel
+};
+
+/// The volumes of a frame with the light in them, made now if need be. Surfaces shade them by rays to the middle of
+/// each light, whatever its technique. A problem at /volumes where a file is missing or broken, or where more lights
+/// than may shine on volumes.
+Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const FrameScene& scene,
+                              const ResolvedFrame& frame);
+
+} // namespace gnomon
