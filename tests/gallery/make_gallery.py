@@ -7,8 +7,8 @@ usage: make_gallery.py [--build FOLDER] [--server ADDRESS] [NAME...]
   --server ADDRESS  HOST:PORT of a running server; without it, one is started on a free port
   NAME...           only these pictures; the page still shows all that are there
 
-An entry of pictures.json: name, title, caption, scene, request (a FrameSpec), and for several pictures side by side
-variants (what each changes in the request, as JSON merge patches, RFC 7396) and columns.
+An entry of pictures.json: name, title, caption, scene, files beside it (of tests/scenes), request (a FrameSpec), and for
+several pictures side by side variants (what each changes in the request, as JSON merge patches, RFC 7396) and columns.
 """
 
 import argparse
@@ -63,19 +63,31 @@ class Server:
         finally:
             connection.close()
 
-    def scene(self, file):
-        if file not in self.scenes:
-            status, body = self.ask("/v1/scenes", file.read_bytes(), "model/gltf-binary")
+    def scene(self, file, others):
+        if (file, *others) not in self.scenes:
+            if others:
+                kind, body = form({"scene": file, **{other.name: other for other in others}})
+            else:
+                kind, body = "model/gltf-binary", file.read_bytes()
+            status, reply = self.ask("/v1/scenes", body, kind)
             if status not in (200, 201):
-                sys.exit(f"{file}: {body.decode()}")
-            self.scenes[file] = json.loads(body)["id"]
-        return self.scenes[file]
+                sys.exit(f"{file}: {reply.decode()}")
+            self.scenes[(file, *others)] = json.loads(reply)["id"]
+        return self.scenes[(file, *others)]
 
-    def picture(self, scene, request):
+    def picture(self, scene, others, request):
         """A Picture, or the problems as a text."""
-        status, body = self.ask(f"/v1/scenes/{self.scene(scene)}/frames", json.dumps(request), "application/json",
-                                "image/png")
+        status, body = self.ask(f"/v1/scenes/{self.scene(scene, others)}/frames", json.dumps(request),
+                                "application/json", "image/png")
         return small_png.read(body) if status == 200 else body.decode()
+
+
+def form(files):
+    """Content-Type and body of a form whose parts are files."""
+    boundary = "gallery-of-gnomon"
+    body = b"".join(f'--{boundary}\r\nContent-Disposition: form-data; name="{name}"\r\n\r\n'.encode() +
+                    file.read_bytes() + b"\r\n" for name, file in files.items())
+    return f"multipart/form-data; boundary={boundary}", body + f"--{boundary}--\r\n".encode()
 
 
 def merged(target, patch):
@@ -110,9 +122,10 @@ def make(server, build, entry):
     if not scene.exists():
         print(f"{entry['name']}: there is no scene {scene}")
         return False
+    others = [build / "tests/scenes" / name for name in entry.get("files", [])]
     pictures = []
     for request in requests_of(entry):
-        made = server.picture(scene, request)
+        made = server.picture(scene, others, request)
         if isinstance(made, str):
             print(f"{entry['name']}: {made}")
             return False
@@ -128,8 +141,9 @@ def section(entry):
     if "variants" in entry:
         request["variants"] = entry["variants"]
     text = json.dumps(request["request"], indent=None)
+    scene = " and ".join(f"<code>{name}</code>" for name in [entry["scene"], *entry.get("files", [])])
     lines = [f"\n## {entry['title']}\n", f"![{entry['title']}]({entry['name']}.png)\n", entry["caption"] + "\n",
-             f"<details>\n<summary>Request, scene <code>{entry['scene']}</code></summary>\n", f"```json\n{text}\n```\n"]
+             f"<details>\n<summary>Request, scene {scene}</summary>\n", f"```json\n{text}\n```\n"]
     if "variants" in entry:
         lines.append("and for each picture, changed by\n")
         lines.append("```json\n" + "\n".join(json.dumps(patch) for patch in entry["variants"]) + "\n```\n")
