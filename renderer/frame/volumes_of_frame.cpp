@@ -156,6 +156,20 @@ std::size_t bytesOf(const VolumeLight& light) {
 
 } // namespace
 
+namespace {
+
+/// What devices keep of volumes for each pixel takes no more than a frame may have.
+Status checkSize(const FrameSpec& spec) {
+  const std::int64_t samples = spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+  const std::int64_t pixel = sizeof(glm::vec4) + samples * (sizeof(float) + sizeof(std::uint16_t));
+  const std::int64_t bytes = pixel * spec.width * spec.height;
+  if (bytes <= kLimits.maxVisibilityBytes) return Done{};
+  return Problem{ProblemCode::tooLarge, "/volumes", "A picture of this size takes too much memory with volumes.",
+                 std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
+}
+
+} // namespace
+
 Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const FrameScene& scene,
                               const ResolvedFrame& frame) {
   MadeVolumes made;
@@ -165,15 +179,17 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
     return Problem{ProblemCode::tooLarge, "/lights", "A frame with volumes has too many lights.",
                    std::to_string(kLimits.maxVolumeLights), std::to_string(lights.size())};
   }
+  if (const Status fits = checkSize(frame.spec); !fits) return fits.problems();
   auto media = mediaOf(cache, *scene.loaded, frame.spec.volumes);
   if (!media) return media.problems();
   FrameVolumes& volumes = made.volumes;
   volumes.media = *std::move(media);
   volumes.ambient = toVector(frame.spec.ambient.color) * (frame.spec.ambient.intensity * kMeanAround);
   for (const int light : shadowingLights(frame)) {
-    if (lights[static_cast<std::size_t>(light)].type != LightType::directional) continue;
+    const Light& source = lights[static_cast<std::size_t>(light)];
+    if (source.type != LightType::directional || source.shadow->strength == 0) continue;
     volumes.light = light;
-    volumes.towards = -directionOf(lights[static_cast<std::size_t>(light)]);
+    volumes.towards = -directionOf(source);
     break;
   }
 

@@ -17,8 +17,8 @@ struct MadeVolumes {
 };
 
 /// The volumes of a frame with the light in them, made now if need be. Surfaces shade them by rays to the middle of
-/// each light, whatever its technique. A problem at /volumes where a file is missing or broken, or where more lights
-/// than may shine on volumes.
+/// each light, whatever its technique. A problem at /volumes where a file is missing or broken or the picture is
+/// too large, at /lights where there are more than may shine on volumes.
 Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const FrameScene& scene,
                               const ResolvedFrame& frame);
 

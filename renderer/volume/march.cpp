@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 constexpr double kHardlyAny = 0x1p-16; // of the light behind
-constexpr double kMostSteps = 4096;    // of a ray through a medium
+constexpr double kMostVoxels = 512;    // of a way through a medium: steps of longer ones are as many
 constexpr double kNudge = 1e-6;        // steps: surely beyond a brick's face
 
 /// A medium that the ray meets.
@@ -33,12 +33,9 @@ std::vector<Passage> passagesOf(std::span<const Medium* const> media, const Ray&
     if (!(inside.from < inside.to)) continue;
     const double voxelsPerMetre = glm::length(unit.direction * glm::dvec3(media[i]->grid->size));
     if (!(voxelsPerMetre > 0)) continue; // a ray without a direction
-    passages.push_back({media[i],
-                        i,
-                        unit,
-                        inside,
-                        std::max(stepVoxels / voxelsPerMetre, (inside.to - inside.from) / kMostSteps),
-                        {inside.from, false}});
+    const double voxels = voxelsPerMetre * (inside.to - inside.from);
+    const double step = stepVoxels * std::max(1.0, voxels / kMostVoxels) / voxelsPerMetre;
+    passages.push_back({media[i], i, unit, inside, step, {inside.from, false}});
   }
   return passages;
 }

@@ -20,9 +20,9 @@ struct Marched {
 using LightAt = std::function<glm::dvec3(std::size_t medium, const glm::dvec3& unit)>;
 
 /// Front to back through all media at once, within a piece of the ray (metres; `to` may be infinite). Where several
-/// overlap, each takes and scatters its share. A step is `stepVoxels` of the finest of them long, and ends where a
-/// medium begins or ends, so that a homogeneous one is exact at any step (Beer-Lambert). Stops where hardly any light
-/// is left: transmittance is then 0.
+/// overlap, each takes and scatters its share. A step is `stepVoxels` of the finest of them long, longer in ways
+/// through more than 512 voxels, and ends where a medium begins or ends, so that a homogeneous one is exact at any step
+/// (Beer-Lambert). Stops where hardly any light is left: transmittance is then 0.
 Marched march(std::span<const Medium* const> media, const Ray& ray, const Interval& piece, const LightAt& lightAt,
               double stepVoxels = kStepVoxels);
 

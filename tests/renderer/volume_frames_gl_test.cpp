@@ -241,6 +241,7 @@ TEST(VolumeFrames, WhatCannotBeDrawnIsRefusedWithItsPlace) {
   Json lights = Json::array();
   for (int i = 0; i < 17; ++i) lights.push_back({{"type", "directional"}, {"direction", {0, -1, 0}}});
   EXPECT_EQ(pointer(slab(), {{"lights", lights}}), "/lights");
+  EXPECT_EQ(pointer(slab(), {{"width", 8192}, {"height", 4096}}), "/volumes");
 }
 
 } // namespace
