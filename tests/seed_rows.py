@@ -52,6 +52,7 @@ MAY_HAVE_TESTS = {
     "H13": "tiles kept between requests",
     "D5": "volumetric light map", "D6": "a volume's shadow on what lies outside and inside",
     "D7": "volumes: Beer-Lambert at any step and resolution, and its traps",
+    "D8": "what a full shadow leaves",
     "N1": "umbra and penumbra", "N2": "equal depth is lit", "N3": "shadow volumes",
     "N4": "light falls where no volume is", "N5": "static shadows in a light map", "N6": "soft shadows against a reference",
     "N7": "volumes and rays agree",

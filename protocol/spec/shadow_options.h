@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -78,6 +79,8 @@ struct Shadow {
   bool enabled = true;
   ShadowTechnique technique = ShadowTechnique::shadowMap;
   double strength = 1; ///< 0 = no shadow, 1 = no direct light in shadow
+  /// Linear RGB, 0..1: what share of the direct light a full shadow of strength 1 leaves.
+  std::array<double, 3> color{0, 0, 0};
   /// Of one tile: Large = atlas.baseSize, each step doubles. Absent = by the light: directional Large, spot Medium,
   /// point Small.
   std::optional<ShadowSize> size{};

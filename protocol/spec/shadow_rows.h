@@ -123,6 +123,10 @@ inline constexpr auto kRows<Shadow> = rows(
           {.says = "How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
+    field("color", &Shadow::color,
+          {.says = "Linear red, green and blue: the share of its direct light that a full shadow leaves on a surface, "
+                   "whatever technique finds it. View `shadow` does not show it.",
+           .range = kUnitRange}),
     field(
         "size", &Shadow::size,
         {.says =

@@ -20,7 +20,7 @@ static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNO
 static_assert(GNOMON_STEEPEST == kSteepest);
 // As std140 and std430 lay them out: a vec3 and the scalar behind it share 16 bytes. Each offset is compared with the
 // driver's by a test (shared_structs_gl_test.cpp).
-static_assert(sizeof(shared::LightData) == 7 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
+static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
 static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
@@ -77,6 +77,8 @@ shared::LightData packed(const LitLight& light) {
   out.range = static_cast<float>(light.range);
   out.radiance = glm::vec3(light.radiance);
   out.strength = static_cast<float>(light.strength);
+  out.shadowColor = glm::vec3(light.shadowColor);
+  out.hasShadowColor = light.shadowColor != glm::dvec3(0) ? 1 : 0;
   if (light.type == LightType::spot) {
     const glm::vec2 falloff = coneFalloff(light);
     out.coneScale = falloff.x;

@@ -124,6 +124,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.visibilityLayers) defines.emplace_back("VISIBILITY_LAYERS");
+  if (variant.shadowColor) defines.emplace_back("SHADOW_COLOR");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));
   if (variant.emission) defines.emplace_back("EMISSION");

@@ -56,6 +56,7 @@ struct ViewVariant {
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
   bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
+  bool shadowColor = false;      ///< some light's shadow is not black
   bool volumes = false;          ///< clouds and the like are seen
   int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
 };

@@ -51,6 +51,7 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
     light.manualBias = manualBias(shadow.bias);
     light.fadesOut = planned.fadeOut;
     light.strength = shadow.strength;
+    light.shadowColor = toVector(shadow.color);
   }
   for (std::size_t layer = 0; layer < layered.size(); ++layer) {
     const auto index = static_cast<std::size_t>(layered[layer]);
@@ -58,6 +59,7 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
     const TechniqueTraits& technique = traitsOf(lights[index].shadow->technique);
     lit[index].layerOmitsTurnedFaces = !technique.traced || technique.baked;
     lit[index].strength = lights[index].shadow->strength;
+    lit[index].shadowColor = toVector(lights[index].shadow->color);
   }
   return lit;
 }

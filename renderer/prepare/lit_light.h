@@ -29,6 +29,7 @@ struct LitLight {
   double innerCone = 0;           ///< spot: radians from the axis to where the falloff begins
   double outerCone = 0;           ///< spot: radians from the axis to where it ends
   double strength = 0;            ///< of its shadow, 0..1; 0 = casts none
+  glm::dvec3 shadowColor{0};      ///< what share of the light a full shadow of strength 1 leaves
   LitGroups groups;               ///< the receiver groups that it lights, and throws shadows onto
 
   // Its shadow map. Without tiles the rest has no meaning.

@@ -21,7 +21,12 @@ vec3 radianceFrom(int light, SurfacePoint s, Receiver receiver) {
   vec3 toLight;
   vec3 arriving = irradiance(lights[light], receiver.relative, toLight);
   vec3 reflected = reflectedRadiance(s, toLight) * arriving;
-  return reflected * shadowVisibility(light, receiver, toLight, reflected != vec3(0.0));
+  float visibility = shadowVisibility(light, receiver, toLight, reflected != vec3(0.0));
+#ifdef SHADOW_COLOR
+  return reflected * mix(lights[light].shadowColor, vec3(1.0), visibility);
+#else
+  return reflected * visibility;
+#endif
 }
 
 vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {

@@ -188,6 +188,21 @@ class Frames(ServerTest):
             reply = self.server.ask("POST", "/v1/render", body, {"Content-Type": content_type})
             self.assert_problem(reply, status, pointer)
 
+    def test_a_volume_of_the_upload_is_seen_and_its_light_is_kept(self):
+        cloud = {"volumes": [{"file": "cloud.npy", "box": {"min": [-3, 2, -3], "max": [3, 5, 3]},
+                              "transferFunction": [{"value": 0}, {"value": 255, "extinction": 5}]}]}
+        glb = (SCENES / "box_on_plane.glb").read_bytes()
+        body, content_type = form([("scene", "a.glb", glb),
+                                   ("file", "cloud.npy", (SCENES / "cloud.npy").read_bytes())])
+        stored = self.server.ask("POST", "/v1/scenes", body, {"Content-Type": content_type})
+        self.assertEqual(stored.status, 201)
+        frames = [self.server.ask("POST", f"/v1/scenes/{stored.json()['id']}/frames", json.dumps(SMALL | cloud),
+                                  {"Content-Type": "application/json", "Accept": "application/json"})
+                  for _ in range(2)]
+        self.assertEqual([frame.json()["report"]["volumes"][0]["reused"] for frame in frames], [False, True])
+        self.assertIn("volume", frames[0].json()["report"]["stages"])
+        self.assertEqual(self.frame(SMALL | cloud).status, 400, "another upload, without the file")
+
     def test_a_camera_that_is_none_is_told(self):
         reply = self.frame(SMALL | {"camera": {"node": "no such camera"}})
         self.assert_problem(reply, reply.status, "/camera/node")

@@ -86,6 +86,35 @@ TEST(ShadowFrames, M10_StrengthIsTheShareThatTheShadowTakes) {
   }
 }
 
+TEST(ShadowFrames, D8_AColorIsWhatAFullShadowLeavesWhateverFindsIt) {
+  const ScenePtr scene = testing::generatedScene("caster_behind_camera");
+  Json spec = Json::parse(kWallSpec);
+  spec["views"] = {"color"};
+  spec["ambient"] = {{"intensity", 0}};
+  // Half a row above the picture's lower edge, in its middle: at the camera's feet.
+  const auto rgbOf = [&](const Json& shadow) {
+    Json patched = spec;
+    patched["shadow"] = shadow;
+    const Frame frame = renderJson(scene, patched.dump());
+    const Image& image = frame.images[0].image;
+    const auto row = static_cast<std::size_t>(0.95 * image.height), column = static_cast<std::size_t>(image.width / 2);
+    const float* pixel =
+        &floatsOf(frame)[(row * static_cast<std::size_t>(image.width) + column) * image.channels.size()];
+    return glm::dvec3(pixel[0], pixel[1], pixel[2]);
+  };
+  const glm::dvec3 lit = rgbOf({{"enabled", false}});
+  const glm::dvec3 color(0.25, 0.5, 0.75);
+  for (const char* technique : {"shadowMap", "hybrid", "rayTraced", "lightMap"}) {
+    for (const double strength : {0.5, 1.0}) {
+      const glm::dvec3 shown =
+          rgbOf({{"technique", technique}, {"strength", strength}, {"color", {color.r, color.g, color.b}}});
+      const glm::dvec3 expected = lit * (1.0 - strength * (1.0 - color));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 2e-3 * lit[c]) << technique << ' ' << strength;
+    }
+    EXPECT_EQ(rgbOf({{"technique", technique}}), glm::dvec3(0)) << technique << ": black unless asked";
+  }
+}
+
 TEST(ShadowFrames, X21_X23_BeyondAManualRangeEverythingIsLit) {
   Json spec = Json::parse(kWallSpec);
   spec["shadow"]["depthRange"] = {{"mode", "manual"}, {"min", 0}, {"max", 3}};

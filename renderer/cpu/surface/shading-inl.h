@@ -40,7 +40,10 @@ HWY_INLINE Float3 radianceFrom(const Lighting& lighting, std::uint32_t light, co
   const Float3 reflected = reflectedRadiance(point, toLight) * arriving;
   const Mask lights = reached & ((reflected.x != 0.0f) | (reflected.y != 0.0f) | (reflected.z != 0.0f));
   if (none(lights)) return Float3(0.0f);
-  return select(lights, reflected * visibility(light, receiver, toLight, lights), Float3(0.0f));
+  const Float arrives = visibility(light, receiver, toLight, lights);
+  if (data.hasShadowColor == 0u) return select(lights, reflected * arrives, Float3(0.0f));
+  const Float3 left = Float3(data.shadowColor) * (1.0f - arrives) + Float3(arrives);
+  return select(lights, reflected * left, Float3(0.0f));
 }
 
 /// Adds what the lights of a list, a range of Lighting::lists, send to the lanes `where`.

@@ -35,6 +35,9 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.visibilityLayers =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.visibilityLayer >= 0; });
+  variant.shadowColor =
+      traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
+                                     [](const LitLight& light) { return light.shadowColor != glm::dvec3(0); });
   if (sources.volumes != nullptr) {
     variant.volumes = view == View::color;
     variant.volumeLight = sources.volumeLight;

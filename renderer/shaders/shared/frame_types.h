@@ -160,6 +160,8 @@ struct LightData {
   float manualSlopeBias;      // the same, times the slope
   float manualNormalOffset;   // metres along the normal
   uint hasManualBias;         // 1 = the manual bias counts, not the tile's
+  vec3 shadowColor;           // the share of the light that a full shadow of strength 1 leaves
+  uint hasShadowColor;        // 1 = that is not black
 };
 
 struct TileData {

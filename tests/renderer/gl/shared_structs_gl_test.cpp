@@ -47,6 +47,7 @@ const std::vector<Member> kLight{
     MEMBER(LightData, litGroups),          MEMBER(LightData, shadowedGroups),
     MEMBER(LightData, manualDepthBias),    MEMBER(LightData, manualSlopeBias),
     MEMBER(LightData, manualNormalOffset), MEMBER(LightData, hasManualBias),
+    MEMBER(LightData, shadowColor),        MEMBER(LightData, hasShadowColor),
 };
 const std::vector<Member> kTile{
     ARRAY(TileData, atlasFromRelative),
