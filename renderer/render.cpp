@@ -17,13 +17,21 @@ const SceneSummary& summaryOf(const Scene& scene) {
 
 struct Renderer::Impl {
   Devices devices;
-  FrameCaches caches;
+  std::shared_ptr<FrameCaches> caches;
 };
 
+namespace {
+
+std::shared_ptr<FrameCaches> emptyCaches(const RendererOptions& options) {
+  return std::shared_ptr<FrameCaches>(new FrameCaches{TracedSceneCache(options.tracedSceneBytes),
+                                                      LightMapCache(options.lightMapBytes),
+                                                      VolumeCache(options.volumeBytes)});
+}
+
+} // namespace
+
 Renderer::Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes)
-    : impl_(new Impl{Devices(std::move(device)),
-                     {TracedSceneCache(tracedSceneBytes), LightMapCache(RendererOptions{}.lightMapBytes),
-                      VolumeCache(RendererOptions{}.volumeBytes)}}) {}
+    : impl_(new Impl{Devices(std::move(device)), emptyCaches({.tracedSceneBytes = tracedSceneBytes})}) {}
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -32,27 +40,32 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   auto devices = Devices::open(options);
   if (!devices) return devices.problems();
-  return Renderer(
-      std::unique_ptr<Impl>(new Impl{std::move(*devices),
-                                     {TracedSceneCache(options.tracedSceneBytes), LightMapCache(options.lightMapBytes),
-                                      VolumeCache(options.volumeBytes)}}));
+  return Renderer(std::unique_ptr<Impl>(new Impl{std::move(*devices), emptyCaches(options)}));
 }
 
 const RendererInfo& Renderer::info() const {
   return impl_->devices.standard().info();
 }
 
+Baker Renderer::baker() const {
+  return Baker(impl_->caches);
+}
+
+Result<BakeReport> Baker::bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener) const {
+  return bakeScene(*caches_, scene, spec, listener);
+}
+
 Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
                                   const Progress& progress) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return measureShimmer(**device, impl_->caches.traced, scene, spec, path, progress);
+  return measureShimmer(**device, impl_->caches->traced, scene, spec, path, progress);
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return renderFrame(**device, impl_->caches, scene, spec, tiles);
+  return renderFrame(**device, *impl_->caches, scene, spec, tiles);
 }
 
 } // namespace gnomon

@@ -16,6 +16,7 @@
 #include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
+#include "renderer/frame/bake_scene.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
@@ -39,6 +40,18 @@ struct RendererOptions {
   std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 
+/// Bakes for the renderer that it came from, also while that draws and after it is gone. Any thread.
+class Baker {
+ public:
+  /// As bakeScene (frame/bake_scene.h).
+  Result<BakeReport> bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener = {}) const;
+
+ private:
+  friend class Renderer;
+  explicit Baker(std::shared_ptr<FrameCaches> caches) : caches_(std::move(caches)) {}
+  std::shared_ptr<FrameCaches> caches_;
+};
+
 /// Owns what draws. Everything but `info` only on the thread that made it.
 class Renderer {
  public:
@@ -55,6 +68,9 @@ class Renderer {
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
   Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept);
+
+  /// Makes light maps ahead of the frames that look them up.
+  Baker baker() const;
 
   /// Shimmer of `spec`, its camera replaced by each one of the path in turn (at least two); each frame is surveyed,
   /// planned and cast as for a picture. Where a depth range has a `previous`, each frame takes the one before it for

@@ -6,7 +6,7 @@ usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if t
 Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame <- renderer/evaluation
-           <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations
+           <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations, server/bakes
            <- server/handlers <- server/process;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
@@ -25,7 +25,7 @@ SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
 DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
-BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations"]
+BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations", "server/bakes"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -56,6 +56,7 @@ MAY_INCLUDE = {
     "server/scenes": ["protocol", "server/http", "server/scenes"],
     "server/frames": ["protocol", "server/http", "server/scenes", "server/frames"],
     "server/evaluations": BELOW_HANDLERS,
+    "server/bakes": ["protocol", "server/http", "server/scenes", "server/bakes"],
     "server/handlers": BELOW_HANDLERS + ["server/handlers"],
     "server/process": BELOW_HANDLERS + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],

@@ -1,3 +1,4 @@
+#include "protocol/bake/bake_rows.h"
 #include "protocol/evaluation/evaluation_rows.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/report/reply_rows.h"
@@ -19,6 +20,9 @@ template const ValueType& typeOf<PlanReport>();
 template const ValueType& typeOf<RendererInfo>();
 template const ValueType& typeOf<SceneList>();
 template const ValueType& typeOf<SceneSummary>();
+
+template const ValueType& typeOf<BakeReport>();
+template const ValueType& typeOf<BakeStep>();
 
 template const ValueType& typeOf<EvaluationReport>();
 template const ValueType& typeOf<EvaluationRequest>();

@@ -167,6 +167,27 @@ Json evaluationsRoute() {
   return {{"post", withBody(withScene(std::move(post)), body)}};
 }
 
+Json bakesRoute() {
+  const char* description =
+      "Bakes the shadows of the lights whose technique is lightMap, so that frames of the same spec only look them up. "
+      "Of the body only what the shadows depend on matters; it may be the spec of such a frame. text/event-stream = "
+      "events while it lasts: `progress` (BakeStep), and at last `result` (BakeReport) or `problem` (Problem). Whoever "
+      "closes the connection ends the bake.";
+  const Json content = {{"application/json", schemaContent("BakeReport")},
+                        {"text/event-stream", {{"schema", {{"anyOf", {reference("schemas/BakeStep")}}}}}}};
+  Json post = operation("bake", "Bake light maps ahead of frames",
+                        replies({{"200", success(description, content)}},
+                                {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  return {{"post", withBody(withScene(std::move(post)), specBody())}};
+}
+
+Json bakeRoute() {
+  Json remove =
+      operation("deleteBake", "Stop or forget a bake",
+                replies({{"204", success("It is gone; where it was in progress, it ends.", Json())}}, {"404"}));
+  return {{"delete", withBake(std::move(remove))}};
+}
+
 Json renderRoute() {
   Json post =
       operation("render", "Upload a scene and render a frame of it in one go",
@@ -189,6 +210,8 @@ Json paths() {
   paths["/v1/scenes/{id}/frame"] = frameRoute();
   paths["/v1/scenes/{id}/plan"] = planRoute();
   paths["/v1/scenes/{id}/evaluations"] = evaluationsRoute();
+  paths["/v1/scenes/{id}/bakes"] = bakesRoute();
+  paths["/v1/scenes/{id}/bakes/{key}"] = bakeRoute();
   paths["/v1/render"] = renderRoute();
   paths["/v1/capabilities"] =
       getRoute("capabilities", "What this server can do", jsonReply("Its renderer and limits.", "Capabilities"));

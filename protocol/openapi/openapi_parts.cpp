@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "protocol/bake/bake_report.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
 #include "protocol/json/json_codec.h"
@@ -53,6 +54,12 @@ Json parameters() {
             {"required", true},
             {"description", "SHA-256 of the upload, as 64 lower-case hexadecimal digits."},
             {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
+          {"bakeKey",
+           {{"name", "key"},
+            {"in", "path"},
+            {"required", true},
+            {"description", "The bake's key, from its report or its progress."},
+            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
           {"ifNoneMatch",
            {{"name", "If-None-Match"},
             {"in", "header"},
@@ -87,6 +94,8 @@ Json schemas() {
   schemaOf<EvaluationRequest>(Notes{}, components);
   schemaOf<EvaluationReport>(Notes{}, components);
   schemaOf<EvaluationStep>(Notes{}, components);
+  schemaOf<BakeReport>(Notes{}, components);
+  schemaOf<BakeStep>(Notes{}, components);
   components["Problem"] = problemSchema();
   return components;
 }
@@ -124,6 +133,11 @@ Json operation(const char* id, const char* summary, Json responses) {
 
 Json withScene(Json operation) {
   operation["parameters"] = Json::array({reference("parameters/sceneId")});
+  return operation;
+}
+
+Json withBake(Json operation) {
+  operation["parameters"] = Json::array({reference("parameters/sceneId"), reference("parameters/bakeKey")});
   return operation;
 }
 

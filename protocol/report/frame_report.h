@@ -54,6 +54,7 @@ struct LightMapReport {
   std::uint64_t charts = 0;            ///< pieces that the surfaces were cut into
   std::uint64_t authoredInstances = 0; ///< placed meshes whose own TEXCOORD_1 is used
   std::uint64_t madeInstances = 0;     ///< the others, whose pieces were found here
+  std::uint64_t bytes = 0;             ///< that it takes in memory
   double bakeMilliseconds = 0;         ///< that baking it took, when it was baked
 };
 

@@ -77,6 +77,7 @@ inline constexpr auto kRows<LightMapReport> = replyRows(
     field("authoredInstances", &LightMapReport::authoredInstances,
           {.says = "Placed meshes whose TEXCOORD_1 is used: its pieces neither overlap nor leave 0..1."}),
     field("madeInstances", &LightMapReport::madeInstances, {.says = "Placed meshes whose pieces were found here."}),
+    field("bytes", &LightMapReport::bytes, {.says = "Memory that it takes.", .unit = "bytes"}),
     field("bakeMilliseconds", &LightMapReport::bakeMilliseconds,
           {.says = "Time that baking took when it was baked.", .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<LightMapReport>);

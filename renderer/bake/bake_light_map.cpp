@@ -1,6 +1,7 @@
 #include "renderer/bake/bake_light_map.h"
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include "renderer/core/parallel.h"
@@ -19,6 +20,10 @@ struct Band {
   Rect rect; ///< texels of the map
   std::vector<std::uint32_t> triangles;
 };
+
+std::size_t texelsOf(const Rect& rect) {
+  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
+}
 
 std::vector<Band> bandsOf(const LightMapLayout& layout) {
   std::vector<Band> bands;
@@ -42,11 +47,49 @@ std::vector<Band> bandsOf(const LightMapLayout& layout) {
   return bands;
 }
 
+/// Says how much is done, one thread at a time, and asks often whether to go on.
+class Listener {
+ public:
+  Listener(const Progress& progress, std::size_t texels) : progress_(progress), texels_(texels) {}
+
+  bool stopped() const { return stopped_; }
+
+  void done(std::size_t texels) {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    done_ += texels;
+    tell();
+  }
+
+  /// False = stop. Cheap: asks no more often than every few milliseconds.
+  bool goOn() {
+    constexpr std::chrono::milliseconds kPause{10};
+    if (!progress_ || stopped_) return !stopped_;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock && std::chrono::steady_clock::now() - told_ >= kPause) tell();
+    return !stopped_;
+  }
+
+ private:
+  /// With the mutex held.
+  void tell() {
+    told_ = std::chrono::steady_clock::now();
+    if (!stopped_ && !progress_(static_cast<double>(done_) / static_cast<double>(texels_))) stopped_ = true;
+  }
+
+  const Progress& progress_;
+  std::size_t texels_;
+  std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point told_{};
+  std::mutex mutex_;
+  std::atomic<bool> stopped_ = false;
+};
+
 /// The shares that arrive in the texels of a band.
 class BandSums {
  public:
-  BandSums(const TracedLight& light, const Rect& rect, int samplesOfPlace)
-      : light_(light), rect_(rect), samples_(samplesOfPlace), sums_(texels()), counts_(texels()) {}
+  BandSums(const TracedLight& light, const Rect& rect, int samplesOfPlace, Listener& listener)
+      : light_(light), listener_(listener), rect_(rect), samples_(samplesOfPlace), sums_(texels()), counts_(texels()) {}
 
   void add(const SurfacePoint& point, int x, int y) {
     points_.push_back(point);
@@ -65,11 +108,11 @@ class BandSums {
   }
 
  private:
-  std::size_t texels() const { return static_cast<std::size_t>(rect_.width) * static_cast<std::size_t>(rect_.height); }
+  std::size_t texels() const { return texelsOf(rect_); }
 
   void trace() {
     shares_.resize(points_.size());
-    light_.visibility(points_, samples_, shares_);
+    if (listener_.goOn()) light_.visibility(points_, samples_, shares_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sums_[texels_[i]] += double{shares_[i]};
       ++counts_[texels_[i]];
@@ -79,6 +122,7 @@ class BandSums {
   }
 
   const TracedLight& light_;
+  Listener& listener_;
   Rect rect_;
   int samples_;
   std::vector<SurfacePoint> points_;
@@ -129,7 +173,7 @@ void addPlaces(const TracedLight& light, const PlacedTriangle& triangle, const F
 }
 
 /// Gives each texel that no surface covers the mean of its neighbours that are known, ring by ring.
-void spread(const Rect& rect, int mapWidth, std::vector<std::int32_t>& shares) {
+void spread(const Rect& rect, int mapWidth, Listener& listener, std::vector<std::int32_t>& shares) {
   const auto numberAt = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(mapWidth) + static_cast<std::size_t>(x);
   };
@@ -139,7 +183,7 @@ void spread(const Rect& rect, int mapWidth, std::vector<std::int32_t>& shares) {
       if (shares[numberAt(x, y)] == kUncovered) open.emplace_back(x, y);
     }
   }
-  while (!open.empty()) {
+  while (!open.empty() && listener.goOn()) {
     std::vector<glm::ivec2> still;
     std::vector<std::pair<std::size_t, std::int32_t>> found;
     for (const glm::ivec2& texel : open) {
@@ -180,27 +224,6 @@ void fillNarrow(const TracedLight& light, const PlacedChart& chart, int samples,
   }
 }
 
-/// Says how much is done, one thread at a time.
-class Listener {
- public:
-  Listener(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
-
-  bool stopped() const { return stopped_; }
-  void done() {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    if (!stopped_ && !progress_(static_cast<double>(done_) / static_cast<double>(count_))) stopped_ = true;
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t count_;
-  std::size_t done_ = 0;
-  std::mutex mutex_;
-  std::atomic<bool> stopped_ = false;
-};
-
 } // namespace
 
 std::optional<LightMap> bakeLightMap(const TraceInput& rays, int light, const LightMapLayout& layout, int samples,
@@ -209,14 +232,17 @@ std::optional<LightMap> bakeLightMap(const TraceInput& rays, int light, const Li
   const std::vector<Band> bands = bandsOf(layout);
   const auto width = static_cast<std::size_t>(layout.width);
   std::vector<std::int32_t> shares(width * static_cast<std::size_t>(layout.height), kUncovered);
-  Listener listener(progress, bands.size());
+  std::size_t texels = 0;
+  for (const Band& band : bands) texels += texelsOf(band.rect);
+  Listener listener(progress, texels);
   const int samplesOfPlace = (samples + kPlaces * kPlaces - 1) / (kPlaces * kPlaces);
   forEach(bands.size(), [&](std::size_t i) {
     if (listener.stopped()) return;
     const Band& band = bands[i];
-    BandSums sums(traced, band.rect, samplesOfPlace);
+    BandSums sums(traced, band.rect, samplesOfPlace, listener);
     const std::uint32_t instance = layout.charts[band.chart].instance;
     for (const std::uint32_t triangle : band.triangles) {
+      if (listener.stopped()) return;
       addPlaces(traced, {instance, triangle}, layout.flat({instance, triangle}), band.rect, sums);
     }
     const std::vector<std::int32_t> means = sums.means();
@@ -226,13 +252,15 @@ std::optional<LightMap> bakeLightMap(const TraceInput& rays, int light, const Li
       std::copy_n(from, rowLength,
                   &shares[static_cast<std::size_t>(band.rect.y + row) * width + static_cast<std::size_t>(band.rect.x)]);
     }
-    listener.done();
+    listener.done(texelsOf(band.rect));
   });
   if (listener.stopped()) return std::nullopt;
   forEach(layout.charts.size(), [&](std::size_t i) {
-    spread(layout.charts[i].rect, layout.width, shares);
+    if (!listener.goOn()) return;
+    spread(layout.charts[i].rect, layout.width, listener, shares);
     fillNarrow(traced, layout.charts[i], samples, layout.width, shares);
   });
+  if (listener.stopped()) return std::nullopt;
   LightMap map{layout.width, layout.height, std::vector<std::uint16_t>(shares.size(), 65535)};
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (shares[i] != kUncovered) map.shares[i] = static_cast<std::uint16_t>(shares[i]);

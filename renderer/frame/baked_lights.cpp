@@ -43,7 +43,7 @@ std::string nameOf(const Scene& scene, int node) {
 
 Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, TracedSceneCache& traced,
                                                       const FrameScene& scene, const FrameSpec& asked,
-                                                      const ResolvedFrame& frame) {
+                                                      const ResolvedFrame& frame, const BakeProgress& progress) {
   std::vector<LightMapCache::Found> found;
   for (const int light : layeredLights(frame)) {
     const Shadow& shadow = *(*frame.spec.lights)[static_cast<std::size_t>(light)].shadow;
@@ -57,8 +57,10 @@ Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, Trace
     }
     const auto rays = traced.get(scene.posed, frame.scene);
     if (!rays) return rays.problems();
-    auto made = maps.get({scene.posed, frame.scene, **rays, *frame.spec.lights, frame.nodes}, light);
+    const Progress ofLight = progress ? Progress([&](double share) { return progress(light, share); }) : Progress();
+    auto made = maps.get({scene.posed, frame.scene, **rays, *frame.spec.lights, frame.nodes}, light, ofLight);
     if (!made) {
+      if (made.problems().front().code == ProblemCode::unavailable) return made.problems();
       Problems problems = made.problems();
       for (Problem& problem : problems) problem.pointer = pointer + "/lightMap" + problem.pointer;
       return problems;

@@ -1,6 +1,7 @@
 #include "renderer/frame/light_map_cache.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <set>
 
@@ -40,15 +41,51 @@ std::size_t bytesOf(const LightMapLayout& layout) {
   return bytes;
 }
 
+Problem stopped() {
+  return {ProblemCode::unavailable, "", "The bake was stopped.", "", ""};
+}
+
 } // namespace
 
-bool LightMapCache::isOf(const Entry& entry, const BakeInput& input, const Light& light) {
-  return entry.key.index == input.index && entry.key.light == light && entry.key.scene.lock() == input.scene &&
-         std::equal(entry.key.nodes.begin(), entry.key.nodes.end(), input.nodes.begin(), input.nodes.end());
+/// A map that one thread makes: those that want the same wait as long as this lives.
+class LightMapCache::Claim {
+ public:
+  Claim(LightMapCache& cache, Key key) : cache_(cache) {
+    cache_.making_.push_front(std::move(key));
+    mine_ = cache_.making_.begin();
+  }
+  ~Claim() {
+    {
+      const std::lock_guard lock(cache_.mutex_);
+      cache_.making_.erase(mine_);
+    }
+    cache_.changed_.notify_all();
+  }
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+
+ private:
+  LightMapCache& cache_;
+  std::list<Key>::iterator mine_;
+};
+
+bool LightMapCache::isOf(const Key& key, const BakeInput& input, const Light& light) {
+  return key.index == input.index && key.light == light && key.scene.lock() == input.scene &&
+         std::equal(key.nodes.begin(), key.nodes.end(), input.nodes.begin(), input.nodes.end());
+}
+
+/// With the mutex held.
+std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const Light& light) {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return isOf(entry.key, input, light); });
+  if (found == entries_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found);
+  return found->baked;
 }
 
 std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput& input,
-                                                                const LightMapOptions& options) const {
+                                                                const LightMapOptions& options) {
+  const std::lock_guard lock(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     const LightMapOptions& other = entry.key.light.shadow->lightMap;
     return entry.key.index == input.index && entry.key.scene.lock() == input.scene &&
@@ -57,21 +94,20 @@ std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput&
   return found == entries_.end() ? nullptr : found->baked->layout;
 }
 
-Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index) {
-  const Light& source = input.lights[static_cast<std::size_t>(index)];
-  const Light light = shadowOf(source);
-  const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return isOf(entry, input, light); });
-  if (found != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, found);
-    return Found{entries_.front().baked, true};
-  }
+Result<BakedLight> LightMapCache::bake(const BakeInput& input, int index, const LightMapOptions& options,
+                                       const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const LightMapOptions& options = light.shadow->lightMap;
   BakedLight baked{keptLayout(input, options), {}, 0};
   if (!baked.layout) {
-    auto made = lightMapLayout(*input.scene, input.traced.view(), finenessOf(options));
+    std::atomic<bool> ended = false;
+    std::mutex asking;
+    const auto isStopped = [&] {
+      const std::unique_lock lock(asking, std::try_to_lock);
+      if (lock && progress && !ended && !progress(0)) ended = true;
+      return ended.load();
+    };
+    auto made = lightMapLayout(*input.scene, input.traced.view(), finenessOf(options), isStopped);
+    if (ended) return stopped();
     if (!made) return made.problems();
     baked.layout = std::make_shared<const LightMapLayout>(std::move(*made));
   }
@@ -82,14 +118,42 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
   open.range.reset();
   if (open.type == LightType::spot) open.type = LightType::point;
   const TraceInput rays{input.traced, camera, 1, 1, lights, input.nodes};
-  baked.map = *bakeLightMap(rays, index, *baked.layout, options.samples, {});
+  auto map = bakeLightMap(rays, index, *baked.layout, options.samples, progress);
+  if (!map) return stopped();
+  baked.map = *std::move(map);
   baked.milliseconds = millisecondsSince(start);
-  entries_.push_front({{input.scene, input.index, light, {input.nodes.begin(), input.nodes.end()}},
-                       std::make_shared<const BakedLight>(std::move(baked))});
-  drop();
-  return Found{entries_.front().baked, false};
+  return baked;
 }
 
+Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index, const Progress& progress) {
+  constexpr std::chrono::milliseconds kAskAgain{20};
+  const Light light = shadowOf(input.lights[static_cast<std::size_t>(index)]);
+  const Key key{input.scene, input.index, light, {input.nodes.begin(), input.nodes.end()}};
+  const auto beingMade = [&] {
+    return std::any_of(making_.begin(), making_.end(), [&](const Key& each) { return isOf(each, input, light); });
+  };
+  std::unique_lock lock(mutex_);
+  while (beingMade()) {
+    changed_.wait_for(lock, kAskAgain);
+    lock.unlock();
+    if (progress && !progress(0)) return stopped();
+    lock.lock();
+  }
+  if (auto found = kept(input, light)) return Found{std::move(found), true};
+  const Claim claim(*this, key);
+  lock.unlock();
+
+  auto baked = bake(input, index, light.shadow->lightMap, progress);
+  if (!baked) return baked.problems();
+  lock.lock();
+  entries_.push_front({key, std::make_shared<const BakedLight>(*std::move(baked))});
+  drop();
+  Found found{entries_.front().baked, false};
+  lock.unlock(); // before the claim ends, which locks
+  return found;
+}
+
+/// With the mutex held.
 void LightMapCache::drop() {
   entries_.remove_if([](const Entry& entry) { return entry.key.scene.expired(); });
   std::set<const LightMapLayout*> layouts;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <condition_variable>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -7,6 +8,7 @@
 
 #include "protocol/base/result.h"
 #include "renderer/bake/baked_light.h"
+#include "renderer/core/progress.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
@@ -23,7 +25,7 @@ struct BakeInput {
 /// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
 /// scenes that nobody holds any more. A map serves as long as all that its shadow depends on is the same: the scene and
 /// its pose, where the light is and how large, what the nodes switch, and how finely it is baked. Any thread; one that
-/// asks for a map waits while another is made.
+/// asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
   explicit LightMapCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
@@ -34,8 +36,9 @@ class LightMapCache {
   };
 
   /// Baked now if need be. `light`: index into the lights, of technique lightMap. A problem where the map would be too
-  /// large; its pointer begins at the light's `shadow.lightMap`. The newest stays, whatever its size.
-  Result<Found> get(const BakeInput& input, int light);
+  /// large; its pointer begins at the light's `shadow.lightMap`. The newest stays, whatever its size. `progress` is
+  /// also asked while this waits for another thread; where it says stop, a problem of code unavailable.
+  Result<Found> get(const BakeInput& input, int light, const Progress& progress = {});
 
  private:
   struct Key {
@@ -49,13 +52,19 @@ class LightMapCache {
     std::shared_ptr<const BakedLight> baked;
   };
 
-  static bool isOf(const Entry& entry, const BakeInput& input, const Light& light);
-  std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options) const;
+  class Claim;
+
+  static bool isOf(const Key& key, const BakeInput& input, const Light& light);
+  std::shared_ptr<const BakedLight> kept(const BakeInput& input, const Light& light);
+  std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options);
+  Result<BakedLight> bake(const BakeInput& input, int index, const LightMapOptions& options, const Progress& progress);
   void drop();
 
   std::size_t budgetBytes_;
   std::mutex mutex_;
-  std::list<Entry> entries_; ///< most recently used first
+  std::condition_variable changed_; ///< a map was made or given up
+  std::list<Entry> entries_;        ///< most recently used first
+  std::list<Key> making_;           ///< what some thread bakes at the moment
 };
 
 } // namespace gnomon

@@ -8,8 +8,6 @@
 
 namespace gnomon {
 
-namespace {
-
 LightMapReport lightMapReport(const LightMapCache::Found& found) {
   const LightMapLayout& layout = *found.baked->layout;
   const auto authored = std::count(layout.authored.begin(), layout.authored.end(), 1);
@@ -20,8 +18,11 @@ LightMapReport lightMapReport(const LightMapCache::Found& found) {
           .charts = layout.charts.size(),
           .authoredInstances = static_cast<std::uint64_t>(authored),
           .madeInstances = layout.authored.size() - static_cast<std::uint64_t>(authored),
+          .bytes = found.baked->bytes(),
           .bakeMilliseconds = found.baked->milliseconds};
 }
+
+namespace {
 
 std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
   auto lights = lightReports(outcome.frame.spec, outcome.plan, outcome.errors, outcome.frame.view.eye, outcome.layered);

@@ -26,6 +26,9 @@ struct FrameOutcome {
   std::optional<ErrorMetrics> error; ///< where a view compares a shadow with rays
 };
 
+/// What was baked for one light.
+LightMapReport lightMapReport(const LightMapCache::Found& found);
+
 /// What happened, in the words of protocol/report/frame_report.h.
 FrameReport makeReport(FrameOutcome outcome);
 

@@ -12,14 +12,6 @@
 
 namespace gnomon {
 
-namespace {
-
-Problem busyProblem(const char* detail) {
-  return {ProblemCode::busy, "", detail, "", ""};
-}
-
-} // namespace
-
 std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights) {
   constexpr std::size_t kLight = 13;            ///< what arrives at a pixel and what is shown there
   constexpr std::size_t kShadowPicture = 4 * 4; ///< read back as four floats
@@ -56,12 +48,12 @@ Result<std::shared_ptr<EvaluationRun>> EvaluationRun::start(EvaluationContext& c
                    std::to_string(context.frameMemory.total()) + " bytes", std::to_string(bytes) + " bytes"};
   }
   if (!context.running.try_acquire()) {
-    return busyProblem("The most evaluations that may run at once are running.");
+    return Problem{ProblemCode::busy, "", "The most evaluations that may run at once are running.", "", ""};
   }
   std::shared_ptr<EvaluationRun> run(
       new EvaluationRun(context, std::move(scene), std::move(evaluation), deadline)); // releases `running` at its end
   if (!run->memory_.grow(bytes)) {
-    return busyProblem("Other frames in progress use all the memory for frames.");
+    return Problem{ProblemCode::busy, "", "Other frames in progress use all the memory for frames.", "", ""};
   }
   return run;
 }

@@ -106,6 +106,7 @@ Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& o
       }
       queue->renderer_ = *std::move(renderer);
       queue->info_ = queue->renderer_->info();
+      queue->baker_ = queue->renderer_->baker();
       started.set_value(drawFirstFrame(*queue->renderer_));
     } catch (const std::exception& error) {
       logEvent("renderer", error.what());

@@ -40,6 +40,9 @@ class RenderQueue {
 
   const RendererInfo& info() const { return info_; }
 
+  /// Bakes for the frames of this queue, without waiting in it.
+  const Baker& baker() const { return *baker_; }
+
   /// Returns when the frame is drawn or its deadline has passed.
   std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
 
@@ -64,6 +67,7 @@ class RenderQueue {
 
   std::optional<Renderer> renderer_; ///< touched on the queue's thread only
   RendererInfo info_;
+  std::optional<Baker> baker_;
   JobQueue jobs_;
 };
 

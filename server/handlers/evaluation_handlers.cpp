@@ -1,8 +1,5 @@
 #include <array>
-#include <atomic>
-#include <exception>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "protocol/base/text.h"
 #include "protocol/evaluation/evaluation_json.h"
@@ -10,6 +7,7 @@
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "server/evaluations/evaluation_run.h"
+#include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
@@ -17,7 +15,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv", "image/svg+xml", "text/event-stream"};
+constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv", "image/svg+xml", kEventStream};
 constexpr std::size_t kCsv = 1, kChart = 2, kEvents = 3;
 
 HttpReply textReply(std::string_view contentType, std::string body) {
@@ -40,10 +38,6 @@ HttpReply reportReply(const EvaluationReport& report, std::size_t form) {
   return textReply(kForms[form], jsonText(toJson(report)));
 }
 
-std::string problemText(const Problems& problems, const std::string& requestId) {
-  return jsonText(problemJson(problems, statusOf(problems.front().code), requestId));
-}
-
 /// Measures, and puts progress, rows and the result as events.
 void putEvents(EvaluationRun& run, const std::function<bool()>& gone, const std::string& requestId,
                EventStream& events) {
@@ -57,33 +51,9 @@ void putEvents(EvaluationRun& run, const std::function<bool()>& gone, const std:
     return true;
   };
   listener.row = [&](std::size_t, const EvaluationRow& row) { events.put("row", jsonText(toJson(row))); };
-  try {
-    const auto report = run.report(gone, listener);
-    events.put(report ? "result" : "problem",
-               report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
-  } catch (const std::exception&) {
-    events.put("problem", problemText({{ProblemCode::internal, "", "An internal error occurred.", "", ""}}, requestId));
-  }
-}
-
-HttpReply eventReply(std::shared_ptr<EvaluationRun> run, const RouteCall& call) {
-  HttpReply reply;
-  reply.contentType = kForms[kEvents];
-  reply.headers.emplace_back("X-Accel-Buffering", "no"); // asks proxies to pass events on at once
-  reply.stream = [run = std::move(run), requestId = call.request.id,
-                  clientGone = call.clientGone](const BodySink& sink) {
-    constexpr std::chrono::milliseconds kHeartbeat{5'000};
-    EventStream events;
-    std::atomic<bool> clientLeft = false;
-    std::thread measuring([&] {
-      putEvents(
-          *run, [&] { return clientLeft || clientGone(); }, requestId, events);
-      events.end();
-    });
-    clientLeft = !events.sendTo(sink, kHeartbeat);
-    measuring.join();
-  };
-  return reply;
+  const auto report = run.report(gone, listener);
+  events.put(report ? "result" : "problem",
+             report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
 }
 
 } // namespace
@@ -118,7 +88,10 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   }
   HttpReply reply;
   if (*form == kEvents) {
-    reply = eventReply(*std::move(run), call);
+    reply =
+        eventReply(call, [run = *std::move(run), requestId](const std::function<bool()>& gone, EventStream& events) {
+          putEvents(*run, gone, requestId, events);
+        });
   } else {
     const auto report = (*run)->report(call.clientGone);
     if (!report) {

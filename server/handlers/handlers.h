@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/spec/limits.h"
+#include "server/bakes/bake_run.h"
 #include "server/evaluations/evaluation_run.h"
 #include "server/frames/render_queue.h"
 #include "server/http/reply.h"
@@ -25,6 +26,7 @@ struct Services {
   std::vector<StaticFile> page;
   EvaluationContext evaluations;
   QualityChoices choices;
+  BakeContext bakes;
   std::counting_semaphore<> plans{2}; ///< how many more may be made at once: each takes memory by the picture's size
   std::atomic<bool> draining = false; ///< true from the first signal on; readyz reports it
 };
@@ -41,5 +43,8 @@ HttpReply postPlan(Services& services, RouteCall call);   ///< POST /v1/scenes/{
 HttpReply renderOnce(Services& services, RouteCall call); ///< POST /v1/render
 
 HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
+
+HttpReply postBake(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/bakes
+HttpReply deleteBake(Services& services, RouteCall call); ///< DELETE /v1/scenes/{id}/bakes/{key}
 
 } // namespace gnomon

@@ -132,6 +132,8 @@ std::vector<Route> makeRoutes(Services& services) {
       {"GET", "/v1/scenes/{id}/frame", none, {}, bind(getFrame)},
       {"POST", "/v1/scenes/{id}/plan", json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", json, {"application/json"}, bind(postEvaluation)},
+      {"POST", "/v1/scenes/{id}/bakes", json, {"application/json"}, bind(postBake)},
+      {"DELETE", "/v1/scenes/{id}/bakes/{key}", none, {}, bind(deleteBake)},
       {"POST", "/v1/render", oneShot, {"multipart/form-data"}, bind(renderOnce)},
       {"GET", "/v1/capabilities", none, {}, bind(getCapabilities)},
       {"GET", "/openapi.json", none, {}, bind(getOpenApi)},

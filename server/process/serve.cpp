@@ -180,7 +180,11 @@ int serve(const ServeOptions& options) {
                                     .frameMemory = frameMemory,
                                     .timeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                                     .running = std::counting_semaphore<>(options.maxEvaluations)},
-                    .choices = {}};
+                    .choices = {},
+                    .bakes = {.baker = (*queue)->baker(),
+                              .frameMemory = frameMemory,
+                              .timeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
+                              .book = {}}};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

@@ -5,42 +5,10 @@
 
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/frame_geometry.h"
+#include "tests/renderer/frame/squares.h"
 
 namespace gnomon {
 namespace {
-
-/// A square of ground, and a smaller one that floats a metre above it.
-ScenePtr squares() {
-  Scene scene;
-  scene.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
-  scene.attributes.resize(4);
-  scene.indices = {0, 1, 2, 0, 2, 3};
-  scene.welded = scene.indices;
-  scene.materials.resize(1);
-  scene.primitives.resize(1);
-  Primitive& primitive = scene.primitives[0];
-  primitive.vertexCount = 4;
-  primitive.indexCount = 6;
-  primitive.clusterCount = 1;
-  for (const glm::vec3& position : scene.positions) primitive.bounds.add(glm::dvec3(position));
-  scene.clusters.push_back({primitive.bounds});
-  scene.nodes.resize(2);
-  SceneView view;
-  for (int node = 0; node < 2; ++node) {
-    Instance instance;
-    instance.node = node;
-    if (node == 1) {
-      instance.worldFromLocal = glm::dmat4(0.1);
-      instance.worldFromLocal[3] = {0, 1, 0, 1};
-    }
-    instance.bounds = transformed(instance.worldFromLocal, primitive.bounds);
-    view.bounds.add(instance.bounds);
-    view.instances.push_back(instance);
-  }
-  view.triangles = 4;
-  scene.scenes = {view};
-  return std::make_shared<const Scene>(std::move(scene));
-}
 
 /// What was asked of the device, call by call.
 struct Asked {
@@ -145,7 +113,7 @@ FrameSpec sunlit() {
 TEST(RenderFrame, PlansDrawsAndReportsOverAnyDevice) {
   FakeDevice device;
   FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
-  const auto frame = renderFrame(device, caches, squares(), sunlit());
+  const auto frame = renderFrame(device, caches, testing::squares(), sunlit());
   ASSERT_TRUE(frame) << frame.problems().front().detail;
   EXPECT_EQ(device.asked.calls, (std::vector<std::string>{"begin", "survey", "cast", "show"}));
   EXPECT_EQ(device.asked.tiles, 2u);
@@ -173,7 +141,7 @@ TEST(RenderFrame, AViewThatComparesWithRaysAsksForItsShadowAndABackdrop) {
   FrameCaches caches{TracedSceneCache(1 << 20), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.views = {View::error, View::depth};
-  const auto frame = renderFrame(device, caches, squares(), spec);
+  const auto frame = renderFrame(device, caches, testing::squares(), spec);
   ASSERT_TRUE(frame) << frame.problems().front().detail;
   ASSERT_EQ(device.asked.views.size(), 3u) << "the error itself is drawn by no device";
   EXPECT_EQ(device.asked.views[0].view, View::depth);
@@ -192,7 +160,7 @@ TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
   FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
   FrameSpec spec = sunlit();
   spec.width = 5000;
-  const auto frame = renderFrame(device, caches, squares(), spec);
+  const auto frame = renderFrame(device, caches, testing::squares(), spec);
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.problems().front().pointer, "/width");
   EXPECT_TRUE(device.asked.calls.empty());
@@ -201,7 +169,7 @@ TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
 TEST(RenderFrame, AProblemOfTheDeviceIsTheFrames) {
   FakeDevice device(Problem{ProblemCode::backend, "", "The device is gone.", "", ""});
   FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
-  const auto frame = renderFrame(device, caches, squares(), sunlit());
+  const auto frame = renderFrame(device, caches, testing::squares(), sunlit());
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.problems().front().code, ProblemCode::backend);
 }

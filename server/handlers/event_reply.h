@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+#include "protocol/base/result.h"
+#include "server/http/reply.h"
+#include "server/http/router.h"
+
+namespace gnomon {
+
+inline constexpr std::string_view kEventStream = "text/event-stream";
+
+/// Work that puts its progress and its result as events. `gone` may be called by any thread; true = nobody listens any
+/// more, and the work should end soon.
+using EventWork = std::function<void(const std::function<bool()>& gone, EventStream& events)>;
+
+/// A reply of events that are sent while `work` runs, on a thread of its own. An exception becomes an event `problem`.
+HttpReply eventReply(const RouteCall& call, EventWork work);
+
+/// The data of an event `problem`. `problems` is not empty.
+std::string problemText(const Problems& problems, const std::string& requestId);
+
+} // namespace gnomon

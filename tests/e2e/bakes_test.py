@@ -1,0 +1,164 @@
+"""Bakes over HTTP: progress, stopping, and the frames that look the maps up."""
+
+import json
+import threading
+import time
+import unittest
+
+from evaluations_test import events_of
+from shipped_server import SLOW, SMALL, ServerTest
+
+SUN = {"type": "directional", "direction": [0.4, -1, 0.2]}
+BAKED = {"technique": "lightMap", "lightMap": {"size": 128}}
+SPEC = {"lights": [SUN], "shadow": BAKED}
+LONG = {
+    "lights": [SUN | {"angularDiameterDegrees": 5}],
+    "shadow": {"technique": "lightMap", "lightMap": {"size": 4096, "samples": 1024}},
+}
+
+
+class BakesTest(ServerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.scene = cls.server.upload("box_on_plane")
+
+    def bake(self, spec, accept="application/json"):
+        headers = {"Content-Type": "application/json", "Accept": accept}
+        return self.server.ask("POST", f"/v1/scenes/{self.scene}/bakes", json.dumps(spec), headers)
+
+    def begin(self, spec):
+        """A bare connection to a bake that has begun, the events read so far, and its key."""
+        body = json.dumps(spec)
+        connection = self.server.socket()
+        head = f"POST /v1/scenes/{self.scene}/bakes HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n"
+        head += "Content-Type: application/json\r\nAccept: text/event-stream\r\n\r\n"
+        connection.sendall((head + body).encode())
+        text = ""
+        while '"share"' not in text or not text.endswith("\n\n"):
+            piece = connection.recv(65536)
+            self.assertTrue(piece, text)
+            text += piece.decode()
+        _, key = next(event for event in events_of(text.split("\r\n\r\n", 1)[1]) if event[0] == "progress")
+        return connection, key["key"]
+
+    def remove(self, key):
+        return self.server.ask("DELETE", f"/v1/scenes/{self.scene}/bakes/{key}")
+
+    def wait_until_free(self):
+        """The seconds until a bake is taken again."""
+        start = time.monotonic()
+        while (reply := self.bake(SPEC)).status != 200:
+            self.assert_problem(reply, 429)
+            self.assertLess(time.monotonic() - start, 30 * SLOW)
+            time.sleep(0.01)
+        return time.monotonic() - start
+
+
+class Bakes(BakesTest):
+    def light_maps(self, spec):
+        reply = self.server.frame(self.scene, SMALL | spec, "application/json")
+        self.assertEqual(reply.status, 200, reply.body)
+        return [light["lightMap"] for light in reply.json()["report"]["lights"]]
+
+    def test_a_frame_reuses_what_was_baked_ahead(self):
+        spec = SPEC | {"lights": [SUN | {"direction": [0.1, -1, 0.3]}]}
+        first = self.bake(spec)
+        self.assertEqual((first.status, first.headers["Content-Type"]), (200, "application/json"), first.body)
+        self.assertEqual(first.headers["Cache-Control"], "no-store")
+        report = first.json()
+        baked = report["lights"][0]
+        self.assertEqual((baked["light"], baked["lightMap"]["reused"]), (0, False))
+        self.assertLessEqual(max(baked["lightMap"]["width"], baked["lightMap"]["height"]), 128)
+        for field in ("charts", "texelsPerMetre", "bakeMilliseconds", "bytes"):
+            self.assertGreater(baked["lightMap"][field], 0)
+        again = self.bake(spec | SMALL).json()
+        self.assertEqual((again["key"], again["lights"][0]["lightMap"]["reused"]), (report["key"], True))
+        self.assertTrue(self.light_maps(spec)[0]["reused"])
+        brighter = spec | {"lights": [spec["lights"][0] | {"intensity": 9}]}
+        self.assertTrue(self.light_maps(brighter)[0]["reused"], "how bright a light is does not change its shadow")
+        other = spec | {"lights": [spec["lights"][0] | {"direction": [0.2, -1, 0.3]}]}
+        self.assertFalse(self.light_maps(other)[0]["reused"])
+
+    def test_events_tell_progress_of_each_light_and_at_last_the_result(self):
+        lights = [SUN | {"direction": [0.3, -1, 0.1]}, {"type": "point", "position": [1, 4, 1], "radius": 0.2}]
+        shadow = {"technique": "lightMap", "lightMap": {"size": 512, "samples": 256}}
+        reply = self.bake({"lights": lights, "shadow": shadow}, "text/event-stream")
+        self.assertEqual((reply.status, reply.headers["Content-Type"]), (200, "text/event-stream"), reply.body)
+        events = events_of(reply.body.decode())
+        steps = [data for name, data in events if name == "progress"]
+        self.assertEqual([step["light"] for step in steps], sorted(step["light"] for step in steps))
+        self.assertEqual({(step["light"], step["done"], step["of"]) for step in steps}, {(0, 0, 2), (1, 1, 2)})
+        for light in (0, 1):
+            shares = [step["share"] for step in steps if step["light"] == light]
+            self.assertEqual(shares, sorted(shares))
+            self.assertLessEqual(shares[-1], 1)
+        name, result = events[-1]
+        self.assertEqual((name, [each["light"] for each in result["lights"]]), ("result", [0, 1]))
+        self.assertEqual({step["key"] for step in steps}, {result["key"]})
+
+    def test_who_removes_a_bake_stops_it(self):
+        connection, key = self.begin(LONG)
+        with connection:
+            self.assert_problem(self.bake(SPEC), 429)
+            start = time.monotonic()
+            self.assertEqual(self.remove(key).status, 204)
+            rest = b""
+            while piece := connection.recv(65536):
+                rest += piece
+            took = time.monotonic() - start
+        self.assertIn(b"event: problem", rest)
+        self.assertLess(took, 1 * SLOW, "all of it would take minutes")
+        self.assert_problem(self.remove(key), 404, "key")
+        self.wait_until_free()
+
+    def test_who_leaves_stops_the_bake(self):
+        connection, _ = self.begin(LONG)
+        connection.close()
+        self.assertLess(self.wait_until_free(), 5 * SLOW)
+
+    def test_frames_of_others_are_drawn_beside_a_bake(self):
+        connection, key = self.begin(LONG)
+        with connection:
+            self.assertEqual(self.server.frame(self.scene, SMALL).status, 200)
+            self.assertTrue(self.light_maps(SPEC)[0]["width"] > 0)
+            self.assertEqual(self.remove(key).status, 204)
+        self.wait_until_free()
+
+    def test_two_at_once_do_not_harm_each_other(self):
+        replies = []
+        ask = lambda: replies.append(self.bake(SPEC).status)
+        threads = [threading.Thread(target=ask) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertTrue(set(replies) <= {200, 429}, replies)
+        self.assertIn(200, replies)
+
+    def test_what_can_not_be_baked_is_refused(self):
+        self.assert_problem(self.bake({"shadow": {"technique": "rayTraced"}}), 400, "/shadow/technique")
+        self.assert_problem(self.bake({"shadow": {"lightmap": {}}}), 400, "/shadow/lightmap")
+        self.assert_problem(self.bake({"quality": {"maxError": 0.1}, "shadow": BAKED}), 400, "/quality")
+        self.assert_problem(self.bake(SPEC, "image/gif"), 406)
+        dense = SPEC | {"shadow": {"technique": "lightMap", "lightMap": {"texelsPerMetre": 1e6}}}
+        reply = self.bake(dense)
+        self.assert_problem(reply, 400, "/shadow/lightMap/texelsPerMetre")
+        self.assertIn("8192", reply.json()["problems"][0]["detail"])
+        name, problem = events_of(self.bake(dense, "text/event-stream").body.decode())[-1]
+        self.assertEqual((name, problem["status"]), ("problem", 400))
+        unknown = self.server.ask("POST", f"/v1/scenes/{'0' * 64}/bakes", "{}", {"Content-Type": "application/json"})
+        self.assert_problem(unknown, 404, "id")
+        self.assert_problem(self.remove("0" * 64), 404, "key")
+
+
+class LittleMemory(BakesTest):
+    flags = ("--frame-memory-bytes", "4MB")
+
+    def test_a_bake_that_does_not_fit_is_refused_before_it_begins(self):
+        self.assert_problem(self.bake(LONG), 413, "/shadow/lightMap")
+        self.assertEqual(self.bake(SPEC).status, 200)
+
+
+if __name__ == "__main__":
+    unittest.main()
