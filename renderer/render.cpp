@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits) {
-  return loadGltf(bundle, limits);
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
+  return loadGltf(bundle, limits, id);
 }
 
 const SceneSummary& summaryOf(const Scene& scene) {
@@ -24,14 +24,14 @@ namespace {
 
 std::shared_ptr<FrameCaches> emptyCaches(const RendererOptions& options) {
   return std::shared_ptr<FrameCaches>(new FrameCaches{TracedSceneCache(options.tracedSceneBytes),
-                                                      LightMapCache(options.lightMapBytes),
+                                                      LightMapCache(options.lightMapBytes, options.lightMaps),
                                                       VolumeCache(options.volumeBytes)});
 }
 
 } // namespace
 
 Renderer::Renderer(std::unique_ptr<Device> device, std::size_t tracedSceneBytes)
-    : impl_(new Impl{Devices(std::move(device)), emptyCaches({.tracedSceneBytes = tracedSceneBytes})}) {}
+    : impl_(new Impl{Devices(std::move(device)), emptyCaches({.backend = {}, .tracedSceneBytes = tracedSceneBytes})}) {}
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

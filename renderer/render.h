@@ -18,6 +18,7 @@
 #include "renderer/evaluation/quality.h"
 #include "renderer/frame/bake_scene.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/scene_bundle.h"
@@ -25,19 +26,21 @@
 /// The only door into the renderer.
 namespace gnomon {
 
-/// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly.
-Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits);
+/// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly. `id`:
+/// names these very bytes in a LightMapStore; empty = nothing of the scene is kept there.
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits, const std::string& id = {});
 
-/// What the scene holds; `id` is empty. Any thread.
+/// What the scene holds, and its id. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);
 
 struct RendererOptions {
   BackendOptions backend;
-  std::size_t gpuSceneBytes = 1u << 30;    ///< uploaded scenes kept, least recently used dropped first
-  std::size_t tracedSceneBytes = 1u << 30; ///< scenes kept sorted for rays, dropped in the same order
-  std::size_t lightMapBytes = 1u << 28;    ///< baked shadows kept, dropped in the same order
-  std::size_t volumeBytes = 1u << 28;      ///< grids of volumes kept, and as much for the light in them
-  std::size_t tileCacheBytes = 1u << 28;   ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
+  std::size_t gpuSceneBytes = 1u << 30;       ///< uploaded scenes kept, least recently used dropped first
+  std::size_t tracedSceneBytes = 1u << 30;    ///< scenes kept sorted for rays, dropped in the same order
+  std::size_t lightMapBytes = 1u << 28;       ///< baked shadows kept, dropped in the same order
+  std::shared_ptr<LightMapStore> lightMaps{}; ///< where baked shadows outlive the renderer; nullptr = nowhere
+  std::size_t volumeBytes = 1u << 28;         ///< grids of volumes kept, and as much for the light in them
+  std::size_t tileCacheBytes = 1u << 28;      ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 
 /// Bakes for the renderer that it came from, also while that draws and after it is gone. Any thread.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "protocol/bake/bake_json.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 
@@ -39,6 +40,16 @@ std::string nameOf(const Scene& scene, int node) {
   return name.empty() ? std::to_string(node) : "\"" + name + "\"";
 }
 
+/// Changes with all that the light's shadow depends on. Empty where the scene has no id.
+std::string keyInStore(const Scene& scene, const ResolvedFrame& frame, int light) {
+  const std::string& id = scene.summary.id;
+  if (id.empty()) return {};
+  FrameSpec spec = frame.spec;
+  spec.lights = std::vector{shadowOf((*frame.spec.lights)[static_cast<std::size_t>(light)])};
+  spec.shadow = Shadow{};
+  return id + "-" + bakeKey(id, spec);
+}
+
 } // namespace
 
 Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, TracedSceneCache& traced,
@@ -58,7 +69,8 @@ Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, Trace
     const auto rays = traced.get(scene.posed, frame.scene);
     if (!rays) return rays.problems();
     const Progress ofLight = progress ? Progress([&](double share) { return progress(light, share); }) : Progress();
-    auto made = maps.get({scene.posed, frame.scene, **rays, *frame.spec.lights, frame.nodes}, light, ofLight);
+    const std::string key = maps.hasStore() ? keyInStore(*scene.loaded, frame, light) : std::string();
+    auto made = maps.get({scene.posed, frame.scene, **rays, *frame.spec.lights, frame.nodes, key}, light, ofLight);
     if (!made) {
       if (made.problems().front().code == ProblemCode::unavailable) return made.problems();
       Problems problems = made.problems();

@@ -7,11 +7,10 @@
 
 #include "protocol/base/elapsed.h"
 #include "renderer/bake/bake_light_map.h"
+#include "renderer/bake/light_map_file.h"
 
 namespace gnomon {
-namespace {
 
-/// The light without what its shadow does not depend on: two lights that are the same then share a map.
 Light shadowOf(const Light& light) {
   Light shadow = light;
   const Light plain;
@@ -27,6 +26,8 @@ Light shadowOf(const Light& light) {
   shadow.shadow = kept;
   return shadow;
 }
+
+namespace {
 
 LightMapFineness finenessOf(const LightMapOptions& options) {
   if (options.texelsPerMetre) return {options.texelsPerMetre, {}};
@@ -94,8 +95,8 @@ std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput&
   return found == entries_.end() ? nullptr : found->baked->layout;
 }
 
-Result<BakedLight> LightMapCache::bake(const BakeInput& input, int index, const LightMapOptions& options,
-                                       const Progress& progress) {
+Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int index, const LightMapOptions& options,
+                                                 const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   BakedLight baked{keptLayout(input, options), {}, 0};
   if (!baked.layout) {
@@ -111,6 +112,12 @@ Result<BakedLight> LightMapCache::bake(const BakeInput& input, int index, const 
     if (!made) return made.problems();
     baked.layout = std::make_shared<const LightMapLayout>(std::move(*made));
   }
+  const bool inStore = store_ && !input.keyInStore.empty();
+  if (const auto file = inStore ? store_->read(input.keyInStore) : std::nullopt) {
+    if (auto stored = readLightMapFile(*file, baked.layout)) {
+      return Found{std::make_shared<const BakedLight>(*std::move(stored)), true};
+    }
+  }
   // By a light without an end: its cone and range decide where it shines, and not what its shadow is.
   const CameraView camera{.eye = anchorOf(input.traced.view())};
   std::vector<Light> lights(input.lights.begin(), input.lights.end());
@@ -122,7 +129,8 @@ Result<BakedLight> LightMapCache::bake(const BakeInput& input, int index, const 
   if (!map) return stopped();
   baked.map = *std::move(map);
   baked.milliseconds = millisecondsSince(start);
-  return baked;
+  if (inStore) store_->write(input.keyInStore, lightMapFile(baked));
+  return Found{std::make_shared<const BakedLight>(std::move(baked)), false};
 }
 
 Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index, const Progress& progress) {
@@ -143,14 +151,13 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
   const Claim claim(*this, key);
   lock.unlock();
 
-  auto baked = bake(input, index, light.shadow->lightMap, progress);
-  if (!baked) return baked.problems();
+  auto made = make(input, index, light.shadow->lightMap, progress);
+  if (!made) return made;
   lock.lock();
-  entries_.push_front({key, std::make_shared<const BakedLight>(*std::move(baked))});
+  entries_.push_front({key, made->baked});
   drop();
-  Found found{entries_.front().baked, false};
   lock.unlock(); // before the claim ends, which locks
-  return found;
+  return made;
 }
 
 /// With the mutex held.

@@ -9,9 +9,13 @@
 #include "protocol/base/result.h"
 #include "renderer/bake/baked_light.h"
 #include "renderer/core/progress.h"
+#include "renderer/frame/light_map_store.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
+
+/// The light without what its shadow does not depend on: two lights that are the same then share a map.
+Light shadowOf(const Light& light);
 
 /// What a bake takes place on.
 struct BakeInput {
@@ -20,6 +24,7 @@ struct BakeInput {
   const TracedScene& traced;
   std::span<const Light> lights;       ///< effective
   std::span<const NodeSwitches> nodes; ///< one a node of the file
+  std::string keyInStore{};            ///< of the light that is asked for; empty = its map is not kept in a store
 };
 
 /// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
@@ -28,11 +33,15 @@ struct BakeInput {
 /// asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
-  explicit LightMapCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
+  /// `store`: also keeps what is baked, and is asked before anything is; may be nullptr.
+  explicit LightMapCache(std::size_t budgetBytes, std::shared_ptr<LightMapStore> store = nullptr)
+      : budgetBytes_(budgetBytes), store_(std::move(store)) {}
+
+  bool hasStore() const { return store_ != nullptr; }
 
   struct Found {
     std::shared_ptr<const BakedLight> baked;
-    bool reused = false;
+    bool reused = false; ///< of an earlier bake of this process, or of the store
   };
 
   /// Baked now if need be. `light`: index into the lights, of technique lightMap. A problem where the map would be too
@@ -57,10 +66,11 @@ class LightMapCache {
   static bool isOf(const Key& key, const BakeInput& input, const Light& light);
   std::shared_ptr<const BakedLight> kept(const BakeInput& input, const Light& light);
   std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options);
-  Result<BakedLight> bake(const BakeInput& input, int index, const LightMapOptions& options, const Progress& progress);
+  Result<Found> make(const BakeInput& input, int index, const LightMapOptions& options, const Progress& progress);
   void drop();
 
   std::size_t budgetBytes_;
+  std::shared_ptr<LightMapStore> store_;
   std::mutex mutex_;
   std::condition_variable changed_; ///< a map was made or given up
   std::list<Entry> entries_;        ///< most recently used first

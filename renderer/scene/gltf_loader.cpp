@@ -38,7 +38,7 @@ std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle&
   return grids;
 }
 
-Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits) {
+Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
   Findings findings;
   auto document = readGltf(bundle, limits, findings);
   if (!document) return std::move(document).problems();
@@ -94,15 +94,16 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   scene->grids = gridFiles(bundle);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
+  scene->summary.id = id;
   scene->summary.warnings = findings.takeWarnings();
   return std::shared_ptr<const Scene>(std::move(scene));
 }
 
 } // namespace
 
-Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits) {
+Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
   try {
-    return load(bundle, limits);
+    return load(bundle, limits, id);
   } catch (const std::bad_alloc&) {
     return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene.", {}, {}};
   } catch (const std::exception&) {

@@ -11,6 +11,8 @@ namespace gnomon {
 
 /// Loads a GLB or a .gltf with the files it names, all from memory: no file and no address outside the bundle
 /// is ever opened. Pointers in the problems are JSON pointers into the glTF ("/accessors/3/count").
-Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits = kLimits);
+/// `id` becomes the summary's.
+Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits = kLimits,
+                                              const std::string& id = {});
 
 } // namespace gnomon

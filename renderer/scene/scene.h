@@ -180,7 +180,7 @@ struct Scene {
   std::vector<SceneView> scenes;     ///< the file's, and then all of them again for each variant
   std::vector<std::string> variants; ///< names of the file's material variants
   int defaultScene = 0;
-  SceneSummary summary; ///< id is left to whoever stores it
+  SceneSummary summary; ///< its id is empty unless the scene is kept somewhere
 };
 
 /// How many scenes the file has.

@@ -19,6 +19,7 @@
 #include "server/http/http_server.h"
 #include "server/http/request_log.h"
 #include "server/http/socket_io.h"
+#include "server/scenes/light_map_directory.h"
 
 namespace gnomon {
 namespace {
@@ -153,7 +154,12 @@ int serve(const ServeOptions& options) {
 
   Limits limits;
   limits.maxSceneBytes = options.maxSceneBytes;
-  auto store = SceneStore::open({options.storeDirectory, options.sceneMemoryBytes, limits});
+  std::shared_ptr<LightMapDirectory> lightMaps;
+  if (!options.storeDirectory.empty()) {
+    lightMaps =
+        std::make_shared<LightMapDirectory>(options.storeDirectory + "/light-maps", options.storedLightMapBytes);
+  }
+  auto store = SceneStore::open({options.storeDirectory, options.sceneMemoryBytes, limits, lightMaps});
   if (!store) {
     return failed(store.problems());
   }
@@ -161,6 +167,7 @@ int serve(const ServeOptions& options) {
                                    .gpuSceneBytes = options.gpuSceneBytes,
                                    .tracedSceneBytes = options.tracedSceneBytes,
                                    .lightMapBytes = options.lightMapBytes,
+                                   .lightMaps = lightMaps,
                                    .tileCacheBytes = options.tileCacheBytes},
                                   options.queueLimit);
   if (!queue) {

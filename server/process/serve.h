@@ -19,10 +19,11 @@ struct ServeOptions {
 
   // Renderer
   BackendOptions backend;
-  std::size_t gpuSceneBytes = 1u << 30;    ///< bytes of scenes kept on the graphics device
-  std::size_t tileCacheBytes = 1u << 28;   ///< bytes of shadow atlases kept for later frames; 0 = none
-  std::size_t tracedSceneBytes = 1u << 30; ///< bytes of ray-tracing structures of scenes
-  std::size_t lightMapBytes = 1u << 28;    ///< bytes of baked light maps
+  std::size_t gpuSceneBytes = 1u << 30;       ///< bytes of scenes kept on the graphics device
+  std::size_t tileCacheBytes = 1u << 28;      ///< bytes of shadow atlases kept for later frames; 0 = none
+  std::size_t tracedSceneBytes = 1u << 30;    ///< bytes of ray-tracing structures of scenes
+  std::size_t lightMapBytes = 1u << 28;       ///< bytes of baked light maps
+  std::size_t storedLightMapBytes = 1u << 30; ///< bytes of those in storeDirectory
 
   // Limits
   std::size_t queueLimit = 64;               ///< >= 1; frames that may wait; 429 beyond it

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 20);
+static_assert(memberCount<ServeOptions>() == 21);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -83,6 +83,8 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
            "Ray-tracing structures of scenes, the least recently used dropped first");
   addBytes(serve, "--light-map-bytes", "GNOMON_LIGHT_MAP_BYTES", options.lightMapBytes,
            "Baked light maps kept in memory, the least recently used dropped first");
+  addBytes(serve, "--stored-light-map-bytes", "GNOMON_STORED_LIGHT_MAP_BYTES", options.storedLightMapBytes,
+           "Baked light maps kept in the store's directory, the least recently used dropped first");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
            "Loaded scenes kept in memory, the least recently used dropped first");
   addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes,

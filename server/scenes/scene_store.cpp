@@ -45,6 +45,7 @@ SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDire
       memoryBytes_(options.memoryBytes),
       cache_(options.memoryBytes),
       directory_(std::move(directory)),
+      lightMaps_(options.lightMaps),
       loads_(kLoadsAtOnce) {}
 
 Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& options) {
@@ -61,7 +62,7 @@ Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& op
 
 Result<LoadedScene> SceneStore::load(const std::string& id, const SceneBundle& bundle) {
   const LoadPermit permit(loads_);
-  auto scene = loadScene(bundle, limits_);
+  auto scene = loadScene(bundle, limits_, id);
   if (!scene) {
     return std::move(scene).problems();
   }
@@ -198,6 +199,7 @@ bool SceneStore::remove(const std::string& id) {
   const bool fromMemory = cache_.remove(id);
   if (fromMemory) malloc_trim(0); // as after a load
   const bool fromDisk = directory_ && directory_->remove(id);
+  if (lightMaps_) lightMaps_->removeScene(id);
   return fromMemory || fromDisk;
 }
 

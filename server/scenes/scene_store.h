@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/report/replies.h"
+#include "server/scenes/light_map_directory.h"
 #include "server/scenes/scene_cache.h"
 #include "server/scenes/scene_directory.h"
 
@@ -16,6 +17,7 @@ struct SceneStoreOptions {
   std::string directory;                ///< empty = scenes are in memory only, and the least recently used are dropped
   std::size_t memoryBytes = 2ull << 30; ///< loaded scenes that are kept
   Limits limits;                        ///< what a scene may be
+  std::shared_ptr<LightMapDirectory> lightMaps{}; ///< those of a scene go with it; nullptr = there are none
 };
 
 /// The notFound problem of a route that names a scene.
@@ -58,6 +60,7 @@ class SceneStore {
   std::size_t memoryBytes_;
   SceneCache cache_;
   std::optional<SceneDirectory> directory_;
+  std::shared_ptr<LightMapDirectory> lightMaps_;
   SingleFlight<Result<LoadedScene>> loading_;
   std::counting_semaphore<> loads_;
 };

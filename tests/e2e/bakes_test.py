@@ -1,12 +1,14 @@
 """Bakes over HTTP: progress, stopping, and the frames that look the maps up."""
 
 import json
+import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 from evaluations_test import events_of
-from shipped_server import SLOW, SMALL, ServerTest
+from shipped_server import SLOW, SMALL, Server, ServerTest
 
 SUN = {"type": "directional", "direction": [0.4, -1, 0.2]}
 BAKED = {"technique": "lightMap", "lightMap": {"size": 128}}
@@ -150,6 +152,54 @@ class Bakes(BakesTest):
         unknown = self.server.ask("POST", f"/v1/scenes/{'0' * 64}/bakes", "{}", {"Content-Type": "application/json"})
         self.assert_problem(unknown, 404, "id")
         self.assert_problem(self.remove("0" * 64), 404, "key")
+
+
+class Stored(ServerTest):
+    """Maps outlive the server, and a file that was harmed is baked again."""
+
+    def bake(self, server, spec=SPEC):
+        scene = server.upload("box_on_plane")
+        headers = {"Content-Type": "application/json"}
+        reply = server.ask("POST", f"/v1/scenes/{scene}/bakes", json.dumps(spec), headers)
+        self.assertEqual(reply.status, 200, reply.body)
+        return scene, reply.json()["lights"][0]["lightMap"]
+
+    def test_a_map_survives_a_restart_and_goes_with_its_scene(self):
+        with tempfile.TemporaryDirectory() as store:
+            with Server("--store", store) as server:
+                scene, first = self.bake(server)
+                self.assertFalse(first["reused"])
+                picture = server.frame(scene, SMALL | SPEC).body
+            (file,) = (Path(store) / "light-maps").iterdir()
+            self.assertTrue(file.name.startswith(scene))
+            with Server("--store", store) as server:
+                reply = server.frame(scene, SMALL | SPEC, "multipart/mixed")
+                self.assertIn(b'"reused":true', reply.body.replace(b" ", b""))
+                self.assertEqual(server.frame(scene, SMALL | SPEC).body, picture)
+                self.assertEqual(self.bake(server)[1], first | {"reused": True})
+                self.assertEqual(server.ask("DELETE", f"/v1/scenes/{scene}").status, 204)
+            self.assertEqual(list((Path(store) / "light-maps").iterdir()), [])
+
+    def test_a_file_that_was_harmed_is_baked_again(self):
+        with tempfile.TemporaryDirectory() as store:
+            with Server("--store", store) as server:
+                self.bake(server)
+            (file,) = (Path(store) / "light-maps").iterdir()
+            whole = file.read_bytes()
+            for harmed in (b"", whole[:-1], whole[:20], whole[:-1] + bytes([whole[-1] ^ 1]), b"x" * len(whole)):
+                file.write_bytes(harmed)
+                with Server("--store", store) as server:
+                    self.assertFalse(self.bake(server)[1]["reused"])
+                self.assertEqual(len(file.read_bytes()), len(whole))
+
+    def test_the_directory_stays_within_its_bytes(self):
+        with tempfile.TemporaryDirectory() as store:
+            with Server("--store", store, "--stored-light-map-bytes", "60KB") as server:
+                for azimuth in range(4):
+                    light = SUN | {"direction": [0.4 + azimuth / 10, -1, 0.2]}
+                    self.bake(server, SPEC | {"lights": [light]})
+                sizes = [file.stat().st_size for file in (Path(store) / "light-maps").iterdir()]
+                self.assertTrue(0 < sum(sizes) <= 60 * 1024, sizes)
 
 
 class LittleMemory(BakesTest):

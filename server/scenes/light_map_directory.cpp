@@ -1,0 +1,82 @@
+#include "server/scenes/light_map_directory.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "server/http/request_log.h"
+#include "server/scenes/whole_file.h"
+
+namespace gnomon {
+namespace {
+
+/// Of each map in a directory: nothing that is not one is ever touched.
+std::vector<std::filesystem::directory_entry> mapsIn(const std::string& path) {
+  std::vector<std::filesystem::directory_entry> maps;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == ".map") maps.push_back(*entry);
+  }
+  return maps;
+}
+
+} // namespace
+
+LightMapDirectory::LightMapDirectory(std::string path, std::size_t budgetBytes)
+    : path_(std::move(path)), budgetBytes_(budgetBytes) {
+  removeUnfinished(path_);
+  drop();
+}
+
+std::optional<Bytes> LightMapDirectory::read(const std::string& key) {
+  const std::string path = pathOf(key);
+  auto file = readWhole(path, budgetBytes_);
+  std::error_code gone;
+  if (file) std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), gone);
+  return file;
+}
+
+void LightMapDirectory::write(const std::string& key, const Bytes& lightMap) {
+  if (lightMap.size() > budgetBytes_) return;
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (!placeFile(pathOf(key), [&](const FileSink& sink) { sink(lightMap); })) {
+    const std::string reason = std::error_code(errno, std::generic_category()).message();
+    logEvent("store", "A light map could not be written: " + reason + ".");
+  }
+  drop();
+}
+
+void LightMapDirectory::removeScene(const std::string& sceneId) {
+  for (const auto& map : mapsIn(path_)) {
+    std::error_code ignored;
+    if (map.path().filename().string().starts_with(sceneId + "-")) std::filesystem::remove(map.path(), ignored);
+  }
+}
+
+/// Down to the budget.
+void LightMapDirectory::drop() {
+  const std::lock_guard lock(dropping_);
+  struct Kept {
+    std::filesystem::path path;
+    std::filesystem::file_time_type used;
+    std::size_t bytes = 0;
+  };
+  std::vector<Kept> all;
+  for (const auto& map : mapsIn(path_)) {
+    std::error_code gone; // another process may have removed it
+    const Kept kept{map.path(), map.last_write_time(gone), static_cast<std::size_t>(map.file_size(gone))};
+    if (!gone) all.push_back(kept);
+  }
+  std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.used > b.used; });
+  std::size_t bytes = 0;
+  for (const Kept& kept : all) {
+    bytes += kept.bytes;
+    std::error_code ignored;
+    if (bytes > budgetBytes_) std::filesystem::remove(kept.path, ignored);
+  }
+}
+
+} // namespace gnomon

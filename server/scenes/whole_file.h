@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "protocol/base/bytes.h"
+
+/// Files that appear whole or not at all.
+namespace gnomon {
+
+using FileSink = std::function<void(std::span<const std::uint8_t>)>;
+
+/// Writes a file under another name, through to the disk, and renames it. `produce` is given what appends to it. False,
+/// with errno, where the disk refuses.
+bool placeFile(const std::string& path, const std::function<void(const FileSink&)>& produce);
+
+/// All of a regular file of at most so many bytes; nothing where it can't be read.
+std::optional<Bytes> readWhole(const std::string& path, std::size_t most);
+
+/// Removes what an interrupted placeFile left in a directory.
+void removeUnfinished(const std::string& directory);
+
+} // namespace gnomon
