@@ -2,6 +2,7 @@
 
 #include "renderer/devices.h"
 #include "renderer/evaluation/shimmer.h"
+#include "renderer/frame/baked_scene.h"
 #include "renderer/frame/render_frame.h"
 #include "renderer/scene/gltf_loader.h"
 
@@ -52,7 +53,16 @@ Baker Renderer::baker() const {
 }
 
 Result<BakeReport> Baker::bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener) const {
-  return bakeScene(*caches_, scene, spec, listener);
+  const auto baked = bakeScene(*caches_, scene, spec, listener);
+  if (!baked) return baked.problems();
+  return reportOf(*baked);
+}
+
+Result<Bytes> Baker::file(const ScenePtr& scene, const FrameSpec& spec, BakeFile kind, std::optional<int> light,
+                          const BakeListener& listener) const {
+  const auto baked = bakeScene(*caches_, scene, spec, listener);
+  if (!baked) return baked.problems();
+  return bakeFile(*baked, kind, light);
 }
 
 Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,

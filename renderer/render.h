@@ -16,7 +16,8 @@
 #include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
-#include "renderer/frame/bake_scene.h"
+#include "renderer/export/bake_file.h"
+#include "renderer/frame/bake_listener.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
@@ -43,11 +44,19 @@ struct RendererOptions {
   std::size_t tileCacheBytes = 1u << 28;      ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
 };
 
+struct FrameCaches;
+
 /// Bakes for the renderer that it came from, also while that draws and after it is gone. Any thread.
 class Baker {
  public:
-  /// As bakeScene (frame/bake_scene.h).
+  /// Bakes every light of `spec` whose technique is lightMap, or finds what was baked earlier; a frame of that spec
+  /// then reuses it. Camera, size and views do not matter. The report's key is left empty. Problems: those of a frame,
+  /// one at /shadow/technique where no light is baked, and one of code unavailable where `listener` asked to stop.
   Result<BakeReport> bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener = {}) const;
+
+  /// The same as a file: bakeFile (export/bake_file.h) with its problems.
+  Result<Bytes> file(const ScenePtr& scene, const FrameSpec& spec, BakeFile kind, std::optional<int> light = {},
+                     const BakeListener& listener = {}) const;
 
  private:
   friend class Renderer;

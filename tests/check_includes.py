@@ -5,7 +5,8 @@ usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if t
 
 Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
-           <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame <- renderer/evaluation
+           <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
+           <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations, server/bakes
            <- server/handlers <- server/process;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
@@ -45,12 +46,13 @@ MAY_INCLUDE = {
     "renderer/resolve": PREPARED + ["renderer/resolve"],
     "renderer/device": DEVICE,
     "renderer/frame": FRAME,
+    "renderer/export": FRAME + ["renderer/export"],
     "renderer/evaluation": FRAME + ["renderer/evaluation"],
     "renderer/cpu": DEVICE + ["renderer/techniques", "renderer/cpu"],
     "renderer/gl": VALUES + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": DEVICE + ["renderer/techniques", "renderer/shaders", "renderer/gl", "renderer/passes"],
     "renderer/charts": ["protocol", "renderer/charts"],
-    "renderer": FRAME + ["renderer/evaluation", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
+    "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
     "server/http": ["protocol", "server/http"],
     "server/scenes": ["protocol", "server/http", "server/scenes"],
@@ -81,6 +83,7 @@ KEPT_IN = {
         "server",
         "clients/cli",
         "renderer/charts",
+        "renderer/export",
         "renderer/scene/checks",
         "renderer/scene/container/model_container.h",
         "renderer/scene/document",

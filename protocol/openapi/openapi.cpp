@@ -185,7 +185,22 @@ Json bakeRoute() {
   Json remove =
       operation("deleteBake", "Stop or forget a bake",
                 replies({{"204", success("It is gone; where it was in progress, it ends.", Json())}}, {"404"}));
-  return {{"delete", withBake(std::move(remove))}};
+  const char* description =
+      "image/png = the share of a light that arrives, in grey; image/x-exr = the same in floats, a layer for each "
+      "light; "
+      "model/gltf-binary = the scene with texture coordinates for the map and the light that arrives, under "
+      "MOZ_lightmap.";
+  const Json content = {
+      {"image/png", bytesContent()}, {"image/x-exr", bytesContent()}, {"model/gltf-binary", bytesContent()}};
+  Json get = withBake(operation("getBake", "What was baked, as a file",
+                                replies({{"200", success(description, content)}},
+                                        {"400", "404", "406", "413", "422", "429", "500", "503", "504"})));
+  get["parameters"].push_back(
+      {{"name", "light"},
+       {"in", "query"},
+       {"description", "Index of one of the baked lights; without it the first for PNG, and all for EXR and GLB."},
+       {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  return {{"get", std::move(get)}, {"delete", withBake(std::move(remove))}};
 }
 
 Json renderRoute() {

@@ -17,6 +17,16 @@ std::size_t longerSide(const Shadow& shadow) {
   return static_cast<std::size_t>(options.texelsPerMetre ? kLimits.maxLightMapSide : options.size);
 }
 
+Problem lateProblem(std::chrono::milliseconds timeout) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout).count();
+  return {ProblemCode::deadlineExceeded, "", "The bake was not finished before its deadline.",
+          std::to_string(seconds) + " seconds", ""};
+}
+
+Problem noMemory() {
+  return {ProblemCode::busy, "", "Other frames in progress use all the memory for frames.", "", ""};
+}
+
 } // namespace
 
 std::size_t bakeBytes(const FrameSpec& spec) {
@@ -54,7 +64,7 @@ Result<std::shared_ptr<BakeRun>> BakeRun::start(BakeContext& context, LoadedScen
   }
   std::shared_ptr<BakeRun> run(new BakeRun(context, std::move(scene), spec, deadline)); // releases `running` at its end
   if (!run->memory_.grow(bytes)) {
-    return Problem{ProblemCode::busy, "", "Other frames in progress use all the memory for frames.", "", ""};
+    return noMemory();
   }
   return run;
 }
@@ -69,11 +79,25 @@ Result<BakeReport> BakeRun::report(const std::function<bool()>& gone, const Bake
   if (report) {
     report->key = name_.key;
   } else if (Clock::now() >= deadline_) {
-    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(context_.timeout).count();
-    return Problem{ProblemCode::deadlineExceeded, "", "The bake was not finished before its deadline.",
-                   std::to_string(seconds) + " seconds", ""};
+    return lateProblem(context_.timeout);
   }
   return report;
+}
+
+Result<Bytes> bakedFile(BakeContext& context, const LoadedScene& scene, const FrameSpec& spec, BakeFile kind,
+                        std::optional<int> light, const std::function<bool()>& gone) {
+  constexpr std::size_t kParts = 4; ///< the map, its light in floats, the picture and its file
+  const auto deadline = Clock::now() + context.timeout;
+  ByteLease memory(context.frameMemory);
+  if (!memory.grow(std::min(kParts * bakeBytes(spec), context.frameMemory.total()))) {
+    return noMemory();
+  }
+  auto file = context.baker.file(scene.scene, spec, kind, light,
+                                 [&](const BakeStep&) { return Clock::now() < deadline && !gone(); });
+  if (!file && Clock::now() >= deadline) {
+    return lateProblem(context.timeout);
+  }
+  return file;
 }
 
 } // namespace gnomon

@@ -26,6 +26,11 @@ inline constexpr int kBakeRetrySeconds = 5; ///< Retry-After where the server is
 /// What baking a spec takes in memory at most, one light after the other.
 std::size_t bakeBytes(const FrameSpec& spec);
 
+/// A bake as a file, made from what is kept of it, or baked again where that was dropped. `light`: as bakeFile takes
+/// it. `gone`: as in BakeRun::report.
+Result<Bytes> bakedFile(BakeContext& context, const LoadedScene& scene, const FrameSpec& spec, BakeFile kind,
+                        std::optional<int> light, const std::function<bool()>& gone);
+
 /// One bake in progress, on the caller's thread: frames are drawn beside it. It counts as running, and keeps its
 /// memory, as long as it exists.
 class BakeRun {

@@ -1,4 +1,5 @@
 #include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "protocol/bake/bake_json.h"
@@ -32,6 +33,33 @@ void putBakeEvents(BakeRun& run, const std::function<bool()>& gone, const std::s
   const auto report = run.report(gone, listener);
   events.put(report ? "result" : "problem",
              report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
+}
+
+constexpr std::array<std::string_view, 3> kFileForms{"image/png", "image/x-exr", "model/gltf-binary"};
+constexpr std::array kFileKinds{BakeFile::png, BakeFile::exr, BakeFile::glb};
+
+/// The index in ?light=; nothing where there is none.
+Result<std::optional<int>> lightOf(const HttpRequest& request) {
+  std::optional<int> light;
+  for (const auto& [key, value] : request.query) {
+    const Problem unknown{ProblemCode::invalidValue, "/" + asciiExcerpt(key), "There is no query key of this name.",
+                          "light", ""};
+    if (key != "light" || light) {
+      return unknown;
+    }
+    int index = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), index);
+    if (error != std::errc() || end != value.data() + value.size() || index < 0) {
+      return Problem{ProblemCode::invalidValue, "/light", "This is no index of a light.", "0, 1, 2, ...",
+                     asciiExcerpt(value)};
+    }
+    light = index;
+  }
+  return light;
+}
+
+Problem unknownBake(const BakeName& name) {
+  return {ProblemCode::notFound, "key", "No bake with this key is done.", "", asciiExcerpt(name.key)};
 }
 
 BakeName nameOf(const RouteCall& call) {
@@ -81,6 +109,43 @@ HttpReply postBake(Services& services, RouteCall call) {
     reply.body = jsonText(toJson(*report));
   }
   reply.headers.emplace_back("Cache-Control", "no-store"); // says whether the maps were there already
+  reply.headers.emplace_back("Vary", "Accept");
+  return reply;
+}
+
+HttpReply getBake(Services& services, RouteCall call) {
+  const std::string requestId = call.request.id;
+  const BakeName name = nameOf(call);
+  if (!services.store.contains(name.scene)) {
+    return problemReply({unknownScene(name.scene)}, requestId);
+  }
+  const auto spec = services.bakes.book.find(name);
+  if (!spec) {
+    return problemReply({unknownBake(name)}, requestId);
+  }
+  const auto light = lightOf(call.request);
+  if (!light) {
+    return problemReply(light.problems(), requestId);
+  }
+  const auto accept = headerValue(call.request.headers, "accept");
+  const auto form = preferred(accept, kFileForms);
+  if (!form) {
+    return problemReply({{ProblemCode::notAcceptable, "", "A bake can't be sent as any media type that Accept lists.",
+                          "image/png, image/x-exr, model/gltf-binary", asciiExcerpt(accept.value_or(""))}},
+                        requestId);
+  }
+  const auto scene = services.store.get(name.scene);
+  if (!scene) {
+    return problemReply(scene.problems(), requestId);
+  }
+  const auto file = bakedFile(services.bakes, *scene, *spec, kFileKinds[*form], *light, call.clientGone);
+  if (!file) {
+    return problemReply(file.problems(), requestId, {.retryAfterSeconds = kBakeRetrySeconds});
+  }
+  HttpReply reply;
+  reply.contentType = kFileForms[*form];
+  reply.body = asText(*file);
+  reply.headers.emplace_back("Cache-Control", "private, no-cache");
   reply.headers.emplace_back("Vary", "Accept");
   return reply;
 }

@@ -45,6 +45,7 @@ HttpReply renderOnce(Services& services, RouteCall call); ///< POST /v1/render
 HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
 
 HttpReply postBake(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/bakes
+HttpReply getBake(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}/bakes/{key}
 HttpReply deleteBake(Services& services, RouteCall call); ///< DELETE /v1/scenes/{id}/bakes/{key}
 
 } // namespace gnomon

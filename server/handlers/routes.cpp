@@ -133,6 +133,7 @@ std::vector<Route> makeRoutes(Services& services) {
       {"POST", "/v1/scenes/{id}/plan", json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", json, {"application/json"}, bind(postEvaluation)},
       {"POST", "/v1/scenes/{id}/bakes", json, {"application/json"}, bind(postBake)},
+      {"GET", "/v1/scenes/{id}/bakes/{key}", none, {}, bind(getBake)},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", none, {}, bind(deleteBake)},
       {"POST", "/v1/render", oneShot, {"multipart/form-data"}, bind(renderOnce)},
       {"GET", "/v1/capabilities", none, {}, bind(getCapabilities)},

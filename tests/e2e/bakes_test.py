@@ -1,6 +1,7 @@
 """Bakes over HTTP: progress, stopping, and the frames that look the maps up."""
 
 import json
+import struct
 import tempfile
 import threading
 import time
@@ -8,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from evaluations_test import events_of
-from shipped_server import SLOW, SMALL, Server, ServerTest
+from shipped_server import EXR_MAGIC, SLOW, SMALL, Server, ServerTest, png_size
 
 SUN = {"type": "directional", "direction": [0.4, -1, 0.2]}
 BAKED = {"technique": "lightMap", "lightMap": {"size": 128}}
@@ -152,6 +153,79 @@ class Bakes(BakesTest):
         unknown = self.server.ask("POST", f"/v1/scenes/{'0' * 64}/bakes", "{}", {"Content-Type": "application/json"})
         self.assert_problem(unknown, 404, "id")
         self.assert_problem(self.remove("0" * 64), 404, "key")
+
+
+class Files(BakesTest):
+    """What was baked, in each form."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.two = SPEC | {"lights": [SUN, SUN | {"direction": [-0.4, -1, 0.2], "color": [1, 0, 0]}]}
+
+    def file(self, key, accept, query=""):
+        return self.server.get(f"/v1/scenes/{self.scene}/bakes/{key}{query}", Accept=accept)
+
+    def glb(self, data):
+        """(JSON, binary) of a GLB."""
+        magic, version, length = struct.unpack("<4sII", data[:12])
+        self.assertEqual((magic, version, length), (b"glTF", 2, len(data)))
+        size = struct.unpack("<I", data[12:16])[0]
+        return json.loads(data[20 : 20 + size]), data[28 + size :]
+
+    def test_pictures_of_the_map(self):
+        report = self.bake(self.two).json()
+        size = tuple(report["lights"][0]["lightMap"][side] for side in ("width", "height"))
+        pictures = {query: self.file(report["key"], "image/png", query) for query in ("", "?light=0", "?light=1")}
+        for reply in pictures.values():
+            self.assertEqual((reply.status, reply.headers["Content-Type"]), (200, "image/png"))
+            self.assertEqual(png_size(reply.body), size)
+        self.assertEqual(pictures[""].body, pictures["?light=0"].body)
+        self.assertNotEqual(pictures[""].body, pictures["?light=1"].body)
+        exr = self.file(report["key"], "image/x-exr").body
+        self.assertTrue(exr.startswith(EXR_MAGIC))
+        self.assertIn(b"light0.Y\0", exr)
+        self.assertIn(b"light1.Y\0", exr)
+
+    def test_a_glb_has_the_light_under_moz_lightmap_and_is_a_scene_again(self):
+        key = self.bake(self.two).json()["key"]
+        reply = self.file(key, "model/gltf-binary")
+        self.assertEqual((reply.status, reply.headers["Content-Type"]), (200, "model/gltf-binary"))
+        document, binary = self.glb(reply.body)
+        self.assertIn("MOZ_lightmap", document["extensionsUsed"])
+        self.assertNotIn("KHR_lights_punctual", document["extensionsUsed"])
+        for material in document["materials"]:
+            light_map = material["extensions"]["MOZ_lightmap"]
+            self.assertEqual(light_map["texCoord"], 1)
+            self.assertGreater(light_map["intensity"], 0)
+        image = document["images"][document["textures"][light_map["index"]]["source"]]
+        view = document["bufferViews"][image["bufferView"]]
+        png_size(binary[view["byteOffset"] : view["byteOffset"] + view["byteLength"]])
+        for mesh in document["meshes"]:
+            for primitive in mesh["primitives"]:
+                accessor = document["accessors"][primitive["attributes"]["TEXCOORD_1"]]
+                view = document["bufferViews"][accessor["bufferView"]]
+                values = struct.unpack_from(f"<{2 * accessor['count']}f", binary, view["byteOffset"])
+                self.assertTrue(all(0 <= value <= 1 for value in values))
+        upload = self.server.ask("POST", "/v1/scenes", reply.body, {"Content-Type": "model/gltf-binary"})
+        self.assertEqual(upload.status, 201, upload.body)
+        original = self.server.get(f"/v1/scenes/{self.scene}").json()
+        for field in ("triangles", "instances", "boundsMin", "boundsMax"):
+            self.assertEqual(upload.json()[field], original[field])
+
+    def test_what_can_not_be_sent_is_refused(self):
+        key = self.bake(self.two).json()["key"]
+        self.assert_problem(self.file(key, "image/gif"), 406)
+        self.assert_problem(self.file("0" * 64, "image/png"), 404, "key")
+        for query in ("?light=2", "?light=-1", "?light=x", "?light=0&light=1", "?light=99999999999"):
+            self.assertEqual(self.file(key, "image/png", query).status, 400, query)
+        self.assert_problem(self.file(key, "image/png", "?lights=1"), 400, "/lights")
+        uneven = self.two | {"lights": [SUN, SUN | {"shadow": BAKED | {"lightMap": {"size": 64}}}]}
+        key = self.bake(uneven).json()["key"]
+        self.assert_problem(self.file(key, "model/gltf-binary"), 400, "/lights/1/shadow/lightMap")
+        self.assertEqual(self.file(key, "model/gltf-binary", "?light=1").status, 200)
+        self.remove(key)
+        self.assert_problem(self.file(key, "image/png"), 404, "key")
 
 
 class Stored(ServerTest):

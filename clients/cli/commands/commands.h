@@ -24,6 +24,7 @@ struct Subcommand {
 
 Subcommand addRenderCommand(CLI::App& app);
 Subcommand addPlanCommand(CLI::App& app);
+Subcommand addBakeCommand(CLI::App& app);
 Subcommand addEvaluateCommand(CLI::App& app);
 Subcommand addInspectCommand(CLI::App& app);
 Subcommand addHealthCommand(CLI::App& app);

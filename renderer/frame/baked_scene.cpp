@@ -1,11 +1,10 @@
-#include "renderer/frame/bake_scene.h"
+#include "renderer/frame/baked_scene.h"
 
 #include <algorithm>
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
-#include "renderer/frame/baked_lights.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/render_frame.h"
 #include "renderer/resolve/plan_input.h"
@@ -24,16 +23,16 @@ std::vector<int> lightsToBake(const ResolvedFrame& frame) {
 
 } // namespace
 
-Result<BakeReport> bakeScene(FrameCaches& caches, const std::shared_ptr<const Scene>& scene, const FrameSpec& spec,
+Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Scene>& scene, const FrameSpec& spec,
                              const BakeListener& listener) {
   const auto start = std::chrono::steady_clock::now();
   const auto posed = posedScene(scene, spec.animation);
   if (!posed) return posed.problems();
   FrameSpec seen = spec;
   seen.camera = Camera{};
-  const auto frame = resolveFrame(**posed, seen);
+  auto frame = resolveFrame(**posed, seen);
   if (!frame) return frame.problems();
-  const std::vector<int> lights = lightsToBake(*frame);
+  std::vector<int> lights = lightsToBake(*frame);
   if (lights.empty()) {
     return Problem{ProblemCode::invalidValue, "/shadow/technique",
                    "There is nothing to bake: no light that casts a shadow has technique lightMap.", "lightMap", ""};
@@ -42,13 +41,17 @@ Result<BakeReport> bakeScene(FrameCaches& caches, const std::shared_ptr<const Sc
     const auto done = std::find(lights.begin(), lights.end(), light) - lights.begin();
     return !listener || listener({{}, light, share, static_cast<int>(done), static_cast<int>(lights.size())});
   };
-  const auto found = bakedLights(caches.lightMaps, caches.traced, {scene, *posed}, spec, *frame, progress);
+  auto found = bakedLights(caches.lightMaps, caches.traced, {scene, *posed}, spec, *frame, progress);
   if (!found) return found.problems();
+  return BakedScene{*posed, *std::move(frame), std::move(lights), *std::move(found), millisecondsSince(start)};
+}
+
+BakeReport reportOf(const BakedScene& baked) {
   BakeReport report;
-  for (const int light : lights) {
-    report.lights.push_back({light, lightMapReport((*found)[static_cast<std::size_t>(light)])});
+  for (const int light : baked.lights) {
+    report.lights.push_back({light, lightMapReport(baked.found[static_cast<std::size_t>(light)])});
   }
-  report.milliseconds = millisecondsSince(start);
+  report.milliseconds = baked.milliseconds;
   return report;
 }
 

@@ -1,4 +1,4 @@
-#include "renderer/frame/bake_scene.h"
+#include "renderer/frame/baked_scene.h"
 
 #include <atomic>
 #include <gtest/gtest.h>
@@ -25,7 +25,9 @@ FrameSpec lightMapSpec(int size, int samples = 64) {
 class BakeScene : public ::testing::Test {
  protected:
   Result<BakeReport> bake(const FrameSpec& asked, const BakeListener& listener = {}) {
-    return bakeScene(caches_, scene_, asked, listener);
+    const auto baked = bakeScene(caches_, scene_, asked, listener);
+    if (!baked) return baked.problems();
+    return reportOf(*baked);
   }
 
   const ScenePtr scene_ = testing::squares();

@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/spec_flags.h"
+#include "clients/cli/files/file_io.h"
+#include "clients/cli/files/scene_file.h"
+#include "clients/cli/render/baking.h"
+#include "clients/cli/spec/spec_arguments.h"
+
+namespace gnomon::cli {
+namespace {
+
+struct BakeOptions {
+  std::string scene;
+  std::string output;
+  std::string spec;   // a file, "-" = standard input, empty = none
+  std::string report; // a file, "-" = standard output, empty = none
+  std::optional<int> light;
+  SpecArguments arguments;
+  WhereOptions where;
+};
+
+std::optional<BakeFile> kindOf(const std::string& output) {
+  if (output.ends_with(".glb")) return BakeFile::glb;
+  if (output.ends_with(".exr")) return BakeFile::exr;
+  if (output.ends_with(".png")) return BakeFile::png;
+  return std::nullopt;
+}
+
+std::string checkBakeOutput(const std::string& output) {
+  return kindOf(output) ? "" : "needs a name that ends in .glb, .exr or .png";
+}
+
+Result<Baked> bakeScene(const BakeOptions& options, const FrameSpec& spec, ProgressLine& progress) {
+  progress.stage("reading " + options.scene);
+  const auto bundle = readSceneFile(options.scene);
+  if (!bundle) return bundle.problems();
+  const BakeOrder order{spec, *kindOf(options.output), options.light};
+  if (options.where.server.empty()) return bakeHere(*bundle, order, options.where.backend, progress);
+  return bakeThere(options.where.server, *bundle, order, progress);
+}
+
+int runBake(const BakeOptions& options) {
+  const auto [spec, origins, json] = resolveSpecFile(options.spec, options.arguments);
+  if (!spec) return printProblems(spec.problems(), origins);
+  auto progress = ProgressLine::onTerminal();
+  const auto baked = bakeScene(options, *spec, progress);
+  progress.finish();
+  if (!baked) return printProblems(baked.problems(), origins);
+  if (const Status written = writeFile(options.output, baked->file); !written) return printProblems(written.problems());
+  if (options.report.empty()) return kExitOk;
+  const Status reported = writeFile(options.report, asBytes(baked->reportJson));
+  return reported ? kExitOk : printProblems(reported.problems());
+}
+
+} // namespace
+
+Subcommand addBakeCommand(CLI::App& app) {
+  auto options = std::make_shared<BakeOptions>();
+  auto* command =
+      app.add_subcommand("bake", "Bake the shadows of what stands still into a file, in this process or on a server");
+  command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "What was baked: .glb = the scene with the light that arrives as a light map, .exr or .png = the "
+                   "share of light alone")
+      ->required()
+      ->check(checkBakeOutput);
+  command->add_option("--spec", options->spec,
+                      "A request as JSON; - is standard input. Flags override its fields. Lights of technique lightMap "
+                      "are baked");
+  command->add_option("--light", options->light, "One of the baked lights, by its index")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--report", options->report, "Write the bake's report as JSON; - is standard output");
+  addPictureFlags(*command, options->arguments);
+  addWhereFlags(*command, options->where);
+  return {[command] { return command->parsed(); }, [options] { return runBake(*options); }};
+}
+
+} // namespace gnomon::cli

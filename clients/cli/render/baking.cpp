@@ -1,0 +1,113 @@
+#include "clients/cli/render/baking.h"
+
+#include <nlohmann/json.hpp>
+
+#include "clients/cli/remote/http_client.h"
+#include "clients/cli/remote/remote_scene.h"
+#include "protocol/bake/bake_json.h"
+
+namespace gnomon::cli {
+namespace {
+
+/// Of all lights: those that are done, and the one that is baked.
+double shareOfAll(int done, int of, double share) {
+  return of > 0 ? (done + share) / of : 0;
+}
+
+std::string mediaTypeOf(BakeFile kind) {
+  switch (kind) {
+    case BakeFile::png:
+      return "image/png";
+    case BakeFile::exr:
+      return "image/x-exr";
+    case BakeFile::glb:
+      return "model/gltf-binary";
+  }
+  return "*/*";
+}
+
+std::string reportText(const BakeReport& report) {
+  return toJson(report).dump(2) + "\n";
+}
+
+void showBakeStep(const std::string& data, ProgressLine& progress) {
+  const Json json = Json::parse(data, nullptr, false);
+  const auto number = [&](const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0;
+  };
+  progress.share(shareOfAll(static_cast<int>(number("done")), static_cast<int>(number("of")), number("share")));
+}
+
+/// The report of a bake on a server, which tells its progress.
+Result<BakeReport> askForBake(const std::string& server, const std::string& path, const FrameSpec& spec,
+                              ProgressLine& progress) {
+  const std::string body = toJson(spec).dump();
+  EventReader reader;
+  std::optional<ServerEvent> last;
+  HttpCall call;
+  call.method = "POST";
+  call.path = path;
+  call.headers = {{"Accept", "text/event-stream"}};
+  call.contentType = "application/json";
+  call.body = body;
+  call.onReceived = [&](std::string_view bytes) {
+    for (ServerEvent& event : reader.read(bytes)) {
+      if (event.name == "progress") showBakeStep(event.data, progress);
+      if (event.name == "result" || event.name == "problem") last = std::move(event);
+    }
+  };
+  const auto reply = callPatiently(server, call, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(server, *reply);
+  if (!last) return Problem{ProblemCode::unavailable, server, "The reply ended before the bake did.", "", ""};
+  if (last->name == "problem") return problemsOf(server, {reply->status, "", last->data, 0});
+  auto report = readBakeReport(last->data);
+  if (!report) return Problem{ProblemCode::internal, server, "The reply is not a bake.", "", ""};
+  return *std::move(report);
+}
+
+} // namespace
+
+Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const BackendOptions& backend,
+                       ProgressLine& progress) {
+  progress.stage("loading the scene");
+  const auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  progress.stage("starting the renderer");
+  RendererOptions options;
+  options.backend = backend;
+  const auto renderer = Renderer::create(options);
+  if (!renderer) return renderer.problems();
+  const Baker baker = renderer->baker();
+  progress.stage("baking");
+  const auto report = baker.bake(*scene, order.spec, [&](const BakeStep& step) {
+    progress.share(shareOfAll(step.done, step.of, step.share));
+    return true;
+  });
+  if (!report) return report.problems();
+  progress.stage("making the file");
+  auto file = baker.file(*scene, order.spec, order.kind, order.light);
+  if (!file) return file.problems();
+  return Baked{*std::move(file), reportText(*report)};
+}
+
+Result<Baked> bakeThere(const std::string& server, const SceneBundle& bundle, const BakeOrder& order,
+                        ProgressLine& progress) {
+  const auto id = sceneId(server, bundle, progress);
+  if (!id) return id.problems();
+  progress.stage("baking on the server");
+  const std::string path = "/v1/scenes/" + *id + "/bakes";
+  const auto report = askForBake(server, path, order.spec, progress);
+  if (!report) return report.problems();
+  progress.stage("fetching the file");
+  HttpCall fetch;
+  fetch.path = path + "/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
+  fetch.headers = {{"Accept", mediaTypeOf(order.kind)}};
+  const auto reply = callPatiently(server, fetch, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(server, *reply);
+  const auto file = asBytes(reply->body);
+  return Baked{Bytes(file.begin(), file.end()), reportText(*report)};
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,54 @@
+"""`gnomon bake` through the shipped binary: the same files here and there, problems."""
+
+import json
+import struct
+import unittest
+
+from command_line_test import BOX, OK, PROBLEM, USAGE, CommandLine, gnomon
+from shipped_server import EXR_MAGIC, Server, png_size
+
+BAKE = ["--sun", "135,40", "--set", "shadow.technique=lightMap", "--set", "shadow.lightMap.size=128"]
+
+
+class Bake(CommandLine):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server()
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.url = "http://{}:{}".format(*cls.server.address)
+
+    def test_a_bake_here_and_there(self):
+        for ending in ("png", "exr", "glb"):
+            files = []
+            for where in ([], ["--server", self.url]):
+                path, report = self.folder / f"baked.{ending}", self.folder / "report.json"
+                run = gnomon("bake", BOX, *BAKE, "-o", str(path), "--report", str(report), *where)
+                self.assert_ends(run, OK)
+                self.assertEqual((run.stdout, run.stderr), (b"", b""))
+                light = json.loads(report.read_text())["lights"][0]
+                files.append((path.read_bytes(), light["lightMap"]["width"], light["lightMap"]["height"]))
+            self.assertEqual(files[0], files[1])
+            data, width, height = files[0]
+            if ending == "png":
+                self.assertEqual(png_size(data), (width, height))
+            elif ending == "exr":
+                self.assertTrue(data.startswith(EXR_MAGIC))
+            else:
+                self.assertEqual(struct.unpack("<4sII", data[:12]), (b"glTF", 2, len(data)))
+
+    def test_what_is_wrong_with_a_bake_is_told(self):
+        out = ["-o", str(self.folder / "baked.glb")]
+        for arguments, said in (
+            (["--set", "shadow.technique=rayTraced"], ["/shadow/technique"]),
+            ([*BAKE, "--set", "shadow.lightMap.size=0"], ["--set shadow.lightMap.size", "16..8192"]),
+            ([*BAKE, "--set", "shadow.lightMap.texelsPerMetre=1000000"], ["8192"]),
+            ([*BAKE, "--light", "3"], ["/light"]),
+        ):
+            for where in ([], ["--server", self.url]):
+                self.assert_ends(gnomon("bake", BOX, *arguments, *out, *where), PROBLEM, *said)
+        self.assert_ends(gnomon("bake", BOX, *BAKE, "-o", "baked.obj"), USAGE)
+        self.assert_ends(gnomon("bake", BOX, *BAKE), USAGE)
+
+
+if __name__ == "__main__":
+    unittest.main()
