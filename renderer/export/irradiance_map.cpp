@@ -99,8 +99,10 @@ class ChartLight {
       const double facing = glm::dot(normal, light.toLight);
       const double cosine = doubleSided_ ? std::abs(facing) : std::max(facing, 0.0);
       const double share = node_.receiveShadow ? each.baked.map.at(texel.x, texel.y) / 65535.0 : 1;
-      const double strength = each.light.shadow->strength;
-      sum += light.irradiance * (cosine * (1 - strength * (1 - share)));
+      const Shadow& shadow = *each.light.shadow;
+      const glm::dvec3 left(shadow.color[0], shadow.color[1], shadow.color[2]);
+      const double hidden = shadow.strength * (1 - share);
+      sum += light.irradiance * cosine * (1.0 - hidden * (1.0 - left));
     }
     return sum;
   }

@@ -95,6 +95,10 @@ TEST_F(IrradianceMapTest, NodesMayTakeNoShadowOrNoLight) {
   EXPECT_EQ(at(map(nodes), 0.2, 0.3).r, 0);
   light_.shadow->strength = 0.5;
   EXPECT_NEAR(at(map(), 0.2, 0.3).r, 1.5, 1e-3);
+  light_.shadow->color = {0, 0.5, 1};
+  EXPECT_NEAR(at(map(), 0.2, 0.3).r, 1.5, 1e-3);
+  EXPECT_NEAR(at(map(), 0.2, 0.3).g, 1.75, 1e-3);
+  EXPECT_NEAR(at(map(), 0.2, 0.3).b, 2, 1e-3);
 }
 
 TEST_F(IrradianceMapTest, AGlbOfItLoadsAgainAndItsSizeIsBounded) {
