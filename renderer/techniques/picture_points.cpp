@@ -33,6 +33,20 @@ std::optional<std::uint32_t> PicturePoints::onlyNumberIn(const Rect& block) cons
   return number;
 }
 
+std::optional<std::uint32_t> PicturePoints::onlyNumberOfSamplesIn(const Rect& block) const {
+  const auto number = onlyNumberIn(block);
+  const auto samples = static_cast<std::uint32_t>(grid_.samples());
+  if (!number || samples == 1) return number;
+  for (int y = block.y; y < block.y + block.height; ++y) {
+    std::uint32_t differs = 0;
+    for (std::uint32_t i = 1; i < samples; ++i) {
+      for (int x = block.x; x < block.x + block.width; ++x) differs |= shown_.at(x, y, i) ^ *number;
+    }
+    if (differs != 0) return std::nullopt;
+  }
+  return number;
+}
+
 DrawnBlock PicturePoints::drawnBlock(const Rect& block, std::uint32_t number) const {
   DrawnBlock drawn;
   const glm::vec2 sample = grid_.positions.front();

@@ -102,6 +102,9 @@ class PicturePoints {
   /// What all first samples of a block show, where that is one number. REQUIRES: the block lies in the picture.
   std::optional<std::uint32_t> onlyNumberIn(const Rect& block) const;
 
+  /// The same of all samples.
+  std::optional<std::uint32_t> onlyNumberOfSamplesIn(const Rect& block) const;
+
   /// The block as rays know it. `number`: of the triangle that it shows alone.
   DrawnBlock drawnBlock(const Rect& block, std::uint32_t number) const;
 

@@ -109,5 +109,19 @@ TEST(BakeLightMap, IsTheSameOnAnyNumberOfCoresAndStopsWhenAsked) {
   EXPECT_FALSE(bakeLightMap(traced.input(), 0, layout, 64, [](double) { return false; }).has_value());
 }
 
+TEST(BakeLightMap, BothWaysToReadItSayTheSame) {
+  LightMap map{5, 4, {}};
+  for (int i = 0; i < 20; ++i) map.shares.push_back(static_cast<std::uint16_t>(i * 9973 % 65536));
+  for (float x = 0.5f; x <= 4.5f; x += 0.125f) {
+    for (float y = 0.5f; y <= 3.5f; y += 0.125f) {
+      EXPECT_NEAR(scaledShareAt(map, {x, y}), shareAt(map, {x, y}) * 65535, 0.1) << x << " " << y;
+    }
+  }
+  for (const glm::vec2& beyond : {glm::vec2(-3, -3), glm::vec2(0), glm::vec2(9, 9), glm::vec2(-1, 9)}) {
+    EXPECT_GE(scaledShareAt(map, beyond), 0);
+    EXPECT_LE(scaledShareAt(map, beyond), 65535);
+  }
+}
+
 } // namespace
 } // namespace gnomon
