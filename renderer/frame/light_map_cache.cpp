@@ -34,6 +34,12 @@ LightMapFineness finenessOf(const LightMapOptions& options) {
   return {{}, options.size};
 }
 
+/// Whence the whole scene is seen: surfaces that are one to a camera there are one to the map.
+glm::dvec3 fromAfar(const SceneView& view) {
+  const double extent = view.bounds.empty() ? 0.0 : glm::length(view.bounds.max - view.bounds.min);
+  return anchorOf(view) + glm::dvec3(0, extent, 0);
+}
+
 std::size_t bytesOf(const LightMapLayout& layout) {
   std::size_t bytes = layout.corners.capacity() * sizeof(layout.corners[0]);
   for (const PlacedChart& chart : layout.charts) {
@@ -118,8 +124,8 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
       return Found{std::make_shared<const BakedLight>(*std::move(stored)), true};
     }
   }
-  // By a light without an end: its cone and range decide where it shines, and not what its shadow is.
-  const CameraView camera{.eye = anchorOf(input.traced.view())};
+  // Towards a light without an end: its cone and range decide where it shines, and not what its shadow is.
+  const CameraView camera{.eye = fromAfar(input.traced.view())};
   std::vector<Light> lights(input.lights.begin(), input.lights.end());
   Light& open = lights[static_cast<std::size_t>(index)];
   open.range.reset();

@@ -1,16 +1,26 @@
 #include "renderer/techniques/penumbras.h"
 
+#include <iterator>
+
 #include "renderer/core/parallel.h"
 #include "renderer/techniques/neighbours.h"
 
 namespace gnomon {
 namespace {
 
-/// Rays that every pixel has been given when a round ends, and those that the next one brings it to.
+/// The rays `first` up to `last` of a pixel.
 struct Round {
-  int number = 0; ///< of rounds before it
-  std::uint32_t first = 1, last = 1;
+  std::uint32_t first, last;
 };
+
+/// Each brings a pixel to four times as many rays as it had, the last to `most`.
+std::vector<Round> roundsUpTo(std::uint32_t most) {
+  std::vector<Round> rounds;
+  for (std::uint32_t rays = 1; rays < most; rays = rounds.back().last) {
+    rounds.push_back({rays, std::min(4 * rays, most)});
+  }
+  return rounds;
+}
 
 /// Adds what the rays of a round see to what was seen before. None wait any more.
 void add(const PicturePoints& points, const TracedLight& light, const Round& round, ShownSamples& waiting,
@@ -27,7 +37,7 @@ void add(const PicturePoints& points, const TracedLight& light, const Round& rou
   waiting.count = 0;
 }
 
-/// From all of `pixels`, which are of this round.
+/// From all of `pixels`, whose next round this is.
 void trace(const PicturePoints& points, const TracedLight& light, const Round& round, const Pixels& pixels,
            PictureShares& shares) {
   const int columns = blockColumns(shares.grid);
@@ -55,31 +65,36 @@ void trace(const PicturePoints& points, const TracedLight& light, const Round& r
 } // namespace
 
 void tracePenumbras(const PicturePoints& points, const TracedLight& light, int samples, PictureShares& shares) {
-  const auto most = static_cast<std::uint32_t>(std::max(samples, 1));
-  const auto isOf = [&](const Round& round, std::uint32_t pixel) {
+  const std::vector<Round> rounds = roundsUpTo(static_cast<std::uint32_t>(std::max(samples, 1)));
+  if (rounds.empty()) return;
+  const auto isIn = [&](std::size_t round, std::uint32_t pixel) {
     const std::uint8_t mark = shares.marks[pixel];
-    return mark / PictureShares::kRound == round.number && (mark & PictureShares::kAway) == 0 &&
+    return mark / PictureShares::kRound == static_cast<int>(round) && (mark & PictureShares::kAway) == 0 &&
            points.numberAt(shares.grid.pixelAt(pixel)) != kNoNumber;
   };
-  for (Round round; round.last < most; ++round.number) {
-    round.first = round.last;
-    round.last = std::min(4 * round.first, most);
-    Pixels next = pixelsWhere(shares.grid, shares.shares, [](std::uint8_t least, std::uint8_t highest) {
+  const auto inDoubt = [&] {
+    return pixelsWhere(shares.grid, shares.shares, [](std::uint8_t least, std::uint8_t highest) {
       return static_cast<int>(highest) - static_cast<int>(least) >= kEdge;
     });
-    const auto isAsked = [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return isOf(round, pixel); };
-    if (round.number > 0) {
-      std::erase_if(next, [&](std::uint32_t pixel) { return !isOf(round, pixel); });
-      trace(points, light, round, next, shares);
-      continue;
-    }
-    for (next = pixelsBeside(shares, next, isAsked); !next.empty();) {
-      trace(points, light, round, next, shares);
-      // More rays may have found what a single one missed, and at the rim of a penumbra they may miss it, too.
-      next = pixelsBeside(shares, next, [&](std::uint32_t pixel, std::uint32_t traced) {
-        return shares.apart(pixel, traced) >= kEdge;
-      });
-      next = pixelsBeside(shares, next, isAsked);
+  };
+  const auto isAsked = [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return isIn(0, pixel); };
+  for (Pixels next = pixelsBeside(shares, inDoubt(), isAsked); !next.empty();) {
+    trace(points, light, rounds[0], next, shares);
+    // More rays may have found what a single one missed, and at the rim of a penumbra they may miss it, too.
+    next = pixelsBeside(
+        shares, next, [&](std::uint32_t pixel, std::uint32_t traced) { return shares.apart(pixel, traced) >= kEdge; });
+    next = pixelsBeside(shares, next, isAsked);
+  }
+  // What a pixel agreed with may move away from it later: then it catches up.
+  for (bool any = true; any;) {
+    any = false;
+    const Pixels doubtful = inDoubt();
+    for (std::size_t round = rounds.size() - 1; round > 0; --round) {
+      Pixels next;
+      std::copy_if(doubtful.begin(), doubtful.end(), std::back_inserter(next),
+                   [&](std::uint32_t pixel) { return isIn(round, pixel); });
+      trace(points, light, rounds[round], next, shares);
+      any = any || !next.empty();
     }
   }
 }

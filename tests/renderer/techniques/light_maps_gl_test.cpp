@@ -1,6 +1,7 @@
 // Shadows that are baked once and looked up by each frame.
 #include <cmath>
 
+#include "tests/renderer/reference/shapes.h"
 #include "tests/renderer/scene/animation/animated.h"
 #include "tests/renderer/techniques/traced_frame.h"
 
@@ -151,6 +152,20 @@ TEST(LightMaps, APoseThatBendsAMeshWithinItsBoundsIsRefusedAndNamesItsNode) {
   builder.json["nodes"][1]["name"] = "sail";
   animate(builder, 1, "weights", {0, 2}, {0, 1}, "SCALAR");
   expectMovedNode(builder, "sail");
+}
+
+/// The back of a panel on a wall: a micrometre before it, and turned away from the camera.
+TEST(LightMaps, SurfacesThatTouchDoNotShadowEachOther) {
+  testing::GlbBuilder builder;
+  testing::addSquare(builder, 4, 0);
+  constexpr float kGap = 1e-6f;
+  testing::addQuad(builder, {{-2, kGap, -2}, {2, kGap, -2}, {2, kGap, 2}, {-2, kGap, 2}});
+  const ScenePtr scene = testing::sceneOf(builder);
+  Json spec = specOf();
+  spec["camera"] = {{"eye", {0, 9, 5}}, {"target", {0, 0, 0}}};
+  const auto count = misclassified(floatsOf(renderJson(scene, spec.dump())), truthOf(scene, spec.dump()));
+  EXPECT_GT(count.receivers, 10000u);
+  EXPECT_EQ(count.wrong, 0u);
 }
 
 TEST(LightMaps, AMapThatWouldBeTooLargeIsAProblemAtItsField) {
