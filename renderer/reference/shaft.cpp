@@ -1,5 +1,7 @@
 #include "renderer/reference/shaft.h"
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -36,6 +38,13 @@ std::optional<glm::vec4> sidePlane(const LightSource& light, const glm::dvec3& f
   return plane(normal * std::sqrt(1 - sine * sine) + away * sine, from, scale);
 }
 
+/// Of a block that lies askew to the light, a far part may lie outside of a plane that is turned to it.
+bool holds(const glm::vec4& plane, const FlatBlock& block, double scale) {
+  return std::all_of(block.corners.begin(), block.corners.end(), [&](const glm::dvec3& corner) {
+    return glm::dot(glm::dvec3(plane), corner * scale) + double{plane.w} >= 0;
+  });
+}
+
 } // namespace
 
 std::optional<Shaft> shaftTo(const LightSource& light, const FlatBlock& block, double scale) {
@@ -47,14 +56,15 @@ std::optional<Shaft> shaftTo(const LightSource& light, const FlatBlock& block, d
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec3& from = block.corners[i];
     const auto side = sidePlane(light, from, block.corners[(i + 1) % 4], middle - from, scale);
-    if (!side) return std::nullopt;
+    if (!side || !holds(*side, block, scale)) return std::nullopt;
     shaft.planes[i] = *side;
   }
   shaft.planes[4] = plane(block.normal, middle, scale);
   shaft.planes[5] = {0, 0, 0, 1};
   const glm::dvec3 beyond = middle + toLight * (1 + light.radius / distance);
   if (light.type != LightType::directional && glm::length(beyond * scale) < 4) {
-    shaft.planes[5] = plane(-toLight / distance, beyond, scale);
+    const glm::vec4 end = plane(-toLight / distance, beyond, scale);
+    if (holds(end, block, scale)) shaft.planes[5] = end;
   }
   return shaft;
 }

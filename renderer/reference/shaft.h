@@ -23,7 +23,8 @@ struct Shaft {
   std::array<glm::vec4, kPlanes> planes{};
 };
 
-/// Nothing where part of the light lies below the block's plane, or where the block is too small for its sides to tell.
+/// Nothing where part of the light lies below the block's plane, or where the block is too small, or lies too much
+/// askew, for its sides to tell.
 std::optional<Shaft> shaftTo(const LightSource& light, const FlatBlock& block, double scale);
 
 } // namespace gnomon

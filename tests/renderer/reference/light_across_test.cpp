@@ -1,6 +1,7 @@
 #include <random>
 #include <rapidcheck.h>
 
+#include "renderer/reference/shaft.h"
 #include "tests/renderer/reference/shapes.h"
 
 namespace gnomon {
@@ -103,6 +104,20 @@ TEST(LightAcross, IsWhatEveryPointOfTheBlockSays) {
   }));
   EXPECT_GT(lit, 500u);
   EXPECT_GT(away, 100u);
+}
+
+/// A floor seen along it, under a lamp near the block's end.
+TEST(LightAcross, AShaftHoldsAllOfALongBlock) {
+  const LightSource lamp{.type = LightType::point, .position = {1.9, 2, 1.8}, .radius = 0.2};
+  const FlatBlock block{{{{15.4, 0, 12.6}, {14.9, 0, 13.1}, {1.6, 0, -1.1}, {2.1, 0, -1.6}}}, {0, 1, 0}};
+  const double scale = 1.0 / 256;
+  const auto shaft = shaftTo(lamp, block, scale);
+  ASSERT_TRUE(shaft.has_value());
+  for (const glm::vec4& plane : shaft->planes) {
+    for (const glm::dvec3& corner : block.corners) {
+      EXPECT_GE(glm::dot(glm::dvec3(plane), corner * scale) + double{plane.w}, 0.0);
+    }
+  }
 }
 
 /// A square over a floor: the sun's rays reach all blocks but those in its shadow, and those at the rim.
