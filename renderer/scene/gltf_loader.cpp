@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "protocol/base/bytes.h"
+#include "renderer/core/grid_file_kind.h"
 #include "renderer/scene/animation/animations.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
@@ -31,9 +32,7 @@ namespace {
 std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle& bundle) {
   std::map<std::string, std::shared_ptr<const Bytes>> grids;
   for (const auto& [name, file] : bundle.files) {
-    const std::string_view text = asText(file);
-    const bool numPy = text.starts_with("\x93NUMPY"), openVdb = text.starts_with(" BDV");
-    if (numPy || openVdb) grids.emplace(name, std::make_shared<const Bytes>(file));
+    if (gridFileKind(asText(file))) grids.emplace(name, std::make_shared<const Bytes>(file));
   }
   return grids;
 }

@@ -17,6 +17,7 @@
 #include "renderer/scene/gltf_loader.h"
 #include "tests/bench/process_status.h"
 #include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 
 namespace gnomon::bench {
 namespace {
@@ -37,14 +38,7 @@ struct Load {
 };
 
 Model gathered(const fs::path& assets, const nlohmann::json& entry) {
-  const fs::path path = assets / entry.at("path").get<std::string>();
-  Model model{entry.at("id"), {testing::readFile(path), {}}};
-  for (const auto& file : entry.at("files")) {
-    const fs::path other = assets / file.get<std::string>();
-    if (other == path) continue;
-    model.bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
-  }
-  return model;
+  return {entry.at("id"), testing::gatheredBundle(assets, entry)};
 }
 
 /// The gathered models, where there are any, and further GLBs.

@@ -5,6 +5,7 @@
 #include "tests/renderer/frame_fixture.h"
 #include "tests/renderer/made_grids.h"
 #include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
@@ -26,14 +27,7 @@ struct Shown {
 };
 
 ScenePtr gathered(const fs::path& assets, const nlohmann::json& model) {
-  const fs::path path = assets / model.at("path").get<std::string>();
-  SceneBundle bundle{testing::readFile(path), {}};
-  for (const auto& file : model.at("files")) {
-    const fs::path other = assets / file.get<std::string>();
-    if (other != path)
-      bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
-  }
-  auto scene = loadScene(bundle);
+  auto scene = loadScene(testing::gatheredBundle(assets, model));
   return scene ? *scene : nullptr;
 }
 

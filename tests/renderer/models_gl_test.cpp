@@ -4,24 +4,13 @@
 
 #include "tests/renderer/frame_fixture.h"
 #include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path kAssets = GNOMON_TEST_ASSETS;
-
-/// The model and, under the names that it uses, the files beside it.
-SceneBundle bundleOf(const nlohmann::json& model) {
-  const fs::path path = kAssets / model.at("path").get<std::string>();
-  SceneBundle bundle{testing::readFile(path), {}};
-  for (const auto& file : model.at("files")) {
-    const fs::path other = kAssets / file.get<std::string>();
-    if (other != path)
-      bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
-  }
-  return bundle;
-}
 
 std::size_t colorsIn(const Frame& frame) {
   const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
@@ -40,7 +29,7 @@ TEST(Models, EveryOneIsShownOrRefusedByName) {
   int shown = 0;
   for (const auto& model : manifest.at("models")) {
     SCOPED_TRACE(model.at("id").get<std::string>());
-    const auto scene = loadScene(bundleOf(model));
+    const auto scene = loadScene(testing::gatheredBundle(kAssets, model));
     if (!scene) {
       EXPECT_EQ(scene.problems()[0].code, ProblemCode::unsupportedFeature) << scene.problems()[0].detail;
       EXPECT_EQ(scene.problems()[0].pointer.rfind("/extensionsRequired/", 0), 0u) << scene.problems()[0].pointer;

@@ -5,6 +5,7 @@
 
 #include "tests/renderer/frame_fixture.h"
 #include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 #include "tests/support/tested_device.h"
 
 namespace gnomon {
@@ -64,14 +65,7 @@ class Table {
 };
 
 Result<ScenePtr> gathered(const fs::path& assets, const nlohmann::json& model) {
-  const fs::path path = assets / model.at("path").get<std::string>();
-  SceneBundle bundle{testing::readFile(path), {}};
-  for (const auto& file : model.at("files")) {
-    const fs::path other = assets / file.get<std::string>();
-    if (other == path) continue;
-    bundle.files[other.lexically_relative(path.parent_path()).generic_string()] = testing::readFile(other);
-  }
-  return loadScene(bundle);
+  return loadScene(testing::gatheredBundle(assets, model));
 }
 
 TEST(PredictedDisplacement, H2_IsWithinAQuarterOfTheMeasuredOneOverTheGatheredScenes) {

@@ -7,6 +7,7 @@
 
 #include "tests/renderer/scene/load.h"
 #include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
@@ -24,18 +25,6 @@ json manifest() {
   return file ? json::parse(file) : json();
 }
 
-/// The model and the files that the manifest lists with it, named as the model names them.
-SceneBundle bundleOfEntry(const json& entry) {
-  const fs::path model = assetFolder() / entry["path"].get<std::string>();
-  SceneBundle bundle{testing::readFile(model), {}};
-  for (const json& name : entry["files"]) {
-    const fs::path file = assetFolder() / name.get<std::string>();
-    if (file == model) continue;
-    bundle.files[file.lexically_relative(model.parent_path()).generic_string()] = testing::readFile(file);
-  }
-  return bundle;
-}
-
 std::string textOf(const Problems& problems) {
   std::string text;
   for (const Problem& problem : problems) text += problem.pointer + ": " + problem.detail + "\n";
@@ -47,7 +36,7 @@ TEST(Assets, BrokenFilesAreToldApart) {
   if (list.is_null()) GTEST_SKIP() << "no manifest.json in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
   for (const json& entry : list["bad"]) {
     SCOPED_TRACE(entry["path"].get<std::string>());
-    auto result = loadGltf(bundleOfEntry(entry));
+    auto result = loadGltf(testing::gatheredBundle(assetFolder(), entry));
     if (result) {
       EXPECT_NE(entry["expect_hint"], "reject");
       continue;
@@ -65,7 +54,7 @@ TEST(Assets, SoundFilesLoadOrNameTheExtensionThatTheyNeed) {
   if (list.is_null()) GTEST_SKIP() << "no manifest.json in " << assetFolder() << " (GNOMON_TEST_ASSETS)";
   for (const json& entry : list["models"]) {
     SCOPED_TRACE(entry["path"].get<std::string>());
-    auto result = loadGltf(bundleOfEntry(entry));
+    auto result = loadGltf(testing::gatheredBundle(assetFolder(), entry));
     if (result) {
       EXPECT_LE((*result)->summary.triangles, entry["triangles_default_scene"].get<std::uint64_t>());
       EXPECT_GT((*result)->summary.triangles, 0u);
