@@ -1,7 +1,5 @@
 #include "renderer/cpu/volume_layers.h"
 
-#include <limits>
-
 #include "renderer/core/parallel.h"
 #include "renderer/cpu/raster/raster.h"
 #include "renderer/volume/volume_picture.h"
@@ -29,11 +27,9 @@ VolumeLayers volumeLayers(const CameraView& view, const DepthBuffer& surfaces) {
   layers.depths.resize(width * static_cast<std::size_t>(surfaces.height) * samples);
   forEach(static_cast<std::size_t>(surfaces.height), [&](std::size_t y) {
     for (std::size_t i = 0; i < width * samples; ++i) {
-      const float depth =
-          surfaces
-              .depths[surfaces.at(static_cast<int>(i / samples), static_cast<int>(y), static_cast<int>(i % samples))];
-      layers.depths[y * width * samples + i] =
-          depth > 0 ? static_cast<float>(viewDepthOf(view, double{depth})) : std::numeric_limits<float>::infinity();
+      const std::size_t place =
+          surfaces.at(static_cast<int>(i / samples), static_cast<int>(y), static_cast<int>(i % samples));
+      layers.depths[y * width * samples + i] = seenDepth(view, surfaces.depths[place]);
     }
   });
   return layers;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
@@ -15,6 +17,9 @@ enum class BakeFile {
   exr, ///< the same in floats; several lights are layers: light0.Y, light1.Y
   glb  ///< the scene with texture coordinates for the map, and the light that arrives under MOZ_lightmap
 };
+
+/// Their media types, in that order.
+inline constexpr std::array<std::string_view, 3> kBakeFileTypes{"image/png", "image/x-exr", "model/gltf-binary"};
 
 inline constexpr std::size_t kMostExportedBytes = 256u << 20; ///< of a GLB
 

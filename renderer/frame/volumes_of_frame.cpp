@@ -154,10 +154,6 @@ std::size_t bytesOf(const VolumeLight& light) {
   return light.texels.size() * sizeof(light.texels[0]);
 }
 
-} // namespace
-
-namespace {
-
 /// What devices keep of volumes for each pixel takes no more than a frame may have.
 Status checkSize(const FrameSpec& spec) {
   const std::int64_t samples = spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct SeenSurfaces {
   /// View depth of each sample, metres; infinite where no surface is. Those before the near plane count as at it.
   std::span<const float> depths{};
 };
+
+/// As SeenSurfaces has it, of what a depth buffer holds: 0 where no surface is.
+inline float seenDepth(const CameraView& view, float depth) {
+  return depth > 0 ? static_cast<float>(viewDepthOf(view, double{depth})) : std::numeric_limits<float>::infinity();
+}
 
 /// What volumes add to a picture, a value a pixel: red, green and blue are the radiance that they send, alpha is the
 /// share of what is behind them that they let through: color = rgb + a * color of the surface. The mean over the depths

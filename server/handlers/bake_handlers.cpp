@@ -35,9 +35,6 @@ void putBakeEvents(BakeRun& run, const std::function<bool()>& gone, const std::s
              report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
 }
 
-constexpr std::array<std::string_view, 3> kFileForms{"image/png", "image/x-exr", "model/gltf-binary"};
-constexpr std::array kFileKinds{BakeFile::png, BakeFile::exr, BakeFile::glb};
-
 /// The index in ?light=; nothing where there is none.
 Result<std::optional<int>> lightOf(const HttpRequest& request) {
   std::optional<int> light;
@@ -128,7 +125,7 @@ HttpReply getBake(Services& services, RouteCall call) {
     return problemReply(light.problems(), requestId);
   }
   const auto accept = headerValue(call.request.headers, "accept");
-  const auto form = preferred(accept, kFileForms);
+  const auto form = preferred(accept, kBakeFileTypes);
   if (!form) {
     return problemReply({{ProblemCode::notAcceptable, "", "A bake can't be sent as any media type that Accept lists.",
                           "image/png, image/x-exr, model/gltf-binary", asciiExcerpt(accept.value_or(""))}},
@@ -138,12 +135,12 @@ HttpReply getBake(Services& services, RouteCall call) {
   if (!scene) {
     return problemReply(scene.problems(), requestId);
   }
-  const auto file = bakedFile(services.bakes, *scene, *spec, kFileKinds[*form], *light, call.clientGone);
+  const auto file = bakedFile(services.bakes, *scene, *spec, static_cast<BakeFile>(*form), *light, call.clientGone);
   if (!file) {
     return problemReply(file.problems(), requestId, {.retryAfterSeconds = kBakeRetrySeconds});
   }
   HttpReply reply;
-  reply.contentType = kFileForms[*form];
+  reply.contentType = kBakeFileTypes[*form];
   reply.body = asText(*file);
   reply.headers.emplace_back("Cache-Control", "private, no-cache");
   reply.headers.emplace_back("Vary", "Accept");

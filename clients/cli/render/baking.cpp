@@ -4,6 +4,7 @@
 
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
+#include "clients/cli/render/local_scene.h"
 #include "protocol/bake/bake_json.h"
 
 namespace gnomon::cli {
@@ -12,18 +13,6 @@ namespace {
 /// Of all lights: those that are done, and the one that is baked.
 double shareOfAll(int done, int of, double share) {
   return of > 0 ? (done + share) / of : 0;
-}
-
-std::string mediaTypeOf(BakeFile kind) {
-  switch (kind) {
-    case BakeFile::png:
-      return "image/png";
-    case BakeFile::exr:
-      return "image/x-exr";
-    case BakeFile::glb:
-      return "model/gltf-binary";
-  }
-  return "*/*";
 }
 
 std::string reportText(const BakeReport& report) {
@@ -70,23 +59,17 @@ Result<BakeReport> askForBake(const std::string& server, const std::string& path
 
 Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const BackendOptions& backend,
                        ProgressLine& progress) {
-  progress.stage("loading the scene");
-  const auto scene = loadScene(bundle);
-  if (!scene) return scene.problems();
-  progress.stage("starting the renderer");
-  RendererOptions options;
-  options.backend = backend;
-  const auto renderer = Renderer::create(options);
-  if (!renderer) return renderer.problems();
-  const Baker baker = renderer->baker();
+  const auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
+  const Baker baker = here->renderer.baker();
   progress.stage("baking");
-  const auto report = baker.bake(*scene, order.spec, [&](const BakeStep& step) {
+  const auto report = baker.bake(here->scene, order.spec, [&](const BakeStep& step) {
     progress.share(shareOfAll(step.done, step.of, step.share));
     return true;
   });
   if (!report) return report.problems();
   progress.stage("making the file");
-  auto file = baker.file(*scene, order.spec, order.kind, order.light);
+  auto file = baker.file(here->scene, order.spec, order.kind, order.light);
   if (!file) return file.problems();
   return Baked{*std::move(file), reportText(*report)};
 }
@@ -102,7 +85,7 @@ Result<Baked> bakeThere(const std::string& server, const SceneBundle& bundle, co
   progress.stage("fetching the file");
   HttpCall fetch;
   fetch.path = path + "/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
-  fetch.headers = {{"Accept", mediaTypeOf(order.kind)}};
+  fetch.headers = {{"Accept", std::string(kBakeFileTypes[static_cast<std::size_t>(order.kind)])}};
   const auto reply = callPatiently(server, fetch, progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(server, *reply);

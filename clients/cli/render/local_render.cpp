@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "clients/cli/render/local_scene.h"
 #include "clients/cli/render/rendering.h"
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
@@ -36,22 +37,12 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   std::jthread warming;
   if (spec.output.format == ImageFormat::exr) warming = std::jthread(warmEncoders);
 
-  progress.stage("loading the scene");
-  const auto loadStart = std::chrono::steady_clock::now();
-  auto scene = loadScene(bundle);
-  if (!scene) return scene.problems();
-  const double loadMs = millisecondsSince(loadStart);
-
-  progress.stage("starting the renderer");
-  RendererOptions options;
-  options.backend = backend;
-  auto renderer = Renderer::create(options);
-  if (!renderer) return renderer.problems();
-
-  auto settled = settleTarget(*scene, spec, *renderer, progress);
+  auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
+  auto settled = settleTarget(here->scene, spec, here->renderer, progress);
   if (!settled) return settled.problems();
   progress.stage("rendering");
-  auto frame = renderer->render(*scene, settled->spec);
+  auto frame = here->renderer.render(here->scene, settled->spec);
   if (!frame) return frame.problems();
   frame->report.quality = std::move(settled->quality);
 
@@ -60,7 +51,7 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   auto pictures = encodePictures(*frame, frame->images.size());
   if (!pictures) return pictures.problems();
   auto& stages = frame->report.stages;
-  stages.insert(stages.begin(), {"load", loadMs});
+  stages.insert(stages.begin(), {"load", here->loadMilliseconds});
   stages.push_back({"encode", millisecondsSince(encodeStart)});
   std::vector<Picture> files;
   for (EncodedPicture& picture : *pictures) files.push_back({std::move(picture.view), std::move(picture.file)});
@@ -69,14 +60,8 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
 
 Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
                                       const BackendOptions& backend, ProgressLine& progress) {
-  progress.stage("loading the scene");
-  const auto scene = loadScene(bundle);
-  if (!scene) return scene.problems();
-  progress.stage("starting the renderer");
-  RendererOptions options;
-  options.backend = backend;
-  auto renderer = Renderer::create(options);
-  if (!renderer) return renderer.problems();
+  auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
   progress.stage("measuring");
   EvaluationListener listener;
   listener.step = [&](const EvaluationStep& step) {
@@ -84,26 +69,21 @@ Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluatio
     return true;
   };
   EvaluationTools tools;
-  tools.draw = [&](const FrameSpec& spec) { return renderer->render(*scene, spec, TileUse::drawnAnew); };
+  tools.draw = [&](const FrameSpec& spec) { return here->renderer.render(here->scene, spec, TileUse::drawnAnew); };
   tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
-    const auto shimmer = renderer->shimmer(*scene, spec, path, goOn);
+    const auto shimmer = here->renderer.shimmer(here->scene, spec, path, goOn);
     if (!shimmer) return shimmer.problems();
     return shimmer->perThousand();
   };
-  return evaluate(*scene, evaluation, renderer->info(), tools, listener);
+  return evaluate(here->scene, evaluation, here->renderer.info(), tools, listener);
 }
 
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                              ProgressLine& progress) {
-  progress.stage("loading the scene");
-  const auto scene = loadScene(bundle);
-  if (!scene) return scene.problems();
-  RendererOptions options;
-  options.backend = backend;
-  const auto renderer = Renderer::create(options);
-  if (!renderer) return renderer.problems();
+  const auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
   progress.stage("planning");
-  const auto plan = planFrame(**scene, spec, renderer->info());
+  const auto plan = planFrame(*here->scene, spec, here->renderer.info());
   if (!plan) return plan.problems();
   return toJson(*plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,7 +1,5 @@
 #include "renderer/passes/views/volume_layers.h"
 
-#include <limits>
-
 #include "renderer/core/parallel.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
@@ -44,10 +42,7 @@ Result<std::vector<float>> viewDepths(const PassInputs& inputs, const gl::Textur
     beside->read(0, whole, {GL_RGBA, GL_FLOAT}, texels);
   }
   forEachPiece(depths.size(), 4096, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      depths[i] = depths[i] > 0 ? static_cast<float>(viewDepthOf(inputs.camera, double{depths[i]}))
-                                : std::numeric_limits<float>::infinity();
-    }
+    for (std::size_t i = first; i < last; ++i) depths[i] = seenDepth(inputs.camera, depths[i]);
   });
   return depths;
 }
