@@ -72,7 +72,7 @@ void keepOpaque(const RTCFilterFunctionNArguments* call) {
 /// The share of the light that comes through, for each lane that is active.
 std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   rtcInitIntersectContext(&query.context);
-  query.context.flags = query.casters->tree.closeRays();
+  query.context.flags = query.casters->closeRays();
   query.context.filter = keepOpaque;
   query.through.fill(1);
   const DrawnPoints& points = *query.points;

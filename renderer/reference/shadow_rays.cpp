@@ -49,7 +49,7 @@ void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
 LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFunctionN filter) {
   LightQuery query;
   rtcInitIntersectContext(&query.context);
-  query.context.flags = casters.tree.closeRays();
+  query.context.flags = casters.closeRays();
   query.context.filter = filter;
   query.casters = &casters;
   query.rays = rays.rays;

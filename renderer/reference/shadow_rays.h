@@ -75,6 +75,13 @@ struct Casters {
   std::vector<Opacity> opacity; ///< one an instance
   BlendedCasters blended = BlendedCasters::dither;
   double rounding = 0; ///< roundingIn(tree)
+  /// Some let a part of the light through, which is counted once a caster: Embree 3.13 may ask about one twice where it
+  /// follows rays that lie close together as one bundle.
+  bool letThrough = false;
+
+  RTCIntersectContextFlags closeRays() const {
+    return letThrough ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : tree.closeRays();
+  }
 };
 
 /// The share of the light that a candidate stops: 0 where it can't throw a shadow onto the ray's start.

@@ -26,6 +26,14 @@ std::vector<Opacity> opacities(const TraceInput& input, const Light& light) {
   return opacity;
 }
 
+bool letThrough(const TracedScene::Tree& tree, std::span<const Opacity> opacity, BlendedCasters blended) {
+  if (blended != BlendedCasters::dither) return false;
+  for (std::uint32_t i = 0; i < opacity.size(); ++i) {
+    if (opacity[i] == Opacity::byAlpha && tree.material(i).alphaMode == AlphaMode::blend) return true;
+  }
+  return false;
+}
+
 /// Rays of many points, traced kLanes at a time; what comes through is added up for each point.
 class RayQueue {
  public:
@@ -98,11 +106,14 @@ TracedLight::TracedLight(const TraceInput& input, int index) {
   const auto isShadowed = [&](const NodeSwitches& node) {
     return shadow.enabled && node.receiveShadow && isLitBy(light, node);
   };
-  state_ = std::make_unique<const State>(
-      State{lightSource(light, tree.anchor),
-            instancesWhere(input, isShadowed),
-            {tree, input.camera.eye - tree.anchor, opacities(input, light), shadow.blendedCasters, roundingIn(tree)},
-            input});
+  std::vector<Opacity> opacity = opacities(input, light);
+  const bool through = letThrough(tree, opacity, shadow.blendedCasters);
+  state_ = std::make_unique<const State>(State{
+      lightSource(light, tree.anchor),
+      instancesWhere(input, isShadowed),
+      {tree, input.camera.eye - tree.anchor, std::move(opacity), shadow.blendedCasters, roundingIn(tree), through},
+      input,
+      Interleaved(static_cast<std::uint32_t>(rays))});
 }
 
 TracedLight::TracedLight(TracedLight&&) noexcept = default;

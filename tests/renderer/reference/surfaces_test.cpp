@@ -110,6 +110,29 @@ TEST(Surfaces, BlendedCastersLetTheRestThrough) {
   EXPECT_EQ(floorSees(thin, 0.1, 0.2), 1);
 }
 
+TEST(Surfaces, EachBlendedCasterIsCountedOnceWhereverRaysLead) {
+  GlbBuilder builder;
+  addSquare(builder, 3, 0);
+  const json material = builder.add("materials", blended(0.3));
+  constexpr int kStrips = 24;
+  for (int i = 0; i < kStrips; ++i) {
+    const float left = -2.0f + 4.0f * float(i) / kStrips;
+    const float right = -2.0f + 4.0f * float(i + 1) / kStrips;
+    const int node = addQuad(builder, {{left, 2, 2}, {right, 2, 2}, {right, 2, -2}, {left, 2, -2}});
+    builder.json["meshes"][std::size_t(node)]["primitives"][0]["material"] = material;
+  }
+  Traced traced(builder);
+  traced.nodes.assign(traced.scene.scene().nodes.size(), {false, true, true, 1});
+  traced.nodes[0].visible = true;
+  traced.camera = parallelView({0.013, 50, 0.017}, {0, -1, 0}, 2);
+  for (const double radius : {0.0, 0.2}) {
+    traced.lights = {testing::pointAt({0.01, 4, 0.02}, radius)};
+    const std::vector<SurfacePoint> points = traced.surface();
+    const std::vector<float> shares = lightVisibility(traced.input(), 0, points, 8);
+    for (std::size_t i = 0; i < shares.size(); ++i) ASSERT_NEAR(shares[i], 0.7, 1e-6) << i << " of " << radius;
+  }
+}
+
 TEST(Surfaces, VertexColoursBringAlpha) {
   GlbBuilder builder = stack({blended(0.5)});
   const std::vector<std::array<float, 4>> colors{{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};
