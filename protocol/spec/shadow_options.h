@@ -94,7 +94,7 @@ struct Shadow {
   Bias bias;
   BlendedCasters blendedCasters = BlendedCasters::dither;
   LightMapOptions lightMap;
-  int raySamples = 12; ///< rayTraced, hybrid: most rays a pixel towards a light that has a size; 1..1024
+  int raySamples = 16; ///< rayTraced, hybrid: most rays a pixel towards a light that has a size; 1..1024
 
   bool operator==(const Shadow&) const = default;
 };

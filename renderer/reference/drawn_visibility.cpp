@@ -94,23 +94,24 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
 /// The mean over rays `first` up to `last` to places all over the light, for each lane that is active. Lanes that
 /// floats can't tell one of the rays of become unsure instead.
 std::array<float, kLanes> meanThrough(DrawnQuery& query, DrawnPoints& points, const DrawnLight& light,
-                                      std::uint32_t first, std::uint32_t last, Lanes& lanes, Lanes& unsure) {
+                                      std::uint32_t first, std::uint32_t last, const Interleaved& all, Lanes& lanes,
+                                      Lanes& unsure) {
   SquarePlaces shifts;
   for (unsigned i = 0; i < kLanes; ++i) {
-    const SquarePlace shift =
-        shiftOf(static_cast<std::uint32_t>(query.places->x[i]), static_cast<std::uint32_t>(query.places->y[i]));
+    const SquarePlace& shift =
+        all.shift(static_cast<std::uint32_t>(query.places->x[i]), static_cast<std::uint32_t>(query.places->y[i]));
     shifts.x[i] = shift.x;
     shifts.y[i] = shift.y;
   }
   std::array<float, kLanes> sums{};
   for (std::uint32_t ray = first; ray < last; ++ray) {
-    const SquarePlace place = sequencePlace(ray);
-    SquarePlaces places;
+    const SquarePlace& place = all.place(ray);
+    SquarePlaces at;
     for (unsigned i = 0; i < kLanes; ++i) {
-      places.x[i] = place.x ^ shifts.x[i];
-      places.y[i] = place.y ^ shifts.y[i];
+      at.x[i] = place.x ^ shifts.x[i];
+      at.y[i] = place.y ^ shifts.y[i];
     }
-    aimAside(light, places, points);
+    aimAside(light, at, points);
     Lanes traced;
     for (unsigned i = 0; i < kLanes; ++i) {
       unsure.active[i] |= lanes.active[i] & ~points.sure[i];
@@ -191,7 +192,8 @@ void TracedLight::visibility(const DrawnPlaces& places, std::uint32_t first, std
   if (lit.any()) {
     DrawnQuery query{{}, &of.casters, &of.source, &of.input, &places, &points};
     const std::array<float, kLanes> found =
-        hasSize() ? meanThrough(query, points, of.light, first, last, lit, unsure) : sharesThrough(query, lit);
+        hasSize() ? meanThrough(query, points, of.light, first, last, of.places, lit, unsure)
+                  : sharesThrough(query, lit);
     for (unsigned i = 0; i < kLanes; ++i) shares[i] = lit.active[i] != 0 ? found[i] : shares[i];
   }
   if (unsure.any()) exactVisibility(places, unsure, {first, last, 0}, shares, turnedAway);

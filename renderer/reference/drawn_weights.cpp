@@ -36,4 +36,16 @@ DrawnWeights TracedCamera::weights(const DrawnPlaces& places) const {
   return weights;
 }
 
+DrawnSurfaces TracedCamera::surfaces(const DrawnPlaces& places) const {
+  DrawnPoints points;
+  setTriangles(input_.traced.tree(), places, points);
+  findPoints(*view_, places, points);
+  DrawnSurfaces surfaces;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::copy_n(points.relative[axis], kLanes, surfaces.relative[axis]);
+    std::copy_n(points.normal[axis], kLanes, surfaces.normal[axis]);
+  }
+  return surfaces;
+}
+
 } // namespace gnomon

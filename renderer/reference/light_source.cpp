@@ -154,14 +154,19 @@ SquarePlace sequencePlace(std::uint32_t index) {
   return place;
 }
 
-SquarePlace shiftOf(std::uint32_t x, std::uint32_t y) {
-  const std::uint32_t inSquare = (x & 1u) | (y & 1u) << 1 | (x & 2u) << 1 | (y & 2u) << 2;
-  const std::uint64_t square = mixed((std::uint64_t{x >> 2} << 32) | (y >> 2));
-  const std::uint64_t pixel = mixed(square + inSquare);
-  const SquarePlace place = sequencePlace(inSquare);
-  constexpr std::uint32_t kWithin = ~0u >> 4; // the 16 sixteenths of the square's side are shared among the pixels
-  return {place.x ^ static_cast<std::uint32_t>(square >> 32) ^ (static_cast<std::uint32_t>(pixel >> 32) & kWithin),
-          place.y ^ static_cast<std::uint32_t>(square) ^ (static_cast<std::uint32_t>(pixel) & kWithin)};
+Interleaved::Interleaved(std::uint32_t rays) {
+  const std::uint32_t own = std::bit_ceil(rays);
+  for (std::uint32_t ray = 0; ray < rays; ++ray) places_.push_back(sequencePlace(ray));
+  // Each pixel has a block of its own of the sequence, which is even by itself and beside the others. Which of its
+  // block comes first, as a matrix of bits: of all there are the one that leaves the first rays most even.
+  constexpr std::uint32_t kColumns[] = {0xb, 0x3, 0x7, 0x5};
+  for (std::uint32_t i = 0; i < shifts_.size(); ++i) {
+    const std::uint32_t pixel = (i & 1u) | (i & 4u) >> 1 | (i & 2u) << 1 | (i & 8u); // squares of 2 x 2 are even, too
+    std::uint32_t first = 0;
+    for (std::uint32_t bit = 0; bit < 4; ++bit) first ^= (pixel >> bit & 1u) != 0 ? kColumns[bit] : 0;
+    const SquarePlace place = sequencePlace((first & (own - 1)) | pixel * own);
+    shifts_[i] = {place.x ^ 0x2f693b52u, place.y ^ 0x5c1e97a4u}; // any two numbers: no place is at a side
+  }
 }
 
 std::uint64_t seedOf(const SurfacePoint& point) {

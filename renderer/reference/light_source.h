@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/camera_view.h"
@@ -95,9 +97,21 @@ struct SquarePlace {
 /// rectangles of any one shape empty, whatever the places are XORed with.
 SquarePlace sequencePlace(std::uint32_t index);
 
-/// What a pixel's sequence is XORed with: the sequences of the 16 pixels of an aligned 4 x 4 square lie evenly between
-/// each other, those of two squares are strangers. `x`, `y`: of the pixel.
-SquarePlace shiftOf(std::uint32_t x, std::uint32_t y);
+/// The places on a light that drawn points send rays to: a pixel's are the first ones of the sequence XORed with its
+/// own shift. There is one for each pixel of a square of 4 x 4, and they are the same in every square: wherever in a
+/// picture 4 x 4 pixels are taken, their first rays lie evenly all over the light between each other, and so do all of
+/// them (Keller and Heidrich, "Interleaved Sampling", 2001).
+class Interleaved {
+ public:
+  explicit Interleaved(std::uint32_t rays); ///< most of a pixel
+
+  const SquarePlace& shift(std::uint32_t x, std::uint32_t y) const { return shifts_[(y & 3) << 2 | (x & 3)]; }
+  const SquarePlace& place(std::uint32_t ray) const { return places_[ray]; } ///< REQUIRES: ray < rays
+
+ private:
+  std::array<SquarePlace, 16> shifts_;
+  std::vector<SquarePlace> places_;
+};
 
 /// From what the point is, and not from where it stands in a list: it gets the same samples every time.
 std::uint64_t seedOf(const SurfacePoint& point);

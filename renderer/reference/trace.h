@@ -48,6 +48,13 @@ struct DrawnWeights {
   float v[DrawnPlaces::kCount];
 };
 
+/// What each shows, as floats see it. Any numbers, NaN too, where none is shown.
+struct DrawnSurfaces {
+  float relative[3]
+                [DrawnPlaces::kCount];  ///< the point, from the eye; in units of the scene's own that the camera knows
+  float normal[3][DrawnPlaces::kCount]; ///< of the triangle, on the eye's side; unit length
+};
+
 struct DrawnView;
 
 /// What a frame's camera sees. Made once, asked for any number of places; any thread. What the input refers to outlives
@@ -60,6 +67,8 @@ class TracedCamera {
   void firstHits(std::span<const glm::vec2> places, std::span<SurfacePoint> points) const;
 
   DrawnWeights weights(const DrawnPlaces& places) const;
+
+  DrawnSurfaces surfaces(const DrawnPlaces& places) const;
 
  private:
   TraceInput input_;
@@ -108,7 +117,8 @@ struct LightSamples;
 /// to outlives it.
 class TracedLight {
  public:
-  TracedLight(const TraceInput& input, int light);
+  /// `rays`: how many are sent to a light that has a size from a drawn place, at most.
+  TracedLight(const TraceInput& input, int light, int rays = 1);
   TracedLight(TracedLight&&) noexcept;
   ~TracedLight();
 
@@ -118,8 +128,8 @@ class TracedLight {
                   std::span<std::uint8_t> turnedAway = {}) const;
 
   /// The same of what drawn places show, as pointsOn finds it: a share and a mark for each of the sixteen. To a light
-  /// that has a size go the rays from number `first` up to `last` of an endless sequence, which has been even all over
-  /// the light since number 0, and which is another for every pixel of a square of 4 x 4.
+  /// that has a size go the rays from number `first` up to `last` of the pixel's own, which have been even all over the
+  /// light since number 0, and lie between those of the pixels around (Interleaved). REQUIRES: `last` <= rays.
   void visibility(const DrawnPlaces& places, std::uint32_t first, std::uint32_t last, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway) const;
 

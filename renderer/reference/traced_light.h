@@ -15,6 +15,7 @@ struct TracedLight::State {
   std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
   TraceInput input;
+  Interleaved places;
   Sight sight = sightOf(input);
   DrawnView view = drawnView(sight, casters.tree.scale);
   DrawnLight light = drawnLight(source, casters.eye, casters.tree.scale);

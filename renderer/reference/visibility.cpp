@@ -99,7 +99,7 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
   return reached;
 }
 
-TracedLight::TracedLight(const TraceInput& input, int index) {
+TracedLight::TracedLight(const TraceInput& input, int index, int rays) {
   const Light& light = input.lights[static_cast<std::size_t>(index)];
   const TracedScene::Tree& tree = input.traced.tree();
   const Shadow shadow = light.shadow.value_or(Shadow{});

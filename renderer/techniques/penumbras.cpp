@@ -4,6 +4,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/techniques/neighbours.h"
+#include "renderer/techniques/penumbra_filter.h"
 
 namespace gnomon {
 namespace {
@@ -97,6 +98,9 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
       any = any || !next.empty();
     }
   }
+  std::vector<int> raysOf;
+  for (const Round& round : rounds) raysOf.push_back(static_cast<int>(round.last));
+  evenOut(points, raysOf, shares);
 }
 
 } // namespace gnomon

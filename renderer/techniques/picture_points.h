@@ -115,6 +115,9 @@ class PicturePoints {
   /// Where these lie in their triangles.
   DrawnWeights weights(const DrawnPlaces& places) const { return camera_.weights(places); }
 
+  /// What these show.
+  DrawnSurfaces surfaces(const DrawnPlaces& places) const { return camera_.surfaces(places); }
+
   /// What a ray through each of their samples meets first. Runs on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;
 

@@ -88,6 +88,7 @@ struct PictureShares {
   std::vector<std::uint8_t> taken;      ///< one a pixel: 0 but while pixelsBeside looks for them
 
   std::uint16_t* valuesOf(std::uint32_t pixel) { return values.data() + pixel * places; }
+  const std::uint16_t* valuesOf(std::uint32_t pixel) const { return values.data() + pixel * places; }
   int apart(std::uint32_t a, std::uint32_t b) const {
     return std::abs(static_cast<int>(shares[a]) - static_cast<int>(shares[b]));
   }

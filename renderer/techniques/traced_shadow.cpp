@@ -21,7 +21,11 @@ constexpr int kSoftEdge = 128;
 class ShadowTracing {
  public:
   ShadowTracing(const PicturePoints& points, const TraceInput& rays, int light, int samples)
-      : points_(points), light_(rays, light), samples_(samples), places_(grid().samples()), known_(grid()) {}
+      : points_(points),
+        light_(rays, light, std::max(samples, static_cast<int>(points.grid().samples()))),
+        samples_(samples),
+        places_(grid().samples()),
+        known_(grid()) {}
 
   /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn, but from blocks
   /// that are lit or turned away as a whole. Gives how many pixels rays were sent from.

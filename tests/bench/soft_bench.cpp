@@ -28,13 +28,15 @@ struct Way {
   Json shadow;
 };
 
-const std::vector<Way>& ways() {
-  static const std::vector<Way> all{{"rayTraced", {{"technique", "rayTraced"}}},
-                                    {"hybrid", {{"technique", "hybrid"}}},
-                                    {"lightMap", {{"technique", "lightMap"}}},
-                                    {"pcss", {{"filter", {{"type", "pcss"}}}}},
-                                    {"pcf 5", {{"filter", {{"type", "pcf"}, {"size", 5}}}}}};
-  return all;
+/// All, or those of these names.
+std::vector<Way> waysCalled(const std::vector<std::string>& names) {
+  std::vector<Way> ways{{"rayTraced", {{"technique", "rayTraced"}}},
+                        {"hybrid", {{"technique", "hybrid"}}},
+                        {"lightMap", {{"technique", "lightMap"}}},
+                        {"pcss", {{"filter", {{"type", "pcss"}}}}},
+                        {"pcf 5", {{"filter", {{"type", "pcf"}, {"size", 5}}}}}};
+  std::erase_if(ways, [&](const Way& way) { return !names.empty() && std::ranges::count(names, way.name) == 0; });
+  return ways;
 }
 
 /// A light as JSON, with its size and without.
@@ -72,25 +74,26 @@ struct Found {
 
 class SoftBench {
  public:
-  SoftBench(Renderer& renderer, int repeats, int samples) : renderer_(renderer), repeats_(repeats), samples_(samples) {}
+  SoftBench(Renderer& renderer, const std::vector<Way>& ways, int repeats, int samples)
+      : renderer_(renderer), ways_(ways), repeats_(repeats), samples_(samples) {}
 
   void add(const NamedScene& scene, const SizedLight& light, std::vector<Found>& found) {
     Evaluation evaluation;
     evaluation.repeats = 1;
     evaluation.referenceSamples = samples_;
     evaluation.spec = specOf(light.soft, {});
-    for (const Way& way : ways()) evaluation.variants.push_back({{}, way.name, specOf(light.soft, way.shadow)});
+    for (const Way& way : ways_) evaluation.variants.push_back({{}, way.name, specOf(light.soft, way.shadow)});
     const EvaluationTools tools{[&](const FrameSpec& spec) { return draw(scene, spec); }, {}};
     const auto report = evaluate(scene.scene, evaluation, renderer_.info(), tools);
     if (!report) return;
-    for (std::size_t i = 0; i < ways().size(); ++i) {
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
       const EvaluationRow& row = report->rows[i];
       if (!row.metrics || row.metrics->receivers == 0) continue;
       const double rms = row.metrics->rms;
       if (found[i].rms.empty() || rms > std::ranges::max(found[i].rms)) found[i].worst = scene.name;
       found[i].rms.push_back(rms);
-      found[i].times.push_back(timeRatio(scene, light, ways()[i].shadow));
-      std::cerr << scene.name << ", " << light.name << ", " << ways()[i].name << ": " << rms << ", "
+      found[i].times.push_back(timeRatio(scene, light, ways_[i].shadow));
+      std::cerr << scene.name << ", " << light.name << ", " << ways_[i].name << ": " << rms << ", "
                 << found[i].times.back() << " x\n";
     }
   }
@@ -126,17 +129,19 @@ class SoftBench {
   }
 
   Renderer& renderer_;
+  const std::vector<Way>& ways_;
   int repeats_, samples_;
 };
 
-std::string tableOf(const std::vector<std::pair<std::string, std::vector<Found>>>& lights) {
+std::string tableOf(const std::vector<std::pair<std::string, std::vector<Found>>>& lights,
+                    const std::vector<Way>& ways) {
   std::string out =
       "| light | technique | rms, median | rms, worst | worst scene | x sharp light, median | at most x |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const auto& [light, found] : lights) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (found[i].rms.empty()) continue;
-      out += "| " + light + " | " + ways()[i].name + " | " + rounded(median(found[i].rms), 4) + " | " +
+      out += "| " + light + " | " + ways[i].name + " | " + rounded(median(found[i].rms), 4) + " | " +
              rounded(std::ranges::max(found[i].rms), 3) + " | " + found[i].worst + " | " +
              rounded(median(found[i].times), 2) + " | " + rounded(std::ranges::max(found[i].times), 2) + " |\n";
     }
@@ -154,10 +159,12 @@ int main(int argc, char** argv) {
   std::filesystem::path assets = GNOMON_TEST_ASSETS;
   int repeats = 5;
   int samples = 1024;
+  std::vector<std::string> chosen;
   DeviceChoice device = DeviceChoice::auto_;
   const std::map<std::string, DeviceChoice> devices{
       {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
   app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
+  app.add_option("--technique", chosen, "One of those of the table; may come several times; all where it does not");
   app.add_option("--repeats", repeats, "Timed pairs of frames")->check(CLI::Range(1, 100));
   app.add_option("--samples", samples, "Rays a pixel of the reference")->check(CLI::Range(1, 1024));
   app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
@@ -168,7 +175,8 @@ int main(int argc, char** argv) {
     std::cerr << renderer.problems().front().detail << '\n';
     return 1;
   }
-  SoftBench bench(*renderer, repeats, samples);
+  const std::vector<Way> ways = waysCalled(chosen);
+  SoftBench bench(*renderer, ways, repeats, samples);
   std::vector<std::pair<std::string, std::vector<Found>>> lights;
   std::size_t scenes = 0;
   std::set<std::string> models;
@@ -177,7 +185,7 @@ int main(int argc, char** argv) {
     if (scene.scene->scenes.front().bounds.empty()) continue;
     const std::vector<SizedLight> over = lightsOver(scene.scene->scenes.front().bounds);
     if (lights.empty()) {
-      for (const SizedLight& light : over) lights.emplace_back(light.name, std::vector<Found>(ways().size()));
+      for (const SizedLight& light : over) lights.emplace_back(light.name, std::vector<Found>(ways.size()));
     }
     for (std::size_t i = 0; i < over.size(); ++i) bench.add(scene, over[i], lights[i].second);
     ++scenes;
@@ -187,6 +195,6 @@ int main(int argc, char** argv) {
             << " scenes, each as a whole in view, against " << samples
             << " rays a pixel. The lamp is a spot of 0.2 m over a scene taken for one of 10 m. Times are of whole warm "
                "frames, tiles drawn anew, as multiples of the same frame's under a light without a size.\n\n"
-            << tableOf(lights) << "\n<!-- /readme -->\n";
+            << tableOf(lights, ways) << "\n<!-- /readme -->\n";
   return 0;
 }

@@ -95,35 +95,72 @@ std::size_t fullest(const std::vector<SquarePlace>& places, int across, int up) 
   return most;
 }
 
+SquarePlace shifted(const SquarePlace& place, const SquarePlace& by) {
+  return {place.x ^ by.x, place.y ^ by.y};
+}
+
 TEST(LightSamples, TheFirstOfASequenceFillEveryRectangleWhateverTheirNumber) {
   EXPECT_TRUE(rc::check([] {
     const int bits = *rc::gen::inRange(0, 11);
     const auto block = *rc::gen::inRange<std::uint32_t>(0, 5);
-    const SquarePlace shift = shiftOf(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::arbitrary<std::uint32_t>());
+    const SquarePlace shift{*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::arbitrary<std::uint32_t>()};
     std::vector<SquarePlace> places;
-    for (std::uint32_t i = 0; i < (1u << bits); ++i) {
-      const SquarePlace place = sequencePlace((block << bits) + i);
-      places.push_back({place.x ^ shift.x, place.y ^ shift.y});
-    }
+    for (std::uint32_t i = 0; i < (1u << bits); ++i)
+      places.push_back(shifted(sequencePlace((block << bits) + i), shift));
     for (int across = 0; across <= bits; ++across) RC_ASSERT(fullest(places, across, bits - across) == 1u);
   }));
 }
 
-TEST(LightSamples, TheSequencesOfASquareOfPixelsLieBetweenEachOther) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> shifts;
-  for (std::uint32_t square = 0; square < 50; ++square) {
-    for (const std::uint32_t ray : {0u, 1u, 2u, 77u}) {
-      std::vector<SquarePlace> places;
-      for (std::uint32_t i = 0; i < 16; ++i) {
-        const SquarePlace shift = shiftOf(4 * square + i % 4, 8 + i / 4);
-        const SquarePlace place = sequencePlace(ray);
-        places.push_back({place.x ^ shift.x, place.y ^ shift.y});
-        shifts.insert({shift.x, shift.y});
-      }
-      for (int across = 0; across <= 4; ++across) EXPECT_EQ(fullest(places, across, 4 - across), 1u);
+/// Those that the pixels of a square of 4 x 4 with this corner send their first rays to.
+std::vector<SquarePlace> placesOfSquare(std::uint32_t x, std::uint32_t y, std::uint32_t most, std::uint32_t rays) {
+  const Interleaved all(most);
+  std::vector<SquarePlace> places;
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    for (std::uint32_t ray = 0; ray < rays; ++ray) {
+      places.push_back(shifted(all.place(ray), all.shift(x + i % 4, y + i / 4)));
     }
   }
-  EXPECT_EQ(shifts.size(), 50u * 16);
+  return places;
+}
+
+TEST(LightSamples, TheFirstRaysOfEverySquareOfPixelsFillEveryRectangle) {
+  for (std::uint32_t corner = 0; corner < 7; ++corner) {
+    for (const std::uint32_t most : {16u, 24u, 64u, 1024u}) {
+      const auto places = placesOfSquare(corner, 2 * corner + 8, most, 1);
+      for (int across = 0; across <= 4; ++across) EXPECT_EQ(fullest(places, across, 4 - across), 1u) << most;
+    }
+  }
+}
+
+TEST(LightSamples, AllRaysOfEverySquareOfPixelsFillEveryRectangle) {
+  for (std::uint32_t corner = 0; corner < 7; ++corner) {
+    for (int bits = 0; bits <= 6; ++bits) {
+      const auto places = placesOfSquare(3 * corner, corner, 1u << bits, 1u << bits);
+      for (int across = 0; across <= bits + 4; ++across) {
+        EXPECT_EQ(fullest(places, across, bits + 4 - across), 1u) << bits;
+      }
+    }
+  }
+}
+
+TEST(LightSamples, SomeRaysOfASquareOfPixelsCrowdNowhere) {
+  for (const std::uint32_t rays : {3u, 4u, 8u, 12u}) {
+    const auto places = placesOfSquare(1, 2, 12, rays);
+    for (int across = 0; across <= 5; ++across) EXPECT_LE(fullest(places, across, 5 - across), rays) << rays;
+  }
+}
+
+TEST(LightSamples, APixelsOwnRaysFillEveryRectangle) {
+  for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
+    for (int bits = 0; bits <= 4; ++bits) {
+      const Interleaved all(12);
+      std::vector<SquarePlace> places;
+      for (std::uint32_t ray = 0; ray < std::min(12u, 1u << bits); ++ray) {
+        places.push_back(shifted(all.place(ray), all.shift(pixel % 4, pixel / 4)));
+      }
+      for (int across = 0; across <= bits; ++across) EXPECT_EQ(fullest(places, across, bits - across), 1u);
+    }
+  }
 }
 
 TEST(LightSamples, SeedsDifferFromPointToPointAndStayForOne) {
