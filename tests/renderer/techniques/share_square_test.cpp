@@ -78,7 +78,7 @@ TEST(ShareSquare, MixesNoSurfaces) {
     return evenOut(square, 2.5f);
   };
   const ShareSquare square = flat(share, 4);
-  EXPECT_GT(off(evenOut(square, 2.5f).share, kSide, share), 0.005) << "one surface";
+  EXPECT_GT(off(evenOut(square, 2.5f).share, kSide, share), 0.003) << "one surface";
   const auto isKept = [&](const std::function<void(ShareSquare&, int)>& change) {
     return off(columns(square, change).share, kSide, share) < 1e-6;
   };
