@@ -68,6 +68,7 @@ struct MapFootprint {
   glm::vec3 normal{0}; ///< of the triangle; unit length
   float viewDepth = 0; ///< metres; 0 = nothing that receives the light's shadow
   int tile = 0;        ///< among the light's
+  float penumbra = 0;  ///< texels: radius of the disc that filter pcss weighs; 0 = no caster is found, other filters
 };
 
 /// One frame on its way.

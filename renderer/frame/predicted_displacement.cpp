@@ -99,7 +99,8 @@ std::optional<PredictedDisplacement> displacementOf(const CameraView& view, cons
       const glm::dvec2 shift(map.shift);
       if (walk.endsAtFoot(side, shift)) continue;
       const EdgeOnTexels edge{across, glm::dvec2(map.texelU), glm::dvec2(map.texelV), shift, room};
-      sum.mean += length * expectedDisplacement(edge, readings[static_cast<std::size_t>(map.tile)]);
+      const MapReading reading = overDisc(readings[static_cast<std::size_t>(map.tile)], map.penumbra);
+      sum.mean += length * expectedDisplacement(edge, reading);
       sum.length += length;
     }
   });

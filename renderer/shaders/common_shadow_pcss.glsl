@@ -53,14 +53,18 @@ float shareAbovePlane(LightData light, Receiver receiver, vec3 toLight) {
   return 0.5 + x * (0.6387 + square * (-0.1288 + square * (0.0457 - 0.0556 * square)));
 }
 
-float pcssVisibility(LightData light, TileData tile, Lookup at, vec2 slope) {
+// The radius of the penumbra at a receiver, a length across the light; negative where nothing stands before it.
+float penumbraRadius(LightData light, TileData tile, Lookup at, vec2 slope) {
   float perDepth = penumbraPerDepth(light, tile);
   float reach = min(perDepth * max(at.coordinate.z, 0.0), tile.filterReach);
-  Lookup searched = at;
-  searched.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, reach));
-  float height = casterHeight(tile, searched, slope, reach);
-  if (height < 0.0) return 1.0;
-  float radius = min(perDepth * height, reach);
+  at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, reach));
+  float height = casterHeight(tile, at, slope, reach);
+  return height < 0.0 ? height : min(perDepth * height, reach);
+}
+
+float pcssVisibility(LightData light, TileData tile, Lookup at, vec2 slope) {
+  float radius = penumbraRadius(light, tile, at, slope);
+  if (radius < 0.0) return 1.0;
   at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, radius));
   return discVisibility(tile, at, slope, radius);
 }

@@ -11,7 +11,7 @@
 // the point looked up (renderer/shadow/edge_displacement.h). Pixels, y up; view depth 0 where the light reaches no
 // surface that receives its shadow.
 layout(location = 0) out uvec4 lengths; // shift, texel u and texel v as two halves each; tile of the light
-layout(location = 1) out uvec4 place;   // view depth; octahedral normal
+layout(location = 1) out uvec4 place;   // view depth; octahedral normal; radius of the penumbra, texels
 
 uint halves(vec2 pixels) { return packHalf2x16(clamp(pixels, -6e4, 6e4)); }
 
@@ -20,6 +20,15 @@ vec3 shiftOnSurface(Receiver receiver, TileData tile, vec3 toLight) {
   vec3 moved = movedReceiver(lights[debugLight], tile, receiver, toLight) - receiver.relative;
   return moved - toLight * (dot(receiver.normal, moved) / dot(receiver.normal, toLight));
 }
+
+#ifdef FILTER_PCSS
+float penumbraTexels(Receiver receiver, TileData tile, vec3 toLight) {
+  LightData light = lights[debugLight];
+  Lookup at = lookupIn(light, tile, receiver, toLight);
+  if (light.filterKind != GNOMON_FILTER_PCSS || !at.inside) return 0.0;
+  return texelsAcross(tile, max(penumbraRadius(light, tile, at, comparedSlope(light, tile, receiver)), 0.0));
+}
+#endif
 
 void main() {
   lengths = uvec4(0u);
@@ -44,4 +53,7 @@ void main() {
   float scale = max(abs(edges.scale), 1e-30);
   lengths = uvec4(halves(pixelsAlong(receiver, shiftOnSurface(receiver, texel.data, toLight))), halves(edges.u / scale),
                   halves(edges.v / scale), uint(texel.tile));
+#ifdef FILTER_PCSS
+  place.z = floatBitsToUint(penumbraTexels(receiver, texel.data, toLight));
+#endif
 }

@@ -10,6 +10,7 @@ constexpr double kBand = 2;          ///< pixels, as in renderer/reference/error
 constexpr double kQuarter = 0.25;    ///< mean of |x| over -0.5..0.5
 constexpr double kSteepShare = 0.68; ///< of that, what is left across the texels of one bilinear lookup
 constexpr double kSteepPower = -0.6; ///< and how it falls with more of them: both fitted, see the tests
+constexpr double kScatter = 0.019;   ///< radii: of a disc's bilinear comparisons, turned by pixel; see the tests
 
 /// The integral of min(|x|, limit) from 0 to x.
 double cutIntegral(double x, double limit) {
@@ -40,9 +41,15 @@ MapReading readingOf(const ShadowTile& tile, int atlasSamples) {
   MapReading reading;
   reading.bilinear = atlasSamples <= 1 || filter.moments;
   reading.taps = filter.moments ? filter.size : tapsOfKernel(filter.size);
-  // A disc weighs as a square of the same variance does, whose side is sqrt 3 times the radius.
   const double texel = std::max(tile.space.fit.texelSize.x, tile.space.fit.texelSize.y);
-  if (filter.radius > 0 && texel > 0) reading.taps += std::sqrt(3.0) * tile.space.fit.radius / texel;
+  if (filter.kind != MapReadingKind::disc || !(texel > 0)) return reading;
+  return overDisc(reading, tile.space.fit.radius / texel);
+}
+
+MapReading overDisc(MapReading reading, double radius) {
+  // A disc weighs as a square of the same variance does, whose side is sqrt 3 times the radius.
+  reading.taps += std::sqrt(3.0) * radius;
+  reading.scatter += kScatter * radius;
   return reading;
 }
 
@@ -65,7 +72,7 @@ double expectedDisplacement(const EdgeOnTexels& edge, const MapReading& reading)
   const double greater = std::max(inTexels.x, inTexels.y);
   const double slope = greater > 0 ? std::min(inTexels.x, inTexels.y) / greater : 0;
   // Any place between -2 and 2 times the mean distance is as likely.
-  return cutMean(shift, 2 * staircase(reading, slope) * texel, limit);
+  return cutMean(shift, 2 * std::hypot(staircase(reading, slope), reading.scatter) * texel, limit);
 }
 
 } // namespace gnomon

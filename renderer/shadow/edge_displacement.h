@@ -13,10 +13,14 @@ namespace gnomon {
 struct MapReading {
   double taps = 1; ///< texels along a side that are weighed alike, besides the bilinear lookup; a disc's are broken
   bool bilinear = true; ///< false = the texel under a point is taken as it is
+  double scatter = 0;   ///< texels: mean distance between the edge and where a disc's few comparisons put it
 };
 
-/// What a tile's filter does; `atlasSamples`: of a texel.
+/// What a tile's filter does, but for penumbras; `atlasSamples`: of a texel.
 MapReading readingOf(const ShadowTile& tile, int atlasSamples);
+
+/// The same where it is made over a disc of so many texels' radius: see common_shadow_disc.glsl.
+MapReading overDisc(MapReading reading, double radius);
 
 /// Texels: the mean distance between a straight edge and the line along which a map of it, sampled at texel centres,
 /// says 0.5. Level at a quarter for an edge along the texels: it lies anywhere between two rows of centres, which is up

@@ -75,18 +75,27 @@ HWY_INLINE Float shareAbovePlane(const LightData& light, const Receiver& receive
   return 0.5f + x * (0.6387f + square * (-0.1288f + square * (0.0457f - 0.0556f * square)));
 }
 
-/// `asked`: lanes whose share counts.
-inline Float pcssVisibility(const ShadowMaps& maps, const LightData& light, int tileIndex, const Lookup& at,
-                            const Float2& slope, const Float2& pixel, const Mask& asked) {
+/// The radius of the penumbra at the receivers, a length across the light; negative where nothing stands before them.
+inline Float penumbraRadius(const ShadowMaps& maps, const LightData& light, int tileIndex, const Lookup& at,
+                            const Float2& slope, const Float2& pixel) {
   const TileData& tile = maps.tiles[tileIndex];
   const Float reach = searchReach(maps, light, tile, at.coordinate.z);
   Lookup lowered = at;
   lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, reach));
   const Float height = casterHeight(maps, tileIndex, lowered, slope, reach, discTurn(pixel));
-  const Mask stands = height >= 0.0f;
+  return select(height >= 0.0f, min(penumbraPerDepth(maps, light, tile) * height, reach), height);
+}
+
+/// `asked`: lanes whose share counts.
+inline Float pcssVisibility(const ShadowMaps& maps, const LightData& light, int tileIndex, const Lookup& at,
+                            const Float2& slope, const Float2& pixel, const Mask& asked) {
+  const Float found = penumbraRadius(maps, light, tileIndex, at, slope, pixel);
+  const Mask stands = found >= 0.0f;
   if (none(stands & asked)) return 1.0f;
-  const Float radius = min(penumbraPerDepth(maps, light, tile) * max(height, 0.0f), reach);
-  lowered.coordinate.z = at.coordinate.z - bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, radius));
+  const TileData& tile = maps.tiles[tileIndex];
+  const Float radius = max(found, 0.0f);
+  Lookup lowered = at;
+  lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, radius));
   const Float lit = discVisibility(maps, tileIndex, lowered, slope, radius, pixel, asked & stands);
   return select(stands, lit, 1.0f);
 }

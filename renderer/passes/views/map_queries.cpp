@@ -72,6 +72,7 @@ MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
   footprint.tile = static_cast<int>(lengths.w);
   footprint.viewDepth = std::bit_cast<float>(place.x);
   footprint.normal = fromOctahedral(glm::unpackSnorm2x16(place.y));
+  footprint.penumbra = std::bit_cast<float>(place.z);
   return footprint;
 }
 

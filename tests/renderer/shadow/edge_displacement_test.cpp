@@ -1,5 +1,6 @@
 #include "renderer/shadow/edge_displacement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -117,6 +118,32 @@ TEST(EdgeDisplacement, H2_NothingThatIsNotFiniteCounts) {
   EXPECT_EQ(expectedDisplacement({}, {}), 0);
 }
 
+/// Radii: the area between a straight edge and where a disc's comparisons, each one texel soft, put it.
+double simulatedScatter(double radius) {
+  constexpr int kTaps = 32;
+  constexpr int kTurns = 90;
+  constexpr int kPlaces = 200;
+  int wrong = 0;
+  for (int i = 0; i < kTurns * kPlaces; ++i) {
+    const double edge = radius * ((i / kTurns + 0.5) / kPlaces - 0.5);
+    double lit = 0;
+    for (int tap = 0; tap < kTaps; ++tap) {
+      const double angle = i % kTurns * 2 * kPi / kTurns + tap * 2.39996323;
+      const double along = radius * std::sqrt((tap + 0.5) / kTaps) * std::cos(angle);
+      lit += std::clamp(0.5 + along - edge, 0.0, 1.0) / kTaps;
+    }
+    wrong += (lit >= 0.5) != (edge <= 0) ? 1 : 0;
+  }
+  return wrong / static_cast<double>(kTurns * kPlaces);
+}
+
+TEST(EdgeDisplacement, H2_ADiscsComparisonsMissTheEdgeByAShareOfTheirRadius) {
+  for (const double radius : {3.0, 6.0, 12.0, 24.0}) {
+    const double ratio = overDisc({}, radius).scatter / (radius * simulatedScatter(radius));
+    EXPECT_NEAR(ratio, 1, 0.3) << radius;
+  }
+}
+
 TEST(EdgeDisplacement, H2_AFiltersTapsAreItsSizeOrItsDiscInTexels) {
   ShadowTile tile;
   tile.space.fit.texelSize = {0.5, 0.25};
@@ -128,6 +155,9 @@ TEST(EdgeDisplacement, H2_AFiltersTapsAreItsSizeOrItsDiscInTexels) {
   tile.filter = kernelOf({FilterType::pcf, 5, 2.0});
   tile.space.fit.radius = 2;
   EXPECT_NEAR(readingOf(tile, 1).taps, 1 + std::sqrt(3.0) * 4, 1e-12);
+  EXPECT_GT(readingOf(tile, 1).scatter, 0);
+  tile.filter = kernelOf({FilterType::pcss}, 2);
+  EXPECT_EQ(readingOf(tile, 1).taps, 1) << "its penumbra is another at each pixel";
   tile.filter = kernelOf({FilterType::vsm, 5});
   EXPECT_TRUE(readingOf(tile, 4).bilinear) << "moments are resolved before they are looked up";
 }
