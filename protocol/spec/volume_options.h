@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
@@ -26,12 +27,16 @@ struct TransferStop {
   bool operator==(const TransferStop&) const = default;
 };
 
-/// A cloud, smoke or fog: numbers on a grid, placed in the scene. Exactly one of `box` and `matrix`.
+/// A cloud, smoke or fog: numbers on a grid, placed in the scene. At least one of `node`, `box` and `matrix`, and not
+/// both of the last two.
 struct VolumeOptions {
   std::string file{};                ///< of the upload, .npy or .vdb; needed
   std::optional<std::string> grid{}; ///< of a .vdb, by name; absent = its only float grid
+  /// Index into the file's nodes, or the name of one: `box` and `matrix` are in its space, and not in the world.
+  /// Without both the grid fills the unit cube of that space.
+  std::optional<std::variant<int, std::string>> node{};
   std::optional<VolumeBox> box{};
-  std::optional<std::array<double, 16>> matrix{}; ///< world from the grid's unit cube, affine, column by column
+  std::optional<std::array<double, 16>> matrix{}; ///< from the grid's unit cube, affine, column by column
   std::vector<TransferStop> transferFunction{};   ///< at least one; linear between them, the ends' values beyond
   bool castShadow = true;                         ///< on surfaces and volumes, itself among them
   bool receiveShadow = true;                      ///< from surfaces and volumes, itself among them

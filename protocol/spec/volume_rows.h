@@ -36,7 +36,8 @@ static_assert(kRowsAreComplete<TransferStop>);
 template <>
 inline constexpr auto kRows<VolumeOptions> =
     rows(
-        "VolumeOptions", "A cloud, smoke or fog: numbers on a grid, which `box` or `matrix` places in the scene.",
+        "VolumeOptions",
+        "A cloud, smoke or fog: numbers on a grid, which `node`, `box` or `matrix` places in the scene.",
         field("file", &VolumeOptions::file,
               {.says = "Name of a file of the upload: .npy (an array `[z, y, x]` of float32, float16 or uint8) or .vdb "
                        "(OpenVDB); required.",
@@ -44,10 +45,17 @@ inline constexpr auto kRows<VolumeOptions> =
                .maxCount = 255}),
         field("grid", &VolumeOptions::grid,
               {.says = "Name of a float grid of a .vdb; absent = the only one.", .minCount = 1, .maxCount = 255}),
+        field("node", &VolumeOptions::node,
+              {.says = "A node of the scene that the volume stands at and moves with, by its index or name: `box` or "
+                       "`matrix` is in its space, without both the grid fills the cube from 0 to 1 there. It is seen, "
+                       "casts and receives as the node does, whose layers do not matter.",
+               .range = kNodeRange,
+               .minCount = 1,
+               .maxCount = 1024}),
         field("box", &VolumeOptions::box, {.says = "The box that the grid fills."}),
         field("matrix", &VolumeOptions::matrix,
               {.says = "Instead of `box`: the affine matrix, column by column, that takes the unit cube which the grid "
-                       "fills into the world, in metres.",
+                       "fills into the world, in metres, or into the space of `node`.",
                .range = kPositionRange}),
         field("transferFunction", &VolumeOptions::transferFunction,
               {.says = "What values of the grid mean, in ascending order: linear between two entries, and beyond the "

@@ -24,9 +24,11 @@ void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, 
   };
   require(!volume.file.empty(), "/file", "A volume needs the name of a file.");
   require(!volume.transferFunction.empty(), "/transferFunction", "A volume needs a transfer function.");
-  if (volume.box.has_value() == volume.matrix.has_value()) {
-    broken.push_back({{ProblemCode::invalidValue, pointer, "A volume needs exactly one of box and matrix.",
-                       "box | matrix", volume.box ? "both" : "neither"},
+  const bool placedTwice = volume.box && volume.matrix;
+  if (placedTwice || !(volume.box || volume.matrix || volume.node)) {
+    broken.push_back({{ProblemCode::invalidValue, pointer,
+                       "A volume needs a box, a matrix or a node, and not both a box and a matrix.",
+                       "box | matrix, at a node or not", placedTwice ? "both" : "none of them"},
                       {pointer + "/box", pointer + "/matrix"}});
   }
   if (volume.box) appendBoxRules(*volume.box, pointer + "/box", broken);

@@ -9,22 +9,33 @@
 namespace gnomon {
 namespace {
 
+constexpr int kMaxPlaces = 128; // in which volumes stood or stand, however little each takes
+
 Problems at(const std::string& pointer, Problems problems) {
   for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
   return problems;
 }
 
+/// In the world, or in the space of the node.
 Result<VolumeSpace> spaceOf(const VolumeOptions& options) {
   if (options.box) {
     auto space = gnomon::spaceOf(Aabb{toVector(options.box->min), toVector(options.box->max)});
     return space ? space : Result<VolumeSpace>(at("/box", space.problems()));
   }
+  if (!options.matrix) return VolumeSpace{};
   glm::dmat4 matrix(1);
   for (std::size_t i = 0; i < 16; ++i) {
     matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = (*options.matrix)[i];
   }
   auto space = gnomon::spaceOf(matrix);
   return space ? space : Result<VolumeSpace>(at("/matrix", space.problems()));
+}
+
+Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& place) {
+  auto own = spaceOf(options);
+  if (!own || !place.worldFromNode) return own;
+  auto atNode = moved(*own, *place.worldFromNode);
+  return atNode ? atNode : Result<VolumeSpace>(at("/node", atNode.problems()));
 }
 
 Result<TransferFunction> functionOf(const std::vector<TransferStop>& stops) {
@@ -40,35 +51,41 @@ std::size_t bytesOf(const DensityGrid& grid) {
 
 } // namespace
 
-Result<std::shared_ptr<const DensityGrid>> VolumeCache::gridOf(const std::shared_ptr<const Bytes>& file,
-                                                               const VolumeOptions& options) const {
+Result<Medium> VolumeCache::filledMedium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options) const {
+  std::shared_ptr<const DensityGrid> grid;
   for (const Entry& entry : entries_) {
-    if (entry.file.lock() == file && entry.options.grid == options.grid) return entry.medium->grid;
+    if (entry.file.lock() != file || entry.options.grid != options.grid) continue;
+    if (entry.options.transferFunction == options.transferFunction) return *entry.medium;
+    grid = entry.medium->grid;
   }
-  auto grid = readGridFile(*file, options.grid.value_or(""));
-  if (!grid) return at("/file", grid.problems());
-  return std::make_shared<const DensityGrid>(*std::move(grid));
+  auto function = functionOf(options.transferFunction);
+  if (!function) return function.problems();
+  if (!grid) {
+    auto read = readGridFile(*file, options.grid.value_or(""));
+    if (!read) return at("/file", read.problems());
+    grid = std::make_shared<const DensityGrid>(*std::move(read));
+  }
+  return makeMedium(std::move(grid), *std::move(function), {});
 }
 
 Result<std::shared_ptr<const Medium>> VolumeCache::medium(const std::shared_ptr<const Bytes>& file,
-                                                          const VolumeOptions& options) {
+                                                          const VolumeOptions& options, const VolumePlace& place) {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.options == options && entry.file.lock() == file;
+    return entry.options == options && entry.place == place && entry.file.lock() == file;
   });
   if (found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front().medium;
   }
-  const auto space = spaceOf(options);
+  const auto space = spaceOf(options, place);
   if (!space) return space.problems();
-  auto function = functionOf(options.transferFunction);
-  if (!function) return function.problems();
-  const auto grid = gridOf(file, options);
-  if (!grid) return grid.problems();
-  Medium made = makeMedium(*grid, *std::move(function), *space);
-  made.castShadow = options.castShadow;
-  made.receiveShadow = options.receiveShadow;
-  entries_.push_front({file, options, std::make_shared<const Medium>(std::move(made))});
+  auto made = filledMedium(file, options);
+  if (!made) return made.problems();
+  made->space = *space;
+  made->visible = place.visible;
+  made->castShadow = options.castShadow && place.castShadow;
+  made->receiveShadow = options.receiveShadow && place.receiveShadow;
+  entries_.push_front({file, options, place, std::make_shared<const Medium>(*std::move(made))});
   drop();
   return entries_.front().medium;
 }
@@ -77,12 +94,13 @@ void VolumeCache::drop() {
   entries_.remove_if([](const Entry& entry) { return entry.file.expired(); });
   std::set<const DensityGrid*> grids;
   std::size_t bytes = 0;
+  int places = 0;
   auto entry = entries_.begin();
   while (entry != entries_.end()) {
     const DensityGrid* grid = entry->medium->grid.get();
     if (grids.insert(grid).second) bytes += bytesOf(*grid);
     bytes += entry->medium->bricks.filled.size();
-    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
+    const bool keep = places++ == 0 || (bytes <= budgetBytes_ && places <= kMaxPlaces);
     entry = keep ? std::next(entry) : entries_.erase(entry);
   }
 }

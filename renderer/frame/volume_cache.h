@@ -7,6 +7,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/volume_options.h"
+#include "renderer/resolve/resolve_volumes.h"
 #include "renderer/volume/medium.h"
 #include "renderer/volume/volume_light_store.h"
 
@@ -21,7 +22,8 @@ class VolumeCache {
 
   /// Read now if need be. A problem's pointer begins at the volume. `file`: what `options.file` names. The newest
   /// stays, whatever its size.
-  Result<std::shared_ptr<const Medium>> medium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options);
+  Result<std::shared_ptr<const Medium>> medium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options,
+                                               const VolumePlace& place);
 
   VolumeLightStore& lights() { return lights_; }
 
@@ -29,11 +31,12 @@ class VolumeCache {
   struct Entry {
     std::weak_ptr<const Bytes> file;
     VolumeOptions options;
+    VolumePlace place;
     std::shared_ptr<const Medium> medium;
   };
 
-  Result<std::shared_ptr<const DensityGrid>> gridOf(const std::shared_ptr<const Bytes>& file,
-                                                    const VolumeOptions& options) const;
+  /// The same grid with the same transfer function, wherever it stood; else read now.
+  Result<Medium> filledMedium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options) const;
   void drop();
 
   std::size_t budgetBytes_;

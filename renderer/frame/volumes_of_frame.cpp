@@ -21,9 +21,11 @@ namespace {
 constexpr double kMeanAround = 0.598; // of shared::irradianceAround, over all directions
 constexpr std::size_t kPiece = 4096;  // points that a core traces at a time
 
+/// One a volume of the spec; null = it is hidden.
 Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, const Scene& scene,
-                                                           std::span<const VolumeOptions> volumes) {
-  std::vector<std::shared_ptr<const Medium>> media;
+                                                           const ResolvedFrame& frame) {
+  const std::vector<VolumeOptions>& volumes = frame.spec.volumes;
+  std::vector<std::shared_ptr<const Medium>> media(volumes.size());
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const std::string pointer = "/volumes/" + std::to_string(i);
     const auto file = scene.grids.find(volumes[i].file);
@@ -31,13 +33,14 @@ Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, c
       return Problem{ProblemCode::invalidValue, pointer + "/file", "The upload has no .npy or .vdb file of that name.",
                      "", volumes[i].file};
     }
-    auto medium = cache.medium(file->second, volumes[i]);
+    if (frame.volumes[i].hidden()) continue;
+    auto medium = cache.medium(file->second, volumes[i], frame.volumes[i]);
     if (!medium) {
       Problems problems = medium.problems();
       for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
       return problems;
     }
-    media.push_back(*std::move(medium));
+    media[i] = *std::move(medium);
   }
   return media;
 }
@@ -176,10 +179,16 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
                    std::to_string(kLimits.maxVolumeLights), std::to_string(lights.size())};
   }
   if (const Status fits = checkSize(frame.spec); !fits) return fits.problems();
-  auto media = mediaOf(cache, *scene.loaded, frame.spec.volumes);
+  const auto media = mediaOf(cache, *scene.loaded, frame);
   if (!media) return media.problems();
+  made.reports.resize(media->size());
+  std::vector<VolumeReport*> reports;
   FrameVolumes& volumes = made.volumes;
-  volumes.media = *std::move(media);
+  for (std::size_t i = 0; i < media->size(); ++i) {
+    if ((*media)[i] == nullptr) continue;
+    volumes.media.push_back((*media)[i]);
+    reports.push_back(&made.reports[i]);
+  }
   volumes.ambient = toVector(frame.spec.ambient.color) * (frame.spec.ambient.intensity * kMeanAround);
   for (const int light : shadowingLights(frame)) {
     const Light& source = lights[static_cast<std::size_t>(light)];
@@ -213,11 +222,11 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
     });
     volumes.lights.push_back(found.map);
     const glm::ivec3 voxels = all[i]->grid->size;
-    made.reports.push_back({.voxels = {voxels.x, voxels.y, voxels.z},
-                            .reused = !found.made,
-                            .lightSize = {input.size.x, input.size.y, input.size.z},
-                            .lightBytes = bytesOf(*found.map),
-                            .lightMilliseconds = found.map->milliseconds});
+    *reports[i] = {.voxels = {voxels.x, voxels.y, voxels.z},
+                   .reused = !found.made,
+                   .lightSize = {input.size.x, input.size.y, input.size.z},
+                   .lightBytes = bytesOf(*found.map),
+                   .lightMilliseconds = found.map->milliseconds};
   }
   return made;
 }

@@ -13,7 +13,7 @@ namespace gnomon {
 
 struct MadeVolumes {
   FrameVolumes volumes;
-  std::vector<VolumeReport> reports; ///< parallel
+  std::vector<VolumeReport> reports; ///< one a volume of the spec
 };
 
 /// The volumes of a frame with the light in them, made now if need be. Surfaces shade them by rays to the middle of

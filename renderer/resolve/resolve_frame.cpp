@@ -52,7 +52,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
     return Problem{ProblemCode::invalidValue, "/quality",
                    "This call does not support quality targets; give settings instead.", "", ""};
   }
-  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}};
+  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}, {}};
   const int count = fileScenes(scene);
   if (frame.scene < 0 || frame.scene >= count) {
     return Problem{ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
@@ -81,6 +81,9 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   auto nodes = resolveNodes(spec.nodes, scene);
   if (!nodes) return nodes.problems();
   frame.nodes = std::move(*nodes);
+  auto volumes = resolveVolumes(spec.volumes, scene, view, frame.nodes);
+  if (!volumes) return volumes.problems();
+  frame.volumes = *std::move(volumes);
   frame.layers = layersInUse(view, frame.nodes);
   auto groups = resolveReceiverGroups(view, frame.nodes, *frame.spec.lights);
   if (!groups) return groups.problems();

@@ -6,6 +6,7 @@
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/core/camera_view.h"
+#include "renderer/resolve/resolve_volumes.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 
@@ -17,7 +18,8 @@ struct ResolvedFrame {
   CameraView view;
   int scene = 0; ///< index into Scene::scenes
   std::vector<std::string> warnings;
-  std::vector<NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  std::vector<NodeSwitches> nodes;  ///< one a node of the file; empty = every node has the defaults
+  std::vector<VolumePlace> volumes; ///< one a volume of the spec
   LayersInUse layers;
   ReceiverGroups groups;
 };

@@ -23,19 +23,6 @@ NodesByName nodesByName(const Scene& scene) {
   return nodes;
 }
 
-/// The nodes' names, in the file's order.
-std::string namesOf(const Scene& scene) {
-  std::vector<std::string_view> names;
-  for (const SceneNode& node : scene.nodes) {
-    if (!node.name.empty()) names.push_back(node.name);
-  }
-  return names.empty() ? "no node has a name" : oneOf(names);
-}
-
-std::string indicesOf(const Scene& scene) {
-  return scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1);
-}
-
 /// Brings the switches that `entry` sets.
 void addSwitches(const NodeOptions& entry, NodeOptions& switches) {
   if (entry.visible) switches.visible = entry.visible;
@@ -56,7 +43,7 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
       if (node < own.size()) {
         addSwitches(entries[i], own[node]);
       } else {
-        problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that index.", indicesOf(scene),
+        problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that index.", nodeIndices(scene),
                       std::to_string(*index)});
       }
       continue;
@@ -65,7 +52,7 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
     const std::string& name = std::get<std::string>(*entries[i].node);
     const auto [first, last] = byName->equal_range(name);
     if (first == last) {
-      problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that name.", namesOf(scene), name});
+      problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that name.", nodeNames(scene), name});
     }
     std::for_each(first, last, [&](const auto& found) { addSwitches(entries[i], own[found.second]); });
   }
@@ -104,6 +91,18 @@ NodeSwitches settled(const NodeOptions& options) {
 }
 
 } // namespace
+
+std::string nodeNames(const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const SceneNode& node : scene.nodes) {
+    if (!node.name.empty()) names.push_back(node.name);
+  }
+  return names.empty() ? "no node has a name" : oneOf(names);
+}
+
+std::string nodeIndices(const Scene& scene) {
+  return scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1);
+}
 
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene) {
   std::vector<NodeSwitches> nodes;

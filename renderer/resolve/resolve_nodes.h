@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -9,6 +10,10 @@
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
+
+/// What a problem with a node's name or index says there is. Names in the file's order.
+std::string nodeNames(const Scene& scene);
+std::string nodeIndices(const Scene& scene);
 
 /// The switches of every node of the file, by its index: of each switch the nearest entry up the tree counts, and of
 /// two entries for one node the later. Empty where there are no entries: every node has the defaults. An entry that

@@ -91,6 +91,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
 
   scene->grids = gridFiles(bundle);
+  if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.id = id;

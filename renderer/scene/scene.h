@@ -112,6 +112,12 @@ struct SceneNode {
   int parent = -1; ///< index into Scene::nodes; -1 = a root
 };
 
+/// A node where the file or a pose puts it.
+struct PlacedNode {
+  glm::dmat4 worldFromNode{1};
+  bool hidden = false; ///< it or a node above it is not visible (KHR_node_visibility)
+};
+
 /// A primitive placed in the world.
 struct Instance {
   int node = 0;      ///< index into Scene::nodes
@@ -145,6 +151,7 @@ struct SceneLight {
 
 /// One of the file's scenes, its node tree flattened.
 struct SceneView {
+  std::vector<int> roots; ///< indices into Scene::nodes
   std::vector<Instance> instances;
   std::vector<SceneCamera> cameras;
   std::vector<SceneLight> lights;
@@ -174,6 +181,7 @@ struct Scene {
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
   std::vector<SceneNode> nodes;                              ///< as the file numbers them
+  std::vector<PlacedNode> placedNodes;                       ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation;            ///< of skins and morph targets; nullptr = nothing deforms
   std::shared_ptr<const Motion> motion;                      ///< of animations; nullptr = nothing moves
   std::shared_ptr<PoseCache> poses;                          ///< the last poses asked for; beside motion

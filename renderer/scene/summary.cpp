@@ -59,10 +59,11 @@ MemorySummary memoryOf(const Scene& scene) {
   for (const auto& image : scene.images) memory.images += image->bytes();
   for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
-  memory.structure = bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes);
+  memory.structure =
+      bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes) + bytesIn(scene.placedNodes);
   for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();
   for (const SceneView& view : scene.scenes) {
-    memory.structure += bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
+    memory.structure += bytesIn(view.roots) + bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
   }
   if (scene.motion) {
     constexpr std::uint64_t kCopies = 1 + PoseCache::kKept;

@@ -24,6 +24,7 @@ struct Medium {
   std::shared_ptr<const DensityGrid> grid;
   TransferFunction function;
   VolumeSpace space;
+  bool visible = true;       ///< to the camera
   bool castShadow = true;    ///< on surfaces and media, itself among them
   bool receiveShadow = true; ///< from surfaces and media, itself among them
   Bricks bricks{};

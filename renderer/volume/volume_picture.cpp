@@ -52,9 +52,14 @@ std::size_t firstOf(std::span<const float> depths, std::size_t i) {
 std::vector<glm::vec4> marchPicture(const SeenSurfaces& seen, std::span<const MappedMedium> media,
                                     const glm::dvec3& ambient) {
   std::vector<const Medium*> all;
-  for (const MappedMedium& each : media) all.push_back(each.medium);
+  std::vector<const VolumeLight*> maps;
+  for (const MappedMedium& each : media) {
+    if (!each.medium->visible) continue;
+    all.push_back(each.medium);
+    maps.push_back(each.map);
+  }
   const auto light = [&](std::size_t medium, const glm::dvec3& unit) {
-    return lightAt(*media[medium].map, unit) * glm::one_over_pi<double>() + ambient;
+    return lightAt(*maps[medium], unit) * glm::one_over_pi<double>() + ambient;
   };
   std::vector<glm::vec4> picture(static_cast<std::size_t>(seen.width) * static_cast<std::size_t>(seen.height));
   forEachPixel(seen, [&](std::size_t pixel, double x, double y) {

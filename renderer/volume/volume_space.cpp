@@ -49,6 +49,12 @@ Result<VolumeSpace> spaceOf(const Aabb& box) {
   return spaceOf(matrix);
 }
 
+Result<VolumeSpace> moved(const VolumeSpace& space, const glm::dmat4& matrix) {
+  glm::dmat4 own(space.axes);
+  own[3] = glm::dvec4(space.corner, 1);
+  return spaceOf(matrix * own);
+}
+
 std::optional<Interval> insideUnitCube(const Ray& unitRay) {
   const glm::dvec3 size = glm::abs(unitRay.direction);
   const double parallel = kParallel * std::max({size.x, size.y, size.z});

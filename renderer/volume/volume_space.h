@@ -40,6 +40,9 @@ Result<VolumeSpace> spaceOf(const glm::dmat4& worldFromUnit);
 /// A box along the world's axes. A problem where it is not finite or has no inside.
 Result<VolumeSpace> spaceOf(const Aabb& box);
 
+/// The same in a space that a matrix leads to. A problem as for a matrix of its own.
+Result<VolumeSpace> moved(const VolumeSpace& space, const glm::dmat4& matrix);
+
 /// The same ray in the cube; distances along it stay what they were.
 inline Ray toUnit(const VolumeSpace& space, const Ray& ray) {
   return {space.inverse * (ray.origin - space.corner), space.inverse * ray.direction};

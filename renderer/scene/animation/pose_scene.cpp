@@ -182,10 +182,12 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animati
   for (std::size_t i = 0; graph.properties && i < graph.properties->materials.size(); ++i) {
     posed->materials[i] = repainted(posed->materials[i], graph.properties->materials[i]);
   }
+  if (!scene.placedNodes.empty()) posed->placedNodes = placedNodes(graph.places, graph.hidden);
   graph.skins = poseSkins(scene, graph.places);
   if (!poseVertices(graph.skins, moved.weights, *posed)) return lost;
   posed->scenes.assign(motion.views.size(), {});
   for (std::size_t i = 0; i < motion.views.size(); ++i) {
+    posed->scenes[i].roots = scene.scenes[i].roots;
     if (!placeInstances(motion.views[i], graph, *posed, posed->scenes[i])) return lost;
     placeCameras(motion.views[i], graph, posed->scenes[i]);
     placeLights(motion.views[i], graph, posed->scenes[i]);

@@ -116,6 +116,13 @@ std::vector<bool> hiddenNodes(const std::vector<int>& order, const std::vector<i
   return hidden;
 }
 
+std::vector<PlacedNode> placedNodes(const NodePlaces& places, const std::vector<bool>& hidden) {
+  std::vector<PlacedNode> placed;
+  placed.reserve(hidden.size());
+  for (std::size_t node = 0; node < hidden.size(); ++node) placed.push_back({places.worldFromNode[node], hidden[node]});
+  return placed;
+}
+
 std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order) {
   for (const int index : order) {
     const auto node = static_cast<std::size_t>(index);

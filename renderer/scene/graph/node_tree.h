@@ -57,6 +57,9 @@ std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector
 std::vector<bool> hiddenNodes(const std::vector<int>& order, const std::vector<int>& parents,
                               const std::vector<bool>& visible);
 
+/// Both parallel to the nodes.
+std::vector<PlacedNode> placedNodes(const NodePlaces& places, const std::vector<bool>& hidden);
+
 /// The nodes in the file's rest pose.
 struct NodeTree : NodePlaces {
   std::vector<int> parents; ///< -1 for a root

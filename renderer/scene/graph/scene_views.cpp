@@ -32,6 +32,7 @@ class Flattening {
 
   void flatten(const std::vector<int>& roots, const std::string& pointer) {
     SceneView& view = scenes_.views.emplace_back();
+    view.roots = roots;
     if (moves_) scenes_.moving.emplace_back();
     const std::vector<int> nodes = reachedFrom(roots);
     for (const int node : nodes) {
