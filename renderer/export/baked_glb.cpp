@@ -1,12 +1,11 @@
 #include "renderer/export/baked_glb.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string_view>
-#include <unordered_map>
 
+#include "renderer/bake/mapped_mesh.h"
 #include "renderer/export/glb_materials.h"
 #include "renderer/image/png_encode.h"
 
@@ -39,40 +38,6 @@ Image pictureOf(const IrradianceMap& map, float highest) {
     for (int channel = 0; channel < 3; ++channel) pixels.push_back(encodedSrgb(texel[channel] / highest));
   }
   return {map.width, map.height, {"R", "G", "B"}, std::move(pixels)};
-}
-
-/// A vertex of the file: one of the scene at one place of the map.
-struct MappedVertex {
-  std::uint32_t vertex = 0;
-  glm::vec2 corner{0};
-
-  bool operator==(const MappedVertex&) const = default;
-};
-struct MappedVertexHash {
-  std::size_t operator()(const MappedVertex& v) const {
-    const auto bits = [](float value) { return std::size_t{std::bit_cast<std::uint32_t>(value)}; };
-    return (v.vertex * 0x9E3779B97F4A7C15ull) ^ (bits(v.corner.x) * 0xC2B2AE3D27D4EB4Full) ^ (bits(v.corner.y) << 17);
-  }
-};
-
-struct MappedMesh {
-  std::vector<MappedVertex> vertices;
-  std::vector<std::uint32_t> indices;
-};
-
-MappedMesh mappedMesh(const Scene& scene, const Primitive& primitive, const LightMapLayout& layout,
-                      std::size_t firstCorner) {
-  MappedMesh mesh;
-  std::unordered_map<MappedVertex, std::uint32_t, MappedVertexHash> known;
-  mesh.indices.reserve(primitive.indexCount);
-  for (std::uint32_t i = 0; i < primitive.indexCount; ++i) {
-    const MappedVertex vertex{primitive.baseVertex + scene.indices[primitive.firstIndex + i],
-                              layout.corners[firstCorner + i]};
-    const auto [found, isNew] = known.try_emplace(vertex, static_cast<std::uint32_t>(mesh.vertices.size()));
-    if (isNew) mesh.vertices.push_back(vertex);
-    mesh.indices.push_back(found->second);
-  }
-  return mesh;
 }
 
 /// A node's matrix must be a turn and a scale: another one moves the vertices themselves.
