@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "renderer/bake/even_blocks.h"
 #include "renderer/bake/light_map.h"
 #include "renderer/bake/light_map_layout.h"
 
@@ -12,8 +13,9 @@ struct BakedLight {
   std::shared_ptr<const LightMapLayout> layout;
   LightMap map;
   double milliseconds = 0; ///< that baking it took
+  EvenBlocks even{};       ///< of the map
 
-  std::size_t bytes() const { return map.shares.capacity() * sizeof(map.shares[0]); }
+  std::size_t bytes() const { return map.shares.capacity() * sizeof(map.shares[0]) + even.bytes(); }
 };
 
 } // namespace gnomon

@@ -6,7 +6,6 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
-#include "renderer/techniques/baked_shadow.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon::cpu {
@@ -70,37 +69,68 @@ std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey&
   return coverage.take();
 }
 
+BakedMap bakedMap(const FrameScene& scene, const BakedLight& baked) {
+  BakedMap map{.shares = baked.map.shares.data(),
+               .width = baked.map.width,
+               .height = baked.map.height,
+               .even = baked.even.shares.data(),
+               .evenColumns = baked.even.columns,
+               .corners = baked.layout->corners.data(),
+               .firstCorners = {}};
+  for (std::size_t slot = 0; slot < scene.slots.size(); ++slot) {
+    const std::uint32_t instance = scene.slots[slot].instance;
+    const std::size_t before = (slot - scene.geometry.firstSlot[instance]) * kClusterTriangles;
+    map.firstCorners.push_back(static_cast<std::int32_t>(baked.layout->firstCorner[instance] + 3 * before));
+  }
+  return map;
+}
+
+/// Adds what rays find for the lights of `traced`, indices into FrameWork::layered.
+Status traceLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey, const DepthBuffer& surfaces,
+                   std::span<const std::size_t> traced, ExactLayers& exact) {
+  const auto scene = work.traced();
+  if (!scene) return scene.problems();
+  const std::vector<Light>& lights = *work.frame.spec.lights;
+  const SampleGrid grid = gridOf(surfaces);
+  const ShownNumbers shown = shownNumbers(surfaces);
+  const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
+  const TriangleNumbers numbers(camera.scene.geometry);
+  const TraceInput rays{**scene, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};
+  const PicturePoints points(rays, grid, numbers, shown, masks);
+  for (const std::size_t layer : traced) {
+    const auto start = std::chrono::steady_clock::now();
+    const int light = work.layered[layer];
+    TracedShadow found = tracedShadow(points, rays, light, lights[static_cast<std::size_t>(light)].shadow->raySamples);
+    exact.known[layer].values = std::move(found.values);
+    exact.lights.push_back({light, millisecondsSince(start), found.tracedPixels});
+  }
+  return Done{};
+}
+
 } // namespace
 
 std::vector<Layer> ExactLayers::layers(const DepthBuffer& surfaces) const {
   std::vector<Layer> all;
-  for (const UnfilledVector<std::uint16_t>& each : values)
-    all.push_back({each.data(), surfaces.width, surfaces.samples});
+  for (const Known& each : known) {
+    all.push_back({each.values.data(), surfaces.width, surfaces.samples, each.map ? &*each.map : nullptr});
+  }
   return all;
 }
 
 Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,
                                 const DepthBuffer& surfaces) {
-  const auto traced = work.traced();
-  if (!traced) return traced.problems();
-  const std::vector<Light>& lights = *work.frame.spec.lights;
-  const SampleGrid grid = gridOf(surfaces);
-  const ShownNumbers shown = shownNumbers(surfaces);
-  const auto shadowOf = [&](int light) -> const Shadow& { return *lights[static_cast<std::size_t>(light)].shadow; };
-  std::vector<std::uint8_t> masks;
-  if (sendsRays(work.layered, lights)) masks = maskCoverage(camera, survey);
-  const TriangleNumbers numbers(camera.scene.geometry);
-  const TraceInput rays{**traced, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};
-  const PicturePoints points(rays, grid, numbers, shown, masks);
   ExactLayers exact;
+  std::vector<std::size_t> traced;
   for (const int light : work.layered) {
-    const auto start = std::chrono::steady_clock::now();
-    TracedShadow found = traitsOf(shadowOf(light).technique).baked
-                             ? bakedShadow(points, *work.baked(light))
-                             : tracedShadow(points, rays, light, shadowOf(light).raySamples);
-    exact.values.push_back(std::move(found.values));
-    exact.lights.push_back({light, millisecondsSince(start), found.tracedPixels});
+    exact.known.emplace_back();
+    if (traitsOf((*work.frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked) {
+      exact.known.back().map = bakedMap(camera.scene, *work.baked(light));
+    } else {
+      traced.push_back(exact.known.size() - 1);
+    }
   }
+  if (traced.empty()) return exact;
+  if (const Status found = traceLayers(camera, work, survey, surfaces, traced, exact); !found) return found.problems();
   return exact;
 }
 

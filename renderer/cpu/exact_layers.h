@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderer/cpu/camera_survey.h"
@@ -9,16 +10,21 @@
 
 namespace gnomon::cpu {
 
-/// What rays say of the lights whose technique is exact, at each sample of the picture.
+/// What is known of the lights whose shadow rays find: now, at each sample of the picture, or when it was baked.
 struct ExactLayers {
-  std::vector<UnfilledVector<std::uint16_t>> values; ///< as Layer::values; one a light of FrameWork::layered
-  std::vector<LayerFacts> lights;                    ///< parallel
+  /// Of one light: `values` as Layer::values, empty where there is a map.
+  struct Known {
+    UnfilledVector<std::uint16_t> values;
+    std::optional<BakedMap> map;
+  };
+  std::vector<Known> known;       ///< one a light of FrameWork::layered
+  std::vector<LayerFacts> lights; ///< those that rays were sent for
 
   std::vector<Layer> layers(const DepthBuffer& surfaces) const;
 };
 
-/// `surfaces`: numbered. Rays decide all of it, those of technique hybrid too: on a processor they take less time than
-/// a map that spares some of them.
+/// `surfaces`: numbered. What is baked is used in place. Rays decide all of it, those of technique hybrid too: on a
+/// processor they take less time than a map that spares some of them.
 Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,
                                 const DepthBuffer& surfaces);
 

@@ -52,6 +52,11 @@ Problem stopped() {
   return {ProblemCode::unavailable, "", "The bake was stopped.", "", ""};
 }
 
+std::shared_ptr<const BakedLight> toBeKept(BakedLight baked) {
+  baked.even = evenBlocks(baked.map);
+  return std::make_shared<const BakedLight>(std::move(baked));
+}
+
 } // namespace
 
 /// A map that one thread makes: those that want the same wait as long as this lives.
@@ -121,7 +126,7 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
   const bool inStore = store_ && !input.keyInStore.empty();
   if (const auto file = inStore ? store_->read(input.keyInStore) : std::nullopt) {
     if (auto stored = readLightMapFile(*file, baked.layout)) {
-      return Found{std::make_shared<const BakedLight>(*std::move(stored)), true};
+      return Found{toBeKept(*std::move(stored)), true};
     }
   }
   // Towards a light without an end: its cone and range decide where it shines, and not what its shadow is.
@@ -136,7 +141,7 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
   baked.map = *std::move(map);
   baked.milliseconds = millisecondsSince(start);
   if (inStore) store_->write(input.keyInStore, lightMapFile(baked));
-  return Found{std::make_shared<const BakedLight>(std::move(baked)), false};
+  return Found{toBeKept(std::move(baked)), false};
 }
 
 Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index, const Progress& progress) {

@@ -161,6 +161,23 @@ TEST(Devices, D5_D6_VolumesAreTheSame) {
   }
 }
 
+TEST(Devices, N5_PicturesOfLightMapsAreTheSame) {
+  for (const char* const name : {"box_on_plane", "double_sided", "mirrored_node"}) {
+    const ScenePtr scene = testing::generatedScene(name);
+    for (const int camera : {0, 1}) {
+      for (const char* const antialiasing : {"none", "msaa4x"}) {
+        const Json shadow{{"technique", "lightMap"}, {"lightMap", {{"size", 512}}}};
+        const Pair pair = bothOf(scene, specOf(camera, {{"shadow", shadow}, {"antialiasing", antialiasing}}));
+        const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+        std::printf("%s %d %s: over 4: %.4f %%, over 16: %.4f %%\n", name, camera, antialiasing, percentOver(levels, 4),
+                    percentOver(levels, 16));
+        EXPECT_LE(percentOver(levels, 4), 1) << name << camera << antialiasing;
+        EXPECT_LE(percentOver(levels, 16), 0.3) << name << camera << antialiasing;
+      }
+    }
+  }
+}
+
 TEST(Devices, PicturesOfExactShadowsAreTheSame) {
   expectSamePictures("rayTraced");
 }

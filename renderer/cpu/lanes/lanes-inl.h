@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
@@ -141,6 +142,18 @@ HWY_INLINE Int gather(const std::uint16_t* base, const Int& index) {
                    hn::And(hn::Shr(hn::GatherIndex(kInts, pairs, hn::ShiftRight<1>(index.part[i])),
                                    hn::ShiftLeft<4>(hn::And(index.part[i], hn::Set(kInts, 1)))),
                            hn::Set(kInts, 0xffff)));
+}
+/// Number `index` in the lower half, and the one behind it in the upper.
+HWY_INLINE Int gatherPairs(const std::uint16_t* base, const Int& index) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  const auto* pairs = reinterpret_cast<const std::int32_t*>(base);
+  GNOMON_EACH_PART(Int, r, hn::GatherOffset(kInts, pairs, hn::ShiftLeft<1>(index.part[i])));
+#else
+  alignas(64) std::int32_t lanes[kLanes];
+  store(index, lanes);
+  for (std::int32_t& lane : lanes) std::memcpy(&lane, base + lane, sizeof lane);
+  return load(lanes);
+#endif
 }
 /// 0, 1, ... 15.
 HWY_INLINE Int laneNumbers() {

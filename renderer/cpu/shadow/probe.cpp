@@ -43,6 +43,8 @@ inline Receiver receiverOf(const shared::FrameData& frame, std::span<const Probe
   receiver.groupBit = load(groups);
   receiver.place = {load(columns[7]), load(columns[8])};
   receiver.samples = 1;
+  receiver.triangle = -1;
+  receiver.weights = Float2(Float(0.0f));
   return receiver;
 }
 

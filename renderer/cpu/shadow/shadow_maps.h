@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "renderer/core/rect.h"
 #include "renderer/cpu/raster/depth_buffer.h"
+#include "renderer/prepare/frame_geometry.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon::cpu {
@@ -18,12 +20,28 @@ struct TileMap {
   std::span<const glm::vec4> moments = {}; ///< row by row from the BOTTOM; empty = its light's filter reads none
 };
 
-/// What rays say of one light: shares of 65535, each pixel's samples side by side, row by row from the BOTTOM. Where
+/// A light map, as kernels look it up by the triangle that a place shows. At least two texels a side.
+struct BakedMap {
+  const std::uint16_t* shares = nullptr; ///< of 65535, row by row, y 0 first
+  int width = 0;                         ///< texels
+  int height = 0;
+  const std::uint16_t* even = nullptr;    ///< EvenBlocks of it
+  int evenColumns = 0;                    ///< blocks
+  const glm::vec2* corners = nullptr;     ///< three a triangle, texels
+  std::vector<std::int32_t> firstCorners; ///< of each slot's first triangle, into `corners`
+
+  const glm::vec2* cornersOf(std::uint32_t triangle) const {
+    return corners + firstCorners[triangle / kClusterTriangles] + 3 * (triangle % kClusterTriangles);
+  }
+};
+
+/// What is known of one light: shares of 65535, each pixel's samples side by side, row by row from the BOTTOM. Where
 /// there is an odd number of them, one more may be read, which means nothing.
 struct Layer {
   const std::uint16_t* values = nullptr;
-  int width = 0;   ///< pixels
-  int samples = 1; ///< a pixel: 1 to 4
+  int width = 0;                   ///< pixels
+  int samples = 1;                 ///< a pixel: 1 to 4
+  const BakedMap* baked = nullptr; ///< is looked up instead, where there is one
 };
 
 inline constexpr auto kTints = [] {

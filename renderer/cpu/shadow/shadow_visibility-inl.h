@@ -6,6 +6,7 @@
 #define GNOMON_CPU_SHADOW_VISIBILITY_INL_H
 #endif
 
+#include "renderer/cpu/shadow/baked_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_disc-inl.h"
 #include "renderer/cpu/shadow/shadow_filter-inl.h"
 #include "renderer/cpu/shadow/shadow_lookup-inl.h"
@@ -75,8 +76,11 @@ HWY_INLINE Mask receivesShadow(const LightData& light, const Receiver& receiver)
 inline Float layerVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
                              const Float3& toLight, const Mask& needed) {
   const Mask receives = receivesShadow(light, receiver);
-  Float visibility = layerValue(maps.layers[light.visibilityLayer - 1], receiver, needed & receiver.shown & receives);
-  // Rays know which faces are turned away, shadow volumes don't.
+  const Mask asked = needed & receiver.shown & receives;
+  const Layer& layer = maps.layers[light.visibilityLayer - 1];
+  Float visibility =
+      layer.baked != nullptr ? bakedValue(*layer.baked, receiver, asked) : layerValue(layer, receiver, asked);
+  // Rays know which faces are turned away, light maps don't.
   if (light.layerOmitsTurnedFaces != 0u) visibility = select(isTurnedAway(receiver, toLight), 0.0f, visibility);
   return select(receives, mix(1.0f, visibility, light.strength), 1.0f);
 }

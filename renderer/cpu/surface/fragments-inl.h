@@ -28,6 +28,8 @@ struct Receiver {
   Int groupBit;    ///< 1 << receiver group
   Float2 place;    ///< pixels, as Fragments::place
   Int samples;     ///< of the pixel that show it, a bit each; 1 where a pixel has one
+  Int triangle;    ///< that it lies in, FrameScene's number; -1 = it is not known
+  Float2 weights;  ///< of that triangle's second and third corner
 };
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -39,6 +39,8 @@ HWY_INLINE Receiver instanceReceivers(const FrameScene& scene, std::uint32_t ins
   receiver.groupBit = Int(1 << static_cast<int>(placed.normalFromLocal[0].w));
   receiver.place = fragments.place;
   receiver.samples = 1;
+  receiver.triangle = fragments.triangle;
+  receiver.weights = {meeting.u, meeting.v};
   // As surfaces have them, to the bit: what is marked for these receivers is read for those.
   const Float3 toEye = scene.frame.forward.w > 0.0f ? directionOf(-receiver.relative, -sight.way)
                                                     : Float3(-glm::vec3(scene.frame.forward));
@@ -52,6 +54,7 @@ HWY_INLINE void put(const Mask& where, const Receiver& from, Receiver& to) {
   to.normal = select(where, from.normal, to.normal);
   to.viewDepth = select(where, from.viewDepth, to.viewDepth);
   to.groupBit = select(where, from.groupBit, to.groupBit);
+  to.weights = select(where, from.weights, to.weights);
 }
 
 /// Lanes that show one instance are worked on together; a packet mostly shows one.

@@ -33,6 +33,8 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   s.receiver.viewDepth = select(where, yes.receiver.viewDepth, no.receiver.viewDepth);
   s.receiver.groupBit = select(where, yes.receiver.groupBit, no.receiver.groupBit);
   s.receiver.place = no.receiver.place;
+  s.receiver.triangle = no.receiver.triangle;
+  s.receiver.weights = select(where, yes.receiver.weights, no.receiver.weights);
   s.normal = select(where, yes.normal, no.normal);
   s.baseColor = select(where, yes.baseColor, no.baseColor);
   s.metallic = select(where, yes.metallic, no.metallic);
@@ -71,11 +73,13 @@ class InstanceSurface {
     s.receiver.shown = fragments.shown;
     const bool central = all((fragments.place.x == fragments.center.x) & (fragments.place.y == fragments.center.y));
     const Sight sight = central ? sight_ : sightThrough(frame_, fragments.place);
-    const Float depth = central ? meeting_.depth : meetingOf(sight, triangle_).depth;
-    s.receiver.relative = sight.origin + sight.way * depth;
-    s.receiver.viewDepth = asSurveyed(frame_, depth);
+    const Meeting meeting = central ? meeting_ : meetingOf(sight, triangle_);
+    s.receiver.relative = sight.origin + sight.way * meeting.depth;
+    s.receiver.viewDepth = asSurveyed(frame_, meeting.depth);
+    s.receiver.weights = {meeting.u, meeting.v};
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
     s.receiver.place = fragments.place;
+    s.receiver.triangle = fragments.triangle;
     const Float3 toEye =
         frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight.way) : Float3(-glm::vec3(frame_.forward));
     const Float3 face = directionOf(meeting_.normal, toEye);

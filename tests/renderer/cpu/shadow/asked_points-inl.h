@@ -41,6 +41,8 @@ inline PointPacket pointPacket(std::span<const AskedPoint> points, std::size_t f
   float y[kLanes] = {};
   std::uint32_t group[kLanes] = {};
   std::uint32_t samples[kLanes] = {};
+  std::uint32_t triangle[kLanes] = {};
+  float weights[2][kLanes] = {};
   PointPacket packet;
   packet.count = std::min(points.size() - first, kLanes);
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -55,9 +57,18 @@ inline PointPacket pointPacket(std::span<const AskedPoint> points, std::size_t f
     y[i] = point.place.y;
     group[i] = point.groupBit;
     samples[i] = point.samples;
+    triangle[i] = point.triangle;
+    for (int axis = 0; axis < 2; ++axis) weights[axis][i] = point.weights[axis];
   }
-  packet.receiver = {firstLanes(packet.count), loadPoints(relative), loadPoints(normal), load(depth), load(group),
-                     {load(x), load(y)},       load(samples)};
+  packet.receiver = {firstLanes(packet.count),
+                     loadPoints(relative),
+                     loadPoints(normal),
+                     load(depth),
+                     load(group),
+                     {load(x), load(y)},
+                     load(samples),
+                     load(triangle),
+                     {load(weights[0]), load(weights[1])}};
   packet.toLight = loadPoints(toLight);
   return packet;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -17,6 +18,8 @@ struct AskedPoint {
   glm::vec2 place{0.5f};
   unsigned samples = 1;
   glm::vec3 toLight{0, 0, 1};
+  std::uint32_t triangle = 0;
+  glm::vec2 weights{0};
 };
 
 // Sixteen points at a time; `points` and `out` are of one length, which may be any.

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/bake/light_map.h"
+
+namespace gnomon {
+
+/// Where a light map says the same all around: most of it is lit or dark as a whole, and a fraction of its bytes tells.
+struct EvenBlocks {
+  static constexpr int kSide = 8;             ///< texels
+  static constexpr std::uint16_t kUneven = 1; ///< a share that no block is said to have
+  int columns = 0;                            ///< blocks
+  std::vector<std::uint16_t> shares;          ///< row by row; behind the last one more, which means nothing
+
+  std::size_t bytes() const { return shares.capacity() * sizeof(shares[0]); }
+};
+
+/// Of each block the share that all of its texels have, and those beside it to the right and above, so that it is what
+/// is read anywhere between them; else kUneven.
+EvenBlocks evenBlocks(const LightMap& map);
+
+} // namespace gnomon
