@@ -23,7 +23,7 @@ namespace gnomon {
 struct FrameWork {
   std::shared_ptr<const Scene> scene;
   const ResolvedFrame& frame;
-  std::vector<int> layered; ///< lights whose technique needs a visibility layer, in the layers' order
+  std::vector<int> layered; ///< lights whose technique needs a visibility layer, in the layers' order: baked ones last
   bool needsEdges = false;  ///< some light's technique needs the edges of meshes
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
   /// What was baked for a light whose technique says so; asked after the survey.

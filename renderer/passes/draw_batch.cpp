@@ -9,12 +9,8 @@ namespace {
 static_assert(sizeof(DrawRange) == sizeof(gl::DrawCommand) &&
               offsetof(DrawRange, instance) == offsetof(gl::DrawCommand, baseInstance));
 
-} // namespace
-
-SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) {
-  const std::array<gl::VertexStream, 3> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
-                                                 {&scene.attributes, sizeof(VertexAttributes), 0, 0},
-                                                 {&instances, sizeof(shared::InstanceData), 0, 1}}};
+/// Of streams that hold positions, VertexAttributes and instances.
+std::vector<gl::VertexAttribute> positionAttributes() {
   std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0}};
   for (GLuint row = 0; row < 3; ++row) {
     const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
@@ -22,9 +18,11 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) 
   }
   const auto lastRow = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + 2 * sizeof(glm::vec4));
   attributes.push_back({GNOMON_NODE, 2, 4, GL_FLOAT, false, false, lastRow});
-  SceneVertices vertices;
-  vertices.positions = {streams, attributes, &scene.welded, "scene positions"};
+  return attributes;
+}
 
+std::vector<gl::VertexAttribute> allAttributes() {
+  std::vector<gl::VertexAttribute> attributes = positionAttributes();
   const std::array<gl::VertexAttribute, 5> shaded{{
       {GNOMON_NORMAL, 1, 3, GL_FLOAT, false, false, offsetof(VertexAttributes, normal)},
       {GNOMON_TANGENT, 1, 4, GL_FLOAT, false, false, offsetof(VertexAttributes, tangent)},
@@ -37,8 +35,36 @@ SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) 
     const auto offset = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + row * sizeof(glm::vec4));
     attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
   }
-  vertices.all = {streams, attributes, &scene.indices, "scene vertices"};
-  return vertices;
+  return attributes;
+}
+
+} // namespace
+
+SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) {
+  const std::array<gl::VertexStream, 3> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
+                                                 {&scene.attributes, sizeof(VertexAttributes), 0, 0},
+                                                 {&instances, sizeof(shared::InstanceData), 0, 1}}};
+  return {{streams, allAttributes(), &scene.indices, "scene vertices"},
+          {streams, positionAttributes(), &scene.welded, "scene positions"}};
+}
+
+SceneVertices mappedVertices(const GpuMappedScene& scene, const gl::Buffer& instances) {
+  const std::array<gl::VertexStream, 4> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
+                                                 {&scene.attributes, sizeof(VertexAttributes), 0, 0},
+                                                 {&instances, sizeof(shared::InstanceData), 0, 1},
+                                                 {&scene.places, sizeof(glm::vec2), 0, 0}}};
+  std::vector<gl::VertexAttribute> attributes = allAttributes();
+  attributes.push_back({GNOMON_MAP_PLACE, 3, 2, GL_FLOAT, false, false, 0});
+  return {{streams, attributes, &scene.indices, "mapped vertices"}, {}};
+}
+
+void drawMapped(const Scene& scene, const SceneView& view, const LightMapLayout& layout, DrawList& list) {
+  for (DrawRange& range : list.ranges) {
+    const Primitive& primitive = scene.primitives[static_cast<std::size_t>(view.instances[range.instance].primitive)];
+    const auto first = static_cast<std::uint32_t>(layout.firstCorner[range.instance]);
+    range.firstIndex = first + (range.firstIndex - primitive.firstIndex);
+    range.baseVertex = 0;
+  }
 }
 
 DrawBatch uploadDraws(const DrawList& list) {

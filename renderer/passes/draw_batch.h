@@ -4,6 +4,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
+#include "renderer/passes/gpu_light_maps.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/prepare/draw_list.h"
 
@@ -16,6 +17,12 @@ struct SceneVertices {
 };
 
 SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances);
+
+/// The same of what light maps are looked up by, without what reads positions only.
+SceneVertices mappedVertices(const GpuMappedScene& scene, const gl::Buffer& instances);
+
+/// Makes a draw list of the scene, whose ranges name its instances, one of a GpuMappedScene with that layout.
+void drawMapped(const Scene& scene, const SceneView& view, const LightMapLayout& layout, DrawList& list);
 
 /// A draw list on the device.
 struct DrawBatch {

@@ -69,13 +69,28 @@ Status GlFrame::cast(const ShowInput& input, TileUse tiles) {
 }
 
 Shading GlFrame::shadingOf(const ShowInput& input, const LightBuffers& buffers) const {
-  return {work_.frame.spec, survey_, atlas_, input.lights, buffers, !input.lightLists.empty(), input.debugLight};
+  return {work_.frame.spec, survey_, atlas_, input.lights, buffers, !input.lightLists.empty(), input.debugLight, {}};
+}
+
+/// As many of the baked lights as surfaces have room for, all of one layout; the others get layers.
+BakedShading GlFrame::bakedShading() {
+  BakedShading shading{{}, static_cast<int>(work_.layered.size())};
+  for (; shading.maps.size() < GNOMON_LIGHT_MAPS && shading.firstLayer > 0; --shading.firstLayer) {
+    const int light = work_.layered[static_cast<std::size_t>(shading.firstLayer) - 1];
+    if (!traitsOf((*work_.frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked) break;
+    const GpuLightMap& map = shared_.lightMaps.get(work_.baked(light), inputs_.scene, inputs_.view);
+    if (!shading.maps.empty() && shading.maps.front()->scene != map.scene) break;
+    shading.maps.insert(shading.maps.begin(), &map);
+  }
+  return shading;
 }
 
 Status GlFrame::show(const ShowInput& input) {
   shown_.emplace(input);
   const LightBuffers buffers = uploadLights(input.lights, input.plan, input.lightLists);
-  auto drawn = drawViews(inputs_, shadingOf(input, buffers), work_, input);
+  Shading shading = shadingOf(input, buffers);
+  shading.baked = bakedShading();
+  auto drawn = drawViews(inputs_, shading, work_, input);
   if (!drawn) return drawn.problems();
   drawn_ = std::move(*drawn);
   draws_ = true;
@@ -156,7 +171,8 @@ MemoryReport memoryOf(const PassResults& results) {
   memory.atlas = results.atlas.textures->bytes();
   memory.targets = results.survey.depth.bytes();
   for (const auto& [samples, surfaces] : results.drawn.surfaces) {
-    memory.targets += surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes();
+    memory.targets +=
+        surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes() + surfaces.bakedShares.bytes();
   }
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     memory.targets += exact.layers.texture.bytes() + exact.countBytes;

@@ -16,6 +16,7 @@ struct GlShared {
   ProgramCache programs;
   GpuSceneCache scenes;
   TileCache tiles;
+  GpuLightMaps lightMaps{};
 };
 
 /// A frame, drawn by OpenGL: one pass after the other, each keeping what the later ones read.
@@ -34,6 +35,7 @@ class GlFrame : public FrameDrawing {
 
  private:
   Shading shadingOf(const ShowInput& input, const LightBuffers& buffers) const;
+  BakedShading bakedShading();
 
   GlShared& shared_;
   const FrameWork work_;

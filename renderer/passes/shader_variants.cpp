@@ -112,7 +112,13 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.transmission > 0) defines.emplace_back("TRANSMISSION");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
-  if (variant.numbered) defines.emplace_back(variant.emission ? "TRIANGLE_NUMBERS 2" : "TRIANGLE_NUMBERS 1");
+  int location = variant.emission ? 2 : 1;
+  if (variant.bakedLights > 0) {
+    defines.push_back("BAKED_LIGHTS " + std::to_string(variant.bakedLights));
+    defines.push_back("BAKED_SHARES " + std::to_string(location++));
+    if (variant.shownSamples > 0) defines.push_back("SHOWN_SAMPLES " + std::to_string(variant.shownSamples));
+  }
+  if (variant.numbered) defines.push_back("TRIANGLE_NUMBERS " + std::to_string(location));
   return {"surface.vert", "surface.frag", std::move(defines)};
 }
 
@@ -124,6 +130,10 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
   if (variant.visibilityLayers) defines.emplace_back("VISIBILITY_LAYERS");
+  if (variant.bakedLights > 0) {
+    defines.push_back("BAKED_LIGHTS " + std::to_string(variant.bakedLights));
+    defines.push_back("FIRST_BAKED " + std::to_string(variant.firstBaked) + "u");
+  }
   if (variant.shadowColor) defines.emplace_back("SHADOW_COLOR");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));

@@ -27,6 +27,8 @@ struct SurfaceVariant {
       false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
   bool numbered = false;       ///< says which triangle shows (passes/views/triangle_numbers.h)
+  int bakedLights = 0;         ///< whose light maps are read, 0 to GNOMON_LIGHT_MAPS
+  int shownSamples = 0;        ///< of a pixel, where depth says which of them show a triangle; else 0
 };
 
 /// Draws a material's surface.
@@ -56,6 +58,8 @@ struct ViewVariant {
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
   bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
+  int bakedLights = 0;           ///< as in SurfaceVariant
+  int firstBaked = 0;            ///< the visibility layer of the first of them
   bool shadowColor = false;      ///< some light's shadow is not black
   bool volumes = false;          ///< clouds and the like are seen
   int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none

@@ -33,6 +33,7 @@ const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light) {
 std::vector<int> layeredLights(const ResolvedFrame& frame) {
   std::vector<int> lights = shadowingLights(frame);
   std::erase_if(lights, [&](int light) { return !techniqueOf(frame, light).layered; });
+  std::stable_partition(lights.begin(), lights.end(), [&](int light) { return !techniqueOf(frame, light).baked; });
   return lights;
 }
 

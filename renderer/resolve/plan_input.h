@@ -11,7 +11,8 @@ namespace gnomon {
 /// The lights that throw shadows in a frame, by their index.
 std::vector<int> shadowingLights(const ResolvedFrame& frame);
 
-/// Of these, the ones whose technique says of every sample what arrives: they have a visibility layer.
+/// Of these, the ones whose technique says of every sample what arrives: they have a visibility layer. Those that are
+/// baked stand behind the others.
 std::vector<int> layeredLights(const ResolvedFrame& frame);
 
 /// Of the lights that throw shadows, the ones that get a shadow map on this device.

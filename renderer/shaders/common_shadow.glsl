@@ -59,7 +59,37 @@ float layerMean(int layer, uint samples) {
 #endif
 }
 
-float layerValue(int light, uint samples) { return layerMean(int(lights[light].visibilityLayer) - 1, samples); }
+#endif
+
+#ifdef BAKED_LIGHTS
+// What light maps say: a channel a light, of those whose layers' numbers are higher than FIRST_BAKED.
+layout(binding = GNOMON_BAKED_UNIT) uniform SURFACE_FLOATS bakedShares;
+
+float bakedMean(uint channel, uint samples) {
+#if SAMPLES > 1
+  float sum = 0.0;
+  for (int i = 0; i < SAMPLES; ++i) {
+    if ((samples & (1u << i)) != 0u) sum += texelFetch(bakedShares, ivec2(gl_FragCoord.xy), i)[channel];
+  }
+  return sum / float(bitCount(samples));
+#else
+  return texelFetch(bakedShares, ivec2(gl_FragCoord.xy), 0)[channel];
+#endif
+}
+#endif
+
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
+float layerValue(int light, uint samples) {
+  uint layer = lights[light].visibilityLayer - 1u;
+#ifdef BAKED_LIGHTS
+  if (layer >= FIRST_BAKED) return bakedMean(layer - FIRST_BAKED, samples);
+#endif
+#ifdef VISIBILITY_LAYERS
+  return layerMean(int(layer), samples);
+#else
+  return 1.0;
+#endif
+}
 
 float layerVisibility(int light, Receiver receiver, vec3 toLight) {
 #ifdef RECEIVER_GROUPS
@@ -73,7 +103,7 @@ float layerVisibility(int light, Receiver receiver, vec3 toLight) {
 #endif
 
 float surfaceVisibility(int light, Receiver receiver, vec3 toLight, bool needed) {
-#ifdef VISIBILITY_LAYERS
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
   if (lights[light].visibilityLayer > 0u) return layerVisibility(light, receiver, toLight);
 #endif
 #ifdef NO_SHADOWS

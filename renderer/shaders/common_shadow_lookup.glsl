@@ -9,7 +9,7 @@ struct Receiver {
 #ifdef RECEIVER_GROUPS
   uint groupBit;
 #endif
-#ifdef VISIBILITY_LAYERS
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
   uint samples; // of the pixel that show it, a bit each
 #endif
 };

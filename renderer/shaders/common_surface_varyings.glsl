@@ -25,4 +25,9 @@ STAGE_IO SurfaceVaryings {
 #ifdef TRIANGLE_NUMBERS
   flat uint firstTriangle; // number of the draw's first
 #endif
+#if defined(SHOWN_SAMPLES) && defined(GL_ARB_post_depth_coverage)
+  vec2 mapPlace;
+#elif defined(BAKED_LIGHTS)
+  centroid vec2 mapPlace; // within the triangle, even where the pixel's middle is not
+#endif
 } surface;

@@ -1,4 +1,10 @@
 #define FRAGMENT_STAGE
+#ifdef SHOWN_SAMPLES
+#extension GL_ARB_post_depth_coverage : enable
+#ifdef GL_ARB_post_depth_coverage
+layout(post_depth_coverage) in;
+#endif
+#endif
 #include "shared/frame_types.h"
 #include "common_surface_varyings.glsl"
 #include "common_surface.glsl"
@@ -15,6 +21,31 @@ layout(location = 1) out vec4 emitted;
 #endif
 #ifdef TRIANGLE_NUMBERS
 layout(location = TRIANGLE_NUMBERS) out uint triangleNumber;
+#endif
+#ifdef BAKED_LIGHTS
+layout(location = BAKED_SHARES) out vec4 bakedShares; // a channel a light
+layout(binding = GNOMON_LIGHT_MAP_UNIT) uniform sampler2D lightMaps[BAKED_LIGHTS];
+#endif
+
+#ifdef SHOWN_SAMPLES
+layout(location = GNOMON_SAMPLE_POSITIONS) uniform vec2 samplePositions[SHOWN_SAMPLES];
+#endif
+
+#if defined(SHOWN_SAMPLES) && defined(GL_ARB_post_depth_coverage)
+// In the middle of the samples that show the triangle: the others may lie in another surface's shadow.
+vec2 placeInMaps() {
+  vec2 sum = vec2(0.0);
+  int count = 0;
+  for (int i = 0; i < SHOWN_SAMPLES; ++i) {
+    if ((gl_SampleMaskIn[0] & (1 << i)) == 0) continue;
+    sum += samplePositions[i];
+    ++count;
+  }
+  vec2 off = sum / float(max(count, 1)) - vec2(0.5);
+  return surface.mapPlace + dFdx(surface.mapPlace) * off.x + dFdy(surface.mapPlace) * off.y;
+}
+#elif defined(BAKED_LIGHTS)
+vec2 placeInMaps() { return surface.mapPlace; }
 #endif
 
 void main() {
@@ -50,6 +81,11 @@ void main() {
 #endif
 #ifdef EMISSION
   emitted = glow;
+#endif
+#ifdef BAKED_LIGHTS
+  bakedShares = vec4(0.0);
+  vec2 place = placeInMaps();
+  for (int i = 0; i < BAKED_LIGHTS; ++i) bakedShares[i] = textureLod(lightMaps[i], place, 0.0).r;
 #endif
 #ifdef TRIANGLE_NUMBERS
   triangleNumber = surface.firstTriangle + uint(gl_PrimitiveID);

@@ -12,6 +12,10 @@ invariant gl_Position;
 
 layout(location = GNOMON_NORMAL_ROWS) in vec4 normalRows[3];
 
+#ifdef BAKED_LIGHTS
+layout(location = GNOMON_MAP_PLACE) in vec2 mapPlace;
+#endif
+
 vec3 turned(vec3 v) { return vec3(dot(normalRows[0].xyz, v), dot(normalRows[1].xyz, v), dot(normalRows[2].xyz, v)); }
 
 void main() {
@@ -36,5 +40,8 @@ void main() {
 #endif
 #ifdef TRIANGLE_NUMBERS
   surface.firstTriangle = uint(normalRows[1].w);
+#endif
+#ifdef BAKED_LIGHTS
+  surface.mapPlace = mapPlace;
 #endif
 }

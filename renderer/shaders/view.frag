@@ -55,7 +55,7 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif
-#ifdef VISIBILITY_LAYERS
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
   receiver.samples = samples;
 #endif
   return receiver;

@@ -178,6 +178,41 @@ TEST(Devices, N5_PicturesOfLightMapsAreTheSame) {
   }
 }
 
+/// More maps than surfaces have room for, one that lies in another way, and techniques that have layers of their own.
+TEST(Devices, N5_ManyLightMapsBesideOtherTechniquesAreTheSame) {
+  const ScenePtr scene = testing::generatedScene("box_on_plane");
+  const auto sun = [](int azimuth, const Json& shadow) {
+    return Json{{"type", "directional"},
+                {"sun", {{"azimuthDegrees", azimuth}, {"elevationDegrees", 40}}},
+                {"intensity", 0.5},
+                {"shadow", shadow}};
+  };
+  const Json traced{{"technique", "rayTraced"}}, map{{"technique", "shadowMap"}};
+  const auto baked = [](int size) { return Json{{"technique", "lightMap"}, {"lightMap", {{"size", size}}}}; };
+  const std::vector<Json> casts[] = {
+      {baked(256), traced, baked(256)},
+      {baked(300), baked(256), baked(256), traced, baked(256), baked(256), baked(256), map},
+      {baked(256), baked(256), traced, baked(300)},
+  };
+  for (const std::vector<Json>& shadows : casts) {
+    Json lights = Json::array();
+    for (const Json& shadow : shadows) lights.push_back(sun(40 * static_cast<int>(lights.size()), shadow));
+    for (const char* const antialiasing : {"none", "msaa4x"}) {
+      const Pair pair = bothOf(scene, specOf(1, {{"lights", lights}, {"antialiasing", antialiasing}}));
+      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+      EXPECT_LE(percentOver(levels, 4), 1) << shadows.size() << antialiasing;
+      EXPECT_LE(percentOver(levels, 16), 0.3) << shadows.size() << antialiasing;
+    }
+    for (std::size_t light = 0; light < shadows.size(); ++light) {
+      Json spec = specOf(1, {{"lights", lights}, {"views", {"shadow"}}});
+      spec["debug"]["light"] = light;
+      const Pair pair = bothOf(scene, spec);
+      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+      EXPECT_LE(percentOver(levels, 16), 0.5) << shadows.size() << ' ' << light;
+    }
+  }
+}
+
 TEST(Devices, PicturesOfExactShadowsAreTheSame) {
   expectSamePictures("rayTraced");
 }

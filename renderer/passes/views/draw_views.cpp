@@ -73,15 +73,21 @@ class ViewDrawing {
 
     const std::vector<LitLight> lights = atFullStrength({shading_.lights.begin(), shading_.lights.end()});
     const LightBuffers buffers = uploadLights(lights, show_.plan, show_.lightLists);
-    const Shading full{shading_.spec, shading_.survey,     shading_.atlas,     lights,
-                       buffers,       shading_.lightLists, shading_.debugLight};
+    const Shading full{shading_.spec, shading_.survey,     shading_.atlas,      lights,
+                       buffers,       shading_.lightLists, shading_.debugLight, shading_.baked};
     return drawView(inputs_, full, sources, request.view, request.encoded);
+  }
+
+  /// The lights whose visibility layers are filled once the surfaces are there.
+  std::span<const int> filled() const {
+    const std::size_t looked = shading_.baked.maps.size();
+    return std::span(work_.layered).first(work_.layered.size() - looked);
   }
 
   Status needSurfaces(int samples) {
     if (drawn_.surfaces.contains(samples)) return Done{};
-    auto surfaces =
-        drawSurfaces(inputs_, shading_.survey, samples, needsTriangles(work_.layered, *shading_.spec.lights));
+    const SurfaceAsks asks{needsTriangles(filled(), *shading_.spec.lights), shading_.baked.maps};
+    auto surfaces = drawSurfaces(inputs_, shading_.survey, samples, asks);
     if (!surfaces) return surfaces.problems();
     drawn_.surfaces.emplace(samples, std::move(*surfaces));
     return Done{};
@@ -109,9 +115,9 @@ class ViewDrawing {
     const auto volumes = drawn_.volumes.find(samples);
     const auto volumeShadow =
         volumes == drawn_.volumes.end() ? std::span<const std::uint16_t>{} : std::span(volumes->second.shadow);
-    const bool none = work_.layered.empty() && volumeShadow.empty();
+    const bool none = filled().empty() && volumeShadow.empty();
     if (none || drawn_.exactShadows.contains(samples)) return Done{};
-    auto shadows = exactShadows(inputs_, shading_, work_, drawn_.surfaces.at(samples), volumeShadow);
+    auto shadows = exactShadows(inputs_, shading_, work_, filled(), drawn_.surfaces.at(samples), volumeShadow);
     if (!shadows) return shadows.problems();
     drawn_.exactShadows.emplace(samples, std::move(*shadows));
     return Done{};

@@ -48,7 +48,8 @@ struct ShownPicture {
 };
 
 Result<std::unique_ptr<ShownPicture>> readPicture(const PassInputs& inputs, const Shading& shading,
-                                                  const FrameWork& work, const Surfaces& surfaces) {
+                                                  const FrameWork& work, std::span<const int> layered,
+                                                  const Surfaces& surfaces) {
   const std::vector<Light>& lights = *shading.spec.lights;
   auto picture = std::make_unique<ShownPicture>();
   picture->grid = {inputs.width, inputs.height, surfaces.samplePositions};
@@ -59,7 +60,7 @@ Result<std::unique_ptr<ShownPicture>> readPicture(const PassInputs& inputs, cons
   if (!numbers) return numbers.problems();
   picture->numbers = std::move(*numbers);
   picture->shown = inOrder(picture->grid, picture->numbers);
-  if (sendsRays(work.layered, lights)) {
+  if (sendsRays(layered, lights)) {
     auto masks = maskCoverage(inputs, shading.survey);
     if (!masks) return masks.problems();
     picture->masks = std::move(*masks);
@@ -93,20 +94,21 @@ bool needsTriangles(std::span<const int> layered, std::span<const Light> lights)
 }
 
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
-                                  const Surfaces& surfaces, std::span<const std::uint16_t> volumeShares) {
+                                  std::span<const int> layered, const Surfaces& surfaces,
+                                  std::span<const std::uint16_t> volumeShares) {
   auto layers = makeVisibilityLayers(inputs.width, inputs.height, static_cast<int>(surfaces.samplePositions.size()),
-                                     static_cast<int>(work.layered.size() + (volumeShares.empty() ? 0 : 1)));
+                                     static_cast<int>(layered.size() + (volumeShares.empty() ? 0 : 1)));
   if (!layers) return layers.problems();
   ExactShadows shadows{std::move(*layers), {}, gl::Timer::start()};
   std::unique_ptr<ShownPicture> picture;
   std::optional<VolumeCounts> counts;
-  for (const int light : work.layered) {
+  for (const int light : layered) {
     const auto start = std::chrono::steady_clock::now();
     LayerFacts facts{light};
     const Light& source = (*shading.spec.lights)[static_cast<std::size_t>(light)];
     if (traitsOf(source.shadow->technique).traced) {
       if (!picture) {
-        auto read = readPicture(inputs, shading, work, surfaces);
+        auto read = readPicture(inputs, shading, work, layered, surfaces);
         if (!read) return read.problems();
         picture = std::move(*read);
       }
@@ -120,7 +122,7 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
     facts.cpuMilliseconds = millisecondsSince(start);
     shadows.lights.push_back(facts);
   }
-  if (!volumeShares.empty()) writeVisibility(shadows.layers, static_cast<int>(work.layered.size()), volumeShares);
+  if (!volumeShares.empty()) writeVisibility(shadows.layers, static_cast<int>(layered.size()), volumeShares);
   shadows.timer.stop();
   return shadows;
 }

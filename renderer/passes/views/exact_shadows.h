@@ -24,9 +24,10 @@ struct ExactShadows {
 /// FrameWork.
 bool needsTriangles(std::span<const int> layered, std::span<const Light> lights);
 
-/// The visibility of every light of `work.layered` at each sample of the surfaces; behind them, unless it is empty, a
-/// layer of `volumeShares`, what volumes let through to each.
+/// The visibility of every light of `layered`, of FrameWork's, at each sample of the surfaces; behind them, unless it
+/// is empty, a layer of `volumeShares`, what volumes let through to each.
 Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
-                                  const Surfaces& surfaces, std::span<const std::uint16_t> volumeShares = {});
+                                  std::span<const int> layered, const Surfaces& surfaces,
+                                  std::span<const std::uint16_t> volumeShares = {});
 
 } // namespace gnomon

@@ -17,21 +17,43 @@ bool anythingGlows(const Scene& scene) {
   });
 }
 
+GLenum sharesFormat(std::size_t lights) {
+  return lights == 1 ? GL_R16 : lights == 2 ? GL_RG16 : GL_RGBA16;
+}
+
+/// Light maps, bound for the surface pass. Lives as long as that is drawn.
+class LightMapBindings {
+ public:
+  explicit LightMapBindings(std::span<const GpuLightMap* const> maps) : between_({GL_LINEAR, GL_LINEAR}, "light maps") {
+    for (GLuint i = 0; i < maps.size(); ++i) {
+      maps[i]->shares.bind(GNOMON_LIGHT_MAP_UNIT + i);
+      between_.bind(GNOMON_LIGHT_MAP_UNIT + i);
+    }
+  }
+
+ private:
+  gl::Sampler between_;
+};
+
 } // namespace
 
-Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, bool numbered) {
+Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, const SurfaceAsks& asks) {
+  const bool numbered = asks.numbered;
+  const GpuMappedScene* const mapped = asks.maps.empty() ? nullptr : asks.maps[0]->scene.get();
   gl::Timer timer = gl::Timer::start();
   const bool reuse = samples == survey.samples;
   const bool emission = anythingGlows(inputs.scene);
   DrawList list = buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::surface,
                                 reuse ? survey.visible : survey.inView);
   Surfaces surfaces;
-  gl::Buffer instances;
-  if (numbered) {
-    surfaces.numbers = TriangleNumbers(inputs.scene, inputs.view, list);
-    instances = numberedInstances(inputs.geometry, list);
-  }
-  const SceneVertices numberedVertices = numbered ? sceneVertices(inputs.gpu, instances) : SceneVertices{};
+  if (numbered) surfaces.numbers = TriangleNumbers(inputs.scene, inputs.view, list);
+  if (mapped != nullptr) drawMapped(inputs.scene, inputs.view, *mapped->layout, list);
+  const gl::Buffer copies = numbered ? numberedInstances(inputs.geometry, list) : gl::Buffer();
+  const gl::Buffer& instances = numbered ? copies : inputs.instances;
+  const bool own = numbered || mapped != nullptr;
+  const SceneVertices ownVertices = mapped != nullptr ? mappedVertices(*mapped, instances)
+                                    : numbered        ? sceneVertices(inputs.gpu, instances)
+                                                      : SceneVertices{};
   const DrawBatch batch = uploadDraws(list);
 
   surfaces.triangles = batch.triangles;
@@ -42,11 +64,13 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   };
   surfaces.bits = texture(GL_RGBA32UI, "surfaces");
   if (emission) surfaces.emission = texture(GL_RGBA16F, "surface emission");
+  if (mapped != nullptr) surfaces.bakedShares = texture(sharesFormat(asks.maps.size()), "baked shares");
   if (numbered) surfaces.triangleNumbers = texture(GL_R32UI, "triangle numbers");
   if (!reuse) surfaces.ownDepth = texture(GL_DEPTH_COMPONENT32F, "surface depth");
 
   gl::Attachments attachments{{{&surfaces.bits}}, {reuse ? &survey.depth : &surfaces.ownDepth}};
   if (emission) attachments.color.push_back({&surfaces.emission});
+  if (mapped != nullptr) attachments.color.push_back({&surfaces.bakedShares});
   if (numbered) attachments.color.push_back({&surfaces.triangleNumbers});
   auto target = gl::Framebuffer::create(attachments, "surfaces");
   if (!target) return target.problems();
@@ -63,11 +87,19 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   if (!reuse) target->clearDepth(0.0f);
   if (numbered) target->clearColor(static_cast<int>(attachments.color.size()) - 1, glm::uvec4(kNoNumber));
   bindInputs(inputs);
-  const Status drawn = drawGroups(inputs, numbered ? numberedVertices : inputs.vertices, batch, state,
-                                  [&](const DrawGroup& group, const Material* material) {
-                                    return inputs.programs.get(surfaceProgram(
-                                        *material, {group.tangents, emission, inputs.receiverGroups, numbered}));
-                                  });
+  const LightMapBindings bound(asks.maps);
+  SurfaceVariant variant{.emission = emission, .receiverGroups = inputs.receiverGroups, .numbered = numbered};
+  variant.bakedLights = static_cast<int>(asks.maps.size());
+  if (mapped != nullptr && reuse && samples > 1) variant.shownSamples = samples;
+  const auto programOf = [&](const DrawGroup& group, const Material* material) {
+    variant.tangents = group.tangents;
+    const auto program = inputs.programs.get(surfaceProgram(*material, variant));
+    for (int i = 0; program && i < variant.shownSamples; ++i) {
+      (*program)->set(GNOMON_SAMPLE_POSITIONS + i, surfaces.samplePositions[static_cast<std::size_t>(i)]);
+    }
+    return program;
+  };
+  const Status drawn = drawGroups(inputs, own ? ownVertices : inputs.vertices, batch, state, programOf);
   if (!drawn) return drawn.problems();
   timer.stop();
   surfaces.timer = std::move(timer);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <span>
+
 #include "protocol/base/result.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
+#include "renderer/passes/gpu_light_maps.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
 #include "renderer/prepare/draw_list.h"
@@ -14,6 +17,7 @@ struct Surfaces {
   gl::Texture bits;                       ///< RGBA32UI: a packed Surface (shaders/common_surface.glsl)
   gl::Texture emission;                   ///< RGBA16F; empty where nothing in the scene glows
   gl::Texture ownDepth;                   ///< only where the survey has other samples
+  gl::Texture bakedShares;                ///< R16, RG16 or RGBA16: a channel a light of SurfaceAsks; empty = none
   gl::Texture triangleNumbers;            ///< R32UI; empty where nothing asks which triangle shows
   TriangleNumbers numbers;                ///< what they stand for
   std::vector<glm::vec2> samplePositions; ///< within a pixel, 0..1 from its lower left corner; one a sample
@@ -22,8 +26,14 @@ struct Surfaces {
   gl::Timer timer;
 };
 
+/// What is asked of surfaces, besides what they are made of.
+struct SurfaceAsks {
+  bool numbered = false;                      ///< the triangle that each sample shows
+  std::span<const GpuLightMap* const> maps{}; ///< their shares there; GNOMON_LIGHT_MAPS at most, of one layout
+};
+
 /// Draws the surfaces that the survey found, `samples` a pixel (1 or 4). With the survey's own samples its depth and
-/// its visible clusters are exact; else depth is drawn anew. `numbered`: with the triangle that each sample shows.
-Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, bool numbered);
+/// its visible clusters are exact; else depth is drawn anew.
+Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, const SurfaceAsks& asks);
 
 } // namespace gnomon

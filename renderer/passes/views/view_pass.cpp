@@ -32,9 +32,11 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.emission = surfaces.emission.id() != 0;
   variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
                               [](const Material& material) { return material.unlit; });
-  variant.visibilityLayers =
-      traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
-                                     [](const LitLight& light) { return light.visibilityLayer >= 0; });
+  if (traits.shadowed) {
+    variant.bakedLights = static_cast<int>(shading.baked.maps.size());
+    variant.firstBaked = shading.baked.firstLayer;
+  }
+  variant.visibilityLayers = traits.shadowed && sources.visibility.texture.id() != 0;
   variant.shadowColor =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.shadowColor != glm::dvec3(0); });
@@ -98,6 +100,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
   bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
+  bindTexture(surfaces.bakedShares, texels, GNOMON_BAKED_UNIT);
   if (variant.volumes) bindTexture(sources.volumes->picture, texels, GNOMON_VOLUMES_UNIT);
   bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
   bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);

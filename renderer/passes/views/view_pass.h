@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
@@ -37,6 +38,12 @@ struct DrawnView {
   gl::Timer timer;
 };
 
+/// The light maps that surfaces are looked up in as they are drawn: those of the last of FrameWork::layered.
+struct BakedShading {
+  std::vector<const GpuLightMap*> maps{}; ///< as SurfaceAsks has them
+  int firstLayer = 0;                     ///< of the first of them, an index into FrameWork::layered
+};
+
 /// What lights the surfaces of a frame.
 struct Shading {
   const FrameSpec& spec; ///< effective
@@ -46,6 +53,7 @@ struct Shading {
   const LightBuffers& buffers;      ///< of the same
   bool lightLists = false;          ///< each square of the picture lists its own; else every light is tried everywhere
   int debugLight = -1;              ///< what views of one light show; -1 = there is none
+  BakedShading baked{};             ///< the other lights that are layered have their layers
 };
 
 /// What one view is made from.

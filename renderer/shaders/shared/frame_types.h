@@ -37,6 +37,7 @@ using glm::vec4;
 #define GNOMON_NORMAL_ROWS 9   // three: InstanceData::normalFromLocal
 #define GNOMON_NODE 11         // w: the node's index; the last of those three
 #define GNOMON_PLACE_WEIGHT 12 // of shadow volumes: the position's fourth coordinate
+#define GNOMON_MAP_PLACE 13    // in light maps, 0..1
 
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
@@ -75,6 +76,11 @@ using glm::vec4;
 #define GNOMON_CASTER_NODE_UNIT 12
 #define GNOMON_CASTER_DEPTH_UNIT 13
 #define GNOMON_VOLUMES_UNIT 14
+#define GNOMON_BAKED_UNIT 15
+
+// Light maps that surfaces are looked up in as they are drawn: as many units, of that pass alone.
+#define GNOMON_LIGHT_MAPS 4
+#define GNOMON_LIGHT_MAP_UNIT 5
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8

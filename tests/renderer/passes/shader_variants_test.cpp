@@ -56,6 +56,18 @@ TEST(ShaderVariants, WhereNothingGlowsNoEmissionIsWritten) {
   EXPECT_THAT(viewProgram({.emission = true}).defines, Contains("EMISSION"));
 }
 
+TEST(ShaderVariants, N5_WhatLightMapsSayIsWrittenBehindWhatMaterialsGiveOff) {
+  EXPECT_THAT(surfaceProgram(Material{}, {}).defines, Not(Contains(::testing::StartsWith("BAKED"))));
+  const auto dark = surfaceProgram(Material{}, {.numbered = true, .bakedLights = 3}).defines;
+  EXPECT_THAT(dark, ::testing::IsSupersetOf({"BAKED_LIGHTS 3", "BAKED_SHARES 1", "TRIANGLE_NUMBERS 2"}));
+  const auto glowing = surfaceProgram(Material{}, {.emission = true, .numbered = true, .bakedLights = 1}).defines;
+  EXPECT_THAT(glowing, ::testing::IsSupersetOf({"BAKED_LIGHTS 1", "BAKED_SHARES 2", "TRIANGLE_NUMBERS 3"}));
+  EXPECT_THAT(dark, Not(Contains(::testing::StartsWith("SHOWN_SAMPLES"))));
+  EXPECT_THAT(surfaceProgram(Material{}, {.bakedLights = 1, .shownSamples = 4}).defines, Contains("SHOWN_SAMPLES 4"));
+  EXPECT_THAT(viewProgram({.bakedLights = 2, .firstBaked = 5}).defines,
+              ::testing::IsSupersetOf({"BAKED_LIGHTS 2", "FIRST_BAKED 5u"}));
+}
+
 /// Every #define that only some materials need.
 const char* const kMaterialFeatures[] = {
     "ALPHA_MASK",   "DOUBLE_SIDED", "SPECULAR_GLOSSINESS", "TEXTURE_TRANSFORM", "TANGENTS",
