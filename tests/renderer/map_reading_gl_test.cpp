@@ -218,6 +218,28 @@ TEST(MapReading, X1_DirectionalSpotAndPointLightsCastAndThereIsNoOtherType) {
   EXPECT_EQ(area.problems()[0].limit, "directional, spot or point");
 }
 
+TEST(MapReading, N2_EqualDepthsAreLit) {
+  // Beside the floor the map is empty, at a depth of 1, and what a kernel reads of the floor's plane there is bounded
+  // to that depth: the two are equal.
+  testing::GlbBuilder builder = testing::plane();
+  builder.json["nodes"][0]["scale"] = {8, 1, 8};
+  const ScenePtr scene = testing::sceneOf(builder);
+  for (const Json& filter : {Json{{"type", "hard"}}, Json{{"type", "pcf"}, {"size", 5}}}) {
+    const Json spec{
+        {"width", 160},
+        {"height", 160},
+        {"camera", {{"eye", {0, 8, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"orthographic", {{"height", 15}}}}},
+        {"lights", {{{"type", "point"}, {"position", {0, 2, -2}}}}},
+        {"shadow", {{"filter", filter}, {"size", "Small"}}},
+        {"antialiasing", "none"},
+        {"views", {"shadow", "atlas"}},
+        {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+    const Frame frame = renderJson(scene, spec.dump());
+    EXPECT_THAT(floatsOf(frame, 0), ::testing::Each(::testing::FloatNear(1, 1e-6f))) << filter;
+    EXPECT_THAT(floatsOf(frame, 1), ::testing::Contains(1.0f)) << filter;
+  }
+}
+
 TEST(MapReading, G3_DegenerateTrianglesGiveNoNumberThatIsNone) {
   const auto withMesh = [](const std::vector<testing::Point>& points) {
     testing::GlbBuilder builder = cardOverFloor(30);
