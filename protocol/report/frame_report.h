@@ -61,6 +61,7 @@ struct LightMapReport {
 /// A volume, and the light in it.
 struct VolumeReport {
   std::array<int, 3> voxels{};    ///< of its grid along x, y and z; 0 = its node is hidden
+  std::array<double, 2> values{}; ///< the least and the greatest of its grid
   bool reused = false;            ///< an earlier frame made its light
   std::array<int, 3> lightSize{}; ///< points at which its light is known, along x, y and z
   std::uint64_t lightBytes = 0;

@@ -223,6 +223,7 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
     volumes.lights.push_back(found.map);
     const glm::ivec3 voxels = all[i]->grid->size;
     *reports[i] = {.voxels = {voxels.x, voxels.y, voxels.z},
+                   .values = {all[i]->values.x, all[i]->values.y},
                    .reused = !found.made,
                    .lightSize = {input.size.x, input.size.y, input.size.z},
                    .lightBytes = bytesOf(*found.map),

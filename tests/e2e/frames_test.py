@@ -196,6 +196,7 @@ class Frames(ServerTest):
                                    ("file", "cloud.npy", (SCENES / "cloud.npy").read_bytes())])
         stored = self.server.ask("POST", "/v1/scenes", body, {"Content-Type": content_type})
         self.assertEqual(stored.status, 201)
+        self.assertEqual(stored.json()["volumeFiles"], ["cloud.npy"])
         frames = [self.server.ask("POST", f"/v1/scenes/{stored.json()['id']}/frames", json.dumps(SMALL | cloud),
                                   {"Content-Type": "application/json", "Accept": "application/json"})
                   for _ in range(2)]

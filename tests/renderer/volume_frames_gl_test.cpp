@@ -219,6 +219,7 @@ TEST(VolumeFrames, D5_LightIsMadeAnewOnlyWhereVolumeLightOrCastersChange) {
   EXPECT_TRUE(reused(slab()));
   const Frame frame = rendered(scene, {slab()});
   EXPECT_EQ(frame.report.volumes[0].voxels, (std::array{3, 3, 3}));
+  EXPECT_EQ(frame.report.volumes[0].values, (std::array{255.0, 255.0}));
   EXPECT_EQ(frame.report.volumes[0].lightSize, (std::array{4, 4, 4}));
   EXPECT_EQ(frame.report.volumes[0].lightBytes, 64u * 16u);
   const Frame none = rendered(scene, {});

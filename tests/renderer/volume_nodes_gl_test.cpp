@@ -115,6 +115,7 @@ TEST(VolumeNodes, WhatTheFileHidesIsNotThere) {
   ASSERT_EQ(two.report.volumes.size(), 2u);
   EXPECT_EQ(two.report.volumes[0].voxels, (std::array{0, 0, 0}));
   EXPECT_EQ(two.report.volumes[1].voxels, (std::array{6, 5, 4}));
+  EXPECT_EQ(two.report.volumes[1].values, (std::array{0.0, 247.0}));
 }
 
 TEST(VolumeNodes, D5_LightIsMadeAnewWhereItsNodeHasMoved) {
