@@ -34,6 +34,7 @@ std::vector<Way> waysCalled(const std::vector<std::string>& names) {
                         {"hybrid", {{"technique", "hybrid"}}},
                         {"lightMap", {{"technique", "lightMap"}}},
                         {"pcss", {{"filter", {{"type", "pcss"}}}}},
+                        {"pcss, size XLarge", {{"filter", {{"type", "pcss"}}}, {"size", "XLarge"}}},
                         {"pcf 5", {{"filter", {{"type", "pcf"}, {"size", 5}}}}}};
   std::erase_if(ways, [&](const Way& way) { return !names.empty() && std::ranges::count(names, way.name) == 0; });
   return ways;

@@ -109,10 +109,10 @@ double median(std::vector<double> values) {
 struct Differences {
   std::vector<double> over4, over16;
 
-  explicit Differences(const Json& shadow) {
+  explicit Differences(const Json& more) {
     for (const Shown& shown : everyScene()) {
       for (const int camera : {0, 1}) {
-        const Pair pair = bothOf(shown.scene, specOf(camera, {{"shadow", shadow}}));
+        const Pair pair = bothOf(shown.scene, specOf(camera, more));
         const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
         over4.push_back(percentOver(levels, 4));
         over16.push_back(percentOver(levels, 16));
@@ -128,7 +128,7 @@ struct Differences {
 };
 
 void expectSamePictures(const char* technique) {
-  const Differences of(Json{{"technique", technique}});
+  const Differences of(Json{{"shadow", {{"technique", technique}}}});
   EXPECT_LE(median(of.over4), 0.1);
   EXPECT_LE(median(of.over16), 0.01);
   EXPECT_LE(Differences::worst(of.over4), 1);
@@ -222,9 +222,20 @@ TEST(Devices, PicturesOfHybridShadowsAreTheSame) {
 }
 
 TEST(Devices, PicturesOfShadowMapsAreNearlyTheSame) {
-  const Differences of(Json{{"technique", "shadowMap"}});
+  const Differences of(Json{{"shadow", {{"technique", "shadowMap"}}}});
   EXPECT_LE(median(of.over4), 0.5);
   EXPECT_LE(median(of.over16), 0.1);
+}
+
+TEST(Devices, N6_PicturesOfPenumbrasAreNearlyTheSame) {
+  const Json sun = {{"type", "directional"},
+                    {"sun", {{"azimuthDegrees", 120}, {"elevationDegrees", 40}}},
+                    {"angularDiameterDegrees", 2}};
+  for (const Json& shadow : {Json{{"filter", {{"type", "pcss"}}}}, Json{{"technique", "rayTraced"}}}) {
+    const Differences of(Json{{"lights", {sun}}, {"shadow", shadow}});
+    EXPECT_LE(median(of.over4), 0.5) << shadow;
+    EXPECT_LE(median(of.over16), 0.1) << shadow;
+  }
 }
 
 TEST(Devices, AntialiasedEdgesAreNearlyTheSame) {

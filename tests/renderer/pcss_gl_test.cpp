@@ -186,6 +186,33 @@ TEST(Pcss, N6_ItIsNearTheAreaSampledReference) {
   }
 }
 
+// Along the edge of a ceiling, into the distance: two cascades of texels of other sizes find the same penumbra.
+TEST(Pcss, N6_CascadesThatAreBlendedShowOnePenumbra) {
+  Json spec = groundSpec({{"type", "directional"}, {"direction", {0, -1, 0}}, {"angularDiameterDegrees", 8}}, 1, 1);
+  spec.update({{"width", 320},
+               {"height", 240},
+               {"camera", {{"eye", {0.3, 1.5, 40}}, {"target", {0.3, 0, 34}}, {"near", 0.1}, {"far", 60}}},
+               {"views", {"shadow", "reference", "blendWeight"}}});
+  spec["shadow"]["cascadeCount"] = 3;
+  const Frame frame = renderJson(halfPlaneOverPlane(3), spec.dump());
+  double error[2] = {0, 0}; // of pixels that one cascade serves, and of those that two do
+  std::size_t count[2] = {0, 0};
+  for (std::size_t i = 0; i < floatsOf(frame).size(); ++i) {
+    const double truth = floatsOf(frame, 1)[i];
+    if (truth < 0.02 || truth > 0.98) continue;
+    const std::size_t blended = floatsOf(frame, 2)[i] > 0 ? 1 : 0;
+    error[blended] += std::pow(floatsOf(frame, 0)[i] - truth, 2);
+    ++count[blended];
+  }
+  ASSERT_GT(count[0], 500u);
+  ASSERT_GT(count[1], 500u);
+  const double alone = std::sqrt(error[0] / static_cast<double>(count[0]));
+  const double blended = std::sqrt(error[1] / static_cast<double>(count[1]));
+  std::printf("in the penumbra: rms %.4f by one cascade, %.4f by two\n", alone, blended);
+  EXPECT_LE(alone, 0.06);
+  EXPECT_LE(blended, 0.06);
+}
+
 // The penumbra lies across an edge of the lamp's cube.
 TEST(Pcss, N6_NoSeamShowsWhereFacesMeet) {
   for (const double height : {1.0, 2.0}) {
