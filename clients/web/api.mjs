@@ -1,5 +1,7 @@
 // The server's routes that the page uses. Addresses are relative, so that a proxy may serve the page below a path.
 
+import { createEventReader } from './event_reader.mjs';
+
 // A refusal: every problem of an application/problem+json reply, or one made of whatever came instead.
 export class Refusal extends Error {
   constructor(status, title, problems, retryAfterSeconds = 0) {
@@ -26,9 +28,24 @@ export async function renderFrame(sceneId, spec, signal) {
 
 // The frame's file as a Blob, PNG or EXR.
 export async function renderFile(sceneId, spec, contentType) {
-  const reply = await postFrame(sceneId, spec, contentType);
-  if (!reply.ok) throw refusalOf(reply.status, reply.headers.get('Retry-After'), await reply.text());
-  return reply.blob();
+  return blob(await postFrame(sceneId, spec, contentType));
+}
+
+// Bakes the light maps of a spec; `onStep` is told {light, share, done, of} as it goes. Stops where the signal says so.
+export async function bakeAhead(sceneId, spec, onStep, signal) {
+  const reply = await post(`v1/scenes/${sceneId}/bakes`, spec, 'text/event-stream', signal);
+  if (!reply.ok) throw await refusalIn(reply);
+  const last = {};
+  const read = createEventReader((name, data) => (name === 'progress' ? onStep(JSON.parse(data)) : (last[name] = data)));
+  const pieces = reply.body.pipeThrough(new TextDecoderStream()).getReader();
+  for (let piece = await pieces.read(); !piece.done; piece = await pieces.read()) read(piece.value);
+  if (last.result) return JSON.parse(last.result);
+  throw last.problem ? refusalOf(400, null, last.problem) : new Refusal(0, 'The bake has ended without a result.', []);
+}
+
+// What was baked, as a Blob: PNG, EXR or GLB.
+export async function bakeFile(sceneId, key, contentType) {
+  return blob(await fetch(`v1/scenes/${sceneId}/bakes/${key}`, { headers: { Accept: contentType } }));
 }
 
 // Uploads a scene: one .glb or .gltf, or a .gltf and the files that it names. `onShare` is told 0..1 as it goes.
@@ -65,19 +82,28 @@ function uploadBody(files) {
   return { body: form, contentType: null }; // the browser writes the boundary
 }
 
-function postFrame(sceneId, spec, accept, signal) {
-  return fetch(`v1/scenes/${sceneId}/frames`, {
+const postFrame = (sceneId, spec, accept, signal) => post(`v1/scenes/${sceneId}/frames`, spec, accept, signal);
+
+function post(address, body, accept, signal) {
+  return fetch(address, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json', Accept: accept },
-    body: JSON.stringify(spec),
+    body: JSON.stringify(body),
     signal,
   });
 }
 
 async function json(reply) {
   if (reply.ok) return reply.json();
-  throw refusalOf(reply.status, reply.headers.get('Retry-After'), await reply.text());
+  throw await refusalIn(reply);
 }
+
+async function blob(reply) {
+  if (reply.ok) return reply.blob();
+  throw await refusalIn(reply);
+}
+
+const refusalIn = async (reply) => refusalOf(reply.status, reply.headers.get('Retry-After'), await reply.text());
 
 function refusalOf(status, retryAfter, body) {
   try {

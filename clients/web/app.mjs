@@ -1,6 +1,7 @@
 // Puts the page together: the store in the middle, the panels around it, the frame loop that follows it.
 
 import { capabilities, renderFrame } from './api.mjs';
+import { createBakePanel } from './bake_panel.mjs';
 import { createCameraPanel } from './camera_panel.mjs';
 import { choices, createControl } from './controls.mjs';
 import { fromHash, toHash } from './deep_link.mjs';
@@ -9,6 +10,7 @@ import { kDebugViews, kSections, kViews } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
 import { lightsWithSun } from './light_math.mjs';
 import { fitOrbit, kFovYDegrees, orbitInForce } from './orbit_math.mjs';
+import { setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createProblems } from './problems.mjs';
 import { showReport } from './report_panel.mjs';
@@ -19,6 +21,8 @@ import { attachOrbit } from './stage.mjs';
 import { createStore } from './store.mjs';
 import { createSunPanel } from './sun_panel.mjs';
 import { createTimings } from './timings.mjs';
+import { withFile } from './volume_math.mjs';
+import { createVolumePanel } from './volume_panel.mjs';
 
 const byId = (id) => document.getElementById(id);
 const stage = byId('stage');
@@ -51,7 +55,8 @@ async function show({ report, images, roundTripMs }, draft) {
   showTimings(report, roundTripMs);
   if (draft) return;
   showReport(byId('report'), report);
-  byId('report-section').hidden = !report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap) && !report.warnings.length;
+  const told = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
+  byId('report-section').hidden = !told && !report.volumes.length && !report.warnings.length;
   store.update({ report });
 }
 
@@ -114,22 +119,34 @@ const scenePanel = createScenePanel({
 });
 byId('empty-upload').addEventListener('click', () => byId('files').click());
 
-// A link's camera and light stay with its scene; another scene starts with its own, where it has any.
-function showScene(summary) {
+// A link's camera and light stay with its scene, also with the file of another volume; another scene starts with its
+// own, where it has any.
+function showScene(summary, added) {
   problems.clear();
   const { sceneId, spec } = store.state;
-  const same = sceneId === summary.id;
-  const { camera, lights, ...rest } = spec;
+  const same = Boolean(added) || sceneId === summary.id;
+  const { camera, lights, volumes, ...rest } = spec;
   const [eye] = summary.cameras;
   const next = { ...rest, camera: (same && camera) || (eye ? { node: eye.node } : { orbit: wholeScene(summary) }) };
   if (same && lights) next.lights = lights;
   else if (!summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
-  store.update({ sceneId: summary.id, summary, spec: next, report: null });
+  if (added) next.volumes = withFile(volumes, summary, added);
+  else if (volumes?.every(({ file }) => summary.volumeFiles.includes(file))) next.volumes = volumes;
+  store.update({ sceneId: summary.id, summary, spec: next, report: null, freshVolume: Boolean(added) });
 }
 
 byId('sun').append(createSunPanel(store));
+const panels = {
+  bake: createBakePanel(store, {
+    specOf: () => setPath(setPath(fullSpec(store.state, stageSize()), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
+    done: () => store.setSpec('shadow.technique', 'lightMap'),
+    problems,
+  }),
+  volume: createVolumePanel(store, scenePanel.addFiles),
+};
 for (const section of kSections) {
   const body = section.fields.map((field) => createControl(field, store));
+  if (section.panel) body.push(panels[section.panel]);
   byId('fields').append(element('details', { open: !section.closed }, element('summary', {}, element('h2', {}, section.title)), ...body));
 }
 

@@ -1,6 +1,7 @@
 // One control of the panel for each field of fields.mjs: it shows what is in force, and what is set by hand can be
 // given back to the default.
 
+import { hexOf, linearOf } from './color_math.mjs';
 import { element } from './dom.mjs';
 import { pointerOf } from './paths.mjs';
 
@@ -26,7 +27,7 @@ export function createControl(field, store) {
   );
   store.subscribe(() => {
     row.hidden = field.needs ? !field.needs(store) : false;
-    row.classList.toggle('set', isSet(field, store));
+    row.classList.toggle('set', !field.keeps && isSet(field, store));
     show(store.effective(field.path) ?? field.absent);
   });
   return row;
@@ -45,6 +46,9 @@ function inputOf(field, store, id) {
   if (field.slider) return slider(field, store, id);
   if (field.choices) return choices(field, store, id);
   if (field.sizes) return sizes(field, store, id);
+  if (field.options) return select(field, store, id);
+  if (field.vector) return vector(field, store, id);
+  if (field.color) return color(field, store, id);
   return number(field, store, id);
 }
 
@@ -79,6 +83,31 @@ export function slider({ path, label, slider: [min, max, step] }, store, id) {
 }
 
 const number = ({ path, label }, store, id) => numberInput(id, label, (value) => store.setSpec(path, value));
+
+function vector({ path, label }, store, id) {
+  const set = (axis) => (value) => store.setSpec(`${path}.${axis}`, value);
+  const parts = ['x', 'y', 'z'].map((name, axis) => numberInput(axis ? null : id, `${label}, ${name}`, set(axis)));
+  const node = element('div', { class: 'triple' }, ...parts.map((part) => part.node));
+  return { node, show: (value) => parts.forEach((part, axis) => part.show(value?.[axis])) };
+}
+
+function color({ choose }, store, id) {
+  const node = element('input', { type: 'color', id, oninput: () => choose(linearOf(node.value), store) });
+  return { node, show: (value) => value && (node.value = hexOf(value)) };
+}
+
+// `options(store)`: [[value, text]], the first of them for nothing.
+function select({ options, choose }, store, id) {
+  const node = element('select', { id, onchange: () => choose(node.value, store) });
+  let shown = '';
+  const show = (value) => {
+    const list = options(store);
+    if (JSON.stringify(list) !== shown) node.replaceChildren(...list.map(([each, text]) => element('option', { value: each }, text)));
+    shown = JSON.stringify(list);
+    node.value = value ?? list[0][0];
+  };
+  return { node, show };
+}
 
 export function choices({ path, label, choices: list, choose }, store, id) {
   const pick = (value) => (choose ? choose(value, store) : store.setSpec(path, value));

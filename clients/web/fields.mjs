@@ -1,7 +1,9 @@
 // The controls of the panel, as data. `path` is the field's place in the FrameSpec; `slider` is the comfortable range:
 // the number beside it takes any value, and the server says what it refuses. `choose` does more than to set the field;
 // `clears` is what goes with it when it is given back, where that is more; `absent` is what its absence means; `whole`
-// gives it a row of its own.
+// gives it a row of its own; `keeps` has no default to go back to. `panel` is what else a section holds (app.mjs).
+
+import { withFile } from './volume_math.mjs';
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
 // Views of one light, chosen by debug.light.
@@ -30,6 +32,21 @@ function chooseMapSize(size, store) {
   store.clearSpec('shadow.lightMap.texelsPerMetre');
   store.setSpec('shadow.lightMap.size', size);
 }
+
+function chooseVolume(file, store) {
+  if (!file) return store.clearSpec('volumes');
+  const { spec, summary } = store.state;
+  store.update({ freshVolume: true, spec: { ...spec, volumes: withFile(spec.volumes, summary, file) } });
+}
+
+// Of all that the volume holds, thin or dense.
+function chooseVolumeColor(color, store) {
+  for (const stop of [0, 1]) store.setSpec(`volumes.0.transferFunction.${stop}.color`, color);
+}
+
+const volumeFiles = ({ state }) => [['', 'None'], ...(state.summary?.volumeFiles ?? []).map((name) => [name, name])];
+const hasVolume = (store) => store.isSet('volumes.0.file');
+const hasBox = (store) => store.isSet('volumes.0.box'); // and not a matrix, or a node alone
 
 export const kSections = [
   {
@@ -60,7 +77,6 @@ export const kSections = [
         needs: shadowed,
       },
       { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('hybrid', 'rayTraced')(store) && lightHasSize(store) },
-      { path: 'shadow.lightMap.size', label: 'Map size', says: 'Texels along the longer side of the light map; twice as many take four times as long to bake', choices: [[512, '512'], [1024, '1k'], [2048, '2k'], [4096, '4k']], choose: chooseMapSize, needs: by('lightMap') },
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: tiled },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },
@@ -68,6 +84,27 @@ export const kSections = [
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across; wider is softer and slower', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => soft(store) && store.effective('shadow.filter.radius') == null },
       { path: 'shadow.filter.radius', label: 'Filter radius', says: 'Softness in metres, the same everywhere, instead of a width in texels', unit: 'm', needs: soft },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },
+    ],
+  },
+  {
+    title: 'Light map',
+    panel: 'bake',
+    fields: [
+      { path: 'shadow.lightMap.size', label: 'Map size', says: 'Texels along the longer side of the light map; twice as many take four times as long to bake', choices: [[512, '512'], [1024, '1k'], [2048, '2k'], [4096, '4k']], choose: chooseMapSize, needs: shadowed },
+    ],
+  },
+  {
+    title: 'Volume',
+    panel: 'volume',
+    fields: [
+      { path: 'volumes.0.file', label: 'File', says: 'A .npy or .vdb file of the upload', options: volumeFiles, choose: chooseVolume, clears: 'volumes' },
+      { path: 'volumes.0.transferFunction.1.extinction', label: 'Density', unit: '/ m', says: 'Share of the light that is taken away on a metre, where it is small', slider: [0, 2, 0.01], needs: hasVolume, keeps: true },
+      { path: 'volumes.0.transferFunction.1.value', label: 'Full at', says: 'Value of the grid that has this density; at first the greatest in the file', needs: hasVolume, keeps: true },
+      { path: 'volumes.0.transferFunction.1.color', label: 'Colour', says: 'White for a cloud, black for soot', color: true, choose: chooseVolumeColor, needs: hasVolume, keeps: true },
+      { path: 'volumes.0.box.min', label: 'From', unit: 'm', says: 'Lowest corner of the box that the grid fills: x, y, z', vector: true, needs: hasBox, keeps: true },
+      { path: 'volumes.0.box.max', label: 'To', unit: 'm', says: 'Highest corner: x, y, z', vector: true, needs: hasBox, keeps: true },
+      { path: 'volumes.0.castShadow', label: 'Casts shadow', toggle: true, absent: true, needs: hasVolume },
+      { path: 'volumes.0.receiveShadow', label: 'Receives shadow', toggle: true, absent: true, needs: hasVolume },
     ],
   },
   {

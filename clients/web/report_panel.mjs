@@ -5,7 +5,7 @@ import { count, element, short } from './dom.mjs';
 const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8']; // as the view `cascades` tints them
 
 export function showReport(node, report) {
-  node.replaceChildren(...report.lights.map(lightOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
+  node.replaceChildren(...report.lights.map(lightOf), ...report.volumes.map(volumeOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
 }
 
 function lightOf(light) {
@@ -36,6 +36,11 @@ function lightOf(light) {
     light.lightMap && element('p', { class: 'fact' }, mapOf(light.lightMap)),
     rows.length ? table : null,
   );
+}
+
+function volumeOf({ voxels, values, reused, lightMilliseconds }) {
+  const made = `its light made ${reused ? 'before' : 'now'} in ${short(lightMilliseconds)} ms`;
+  return element('p', { class: 'fact' }, `Volume: ${voxels.join(' × ')} voxels of ${short(values[0])} to ${short(values[1])}, ${made}.`);
 }
 
 function mapOf({ width, height, texelsPerMetre, reused, bakeMilliseconds }) {

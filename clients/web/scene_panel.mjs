@@ -4,10 +4,13 @@ import { Refusal, listScenes, uploadScene } from './api.mjs';
 import { count, element, short } from './dom.mjs';
 import { chosenFiles, droppedFiles } from './drop_files.mjs';
 import { nameOf, rememberName } from './scene_names.mjs';
+import { isGrid } from './volume_math.mjs';
 
-// `pick(summary)` when another scene is to be shown; `fail(error)` for what goes wrong.
+// `pick(summary, added)` when another scene is to be shown, `added` being the name of a volume that the present one
+// has got; `fail(error)` for what goes wrong.
 export function createScenePanel({ list, button, input, progress, facts, dropZone, pick, fail }) {
   let scenes = [];
+  const sources = new Map(); // what was uploaded from here, by the scene's id
 
   async function load(wantedId) {
     try {
@@ -28,14 +31,22 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
     if (!scenes.length) list.append(element('option', {}, 'No scene yet'));
   }
 
-  function show(summary) {
+  function show(summary, added) {
     list.value = summary.id;
     facts.replaceChildren(...factsOf(summary));
-    pick(summary);
+    pick(summary, added);
   }
 
-  async function upload(files) {
+  // A scene is all of its upload, so that the same files go up again, with these.
+  async function addFiles(files) {
+    const own = sources.get(list.value);
+    if (!own) return fail(new Refusal(0, 'The files of this scene were not chosen on this page. Choose or drop them together with the volume.', []));
+    await upload([...own.filter(({ name }) => !files.some((file) => file.name === name)), ...files], files[0].name);
+  }
+
+  async function upload(files, added) {
     if (!files.length) return;
+    if (files.every(isGrid)) return addFiles(files);
     progress.hidden = false;
     progress.value = 0;
     button.disabled = true;
@@ -45,9 +56,10 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
         else progress.removeAttribute('value'); // sent: now the server reads it
       });
       rememberName(summary.id, files.find(({ name }) => /\.(glb|gltf)$/i.test(name)).name.split('/').pop());
+      sources.set(summary.id, files);
       scenes = [summary, ...scenes.filter(({ id }) => id !== summary.id)];
       fillList();
-      show(summary);
+      show(summary, added);
     } catch (error) {
       fail(error);
     } finally {
@@ -66,7 +78,7 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
     input.value = '';
   });
   acceptDrops(dropZone, upload);
-  return { load };
+  return { load, addFiles };
 }
 
 function acceptDrops(zone, upload) {

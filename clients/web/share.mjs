@@ -5,10 +5,13 @@ import { curlCommand, withFormat } from './spec.mjs';
 
 export async function download(sceneId, spec, format) {
   const contentType = format === 'exr' ? 'image/x-exr' : 'image/png';
-  const file = await renderFile(sceneId, withFormat(spec, format), contentType);
+  saveFile(await renderFile(sceneId, withFormat(spec, format), contentType), `gnomon-${spec.views[0]}.${format}`);
+}
+
+export function saveFile(file, name) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(file);
-  link.download = `gnomon-${spec.views[0]}.${format}`;
+  link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

@@ -3,6 +3,7 @@
 //   view     the picture that is shown: color, depth …
 //   spec     the part of the FrameSpec that the user chose; what is absent is the server's default
 //   summary  of the scene, or null
+//   freshVolume  its file was just chosen: the values in it are to set the scale of its density
 //   report   of the last frame, or null; its spec has every default resolved
 
 import { getPath, removePath, setPath } from './paths.mjs';

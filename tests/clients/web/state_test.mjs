@@ -89,7 +89,7 @@ test('each technique shows the controls that it heeds', () => {
   const [on, technique, strength] = always;
   assert.deepEqual(shownFor({ technique: 'rayTraced' }), always);
   assert.deepEqual(shownFor({ technique: 'rayTraced' }, { angularDiameterDegrees: 1 }), [on, technique, 'shadow.raySamples', strength]);
-  assert.deepEqual(shownFor({ technique: 'lightMap' }), [on, technique, 'shadow.lightMap.size', strength]);
+  assert.deepEqual(shownFor({ technique: 'lightMap' }), always);
   assert.deepEqual(shownFor({ technique: 'hybrid' }), [on, technique, ...tiles, strength]);
   assert.deepEqual(shownFor({ technique: 'shadowMap', filter: { type: 'pcss' } }), [on, technique, ...tiles, 'shadow.filter.type', strength]);
   assert.deepEqual(shownFor({ enabled: false, technique: 'lightMap' }), [on]);
