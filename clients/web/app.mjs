@@ -130,7 +130,7 @@ function showScene(summary, added) {
   const next = { ...rest, camera: (same && camera) || (eye ? { node: eye.node } : { orbit: wholeScene(summary) }) };
   if (same && lights) next.lights = lights;
   else if (!summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
-  if (added) next.volumes = withFile(volumes, summary, added);
+  if (added) next.volumes = withFile(store.state, added);
   else if (volumes?.every(({ file }) => summary.volumeFiles.includes(file))) next.volumes = volumes;
   store.update({ sceneId: summary.id, summary, spec: next, report: null, freshVolume: Boolean(added) });
 }

@@ -35,8 +35,8 @@ function chooseMapSize(size, store) {
 
 function chooseVolume(file, store) {
   if (!file) return store.clearSpec('volumes');
-  const { spec, summary } = store.state;
-  store.update({ freshVolume: true, spec: { ...spec, volumes: withFile(spec.volumes, summary, file) } });
+  const { spec } = store.state;
+  store.update({ freshVolume: true, spec: { ...spec, volumes: withFile(store.state, file) } });
 }
 
 // Of all that the volume holds, thin or dense.
@@ -80,7 +80,7 @@ export const kSections = [
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: tiled },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },
-      { path: 'shadow.filter.type', label: 'Filter', choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: by('shadowMap') },
+      { path: 'shadow.filter.type', label: 'Filter', whole: true, choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: by('shadowMap') },
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across; wider is softer and slower', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => soft(store) && store.effective('shadow.filter.radius') == null },
       { path: 'shadow.filter.radius', label: 'Filter radius', says: 'Softness in metres, the same everywhere, instead of a width in texels', unit: 'm', needs: soft },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },

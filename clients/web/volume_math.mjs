@@ -1,5 +1,6 @@
 // A volume as the page makes one. Pure.
 
+import { fitOrbit, orbitInForce } from './orbit_math.mjs';
 import { setPath } from './paths.mjs';
 
 const kOpticalDepth = 4; // from the bottom to the top of a volume that is full everywhere
@@ -7,19 +8,21 @@ const rounded = (number) => Number(number.toPrecision(3));
 
 export const isGrid = ({ name }) => /\.(npy|vdb)$/i.test(name);
 
-// A cloud above the middle of the scene, white, its density growing with the values of the grid.
-export function newVolume({ boundsMin, boundsMax }, file) {
-  const middle = (axis) => (boundsMin[axis] + boundsMax[axis]) / 2;
-  const wide = Math.max(boundsMax[0] - boundsMin[0], boundsMax[2] - boundsMin[2]) || 1;
-  const at = (sign) => [middle(0) + sign * 0.25 * wide, boundsMax[1] + (sign < 0 ? 0.05 : 0.25) * wide, middle(2) + sign * 0.25 * wide];
+// A cloud above what the camera turns about, in its view: white, its density growing with the values of the grid.
+export function newVolume(state, file) {
+  const { summary } = state;
+  const { target, distance } = orbitInForce(state) ?? fitOrbit(summary.boundsMin, summary.boundsMax);
+  const corner = (side, up) => [side, up, side].map((share, axis) => rounded(target[axis] + share * distance));
+  const box = { min: corner(-0.18, 0.12), max: corner(0.18, 0.26) };
   const color = [1, 1, 1];
-  const stops = [{ value: 0, color, extinction: 0 }, { value: 1, color, extinction: rounded(kOpticalDepth / (0.2 * wide)) }];
-  return { file, box: { min: at(-1).map(rounded), max: at(1).map(rounded) }, transferFunction: stops };
+  const stops = [{ value: 0, color, extinction: 0 }, { value: 1, color, extinction: rounded(kOpticalDepth / (0.14 * distance)) }];
+  return { file, box, transferFunction: stops };
 }
 
-// The volumes with a file that is shown as the one before was, if there was one.
-export function withFile(volumes, summary, file) {
-  return volumes?.length ? setPath(volumes, '0.file', file) : [newVolume(summary, file)];
+// The state's volumes with a file that is shown as the one before was, if there was one.
+export function withFile(state, file) {
+  const { volumes } = state.spec;
+  return volumes?.length ? setPath(volumes, '0.file', file) : [newVolume(state, file)];
 }
 
 // The volumes with full density at the greatest value of the grid.

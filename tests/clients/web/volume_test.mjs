@@ -13,20 +13,23 @@ import { isGrid, newVolume, scaledTo, withFile } from '../../../clients/web/volu
 const kSummary = { boundsMin: [-50, 0, -50], boundsMax: [50, 10, 50], volumeFiles: ['cloud.npy', 'smoke.vdb'] };
 const fieldOf = (path) => kSections.flatMap(({ fields }) => fields).find((field) => field.path === path);
 
-test('a new volume is a cloud above the middle of the scene', () => {
-  const { file, box, transferFunction } = newVolume(kSummary, 'cloud.npy');
+const stateOf = (spec, summary = kSummary) => ({ spec, summary, report: null });
+
+test('a new volume is a cloud above what the camera turns about', () => {
+  const orbit = { target: [10, 2, 0], azimuthDegrees: 0, elevationDegrees: 20, distance: 100 };
+  const { file, box, transferFunction } = newVolume(stateOf({ camera: { orbit } }), 'cloud.npy');
   assert.equal(file, 'cloud.npy');
-  assert.deepEqual(box, { min: [-25, 15, -25], max: [25, 35, 25] });
-  assert.deepEqual(transferFunction.map(({ value, extinction }) => [value, extinction]), [[0, 0], [1, 0.2]]);
-  const flat = newVolume({ boundsMin: [0, 0, 0], boundsMax: [0, 0, 0] }, 'a.vdb').box;
+  assert.deepEqual(box, { min: [-8, 14, -18], max: [28, 28, 18] });
+  assert.deepEqual(transferFunction.map(({ value, extinction }) => [value, extinction]), [[0, 0], [1, 0.286]]);
+  const flat = newVolume(stateOf({}, { boundsMin: [0, 0, 0], boundsMax: [0, 0, 0] }), 'a.vdb').box;
   for (const axis of [0, 1, 2]) assert.ok(flat.min[axis] < flat.max[axis]);
   assert.deepEqual([{ name: 'a.NPY' }, { name: 'x/b.vdb' }, { name: 'c.npy.png' }].map(isGrid), [true, true, false]);
 });
 
 test('another file is shown where the first one was, and its values set the scale', () => {
-  const first = withFile(undefined, kSummary, 'cloud.npy');
+  const first = withFile(stateOf({}), 'cloud.npy');
   const moved = [{ ...first[0], box: { min: [0, 0, 0], max: [1, 2, 3] } }];
-  const second = withFile(moved, kSummary, 'smoke.vdb');
+  const second = withFile(stateOf({ volumes: moved }), 'smoke.vdb');
   assert.equal(second[0].file, 'smoke.vdb');
   assert.deepEqual(second[0].box, moved[0].box);
   assert.equal(scaledTo([-3, 255], second)[0].transferFunction[1].value, 255);
