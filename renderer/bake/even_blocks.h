@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "renderer/bake/light_map.h"
@@ -20,5 +22,10 @@ struct EvenBlocks {
 /// Of each block the share that all of its texels have, and those beside it to the right and above, so that it is what
 /// is read anywhere between them; else kUneven.
 EvenBlocks evenBlocks(const LightMap& map);
+
+/// Of each triangle the share that is read anywhere in it, if that is one; else EvenBlocks::kUneven. Behind the last
+/// one more, which means nothing. `even`: of the map; `corners`: three a triangle, texels.
+std::vector<std::uint16_t> evenTriangles(const LightMap& map, const EvenBlocks& even,
+                                         std::span<const glm::vec2> corners);
 
 } // namespace gnomon

@@ -75,12 +75,13 @@ BakedMap bakedMap(const FrameScene& scene, const BakedLight& baked) {
                .height = baked.map.height,
                .even = baked.even.shares.data(),
                .evenColumns = baked.even.columns,
+               .evenTriangles = baked.evenTriangles.data(),
                .corners = baked.layout->corners.data(),
-               .firstCorners = {}};
+               .firstTriangles = {}};
   for (std::size_t slot = 0; slot < scene.slots.size(); ++slot) {
     const std::uint32_t instance = scene.slots[slot].instance;
     const std::size_t before = (slot - scene.geometry.firstSlot[instance]) * kClusterTriangles;
-    map.firstCorners.push_back(static_cast<std::int32_t>(baked.layout->firstCorner[instance] + 3 * before));
+    map.firstTriangles.push_back(static_cast<std::int32_t>(baked.layout->firstCorner[instance] / 3 + before));
   }
   return map;
 }

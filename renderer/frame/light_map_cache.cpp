@@ -54,6 +54,7 @@ Problem stopped() {
 
 std::shared_ptr<const BakedLight> toBeKept(BakedLight baked) {
   baked.even = evenBlocks(baked.map);
+  baked.evenTriangles = evenTriangles(baked.map, baked.even, baked.layout->corners);
   return std::make_shared<const BakedLight>(std::move(baked));
 }
 

@@ -24,17 +24,10 @@ HWY_INLINE MapTriangle mapTriangleOf(const Float2& a, const Float2& b, const Flo
   return {a, b - a, c - a};
 }
 
-/// Where all lanes have one triangle, its corners are read once. REQUIRES: numbers of triangles in all lanes.
-HWY_INLINE MapTriangle mapTriangles(const BakedMap& map, const Int& triangle) {
-  static_assert(kClusterTriangles == 1 << 10);
-  const std::int32_t number = hn::GetLane(triangle.part[0]);
-  if (all(triangle == Int(number))) {
-    const glm::vec2* at = map.cornersOf(static_cast<std::uint32_t>(number));
-    return mapTriangleOf(Float2(at[0]), Float2(at[1]), Float2(at[2]));
-  }
-  const Int first = gather(map.firstCorners.data(), shiftRightUnsigned<10>(triangle)) + (triangle & Int(1023)) * Int(3);
+/// `number`: of triangles of the map, in all lanes.
+HWY_INLINE MapTriangle mapTriangles(const BakedMap& map, const Int& number) {
   const auto* numbers = &map.corners->x;
-  const Int at = first + first;
+  const Int at = number * Int(6);
   const auto corner = [&](int c)
                           HWY_ATTR { return Float2(gather(numbers + 2 * c, at), gather(numbers + 2 * c + 1, at)); };
   return mapTriangleOf(corner(0), corner(1), corner(2));
@@ -61,17 +54,32 @@ HWY_INLINE Float shareAt(const BakedMap& map, const Float2& place, const Mask& a
   return mulAdd(up, high - low, low) * (1.0f / 65535.0f);
 }
 
-/// Lanes outside of `asked` hold anything in 0 to 1. A line of sight may miss a triangle that is seen edge-on: the map
-/// is asked for the triangle all the same.
-inline Float bakedValue(const BakedMap& map, const Receiver& receiver, const Mask& asked) {
-  if (none(asked)) return 1.0f;
-  alignas(64) std::int32_t numbers[kLanes];
-  store(receiver.triangle, numbers);
-  const Int first(numbers[std::countr_zero(bitsOf(asked))]);
-  const MapTriangle triangle = mapTriangles(map, select(asked, receiver.triangle, first));
-  const Float u = clamp(receiver.weights.x, 0.0f, 1.0f);
-  const Float v = clamp(receiver.weights.y, 0.0f, 1.0f - u);
+/// A line of sight may miss a triangle that is seen edge-on: the map is asked for the triangle all the same.
+HWY_INLINE Float shareIn(const BakedMap& map, const MapTriangle& triangle, const Float2& weights, const Mask& asked) {
+  const Float u = clamp(weights.x, 0.0f, 1.0f);
+  const Float v = clamp(weights.y, 0.0f, 1.0f - u);
   return shareAt(map, triangle.corner + triangle.edge1 * u + triangle.edge2 * v, asked);
+}
+
+/// Lanes outside of `asked` hold anything in 0 to 1.
+inline Float bakedValue(const BakedMap& map, const Receiver& receiver, const Mask& asked) {
+  static_assert(kClusterTriangles == 1 << 10);
+  if (none(asked)) return 1.0f;
+  alignas(64) std::int32_t triangles[kLanes];
+  store(receiver.triangle, triangles);
+  const std::int32_t first = triangles[std::countr_zero(bitsOf(asked))];
+  const Int triangle = select(asked, receiver.triangle, Int(first));
+  if (all(triangle == Int(first))) {
+    const std::size_t number = map.numberOf(static_cast<std::uint32_t>(first));
+    const std::uint16_t even = map.evenTriangles[number];
+    if (even != EvenBlocks::kUneven) return Float(static_cast<float>(even) * (1.0f / 65535.0f));
+    const glm::vec2* at = map.corners + 3 * number;
+    return shareIn(map, mapTriangleOf(Float2(at[0]), Float2(at[1]), Float2(at[2])), receiver.weights, asked);
+  }
+  const Int number = gather(map.firstTriangles.data(), shiftRightUnsigned<10>(triangle)) + (triangle & Int(1023));
+  const Int even = gatherPairs(map.evenTriangles, number) & Int(0xffff);
+  if (none(even == Int(EvenBlocks::kUneven))) return toFloat(even) * (1.0f / 65535.0f);
+  return shareIn(map, mapTriangles(map, number), receiver.weights, asked);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

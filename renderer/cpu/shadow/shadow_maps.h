@@ -25,13 +25,15 @@ struct BakedMap {
   const std::uint16_t* shares = nullptr; ///< of 65535, row by row, y 0 first
   int width = 0;                         ///< texels
   int height = 0;
-  const std::uint16_t* even = nullptr;    ///< EvenBlocks of it
-  int evenColumns = 0;                    ///< blocks
-  const glm::vec2* corners = nullptr;     ///< three a triangle, texels
-  std::vector<std::int32_t> firstCorners; ///< of each slot's first triangle, into `corners`
+  const std::uint16_t* even = nullptr;          ///< EvenBlocks of it
+  int evenColumns = 0;                          ///< blocks
+  const std::uint16_t* evenTriangles = nullptr; ///< as BakedLight has them
+  const glm::vec2* corners = nullptr;           ///< three a triangle, texels
+  std::vector<std::int32_t> firstTriangles;     ///< of each slot its first triangle's number in the map
 
-  const glm::vec2* cornersOf(std::uint32_t triangle) const {
-    return corners + firstCorners[triangle / kClusterTriangles] + 3 * (triangle % kClusterTriangles);
+  /// Of a triangle of the scene, in the map.
+  std::size_t numberOf(std::uint32_t triangle) const {
+    return static_cast<std::size_t>(firstTriangles[triangle / kClusterTriangles]) + triangle % kClusterTriangles;
   }
 };
 

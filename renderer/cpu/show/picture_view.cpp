@@ -9,7 +9,6 @@
 #include "renderer/cpu/show/packet-inl.h"
 #include "renderer/cpu/show/view_squares.h"
 #include "renderer/cpu/surface/shading-inl.h"
-#include "renderer/prepare/draw_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -83,18 +82,6 @@ HWY_INLINE bool fillsBlock(const FragmentList& list, std::size_t first, std::int
              (load(&list.samples[first]) == Int(whole)));
 }
 
-/// Asks memory for what light maps will be looked up by: it comes while other things are found.
-void fetchCorners(const ShadowMaps& maps, const FragmentList& list) {
-  for (const Layer& layer : maps.layers) {
-    if (layer.baked == nullptr) continue;
-    std::uint32_t last = kNoNumber;
-    for (std::size_t i = 0; i < list.count; ++i) {
-      if (list.triangle[i] != last) __builtin_prefetch(layer.baked->cornersOf(list.triangle[i]));
-      last = list.triangle[i];
-    }
-  }
-}
-
 void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
   const SampleMeans means = sampleMeans(job.buffer.samples);
   const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
@@ -106,7 +93,6 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
     behind = colors;
   }
   const float share = 1.0f / static_cast<float>(job.buffer.samples);
-  fetchCorners(job.maps, list);
   const std::int32_t whole = (1 << job.buffer.samples) - 1;
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const Packet packet = packetAt(list, i, x, y, means);

@@ -38,6 +38,47 @@ TEST(EvenBlocks, SeeTheTexelsBesideThem) {
   EXPECT_EQ(evenBlocks(map).shares[3], EvenBlocks::kUneven);
 }
 
+LightMap halfLit(int side) {
+  LightMap map{side, side, {}};
+  for (int i = 0; i < side * side; ++i) map.shares.push_back(i % side < side / 2 ? 0 : 65535);
+  return map;
+}
+
+TEST(EvenTriangles, HoldWhatIsReadAnywhereInATriangle) {
+  std::mt19937 random(8);
+  const LightMap map = halfLit(100);
+  std::uniform_real_distribution<float> place(-3, 103), step(-9, 9), weight(0, 1);
+  std::vector<glm::vec2> corners;
+  for (int i = 0; i < 3000; ++i) {
+    const glm::vec2 first(place(random), place(random));
+    for (int corner = 0; corner < 3; ++corner) corners.push_back(first + glm::vec2(step(random), step(random)));
+  }
+  const std::vector<std::uint16_t> shares = evenTriangles(map, evenBlocks(map), corners);
+  ASSERT_EQ(shares.size(), 3001u);
+  int uneven = 0;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const glm::vec2* at = &corners[3 * i];
+    uneven += shares[i] == EvenBlocks::kUneven ? 1 : 0;
+    for (int k = 0; k < 50 && shares[i] != EvenBlocks::kUneven; ++k) {
+      const float u = weight(random);
+      const float v = weight(random) * (1 - u);
+      const glm::vec2 within = at[0] + u * (at[1] - at[0]) + v * (at[2] - at[0]);
+      EXPECT_FLOAT_EQ(shareAt(map, within), static_cast<float>(shares[i]) / 65535.0f);
+    }
+  }
+  EXPECT_GT(uneven, 100);
+  EXPECT_LT(uneven, 1000) << "those away from the edge";
+}
+
+TEST(EvenTriangles, SeeTheEdgeWithinABlock) {
+  const LightMap map = halfLit(8);
+  const std::vector<glm::vec2> corners{{1, 1}, {3, 1}, {1, 3}, {5, 1}, {7, 1}, {5, 3}, {3, 1}, {5, 1}, {3, 3}};
+  const std::vector<std::uint16_t> shares = evenTriangles(map, evenBlocks(map), corners);
+  EXPECT_EQ(shares[0], 0);
+  EXPECT_EQ(shares[1], 65535);
+  EXPECT_EQ(shares[2], EvenBlocks::kUneven);
+}
+
 TEST(EvenBlocks, AShareThatSaysUnevenIsReadTexelByTexel) {
   const LightMap map{8, 8, std::vector<std::uint16_t>(64, EvenBlocks::kUneven)};
   EXPECT_EQ(evenBlocks(map).shares[0], EvenBlocks::kUneven);

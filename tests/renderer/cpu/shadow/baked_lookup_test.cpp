@@ -14,11 +14,13 @@ struct MadeMap {
   LightMap map;
   EvenBlocks even;
   std::vector<glm::vec2> corners;
+  std::vector<std::uint16_t> evenTriangles;
   BakedMap baked;
 };
 
-MadeMap madeMap(std::mt19937& random, const glm::ivec2& size) {
-  MadeMap made{{size.x, size.y, {}}, {}, {}, {}};
+/// `extent`: of most triangles, texels.
+MadeMap madeMap(std::mt19937& random, const glm::ivec2& size, float extent = 1000) {
+  MadeMap made{{size.x, size.y, {}}, {}, {}, {}, {}};
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
       made.map.shares.push_back((x / 20 + y / 20) % 2 == 0 ? 65535 : static_cast<std::uint16_t>(random()));
@@ -27,20 +29,25 @@ MadeMap madeMap(std::mt19937& random, const glm::ivec2& size) {
   made.even = evenBlocks(made.map);
   // Some lie beyond the rim.
   std::uniform_real_distribution<float> x(-2, static_cast<float>(size.x + 2)), y(-2, static_cast<float>(size.y + 2));
-  for (std::size_t i = 0; i < std::size_t{3} * kSlots * kClusterTriangles; ++i) {
-    made.corners.emplace_back(x(random), y(random));
+  for (std::size_t i = 0; i < std::size_t{kSlots} * kClusterTriangles; ++i) {
+    const glm::vec2 first(x(random), y(random));
+    for (int corner = 0; corner < 3; ++corner) {
+      made.corners.push_back(first + glm::clamp(glm::vec2(x(random), y(random)) - first, -extent, extent));
+    }
   }
-  std::vector<std::int32_t> firstCorners;
+  made.evenTriangles = evenTriangles(made.map, made.even, made.corners);
+  std::vector<std::int32_t> firstTriangles;
   for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
-    firstCorners.push_back(static_cast<std::int32_t>(3 * kClusterTriangles * ((slot + 1) % kSlots)));
+    firstTriangles.push_back(static_cast<std::int32_t>(kClusterTriangles * ((slot + 1) % kSlots)));
   }
   made.baked = {.shares = made.map.shares.data(),
                 .width = size.x,
                 .height = size.y,
                 .even = made.even.shares.data(),
                 .evenColumns = made.even.columns,
+                .evenTriangles = made.evenTriangles.data(),
                 .corners = made.corners.data(),
-                .firstCorners = std::move(firstCorners)};
+                .firstTriangles = std::move(firstTriangles)};
   return made;
 }
 
@@ -58,7 +65,7 @@ std::vector<AskedPoint> pointsIn(std::mt19937& random, std::size_t count, std::s
 }
 
 float expected(const MadeMap& made, const AskedPoint& point, float strength) {
-  const glm::vec2* corner = made.baked.cornersOf(point.triangle);
+  const glm::vec2* corner = &made.corners[3 * made.baked.numberOf(point.triangle)];
   const glm::vec2 place =
       corner[0] + point.weights.x * (corner[1] - corner[0]) + point.weights.y * (corner[2] - corner[0]);
   return 1 - strength * (1 - shareAt(made.map, place));
@@ -84,7 +91,7 @@ TEST(BakedLookup, N5_LanesReadWhatPlainCodeReads) {
   for (const glm::ivec2 size : {glm::ivec2(2, 2), glm::ivec2(61, 40), glm::ivec2(200, 333)}) {
     for (const std::size_t alike : {1, 5, 64}) {
       std::mt19937 random(3);
-      const MadeMap made = madeMap(random, size);
+      const MadeMap made = madeMap(random, size, size.x == 61 ? 3.0f : 1000.0f);
       const std::vector<AskedPoint> points = pointsIn(random, 1001, alike);
       const Layer layer{nullptr, 0, 1, &made.baked};
       onEachInstructionSet([&] {
