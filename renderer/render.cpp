@@ -72,10 +72,11 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
   return measureShimmer(**device, impl_->caches->traced, scene, spec, path, progress);
 }
 
-Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles) {
+Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles,
+                               const std::function<bool()>& goOn) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return renderFrame(**device, *impl_->caches, scene, spec, tiles);
+  return renderFrame(**device, *impl_->caches, scene, spec, tiles, goOn);
 }
 
 } // namespace gnomon

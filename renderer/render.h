@@ -79,7 +79,10 @@ class Renderer {
   const RendererInfo& info() const;
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
-  Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept);
+  /// `goOn` is asked often while a light is baked, by several threads in turn; false ends the frame with a problem of
+  /// code unavailable.
+  Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept,
+                       const std::function<bool()>& goOn = {});
 
   /// Makes light maps ahead of the frames that look them up.
   Baker baker() const;

@@ -18,7 +18,7 @@
 namespace gnomon {
 
 Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
-                          TileUse tiles) {
+                          TileUse tiles, const std::function<bool()>& goOn) {
   const auto posed = posedScene(loaded, spec.animation);
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
@@ -41,7 +41,8 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
-  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved);
+  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved,
+                           goOn ? BakeProgress([&](int, double) { return goOn(); }) : BakeProgress());
   if (!found) return found.problems();
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");

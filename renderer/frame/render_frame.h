@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_cache.h"
@@ -18,6 +20,6 @@ struct FrameCaches {
 /// A frame from top to bottom, whoever draws it: settled, surveyed, planned, cast, shown, compared with rays where a
 /// view asks, and reported. As Renderer::render.
 Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& scene, const FrameSpec& spec,
-                          TileUse tiles = TileUse::kept);
+                          TileUse tiles = TileUse::kept, const std::function<bool()>& goOn = {});
 
 } // namespace gnomon

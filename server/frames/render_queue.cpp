@@ -87,6 +87,10 @@ Status drawFirstFrame(Renderer& renderer) {
   return Done{};
 }
 
+Problem lateFrame() {
+  return {ProblemCode::deadlineExceeded, "", "The frame was not drawn before the request's deadline.", "", ""};
+}
+
 } // namespace
 
 RenderQueue::RenderQueue(std::size_t limit)
@@ -124,7 +128,7 @@ Result<std::unique_ptr<RenderQueue>> RenderQueue::start(const RendererOptions& o
 
 template <class T>
 std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline, std::function<bool()> clientGone,
-                                                      std::function<Result<T>(Renderer&, double)> work) {
+                                                      Work<T> work) {
   // Shared with the queue's thread, since the caller may have left before the job runs.
   struct PendingAnswer {
     std::mutex mutex;
@@ -136,12 +140,13 @@ std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline
   Job queued;
   queued.deadline = deadline;
   queued.wanted = [pending, gone = std::move(clientGone)] {
-    const std::lock_guard lock(pending->mutex);
+    const std::lock_guard lock(pending->mutex); // who abandons it may take `gone` along
     return !pending->abandoned && !(gone && gone());
   };
-  queued.run = [this, pending, work = std::move(work)](double waitedMs) {
+  const auto goOn = [deadline, wanted = queued.wanted] { return Clock::now() < deadline && wanted(); };
+  queued.run = [this, pending, goOn, work = std::move(work)](double waitedMs) {
     try {
-      pending->answer.set_value(work(*renderer_, waitedMs));
+      pending->answer.set_value(work(*renderer_, waitedMs, goOn));
     } catch (const std::exception& error) {
       logEvent("renderer", error.what());
       pending->answer.set_value(renderFailure());
@@ -154,8 +159,7 @@ std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline
   if (answer.wait_until(deadline) != std::future_status::ready) {
     const std::lock_guard lock(pending->mutex);
     pending->abandoned = true;
-    return Problems{
-        {ProblemCode::deadlineExceeded, "", "The frame was not drawn before the request's deadline.", "", ""}};
+    return Problems{lateFrame()};
   }
   auto answered = answer.get();
   if (!answered) {
@@ -165,27 +169,29 @@ std::variant<T, Problems, QueueFull> RenderQueue::ask(Clock::time_point deadline
 }
 
 std::variant<QueuedFrame, Problems, QueueFull> RenderQueue::render(FrameJob job) {
-  return ask<QueuedFrame>(job.deadline, std::move(job.clientGone),
-                          [scene = std::move(job.scene), spec = std::move(job.spec), tiles = job.tiles](
-                              Renderer& renderer, double waitedMs) -> Result<QueuedFrame> {
-                            auto frame = renderer.render(scene, spec, tiles);
-                            if (!frame) {
-                              return std::move(frame).problems();
-                            }
-                            return QueuedFrame{*std::move(frame), waitedMs};
-                          });
+  const auto deadline = job.deadline;
+  auto work = [scene = std::move(job.scene), spec = std::move(job.spec), tiles = job.tiles, deadline](
+                  Renderer& renderer, double waitedMs, const std::function<bool()>& goOn) -> Result<QueuedFrame> {
+    auto frame = renderer.render(scene, spec, tiles, goOn);
+    if (!frame) {
+      return Clock::now() < deadline ? std::move(frame).problems() : Problems{lateFrame()};
+    }
+    return QueuedFrame{*std::move(frame), waitedMs};
+  };
+  return ask<QueuedFrame>(deadline, std::move(job.clientGone), std::move(work));
 }
 
 std::variant<double, Problems, QueueFull> RenderQueue::shimmer(ShimmerJob job) {
-  const auto gone = job.clientGone;
-  return ask<double>(job.deadline, gone, [job = std::move(job)](Renderer& renderer, double) -> Result<double> {
-    const auto goOn = [&](double) { return Clock::now() < job.deadline && !(job.clientGone && job.clientGone()); };
-    const auto shimmer = renderer.shimmer(job.scene, job.spec, job.path, goOn);
+  const auto deadline = job.deadline;
+  auto gone = std::move(job.clientGone);
+  auto work = [job = std::move(job)](Renderer& renderer, double, const std::function<bool()>& goOn) -> Result<double> {
+    const auto shimmer = renderer.shimmer(job.scene, job.spec, job.path, [&](double) { return goOn(); });
     if (!shimmer) {
       return shimmer.problems();
     }
     return shimmer->perThousand();
-  });
+  };
+  return ask<double>(deadline, std::move(gone), std::move(work));
 }
 
 bool RenderQueue::hasRoom() const {

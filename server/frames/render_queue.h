@@ -43,7 +43,8 @@ class RenderQueue {
   /// Bakes for the frames of this queue, without waiting in it.
   const Baker& baker() const { return *baker_; }
 
-  /// Returns when the frame is drawn or its deadline has passed.
+  /// Returns when the frame is drawn or its deadline has passed. A frame that bakes stops then, or when the client is
+  /// gone; one that only draws is drawn to its end.
   std::variant<QueuedFrame, Problems, QueueFull> render(FrameJob job);
 
   /// Flips in 1,000 points and a frame; stops early where the deadline has passed or the client is gone.
@@ -60,10 +61,13 @@ class RenderQueue {
  private:
   explicit RenderQueue(std::size_t limit);
 
+  /// `goOn`: false once the deadline has passed or the client is gone.
+  template <class T>
+  using Work = std::function<Result<T>(Renderer&, double waitedMs, const std::function<bool()>& goOn)>;
+
   /// The result of `work`, which runs on the queue's thread and is given how long it waited.
   template <class T>
-  std::variant<T, Problems, QueueFull> ask(Clock::time_point deadline, std::function<bool()> clientGone,
-                                           std::function<Result<T>(Renderer&, double waitedMs)> work);
+  std::variant<T, Problems, QueueFull> ask(Clock::time_point deadline, std::function<bool()> clientGone, Work<T> work);
 
   std::optional<Renderer> renderer_; ///< touched on the queue's thread only
   RendererInfo info_;

@@ -120,6 +120,17 @@ class Bakes(BakesTest):
         connection.close()
         self.assertLess(self.wait_until_free(), 5 * SLOW)
 
+    def test_who_leaves_a_frame_that_bakes_holds_up_no_other(self):
+        body = json.dumps(SMALL | LONG)
+        connection = self.server.socket()
+        head = f"POST /v1/scenes/{self.scene}/frames HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n"
+        connection.sendall((head + "Content-Type: application/json\r\n\r\n" + body).encode())
+        time.sleep(0.5 * SLOW)
+        connection.close()
+        start = time.monotonic()
+        self.assertEqual(self.server.frame(self.scene, SMALL).status, 200)
+        self.assertLess(time.monotonic() - start, 5 * SLOW, "all of it would take minutes")
+
     def test_frames_of_others_are_drawn_beside_a_bake(self):
         connection, key = self.begin(LONG)
         with connection:

@@ -166,6 +166,21 @@ TEST(RenderFrame, WhatADeviceCannotDrawIsRefusedBeforeItBegins) {
   EXPECT_TRUE(device.asked.calls.empty());
 }
 
+TEST(RenderFrame, ABakeThatIsStoppedEndsTheFrameAndTheNextOneBakes) {
+  FakeDevice device;
+  FrameCaches caches{TracedSceneCache(1 << 20), LightMapCache(1u << 28), VolumeCache(1u << 28)};
+  FrameSpec spec = sunlit();
+  spec.shadow.technique = ShadowTechnique::lightMap;
+  spec.shadow.lightMap.size = 64;
+  const auto stopped = renderFrame(device, caches, testing::squares(), spec, TileUse::kept, [] { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.problems().front().code, ProblemCode::unavailable);
+  const auto frame = renderFrame(device, caches, testing::squares(), spec, TileUse::kept, [] { return true; });
+  ASSERT_TRUE(frame) << frame.problems().front().detail;
+  ASSERT_TRUE(frame->report.lights[0].lightMap);
+  EXPECT_FALSE(frame->report.lights[0].lightMap->reused);
+}
+
 TEST(RenderFrame, AProblemOfTheDeviceIsTheFrames) {
   FakeDevice device(Problem{ProblemCode::backend, "", "The device is gone.", "", ""});
   FrameCaches caches{TracedSceneCache(0), LightMapCache(1u << 28), VolumeCache(1u << 28)};
