@@ -78,7 +78,9 @@ BakedShading GlFrame::bakedShading() {
   for (; shading.maps.size() < GNOMON_LIGHT_MAPS && shading.firstLayer > 0; --shading.firstLayer) {
     const int light = work_.layered[static_cast<std::size_t>(shading.firstLayer) - 1];
     if (!traitsOf((*work_.frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked) break;
-    const GpuLightMap& map = shared_.lightMaps.get(work_.baked(light), inputs_.scene, inputs_.view);
+    const std::shared_ptr<const BakedLight> baked = work_.baked(light);
+    if (baked->map.shares.empty()) break; // of a scene without surfaces
+    const GpuLightMap& map = shared_.lightMaps.get(baked, inputs_.scene, inputs_.view);
     if (!shading.maps.empty() && shading.maps.front()->scene != map.scene) break;
     shading.maps.insert(shading.maps.begin(), &map);
   }

@@ -191,9 +191,9 @@ TEST(Pcss, N6_CascadesThatAreBlendedShowOnePenumbra) {
   Json spec = groundSpec({{"type", "directional"}, {"direction", {0, -1, 0}}, {"angularDiameterDegrees", 8}}, 1, 1);
   spec.update({{"width", 320},
                {"height", 240},
-               {"camera", {{"eye", {0.3, 1.5, 40}}, {"target", {0.3, 0, 34}}, {"near", 0.1}, {"far", 60}}},
+               {"camera", {{"eye", {0.3, 1.5, 40}}, {"target", {0.3, 0, 37}}}},
                {"views", {"shadow", "reference", "blendWeight"}}});
-  spec["shadow"]["cascadeCount"] = 3;
+  spec["shadow"]["cascadeCount"] = 8;
   const Frame frame = renderJson(halfPlaneOverPlane(3), spec.dump());
   double error[2] = {0, 0}; // of pixels that one cascade serves, and of those that two do
   std::size_t count[2] = {0, 0};
@@ -205,10 +205,11 @@ TEST(Pcss, N6_CascadesThatAreBlendedShowOnePenumbra) {
     ++count[blended];
   }
   ASSERT_GT(count[0], 500u);
-  ASSERT_GT(count[1], 500u);
+  ASSERT_GT(count[1], 200u);
   const double alone = std::sqrt(error[0] / static_cast<double>(count[0]));
   const double blended = std::sqrt(error[1] / static_cast<double>(count[1]));
-  std::printf("in the penumbra: rms %.4f by one cascade, %.4f by two\n", alone, blended);
+  std::printf("in the penumbra: rms %.4f by one cascade (%zu pixels), %.4f by two (%zu)\n", alone, count[0], blended,
+              count[1]);
   EXPECT_LE(alone, 0.06);
   EXPECT_LE(blended, 0.06);
 }
