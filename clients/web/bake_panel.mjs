@@ -2,6 +2,7 @@
 
 import { bakeAhead, bakeFile } from './api.mjs';
 import { element, short } from './dom.mjs';
+import { texelsOf } from './report_panel.mjs';
 import { saveFile } from './share.mjs';
 
 const kFiles = [
@@ -74,7 +75,7 @@ export function createBakePanel(store, { specOf, done, problems }) {
   return element('div', { class: 'tail bake' }, element('div', { class: 'pair' }, button, progress), text, take);
 }
 
-function told({ width, height, texelsPerMetre, reused, bakeMilliseconds }) {
-  const seconds = `${short(bakeMilliseconds / 1000)} s`;
-  return `${width} × ${height} texels, ${short(texelsPerMetre)} a metre, ${reused ? `baked before in ${seconds}` : `baked in ${seconds}`}.`;
+function told(lightMap) {
+  const { reused, bakeMilliseconds } = lightMap;
+  return `${texelsOf(lightMap)}, baked ${reused ? 'before ' : ''}in ${short(bakeMilliseconds / 1000)} s.`;
 }

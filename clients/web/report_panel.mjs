@@ -43,7 +43,9 @@ function volumeOf({ voxels, values, reused, lightMilliseconds }) {
   return element('p', { class: 'fact' }, `Volume: ${voxels.join(' × ')} voxels of ${short(values[0])} to ${short(values[1])}, ${made}.`);
 }
 
-function mapOf({ width, height, texelsPerMetre, reused, bakeMilliseconds }) {
-  const made = `baked ${reused ? 'before' : 'now'} in ${short(bakeMilliseconds)} ms`;
-  return `Light map: ${width} × ${height} texels, ${short(texelsPerMetre)} a metre, ${made}.`;
+function mapOf(lightMap) {
+  const made = `baked ${lightMap.reused ? 'before' : 'now'} in ${short(lightMap.bakeMilliseconds)} ms`;
+  return `Light map: ${texelsOf(lightMap)}, ${made}.`;
 }
+
+export const texelsOf = ({ width, height, texelsPerMetre }) => `${width} × ${height} texels, ${short(texelsPerMetre)} a metre`;

@@ -5,7 +5,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/traits.h"
+#include "renderer/resolve/plan_input.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon::cpu {
@@ -124,7 +124,7 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   std::vector<std::size_t> traced;
   for (const int light : work.layered) {
     exact.known.emplace_back();
-    if (traitsOf((*work.frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked) {
+    if (techniqueOf(work.frame, light).baked) {
       exact.known.back().map = bakedMap(camera.scene, *work.baked(light));
     } else {
       traced.push_back(exact.known.size() - 1);

@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/traits.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/render_frame.h"
 #include "renderer/resolve/plan_input.h"
@@ -15,9 +14,7 @@ namespace {
 
 std::vector<int> lightsToBake(const ResolvedFrame& frame) {
   std::vector<int> lights = layeredLights(frame);
-  std::erase_if(lights, [&](int light) {
-    return !traitsOf((*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked;
-  });
+  std::erase_if(lights, [&](int light) { return !techniqueOf(frame, light).baked; });
   return lights;
 }
 

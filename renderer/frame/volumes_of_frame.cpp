@@ -90,7 +90,7 @@ Result<VolumeLightStore::Found> lightIn(const FrameVolumes& volumes, std::size_t
 VolumeReport reportOf(const Medium& medium, const VolumeLightStore::Found& found) {
   const auto along = [](const glm::ivec3& size) { return std::array<int, 3>{size.x, size.y, size.z}; };
   return {.voxels = along(medium.grid->size),
-          .values = {medium.values.x, medium.values.y},
+          .values = {double{medium.grid->range.x}, double{medium.grid->range.y}},
           .reused = !found.made,
           .lightSize = along(found.map->size),
           .lightBytes = found.map->texels.size() * sizeof(found.map->texels[0]),

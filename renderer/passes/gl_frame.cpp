@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "protocol/spec/traits.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/read_back.h"
+#include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
 
@@ -77,7 +77,7 @@ BakedShading GlFrame::bakedShading() {
   BakedShading shading{{}, static_cast<int>(work_.layered.size())};
   for (; shading.maps.size() < GNOMON_LIGHT_MAPS && shading.firstLayer > 0; --shading.firstLayer) {
     const int light = work_.layered[static_cast<std::size_t>(shading.firstLayer) - 1];
-    if (!traitsOf((*work_.frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique).baked) break;
+    if (!techniqueOf(work_.frame, light).baked) break;
     const std::shared_ptr<const BakedLight> baked = work_.baked(light);
     if (baked->map.shares.empty()) break; // of a scene without surfaces
     const GpuLightMap& map = shared_.lightMaps.get(baked, inputs_.scene, inputs_.view);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 #include "renderer/shadow/tile_size.h"
@@ -22,13 +21,9 @@ std::vector<int> shadowingLights(const ResolvedFrame& frame) {
   return lights;
 }
 
-namespace {
-
 const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light) {
   return traitsOf((*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->technique);
 }
-
-} // namespace
 
 std::vector<int> layeredLights(const ResolvedFrame& frame) {
   std::vector<int> lights = shadowingLights(frame);

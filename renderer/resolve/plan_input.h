@@ -3,6 +3,7 @@
 #include <span>
 
 #include "protocol/report/replies.h"
+#include "protocol/spec/traits.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"
 
@@ -10,6 +11,9 @@ namespace gnomon {
 
 /// The lights that throw shadows in a frame, by their index.
 std::vector<int> shadowingLights(const ResolvedFrame& frame);
+
+/// How the shadow of a light is found, which throws one.
+const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light);
 
 /// Of these, the ones whose technique says of every sample what arrives: they have a visibility layer. Those that are
 /// baked stand behind the others.

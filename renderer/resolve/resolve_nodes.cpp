@@ -43,8 +43,7 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
       if (node < own.size()) {
         addSwitches(entries[i], own[node]);
       } else {
-        problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that index.", nodeIndices(scene),
-                      std::to_string(*index)});
+        problems.add(noNodeOfIndex(*index, scene, pointer));
       }
       continue;
     }
@@ -100,8 +99,10 @@ std::string nodeNames(const Scene& scene) {
   return names.empty() ? "no node has a name" : oneOf(names);
 }
 
-std::string nodeIndices(const Scene& scene) {
-  return scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1);
+Problem noNodeOfIndex(int index, const Scene& scene, std::string pointer) {
+  return {ProblemCode::invalidValue, std::move(pointer), "The file has no node of that index.",
+          scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1),
+          std::to_string(index)};
 }
 
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene) {

@@ -11,9 +11,11 @@
 
 namespace gnomon {
 
-/// What a problem with a node's name or index says there is. Names in the file's order.
+/// What a problem with a node's name says there is: names in the file's order.
 std::string nodeNames(const Scene& scene);
-std::string nodeIndices(const Scene& scene);
+
+/// The problem of an index that no node has.
+Problem noNodeOfIndex(int index, const Scene& scene, std::string pointer);
 
 /// The switches of every node of the file, by its index: of each switch the nearest entry up the tree counts, and of
 /// two entries for one node the later. Empty where there are no entries: every node has the defaults. An entry that

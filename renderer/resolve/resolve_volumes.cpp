@@ -16,10 +16,7 @@ bool isInView(const Scene& scene, const SceneView& view, std::size_t node) {
 
 Result<std::size_t> nodeOfIndex(int index, const Scene& scene, const SceneView& view, const std::string& pointer) {
   const auto node = static_cast<std::size_t>(index);
-  if (node >= scene.nodes.size()) {
-    return Problem{ProblemCode::invalidValue, pointer, "The file has no node of that index.", nodeIndices(scene),
-                   std::to_string(index)};
-  }
+  if (node >= scene.nodes.size()) return noNodeOfIndex(index, scene, pointer);
   if (isInView(scene, view, node)) return node;
   return Problem{ProblemCode::invalidValue, pointer, "That node is not in the scene of this frame.", "",
                  std::to_string(index)};

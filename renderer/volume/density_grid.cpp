@@ -31,7 +31,11 @@ Result<std::size_t> voxelCount(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 Result<DensityGrid> requireFinite(DensityGrid grid) {
   const auto bad = std::find_if(grid.values.begin(), grid.values.end(), [](float v) { return !std::isfinite(v); });
-  if (bad == grid.values.end()) return grid;
+  if (bad == grid.values.end()) {
+    const auto [least, greatest] = std::minmax_element(grid.values.begin(), grid.values.end());
+    grid.range = {*least, *greatest};
+    return grid;
+  }
   const auto index = bad - grid.values.begin();
   const auto row = index / grid.size.x;
   const std::string place = "x " + std::to_string(index % grid.size.x) + ", y " + std::to_string(row % grid.size.y) +

@@ -17,6 +17,7 @@ inline constexpr std::int64_t kMaxGridVoxels = kLimits.maxVolumeVoxels; ///< hal
 struct DensityGrid {
   glm::ivec3 size{0};        ///< voxels along x, y, z; at least 1 each
   std::vector<float> values; ///< x fastest, then y, then z; all finite
+  glm::vec2 range{0};        ///< the least and the greatest of them, where they were read from a file
 
   float at(int x, int y, int z) const {
     return values[(static_cast<std::size_t>(z) * size.y + y) * static_cast<std::size_t>(size.x) + x];
@@ -26,7 +27,7 @@ struct DensityGrid {
 /// How many voxels a grid of so many along x, y and z has, or the side or count that is beyond the limits.
 Result<std::size_t> voxelCount(std::int64_t x, std::int64_t y, std::int64_t z);
 
-/// The first value that is no finite number is a problem with its place; the grid otherwise.
+/// The first value that is no finite number is a problem with its place; the grid with its range otherwise.
 Result<DensityGrid> requireFinite(DensityGrid grid);
 
 /// Trilinear between the eight nearest centres; the outermost centres' values go on beyond them. `unit`: 0..1 in the

@@ -49,13 +49,7 @@ Bricks bricksOf(const DensityGrid& grid, const TransferFunction& function) {
 
 Medium makeMedium(std::shared_ptr<const DensityGrid> grid, TransferFunction function, const VolumeSpace& space) {
   Bricks bricks = bricksOf(*grid, function);
-  const auto [least, greatest] = std::minmax_element(grid->values.begin(), grid->values.end());
-  const glm::dvec2 values(*least, *greatest);
-  return {.grid = std::move(grid),
-          .function = std::move(function),
-          .space = space,
-          .bricks = std::move(bricks),
-          .values = values};
+  return {.grid = std::move(grid), .function = std::move(function), .space = space, .bricks = std::move(bricks)};
 }
 
 BrickPassage brickAt(const Medium& medium, const Ray& unitRay, double distance) {

@@ -28,7 +28,6 @@ struct Medium {
   bool castShadow = true;    ///< on surfaces and media, itself among them
   bool receiveShadow = true; ///< from surfaces and media, itself among them
   Bricks bricks{};
-  glm::dvec2 values{0}; ///< the least and the greatest of the grid
 };
 
 Bricks bricksOf(const DensityGrid& grid, const TransferFunction& function);

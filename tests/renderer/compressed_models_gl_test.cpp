@@ -22,13 +22,6 @@ SceneBundle bundleOf(const fs::path& model) {
   return bundle;
 }
 
-ScenePtr sceneOf(const SceneBundle& bundle) {
-  auto scene = loadScene(bundle);
-  if (scene) return *scene;
-  ADD_FAILURE() << scene.problems()[0].pointer << ": " << scene.problems()[0].detail;
-  return nullptr;
-}
-
 struct Tolerance {
   double bounds = 0; ///< in shares of the greatest side
   double mean = 0;   ///< in levels of 255
@@ -103,7 +96,7 @@ TEST(CompressedModels, GatheredVariantsOfOneModelAreAlike) {
        {1e-3, 0.3}}};
   for (const Pair& pair : pairs) {
     SCOPED_TRACE(pair.other);
-    expectAlike(sceneOf(bundleOf(pair.plain)), sceneOf(bundleOf(pair.other)), pair.tolerance);
+    expectAlike(testing::sceneOf(bundleOf(pair.plain)), testing::sceneOf(bundleOf(pair.other)), pair.tolerance);
   }
 }
 

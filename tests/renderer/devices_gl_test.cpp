@@ -142,20 +142,20 @@ TEST(Devices, D5_D6_VolumesAreTheSame) {
   };
   SceneBundle bundle{testing::readFile(GNOMON_DEMO_SCENE), {}};
   bundle.files["hill.npy"] = testing::byteGrid(12, 12, 12, hill);
-  const auto scene = loadScene(bundle);
+  const ScenePtr scene = testing::sceneOf(bundle);
   ASSERT_TRUE(scene);
   const Json volumes = Json::parse(R"([{"file": "hill.npy", "box": {"min": [-40, 8, -40], "max": [40, 30, 40]},
       "transferFunction": [{"value": 0, "extinction": 0}, {"value": 255, "color": [1, 0.9, 0.8], "extinction": 0.3}]}])");
   for (const int camera : {0, 1}) {
     for (const char* antialiasing : {"none", "msaa4x"}) {
       const Json more{{"volumes", volumes}, {"antialiasing", antialiasing}};
-      const Pair pair = bothOf(*scene, specOf(camera, more));
+      const Pair pair = bothOf(scene, specOf(camera, more));
       const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
       EXPECT_LE(percentOver(levels, 4), 1) << camera << antialiasing;
       EXPECT_LE(percentOver(levels, 16), 0.3) << camera << antialiasing;
       Json clear = specOf(camera, more);
       clear.erase("volumes");
-      const Frame without = drawn(DeviceChoice::cpu, *scene, clear);
+      const Frame without = drawn(DeviceChoice::cpu, scene, clear);
       EXPECT_GT(percentOver(levelsBetween(without.images.at(0).image, pair.cpu.images.at(0).image), 16), 1);
     }
   }

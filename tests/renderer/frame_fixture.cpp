@@ -32,10 +32,14 @@ const Json& everyFilter() {
   return filters;
 }
 
-ScenePtr sceneOf(Bytes glb) {
-  auto scene = loadScene({std::move(glb), {}});
+ScenePtr sceneOf(const SceneBundle& bundle) {
+  auto scene = loadScene(bundle);
   EXPECT_TRUE(scene) << told(scene.problems());
   return scene ? *scene : nullptr;
+}
+
+ScenePtr sceneOf(Bytes glb) {
+  return sceneOf(SceneBundle{std::move(glb), {}});
 }
 
 ScenePtr sceneOf(const GlbBuilder& builder) {

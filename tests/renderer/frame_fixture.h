@@ -17,6 +17,7 @@ const Json& everyFilter();
 
 ScenePtr sceneOf(const GlbBuilder& builder);
 ScenePtr sceneOf(Bytes glb);
+ScenePtr sceneOf(const SceneBundle& bundle);
 ScenePtr generatedScene(const std::string& name); ///< of tests/scenes
 Bytes generatedGlb(const std::string& name);
 

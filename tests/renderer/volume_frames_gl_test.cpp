@@ -27,9 +27,7 @@ ScenePtr groundScene(const Bytes& grid = solidGrid(3, 3, 3)) {
   SceneBundle bundle = builder.bundle();
   bundle.files["solid.npy"] = grid;
   bundle.files["broken.npy"] = Bytes(grid.begin(), grid.begin() + 100);
-  auto scene = loadScene(bundle);
-  EXPECT_TRUE(scene);
-  return *scene;
+  return testing::sceneOf(bundle);
 }
 
 Json stops(double sigma, const Json& color) {

@@ -21,9 +21,7 @@ ScenePtr wallScene() {
   builder.addRoot({{"mesh", 0}, {"scale", {25, 1, 25}}, {"translation", {30, 0, 0}}, {"rotation", {0, 0, half, half}}});
   SceneBundle bundle = builder.bundle();
   bundle.files["solid.npy"] = testing::byteGrid(5, 5, 5, [](int, int, int) { return 255; });
-  auto scene = loadScene(bundle);
-  EXPECT_TRUE(scene);
-  return *scene;
+  return testing::sceneOf(bundle);
 }
 
 /// The shadow on what a camera sees whose picture is `side` metres high.

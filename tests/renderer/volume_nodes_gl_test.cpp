@@ -26,9 +26,7 @@ ScenePtr convoy() {
   animate(builder, kCarrier, "scale", {0, 2}, {1, 1, 1, 3, 3, 3}, "VEC3");
   SceneBundle bundle = builder.bundle();
   bundle.files["hill.npy"] = testing::byteGrid(6, 5, 4, [](int x, int y, int z) { return 40 * x + 8 * y + 5 * z; });
-  auto scene = loadScene(bundle);
-  EXPECT_TRUE(scene);
-  return *scene;
+  return testing::sceneOf(bundle);
 }
 
 Json cloud(const Json& place) {
