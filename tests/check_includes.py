@@ -7,7 +7,7 @@ Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
            <- renderer/evaluation, renderer/export
-           <- renderer/render.h <- server/http <- server/scenes <- server/frames <- server/evaluations, server/bakes
+           <- renderer/render.h <- server/system <- server/http <- server/scenes <- server/frames <- server/evaluations, server/bakes
            <- server/handlers <- server/process;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
@@ -26,7 +26,7 @@ SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
 DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
-BELOW_HANDLERS = ["protocol", "server/http", "server/scenes", "server/frames", "server/evaluations", "server/bakes"]
+BELOW_HANDLERS = ["protocol", "server/system", "server/http", "server/scenes", "server/frames", "server/evaluations", "server/bakes"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -54,11 +54,12 @@ MAY_INCLUDE = {
     "renderer/charts": ["protocol", "renderer/charts"],
     "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
-    "server/http": ["protocol", "server/http"],
-    "server/scenes": ["protocol", "server/http", "server/scenes"],
-    "server/frames": ["protocol", "server/http", "server/scenes", "server/frames"],
+    "server/system": ["protocol/base", "server/system"],
+    "server/http": ["protocol", "server/system", "server/http"],
+    "server/scenes": ["protocol", "server/system", "server/http", "server/scenes"],
+    "server/frames": ["protocol", "server/system", "server/http", "server/scenes", "server/frames"],
     "server/evaluations": BELOW_HANDLERS,
-    "server/bakes": ["protocol", "server/http", "server/scenes", "server/bakes"],
+    "server/bakes": ["protocol", "server/system", "server/http", "server/scenes", "server/bakes"],
     "server/handlers": BELOW_HANDLERS + ["server/handlers"],
     "server/process": BELOW_HANDLERS + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],

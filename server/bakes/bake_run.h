@@ -6,9 +6,9 @@
 
 #include "renderer/render.h"
 #include "server/bakes/bake_book.h"
-#include "server/http/request_body.h"
-#include "server/http/socket_io.h"
 #include "server/scenes/scene_cache.h"
+#include "server/system/byte_budget.h"
+#include "server/system/clock.h"
 
 namespace gnomon {
 

@@ -11,8 +11,8 @@
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/report/frame_report.h"
 #include "server/frames/render_queue.h"
-#include "server/http/request_body.h"
 #include "server/scenes/scene_cache.h"
+#include "server/system/byte_budget.h"
 
 namespace gnomon {
 

@@ -10,7 +10,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/traits.h"
 #include "server/http/request.h"
-#include "server/http/socket_io.h"
+#include "server/system/clock.h"
 
 namespace gnomon {
 namespace {

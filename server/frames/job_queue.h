@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "protocol/base/result.h"
-#include "server/http/socket_io.h"
+#include "server/system/clock.h"
 
 namespace gnomon {
 

@@ -10,9 +10,9 @@
 #include "server/evaluations/evaluation_run.h"
 #include "server/frames/render_queue.h"
 #include "server/http/reply.h"
-#include "server/http/request_body.h"
 #include "server/http/router.h"
 #include "server/scenes/scene_store.h"
+#include "server/system/byte_budget.h"
 
 namespace gnomon {
 

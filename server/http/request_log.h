@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "server/http/reply.h"
-#include "server/http/socket_io.h"
+#include "server/system/clock.h"
 
 namespace gnomon {
 

@@ -5,10 +5,8 @@
 #include <cerrno>
 #include <cstdint>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
-#include <utility>
 
 namespace gnomon {
 namespace {
@@ -19,36 +17,6 @@ int millisecondsUntil(Clock::time_point deadline) {
 }
 
 } // namespace
-
-FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
-  if (this != &other) {
-    reset();
-    fd_ = other.release();
-  }
-  return *this;
-}
-
-int FileDescriptor::release() {
-  return std::exchange(fd_, -1);
-}
-
-void FileDescriptor::reset() {
-  if (fd_ >= 0) {
-    ::close(release());
-  }
-}
-
-StopSignal::StopSignal() : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
-
-void StopSignal::raise() noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof one);
-}
-
-bool StopSignal::raised() const {
-  pollfd waiting{event_.get(), POLLIN, 0};
-  return ::poll(&waiting, 1, 0) == 1;
-}
 
 SocketWait SocketReader::await(Clock::time_point deadline, bool endOnStop) {
   return buffered().empty() ? receive(16 * 1024, deadline, endOnStop) : SocketWait::ready;

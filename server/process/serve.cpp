@@ -18,8 +18,8 @@
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/request_log.h"
-#include "server/http/socket_io.h"
 #include "server/scenes/light_map_directory.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {

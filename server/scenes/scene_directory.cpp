@@ -9,9 +9,9 @@
 
 #include "protocol/base/bytes.h"
 #include "server/http/request_log.h"
-#include "server/http/socket_io.h"
 #include "server/scenes/bundle.h"
 #include "server/scenes/whole_file.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {

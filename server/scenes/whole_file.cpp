@@ -10,7 +10,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "server/http/socket_io.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {
