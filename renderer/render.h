@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
@@ -22,7 +23,6 @@
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
-#include "renderer/scene/scene_bundle.h"
 
 /// The only door into the renderer.
 namespace gnomon {

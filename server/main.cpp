@@ -6,6 +6,7 @@
 #include "clients/web/web_files.h"
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
+#include "server/work/worker.h"
 
 namespace gnomon {
 namespace {
@@ -18,6 +19,12 @@ cli::Subcommand addServeCommand(CLI::App& app) {
   return {[command] { return command->parsed(); }, [options] { return serve(*options); }};
 }
 
+cli::Subcommand addWorkerCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("worker", "Load and draw for `gnomon serve`, which starts this by itself");
+  command->group(""); // of no use to people
+  return {[command] { return command->parsed(); }, []() -> int { runWorker(FileDescriptor(kWorkerChannel)); }};
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Gnomon renders glTF scenes with shadows, without a display.", "gnomon");
   app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
@@ -25,9 +32,9 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 a problem (described on standard error), 2 a wrong command line.\n"
       "gnomon COMMAND --help lists the options of a command.");
-  const std::array commands{addServeCommand(app),      cli::addRenderCommand(app),   cli::addPlanCommand(app),
-                            cli::addBakeCommand(app),  cli::addEvaluateCommand(app), cli::addInspectCommand(app),
-                            cli::addHealthCommand(app)};
+  const std::array commands{addServeCommand(app),        addWorkerCommand(app),     cli::addRenderCommand(app),
+                            cli::addPlanCommand(app),    cli::addBakeCommand(app),  cli::addEvaluateCommand(app),
+                            cli::addInspectCommand(app), cli::addHealthCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,8 +7,9 @@ Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
            <- renderer/evaluation, renderer/export
-           <- renderer/render.h <- server/system <- server/http <- server/scenes <- server/frames <- server/evaluations, server/bakes
-           <- server/handlers <- server/process;
+           <- renderer/render.h <- server/work;
+  protocol <- server/system <- server/wire <- server/work, server/http <- server/scenes <- server/workers
+           <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
 """
@@ -26,7 +27,8 @@ SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
 DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
-BELOW_HANDLERS = ["protocol", "server/system", "server/http", "server/scenes", "server/frames", "server/evaluations", "server/bakes"]
+BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
+FRONT = BOTH_PROCESSES + ["server/http", "server/scenes", "server/workers", "server/frames", "server/bakes"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -55,13 +57,15 @@ MAY_INCLUDE = {
     "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
     "server/system": ["protocol/base", "server/system"],
-    "server/http": ["protocol", "server/system", "server/http"],
-    "server/scenes": ["protocol", "server/system", "server/http", "server/scenes"],
-    "server/frames": ["protocol", "server/system", "server/http", "server/scenes", "server/frames"],
-    "server/evaluations": BELOW_HANDLERS,
-    "server/bakes": ["protocol", "server/system", "server/http", "server/scenes", "server/bakes"],
-    "server/handlers": BELOW_HANDLERS + ["server/handlers"],
-    "server/process": BELOW_HANDLERS + ["server/handlers", "server/process", "renderer/core/parallel.h"],
+    "server/wire": BOTH_PROCESSES,
+    "server/work": BOTH_PROCESSES + ["server/work", "renderer/core/parallel.h"],
+    "server/http": BOTH_PROCESSES + ["server/http"],
+    "server/scenes": BOTH_PROCESSES + ["server/http", "server/scenes"],
+    "server/workers": BOTH_PROCESSES + ["server/scenes", "server/workers"],
+    "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
+    "server/bakes": ["protocol", "server/bakes"],
+    "server/handlers": FRONT + ["server/handlers"],
+    "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],
     "clients/cli": ["protocol", "clients/cli"],
     "clients/web": ["clients/web"],
@@ -69,7 +73,7 @@ MAY_INCLUDE = {
 
 # These also see the renderer's door: render.h, and the headers that it includes itself.
 DOOR = "renderer/render.h"
-AT_THE_DOOR = ("server", "clients/cli")
+AT_THE_DOOR = ("server/work", "clients/cli")
 
 # The assembler puts the parts together, and so sees the clients that it offers.
 ASSEMBLER = "server/main.cpp"

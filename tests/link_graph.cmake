@@ -28,3 +28,6 @@ endfunction()
 foreach(target gnomon_prepare gnomon_techniques gnomon_resolve gnomon_device gnomon_cpu gnomon_frame gnomon_evaluation gnomon_charts)
   gnomon_links_nothing_of(${target} gnomon_gl gnomon_passes gnomon_glad)
 endforeach()
+
+# The process that listens never reads a scene, decodes an image or draws.
+gnomon_links_nothing_of(gnomon_server gnomon_scene gnomon_image gnomon_device gnomon_frame gnomon_renderer)

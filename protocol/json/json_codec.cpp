@@ -7,6 +7,7 @@
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
 #include "protocol/fields/fields.h"
+#include "protocol/json/problem_rows.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/spec/validate.h"
 
@@ -91,28 +92,9 @@ Json toJson(const Capabilities& capabilities) {
   return encodeValue(capabilities);
 }
 
-/// `says` is the title: the reason phrase of its HTTP status where the code has one to itself, else a name in that
-/// form.
-template <>
-inline constexpr std::array kSpellings<ProblemCode>{
-    spelling(ProblemCode::malformed, "malformed", "Malformed Request"),
-    spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
-    spelling(ProblemCode::notFound, "notFound", "Not Found"),
-    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
-    spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),
-    spelling(ProblemCode::lengthRequired, "lengthRequired", "Length Required"),
-    spelling(ProblemCode::tooLarge, "tooLarge", "Content Too Large"),
-    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "Unsupported Media Type"),
-    spelling(ProblemCode::invalidScene, "invalidScene", "Invalid Scene"),
-    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "Unsupported Feature"),
-    spelling(ProblemCode::hashMismatch, "hashMismatch", "Hash Mismatch"),
-    spelling(ProblemCode::busy, "busy", "Too Many Requests"),
-    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "Deadline Exceeded"),
-    spelling(ProblemCode::unavailable, "unavailable", "Service Unavailable"),
-    spelling(ProblemCode::backend, "backend", "Graphics Backend Failure"),
-    spelling(ProblemCode::internal, "internal", "Internal Server Error"),
-};
-static_assert(spellsAll<ProblemCode>());
+std::string jsonText(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 namespace {
 

@@ -21,6 +21,9 @@ Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems);
 /// A summary as toJson writes it; members that are absent have their defaults.
 Result<SceneSummary> decodeSceneSummary(std::string_view json);
 
+/// One line of JSON. Names in a scene need not be UTF-8: bytes that are not are replaced.
+std::string jsonText(const Json& json);
+
 Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives the same spec
 Json toJson(const FrameReport& report);
 Json toJson(const PlanReport& report);

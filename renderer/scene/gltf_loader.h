@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
 #include "renderer/scene/scene.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {
 

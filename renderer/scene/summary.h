@@ -1,8 +1,8 @@
 #pragma once
 
+#include "protocol/base/scene_bundle.h"
 #include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/scene.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {
 

@@ -5,9 +5,9 @@
 #include "protocol/bake/bake_json.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
-#include "server/bakes/bake_run.h"
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/work.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
 
@@ -15,25 +15,8 @@ namespace gnomon {
 namespace {
 
 constexpr std::array<std::string_view, 2> kReportForms{"application/json", kEventStream};
-constexpr std::size_t kReportAsEvents = 1;
-
-/// Bakes, and puts progress and the result as events.
-void putBakeEvents(BakeRun& run, const std::function<bool()>& gone, const std::string& requestId, EventStream& events) {
-  constexpr std::chrono::milliseconds kPause{100};
-  auto told = Clock::time_point::min();
-  int light = -1;
-  const auto listener = [&](const BakeStep& step) {
-    if (step.light != light || Clock::now() - kPause >= told) {
-      events.put("progress", jsonText(toJson(step)));
-      told = Clock::now();
-    }
-    light = step.light;
-    return true;
-  };
-  const auto report = run.report(gone, listener);
-  events.put(report ? "result" : "problem",
-             report ? jsonText(toJson(*report)) : problemText(report.problems(), requestId));
-}
+constexpr std::array<std::string_view, 3> kFileForms{"image/png", "image/x-exr", "model/gltf-binary"};
+constexpr int kBakeRetrySeconds = 5; ///< where the most bakes run
 
 /// The index in ?light=; nothing where there is none.
 Result<std::optional<int>> lightOf(const HttpRequest& request) {
@@ -66,16 +49,11 @@ BakeName nameOf(const RouteCall& call) {
 } // namespace
 
 HttpReply postBake(Services& services, RouteCall call) {
-  const auto deadline = Clock::now() + services.bakes.timeout;
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
-  if (!services.store.contains(id)) {
-    return problemReply({unknownScene(id)}, requestId);
-  }
+  if (!services.store.contains(id)) return problemReply({unknownScene(id)}, requestId);
   const auto spec = decodeFrameSpec(call.request.body.empty() ? "{}" : asText(call.request.body));
-  if (!spec) {
-    return problemReply(spec.problems(), requestId);
-  }
+  if (!spec) return problemReply(spec.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kReportForms);
   if (!form) {
@@ -83,28 +61,28 @@ HttpReply postBake(Services& services, RouteCall call) {
                           "application/json, text/event-stream", asciiExcerpt(accept.value_or(""))}},
                         requestId);
   }
-  auto scene = services.store.get(id);
-  if (!scene) {
-    return problemReply(scene.problems(), requestId);
+  auto bundle = services.store.bundle(id);
+  if (!bundle) return problemReply(bundle.problems(), requestId);
+  const Permit permit = permitOf(services.bakes);
+  if (!permit) {
+    return problemReply({{ProblemCode::busy, "", "The most bakes that may run at once are running.", "", ""}},
+                        requestId, {.retryAfterSeconds = kBakeRetrySeconds});
   }
-  auto run = BakeRun::start(services.bakes, *std::move(scene), *spec, deadline);
-  if (!run) {
-    return problemReply(run.problems(), requestId, {.retryAfterSeconds = kBakeRetrySeconds});
-  }
-  HttpReply reply;
-  if (*form == kReportAsEvents) {
-    reply =
-        eventReply(call, [run = *std::move(run), requestId](const std::function<bool()>& gone, EventStream& events) {
-          putBakeEvents(*run, gone, requestId, events);
-        });
-  } else {
-    const auto report = (*run)->report(call.clientGone);
-    if (!report) {
-      return problemReply(report.problems(), requestId, {.retryAfterSeconds = kBakeRetrySeconds});
-    }
-    reply.contentType = kReportForms[*form];
-    reply.body = jsonText(toJson(*report));
-  }
+  Task task =
+      taskFor(call, OrderKind::bake, id, *std::move(bundle), jsonText(toJson(*spec)), services.evaluationTimeout);
+  task.lane = Lane::batch;
+  task.order.mediaType = kReportForms[*form];
+  const EventedWork work = [&services, permit, task = std::move(task), name = BakeName{id, bakeKey(id, *spec)},
+                            spec = bakedParts(*spec)](const std::function<bool()>& gone, const TaskEvents& events) {
+    const auto removed = services.bakeBook.begin(name, spec);
+    TaskResult result = runTask(
+        services, task, [&] { return *removed || gone(); }, events);
+    services.bakeBook.end(name, result.outcome.problems.empty());
+    return result;
+  };
+  HttpReply reply =
+      kReportForms[*form] == kEventStream ? replyOfEvents(call, work) : replyOf(work(call.clientGone, {}), requestId);
+  if (reply.status != 200) return reply;
   reply.headers.emplace_back("Cache-Control", "no-store"); // says whether the maps were there already
   reply.headers.emplace_back("Vary", "Accept");
   return reply;
@@ -116,7 +94,7 @@ HttpReply getBake(Services& services, RouteCall call) {
   if (!services.store.contains(name.scene)) {
     return problemReply({unknownScene(name.scene)}, requestId);
   }
-  const auto spec = services.bakes.book.find(name);
+  const auto spec = services.bakeBook.find(name);
   if (!spec) {
     return problemReply({unknownBake(name)}, requestId);
   }
@@ -125,23 +103,21 @@ HttpReply getBake(Services& services, RouteCall call) {
     return problemReply(light.problems(), requestId);
   }
   const auto accept = headerValue(call.request.headers, "accept");
-  const auto form = preferred(accept, kBakeFileTypes);
+  const auto form = preferred(accept, kFileForms);
   if (!form) {
     return problemReply({{ProblemCode::notAcceptable, "", "A bake can't be sent as any media type that Accept lists.",
                           "image/png, image/x-exr, model/gltf-binary", asciiExcerpt(accept.value_or(""))}},
                         requestId);
   }
-  const auto scene = services.store.get(name.scene);
-  if (!scene) {
-    return problemReply(scene.problems(), requestId);
-  }
-  const auto file = bakedFile(services.bakes, *scene, *spec, static_cast<BakeFile>(*form), *light, call.clientGone);
-  if (!file) {
-    return problemReply(file.problems(), requestId, {.retryAfterSeconds = kBakeRetrySeconds});
-  }
-  HttpReply reply;
-  reply.contentType = kBakeFileTypes[*form];
-  reply.body = asText(*file);
+  auto bundle = services.store.bundle(name.scene);
+  if (!bundle) return problemReply(bundle.problems(), requestId);
+  Task task = taskFor(call, OrderKind::bakeFile, name.scene, *std::move(bundle), jsonText(toJson(*spec)),
+                      services.evaluationTimeout);
+  task.lane = Lane::batch;
+  task.order.mediaType = kFileForms[*form];
+  task.order.light = *light;
+  HttpReply reply = replyOf(runTask(services, std::move(task), call.clientGone), requestId);
+  if (reply.status != 200) return reply;
   reply.headers.emplace_back("Cache-Control", "private, no-cache");
   reply.headers.emplace_back("Vary", "Accept");
   return reply;
@@ -149,7 +125,7 @@ HttpReply getBake(Services& services, RouteCall call) {
 
 HttpReply deleteBake(Services& services, RouteCall call) {
   const BakeName name = nameOf(call);
-  if (!services.bakes.book.remove(name)) {
+  if (!services.bakeBook.remove(name)) {
     return problemReply(
         {{ProblemCode::notFound, "key", "No bake with this key is in progress or done.", "", asciiExcerpt(name.key)}},
         call.request.id);

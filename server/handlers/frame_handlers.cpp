@@ -1,14 +1,14 @@
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/elapsed.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/query_codec.h"
-#include "server/frames/frame_reply.h"
+#include "server/frames/frame_tag.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/work.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
-#include "server/scenes/bundle.h"
+#include "server/scenes/upload.h"
 
 namespace gnomon {
 namespace {
@@ -17,67 +17,40 @@ namespace {
 struct FrameCall {
   std::string sceneId;
   FrameSpec spec;
-  std::function<Result<LoadedScene>()> load; ///< called only when the frame must be drawn
+  std::function<Result<StoredBundle>()> bundle; ///< called only when a worker must see the scene
   std::string cacheControl;
 };
 
-/// Puts the server's stages before the renderer's.
-void addStages(FrameReport& report, double queueMs, double loadMs) {
-  report.stages.insert(report.stages.begin(), {StageTime{"queue", queueMs}, StageTime{"load", loadMs}});
-}
-
-/// Gives `spec` the settings that meet its target, and returns how they were chosen; nothing where it has no target.
-Result<std::optional<QualityReport>> meetTarget(Services& services, const RouteCall& call, const LoadedScene& scene,
-                                                FrameSpec& spec) {
-  if (!spec.quality) {
-    return std::optional<QualityReport>();
-  }
-  auto report = settleQuality(services.evaluations, services.choices, scene, spec, call.clientGone);
-  if (!report) {
-    return std::move(report).problems();
-  }
-  spec = withChoice(spec, *report);
-  return std::optional(*std::move(report));
+/// Settings for a target are found by drawing and measuring many frames.
+bool isBatch(const FrameSpec& spec) {
+  return spec.quality.has_value();
 }
 
 HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
                const std::string& etag) {
-  const std::string& requestId = call.request.id;
-  const auto start = Clock::now();
-  const std::size_t bytes = frameBytes(frame.spec);
-  if (bytes > services.frameMemory.total()) {
-    return problemReply({{ProblemCode::tooLarge, "/views", "The views of this frame together are too large.",
-                          std::to_string(services.frameMemory.total()) + " bytes", std::to_string(bytes) + " bytes"}},
-                        requestId);
-  }
-  ByteLease lease(services.frameMemory);
-  if (!lease.grow(bytes)) {
-    return problemReply({{ProblemCode::busy, "", "Other frames in progress use all the memory for frames.", "", ""}},
-                        requestId);
-  }
-  auto loaded = frame.load();
-  if (!loaded) {
-    return problemReply(loaded.problems(), requestId);
-  }
-  const double loadMs = millisecondsSince(start);
-  FrameSpec spec = frame.spec;
-  auto quality = meetTarget(services, call, *loaded, spec);
-  if (!quality) {
-    return problemReply(quality.problems(), requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
-  }
-  auto drawn = services.queue.render({loaded->scene, spec, Clock::now() + services.requestTimeout, call.clientGone});
-  if (const auto* full = std::get_if<QueueFull>(&drawn)) {
-    return problemReply({full->problem()}, requestId, {.retryAfterSeconds = full->retryAfterSeconds});
-  }
-  if (const auto* problems = std::get_if<Problems>(&drawn)) {
-    return problemReply(*problems, requestId);
-  }
-  auto& queued = std::get<QueuedFrame>(drawn);
-  addStages(queued.frame.report, queued.queueMs, loadMs);
-  queued.frame.report.quality = *std::move(quality);
-  const std::string boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
-  auto reply = frameReply(std::move(queued.frame), form, boundary);
-  return reply ? *std::move(reply) : problemReply(reply.problems(), requestId);
+  auto bundle = frame.bundle();
+  if (!bundle) return problemReply(bundle.problems(), call.request.id);
+  const bool batch = isBatch(frame.spec);
+  Task task = taskFor(call, OrderKind::frame, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
+                      batch ? services.evaluationTimeout : services.requestTimeout);
+  task.lane = batch ? Lane::batch : Lane::interactive;
+  task.order.mediaType = mediaTypeOf(form);
+  task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
+  return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
+}
+
+/// What drawing would refuse, found by planning alone: nobody would see the picture.
+HttpReply check(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form) {
+  auto bundle = frame.bundle();
+  if (!bundle) return problemReply(bundle.problems(), call.request.id);
+  Task task = taskFor(call, OrderKind::plan, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
+                      services.requestTimeout);
+  HttpReply reply = replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
+  if (reply.status != 200) return reply;
+  HttpReply checked;
+  checked.contentType = mediaTypeOf(form);
+  checked.bodyOmitted = true;
+  return checked;
 }
 
 HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
@@ -91,20 +64,15 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
         request.id);
   }
   frame.spec.output.format = form->format;
-  const std::string etag = frameEtag(frame.sceneId, frame.spec, services.queue.info().fingerprint, *form);
+  const std::string etag = frameEtag(frame.sceneId, frame.spec, services.workers.info().fingerprint, *form);
 
   HttpReply reply;
   const auto known = headerValue(request.headers, "if-none-match");
   if (known && !frame.spec.quality && etagMatches(*known, etag)) {
     reply.status = 304;
-  } else if (request.method == "HEAD") {
-    reply.contentType = mediaTypeOf(*form);
-    reply.bodyOmitted = true; // nobody would see the picture
   } else {
-    reply = draw(services, call, frame, *form, etag);
-    if (reply.status != 200) {
-      return reply;
-    }
+    reply = request.method == "HEAD" ? check(services, call, frame, *form) : draw(services, call, frame, *form, etag);
+    if (reply.status != 200) return reply;
   }
   // Which settings meet a target depends on how fast the machine was.
   if (frame.spec.quality) {
@@ -127,32 +95,12 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
     return problemReply(spec.problems(), call.request.id);
   }
   return answer(services, call,
-                {id, *std::move(spec), [&services, id] { return services.store.get(id); }, std::move(cacheControl)});
+                {id, *std::move(spec), [&services, id] { return services.store.bundle(id); }, std::move(cacheControl)});
 }
 
 /// Everything that the picture depends on is in the URL, but the renderer, and that is in the entity tag.
 constexpr const char* kShared = "public, max-age=86400";
 constexpr const char* kPrivate = "private, no-cache";
-
-/// A permit to make a plan, of which there are only a few at a time; returned at its end.
-class PlanPermit {
- public:
-  PlanPermit(Services& services, Clock::time_point deadline)
-      : services_(services), held_(services.plans.try_acquire_until(deadline)) {}
-  PlanPermit(const PlanPermit&) = delete;
-  PlanPermit& operator=(const PlanPermit&) = delete;
-  ~PlanPermit() {
-    if (held_) {
-      services_.plans.release();
-    }
-  }
-
-  bool held() const { return held_; }
-
- private:
-  Services& services_;
-  bool held_;
-};
 
 } // namespace
 
@@ -168,29 +116,15 @@ HttpReply getFrame(Services& services, RouteCall call) {
 }
 
 HttpReply postPlan(Services& services, RouteCall call) {
-  const auto deadline = Clock::now() + services.requestTimeout;
   const std::string& id = call.values.at("id");
-  const std::string& requestId = call.request.id;
-  if (!services.store.contains(id)) {
-    return problemReply({unknownScene(id)}, requestId);
-  }
+  if (!services.store.contains(id)) return problemReply({unknownScene(id)}, call.request.id);
   const std::string_view body = asText(call.request.body);
   const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
-  if (!spec) {
-    return problemReply(spec.problems(), requestId);
-  }
-  const auto loaded = services.store.get(id);
-  if (!loaded) {
-    return problemReply(loaded.problems(), requestId);
-  }
-  const PlanPermit permit(services, deadline);
-  if (!permit.held()) {
-    return problemReply(
-        {{ProblemCode::deadlineExceeded, "", "Other plans took the time until the request's deadline.", "", ""}},
-        requestId);
-  }
-  const auto plan = planFrame(*loaded->scene, *spec, services.queue.info());
-  return plan ? jsonReply(toJson(*plan)) : problemReply(plan.problems(), requestId);
+  if (!spec) return problemReply(spec.problems(), call.request.id);
+  auto bundle = services.store.bundle(id);
+  if (!bundle) return problemReply(bundle.problems(), call.request.id);
+  Task task = taskFor(call, OrderKind::plan, id, *std::move(bundle), jsonText(toJson(*spec)), services.requestTimeout);
+  return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
 }
 
 HttpReply renderOnce(Services& services, RouteCall call) {
@@ -228,9 +162,11 @@ HttpReply renderOnce(Services& services, RouteCall call) {
     return problemReply(fits.problems(), id);
   }
   call.request.body = Bytes();
-  const std::string sceneId = bundleId(*bundle);
-  const auto load = [&services, &sceneId, &bundle] { return services.store.use(sceneId, *bundle); };
-  return answer(services, call, {sceneId, *std::move(spec), load, kPrivate});
+  const auto pack = packed(*bundle);
+  if (!pack) return problemReply(pack.problems(), id);
+  bundle = SceneBundle();
+  const auto give = [&pack]() -> Result<StoredBundle> { return StoredBundle{pack->file}; };
+  return answer(services, call, {pack->id, *std::move(spec), give, kPrivate});
 }
 
 } // namespace gnomon

@@ -6,28 +6,25 @@
 #include <vector>
 
 #include "protocol/spec/limits.h"
-#include "server/bakes/bake_run.h"
-#include "server/evaluations/evaluation_run.h"
-#include "server/frames/render_queue.h"
+#include "server/bakes/bake_book.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
 #include "server/scenes/scene_store.h"
-#include "server/system/byte_budget.h"
+#include "server/workers/dispatcher.h"
 
 namespace gnomon {
 
 /// What the handlers share. Outlives them; each part may be used by any thread.
 struct Services {
   SceneStore& store;
-  RenderQueue& queue;
-  ByteBudget& frameMemory; ///< of pictures that are being drawn or encoded
+  Dispatcher& workers;
   Limits limits;
-  std::chrono::milliseconds requestTimeout{60'000}; ///< from the handler's start to the frame
+  std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
+  std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
   std::vector<StaticFile> page;
-  EvaluationContext evaluations;
-  QualityChoices choices;
-  BakeContext bakes;
-  std::counting_semaphore<> plans{2}; ///< how many more may be made at once: each takes memory by the picture's size
+  std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
+  std::counting_semaphore<> bakes{1};       ///< the same
+  BakeBook bakeBook{};
   std::atomic<bool> draining = false; ///< true from the first signal on; readyz reports it
 };
 

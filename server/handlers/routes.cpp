@@ -29,7 +29,7 @@ HttpReply probeReply(std::string text) {
 }
 
 HttpReply getCapabilities(Services& services, RouteCall) {
-  return jsonReply(toJson(Capabilities{GNOMON_VERSION, services.queue.info(), services.limits}));
+  return jsonReply(toJson(Capabilities{GNOMON_VERSION, services.workers.info(), services.limits}));
 }
 
 HttpReply getOpenApi(Services&, RouteCall) {
@@ -41,11 +41,13 @@ HttpReply getLivez(Services&, RouteCall) {
   return probeReply("alive\n");
 }
 
-/// 503 while the server drains, or while its queue is nearly full.
+/// 503 while the server drains, no worker is ready, or the queue before them is nearly full.
 HttpReply getReadyz(Services& services, RouteCall call) {
-  const char* reason = services.draining           ? "The server is shutting down."
-                       : !services.queue.hasRoom() ? "The render queue is nearly full."
-                                                   : nullptr;
+  const DispatcherState state = services.workers.state();
+  const char* reason = services.draining                      ? "The server is shutting down."
+                       : state.ready == 0                     ? "No worker is ready."
+                       : state.waiting * 4 >= state.limit * 3 ? "The queue before the workers is nearly full."
+                                                              : nullptr;
   if (reason != nullptr) {
     return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
   }

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "server/http/request_log.h"
+#include "server/system/log.h"
 
 namespace gnomon {
 namespace {
@@ -45,6 +46,8 @@ class Connection {
       send(problemReply(request.problems(), record.id), record, false, false);
       return After::linger;
     }
+    request->client = client_;
+    request->arrived = record.start;
     record.id = request->id;
     record.method = request->method;
     record.target = head->target;
@@ -169,6 +172,7 @@ class Connection {
   }
 
   FileDescriptor socket_;
+  const std::string client_ = peerAddress(socket_.get());
   ConnectionContext& context_;
   SocketReader reader_;
 };

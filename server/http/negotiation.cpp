@@ -78,22 +78,6 @@ std::string_view withoutWeakness(std::string_view tag) {
 
 } // namespace
 
-std::string_view mediaTypeOf(ImageFormat format) {
-  return format == ImageFormat::png ? "image/png" : "image/x-exr";
-}
-
-std::string_view mediaTypeOf(FrameForm form) {
-  switch (form.form) {
-    case ReplyForm::image:
-      return mediaTypeOf(form.format);
-    case ReplyForm::multipart:
-      return "multipart/mixed";
-    case ReplyForm::json:
-      return "application/json";
-  }
-  return "";
-}
-
 std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers) {
   if (!accept || trimmed(*accept).empty()) {
     return 0;

@@ -4,24 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "protocol/spec/output_options.h"
+#include "server/wire/frame_form.h"
 
 namespace gnomon {
-
-/// What a frame is sent as.
-enum class ReplyForm {
-  image,     ///< image/png of the first view, or image/x-exr of every view as layers
-  multipart, ///< multipart/mixed: the report, then every picture
-  json       ///< application/json: the report, and the pictures in base64
-};
-
-struct FrameForm {
-  ReplyForm form = ReplyForm::image;
-  ImageFormat format = ImageFormat::png; ///< of the pictures
-};
-
-std::string_view mediaTypeOf(ImageFormat format);
-std::string_view mediaTypeOf(FrameForm form); ///< without the boundary
 
 /// The index of the media type that an Accept header prefers among `offers`: of equals the first, which is also the
 /// choice without such a header. Nothing: it accepts none of them.

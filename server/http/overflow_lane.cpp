@@ -10,6 +10,7 @@
 
 #include "server/http/reply.h"
 #include "server/http/request_log.h"
+#include "server/system/log.h"
 
 namespace gnomon {
 namespace {

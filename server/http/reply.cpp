@@ -101,10 +101,6 @@ std::string replyHead(const HttpReply& reply, std::string_view requestId, bool k
   return head;
 }
 
-std::string jsonText(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 HttpReply jsonReply(const Json& json, int status) {
   HttpReply reply;
   reply.status = status;

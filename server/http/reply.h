@@ -36,9 +36,6 @@ struct HttpReply {
 /// Content-Security-Policy default-src 'none' and X-Content-Type-Options nosniff.
 std::string replyHead(const HttpReply& reply, std::string_view requestId, bool keepAlive);
 
-/// One line of JSON. Names in a scene need not be UTF-8: bytes that are not are replaced.
-std::string jsonText(const Json& json);
-
 HttpReply jsonReply(const Json& json, int status = 200);
 
 /// The part of a request that was read when a problem was found. Two kinds of problem have another status before the

@@ -9,6 +9,7 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
+#include "server/system/clock.h"
 
 namespace gnomon {
 
@@ -53,6 +54,8 @@ struct HttpRequest {
   Headers headers;
   bool hasBody = false; ///< the head announces a body
   Bytes body;
+  std::string client;                       ///< the address that it came from
+  Clock::time_point arrived = Clock::now(); ///< its first byte
 };
 
 /// The request that a head describes, without its body.

@@ -24,7 +24,4 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
 /// Writes the line to the log (standard error). Never throws.
 void logRequest(const RequestRecord& record, const HttpReply& reply) noexcept;
 
-/// One line about the server itself: {"event": …, "detail": …}. Never throws.
-void logEvent(std::string_view event, std::string_view detail) noexcept;
-
 } // namespace gnomon

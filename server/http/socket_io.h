@@ -39,6 +39,9 @@ bool sendAll(int fd, std::string_view bytes, Clock::time_point deadline);
 /// Closes the sending side and reads what the client still sends, so that a reset does not destroy the last reply.
 void lingerAndClose(FileDescriptor socket, Clock::time_point deadline);
 
+/// The other end's address without its port: "192.0.2.1", "2001:db8::1"; empty where there is none.
+std::string peerAddress(int fd);
+
 /// True when the peer has closed or reset the connection.
 bool peerGone(int fd);
 

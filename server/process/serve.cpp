@@ -6,8 +6,6 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <malloc.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -17,9 +15,10 @@
 #include "renderer/core/parallel.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
-#include "server/http/request_log.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/system/file_descriptor.h"
+#include "server/system/heaps.h"
+#include "server/system/log.h"
 
 namespace gnomon {
 namespace {
@@ -83,19 +82,6 @@ void raiseDescriptorLimit() {
   }
 }
 
-/// Large blocks come from the system and go back to it at once. A heap keeps what a frame takes free at its end: pages
-/// that go and come with every frame cost an eighth of a small one. Threads share heaps, one for each core and one
-/// more, so that what all of them keep is bounded. By default (mallopt(3)) the allocator makes eight for each core and
-/// raises the sizes as it sees larger blocks, and a server never returns memory. Its own variables have the last word.
-void boundHeaps() {
-  const auto unlessSet = [](const char* variable, int parameter, int value) {
-    if (std::getenv(variable) == nullptr) mallopt(parameter, value);
-  };
-  unlessSet("MALLOC_ARENA_MAX", M_ARENA_MAX, coresToUse() + 1);
-  unlessSet("MALLOC_MMAP_THRESHOLD_", M_MMAP_THRESHOLD, 4 << 20); // bytes
-  unlessSet("MALLOC_TRIM_THRESHOLD_", M_TRIM_THRESHOLD, 16 << 20);
-}
-
 std::string addressOf(const std::string& bind, int port) {
   const bool ipv6 = bind.find(':') != std::string::npos;
   return "http://" + (ipv6 ? "[" + bind + "]" : bind) + ":" + std::to_string(port);
@@ -126,7 +112,7 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   const auto grace = Clock::now() + std::chrono::seconds(options.graceSeconds);
   std::thread finishing([&] {
     server.stop();
-    services.queue.close(grace);
+    services.workers.endAt(grace);
     listening.join();
     done.raise();
   });
@@ -144,12 +130,39 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   return inOrder ? 0 : 1;
 }
 
+/// One worker at least, so that a long frame leaves another to short ones: a second is worth its memory on any machine.
+std::size_t workersOf(const ServeOptions& options) {
+  constexpr int kCoresOfAWorker = 4; ///< a frame draws on all of them
+  if (options.workers > 0) return options.workers;
+  return static_cast<std::size_t>(std::max(2, coresToUse() / kCoresOfAWorker));
+}
+
+/// What all workers may keep together is shared out.
+DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps) {
+  const std::size_t workers = workersOf(options);
+  return {.program = options.workerProgram,
+          .workers = workers,
+          .queueLimit = options.queueLimit,
+          .each = {.device = options.backend.device,
+                   .backend = options.backend.backend,
+                   .requireGpu = options.backend.requireGpu,
+                   .gpuSceneBytes = options.gpuSceneBytes / workers,
+                   .tileCacheBytes = options.tileCacheBytes / workers,
+                   .tracedSceneBytes = options.tracedSceneBytes / workers,
+                   .lightMapBytes = options.lightMapBytes / workers,
+                   .sceneMemoryBytes = options.sceneMemoryBytes / workers,
+                   .frameMemoryBytes = options.frameMemoryBytes / workers,
+                   .maxSceneBytes = options.maxSceneBytes,
+                   .keepsLightMaps = lightMaps != nullptr},
+          .lightMaps = lightMaps};
+}
+
 } // namespace
 
 int serve(const ServeOptions& options) {
   ShutdownSignals signals;
   raiseDescriptorLimit();
-  boundHeaps();
+  boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
 
   Limits limits;
@@ -159,39 +172,21 @@ int serve(const ServeOptions& options) {
     lightMaps =
         std::make_shared<LightMapDirectory>(options.storeDirectory + "/light-maps", options.storedLightMapBytes);
   }
-  auto store = SceneStore::open({options.storeDirectory, options.sceneMemoryBytes, limits, lightMaps});
+  auto store = SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, lightMaps});
   if (!store) {
     return failed(store.problems());
   }
-  auto queue = RenderQueue::start({.backend = options.backend,
-                                   .gpuSceneBytes = options.gpuSceneBytes,
-                                   .tracedSceneBytes = options.tracedSceneBytes,
-                                   .lightMapBytes = options.lightMapBytes,
-                                   .lightMaps = lightMaps,
-                                   .tileCacheBytes = options.tileCacheBytes},
-                                  options.queueLimit);
-  if (!queue) {
-    return failed(queue.problems());
+  auto workers = Dispatcher::start(dispatcherOptions(options, lightMaps));
+  if (!workers) {
+    return failed(workers.problems());
   }
-  const RendererInfo& info = (*queue)->info();
-  logEvent("renderer", info.backend + " " + info.platform + ": " + info.renderer + ", " + info.version);
-
-  ByteBudget frameMemory(options.frameMemoryBytes);
   Services services{.store = **store,
-                    .queue = **queue,
-                    .frameMemory = frameMemory,
+                    .workers = **workers,
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
+                    .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                     .page = options.page,
-                    .evaluations = {.queue = **queue,
-                                    .frameMemory = frameMemory,
-                                    .timeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
-                                    .running = std::counting_semaphore<>(options.maxEvaluations)},
-                    .choices = {},
-                    .bakes = {.baker = (*queue)->baker(),
-                              .frameMemory = frameMemory,
-                              .timeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
-                              .book = {}}};
+                    .evaluations = std::counting_semaphore<>(options.maxEvaluations)};
   ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
   if (!server) {

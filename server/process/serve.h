@@ -17,7 +17,9 @@ struct ServeOptions {
   int port = 8080;                ///< 0..65535; 0 = any free one, which is printed
   std::string storeDirectory;     ///< where scenes are kept over a restart; created where missing; empty = memory only
 
-  // Renderer
+  // Workers and what draws in them
+  std::size_t workers = 0;                      ///< processes that draw; 0 = a quarter of the cores, and at least two
+  std::string workerProgram = "/proc/self/exe"; ///< what is started as "PROGRAM worker"
   BackendOptions backend;
   std::size_t gpuSceneBytes = 1u << 30;       ///< bytes of scenes kept on the graphics device
   std::size_t tileCacheBytes = 1u << 28;      ///< bytes of shadow atlases kept for later frames; 0 = none
@@ -26,8 +28,9 @@ struct ServeOptions {
   std::size_t storedLightMapBytes = 1u << 30; ///< bytes of those in storeDirectory
 
   // Limits
-  std::size_t queueLimit = 64;               ///< >= 1; frames that may wait; 429 beyond it
-  std::size_t sceneMemoryBytes = 2ull << 30; ///< loaded scenes kept in memory, the least recently used dropped first
+  std::size_t queueLimit = 64;                       ///< >= 1; requests that may wait for a worker; 429 beyond it
+  std::size_t sceneMemoryBytes = 2ull << 30;         ///< loaded scenes, the least recently used dropped first
+  std::size_t bundleMemoryBytes = 1ull << 30;        ///< uploads without storeDirectory, dropped in the same order
   std::size_t maxSceneBytes = kLimits.maxSceneBytes; ///< one upload
   std::size_t uploadMemoryBytes = 1ull << 30;        ///< bodies of all requests in progress together (429)
   std::size_t frameMemoryBytes =

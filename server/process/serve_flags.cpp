@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 21);
+static_assert(memberCount<ServeOptions>() == 24);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -31,6 +31,20 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
 }
 
 void addWhatDraws(CLI::App& serve, ServeOptions& options) {
+  serve
+      .add_option("--workers", options.workers,
+                  "Processes that load scenes and draw, and share the memory for both; more draw more frames at once. "
+                  "0 = a quarter of the cores, and at least two")
+      ->envname("GNOMON_WORKERS")
+      ->check(CLI::Range(0, 256))
+      ->group("Renderer");
+  serve
+      .add_option("--worker-program", options.workerProgram,
+                  "Started as `PROGRAM worker` for each worker, e.g. a script that chooses a GPU and then executes "
+                  "gnomon with the same arguments")
+      ->envname("GNOMON_WORKER_PROGRAM")
+      ->type_name("FILE")
+      ->group("Renderer");
   serve
       .add_option_function<std::string>(
           "--device",
@@ -86,14 +100,16 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
   addBytes(serve, "--stored-light-map-bytes", "GNOMON_STORED_LIGHT_MAP_BYTES", options.storedLightMapBytes,
            "Baked light maps kept in the store's directory, the least recently used dropped first");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
-           "Loaded scenes kept in memory, the least recently used dropped first");
+           "Loaded scenes of all workers, the least recently used dropped first");
+  addBytes(serve, "--bundle-memory-bytes", "GNOMON_BUNDLE_MEMORY_BYTES", options.bundleMemoryBytes,
+           "Uploaded scenes kept without --store, the least recently used dropped first");
   addBytes(serve, "--max-scene-bytes", "GNOMON_MAX_SCENE_BYTES", options.maxSceneBytes,
            "The largest scene that may be uploaded");
   addBytes(serve, "--upload-memory-bytes", "GNOMON_UPLOAD_MEMORY_BYTES", options.uploadMemoryBytes,
            "Bodies of all requests in progress together; 429 beyond it");
   addBytes(serve, "--frame-memory-bytes", "GNOMON_FRAME_MEMORY_BYTES", options.frameMemoryBytes,
            "Pictures of all frames in progress together (429 beyond it), and of one frame (413)");
-  serve.add_option("--queue-limit", options.queueLimit, "Frames that may wait; 429 beyond it")
+  serve.add_option("--queue-limit", options.queueLimit, "Requests that may wait for a worker; 429 beyond it")
       ->envname("GNOMON_QUEUE_LIMIT")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
       ->group("Limits");

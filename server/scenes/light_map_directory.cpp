@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fcntl.h>
 #include <filesystem>
 #include <system_error>
 #include <vector>
 
-#include "server/http/request_log.h"
 #include "server/scenes/whole_file.h"
+#include "server/system/log.h"
+#include "server/system/memory_file.h"
+#include "server/wire/bundle.h"
 
 namespace gnomon {
 namespace {
@@ -22,6 +25,13 @@ std::vector<std::filesystem::directory_entry> mapsIn(const std::string& path) {
   return maps;
 }
 
+/// What a worker names must not lead out of the directory.
+bool isLightMapKey(std::string_view key) {
+  constexpr std::size_t kId = 64;
+  return key.size() == 2 * kId + 1 && isSceneId(key.substr(0, kId)) && key[kId] == '-' &&
+         isSceneId(key.substr(kId + 1));
+}
+
 } // namespace
 
 LightMapDirectory::LightMapDirectory(std::string path, std::size_t budgetBytes)
@@ -30,19 +40,21 @@ LightMapDirectory::LightMapDirectory(std::string path, std::size_t budgetBytes)
   drop();
 }
 
-std::optional<Bytes> LightMapDirectory::read(const std::string& key) {
+FileDescriptor LightMapDirectory::open(const std::string& key) {
+  if (!isLightMapKey(key)) return {};
   const std::string path = pathOf(key);
-  auto file = readWhole(path, budgetBytes_);
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
   std::error_code gone;
   if (file) std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), gone);
   return file;
 }
 
-void LightMapDirectory::write(const std::string& key, const Bytes& lightMap) {
-  if (lightMap.size() > budgetBytes_) return;
+void LightMapDirectory::write(const std::string& key, const FileDescriptor& lightMap) {
+  const auto bytes = readFile(lightMap, budgetBytes_);
+  if (!isLightMapKey(key) || !bytes) return;
   std::error_code error;
   std::filesystem::create_directories(path_, error);
-  if (!placeFile(pathOf(key), [&](const FileSink& sink) { sink(lightMap); })) {
+  if (!placeFile(pathOf(key), [&](const FileSink& sink) { sink(*bytes); })) {
     const std::string reason = std::error_code(errno, std::generic_category()).message();
     logEvent("store", "A light map could not be written: " + reason + ".");
   }

@@ -8,10 +8,9 @@
 #include <unistd.h>
 
 #include "protocol/base/bytes.h"
-#include "server/http/request_log.h"
-#include "server/scenes/bundle.h"
 #include "server/scenes/whole_file.h"
-#include "server/system/file_descriptor.h"
+#include "server/system/log.h"
+#include "server/wire/bundle.h"
 
 namespace gnomon {
 namespace {
@@ -33,20 +32,31 @@ bool syncDirectory(const std::string& path) {
   return directory && ::fsync(directory.get()) == 0;
 }
 
+/// A file's bytes, piece by piece.
+void copyBytes(const FileDescriptor& file, const FileSink& sink) {
+  Bytes piece(1 << 20);
+  off_t at = 0;
+  ssize_t count = 0;
+  while ((count = ::pread(file.get(), piece.data(), piece.size(), at)) > 0) {
+    sink(std::span(piece).first(static_cast<std::size_t>(count)));
+    at += count;
+  }
+}
+
 } // namespace
 
 std::string SceneDirectory::pathOf(const std::string& id, const char* ending) const {
   return path_ + "/" + id + ending;
 }
 
-Result<SceneDirectory> SceneDirectory::open(const std::string& path, std::size_t maxSceneBytes) {
+Result<SceneDirectory> SceneDirectory::open(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error) || ::access(path.c_str(), R_OK | W_OK | X_OK) != 0) {
     return Problem{ProblemCode::unavailable, "/store", "The scene store is not a writable directory.", "", path};
   }
   removeUnfinished(path);
-  return SceneDirectory(path, maxSceneBytes);
+  return SceneDirectory(path);
 }
 
 std::vector<std::string> SceneDirectory::ids() const {
@@ -65,10 +75,10 @@ bool SceneDirectory::contains(const std::string& id) const {
   return ::access(pathOf(id, kBundle).c_str(), R_OK) == 0;
 }
 
-Status SceneDirectory::write(const std::string& id, const SceneBundle& bundle, const std::string& summary) const {
+Status SceneDirectory::write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const {
   // The bundle last: once it is there, the scene is.
   const bool written = placeFile(pathOf(id, kSummary), [&](const FileSink& sink) { sink(asBytes(summary)); }) &&
-                       placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { writeBundle(bundle, sink); }) &&
+                       placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { copyBytes(bundle, sink); }) &&
                        syncDirectory(path_);
   if (!written) {
     return diskProblem("A scene could not be written.");
@@ -82,23 +92,13 @@ void SceneDirectory::writeSummary(const std::string& id, const std::string& summ
   }
 }
 
-Result<SceneBundle> SceneDirectory::read(const std::string& id) const {
-  constexpr std::size_t kFraming = 1 << 20; // names and lengths around the files
-  auto bytes = readWhole(pathOf(id, kBundle), maxSceneBytes_ + kFraming);
-  if (!bytes) {
-    if (!contains(id)) {
-      return Problem{ProblemCode::notFound, "id", "No scene with this id is stored.", "", id};
-    }
-    return diskProblem("A scene could not be read.");
-  }
-  auto bundle = readBundle(*std::move(bytes));
-  if (!bundle || bundleId(*bundle) != id) {
-    logEvent("store", "The stored bytes of scene " + id + " do not match its id. They are set aside.");
-    ::rename(pathOf(id, kBundle).c_str(), pathOf(id, kDamaged).c_str());
-    return Problem{ProblemCode::notFound, "id", "The stored bytes of this scene were damaged. Upload it again.", "",
-                   id};
-  }
-  return bundle;
+FileDescriptor SceneDirectory::openBundle(const std::string& id) const {
+  return FileDescriptor(::open(pathOf(id, kBundle).c_str(), O_RDONLY | O_CLOEXEC));
+}
+
+void SceneDirectory::setAside(const std::string& id) const {
+  logEvent("store", "The stored bytes of scene " + id + " do not match its id. They are set aside.");
+  ::rename(pathOf(id, kBundle).c_str(), pathOf(id, kDamaged).c_str());
 }
 
 std::optional<std::string> SceneDirectory::readSummary(const std::string& id) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "renderer/scene/scene_bundle.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 
@@ -14,21 +14,23 @@ namespace gnomon {
 class SceneDirectory {
  public:
   /// Makes the directory if need be, and removes what an interrupted write left.
-  /// `maxSceneBytes` is the largest bundle that read() takes.
-  static Result<SceneDirectory> open(const std::string& path, std::size_t maxSceneBytes);
+  static Result<SceneDirectory> open(const std::string& path);
 
   std::vector<std::string> ids() const; ///< ascending
   bool contains(const std::string& id) const;
 
-  /// Writes the bundle and its summary through to the disk.
-  Status write(const std::string& id, const SceneBundle& bundle, const std::string& summary) const;
+  /// Writes the bundle's bytes and its summary through to the disk.
+  Status write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const;
 
   /// Replaces the summary of a scene; what the disk refuses is logged only, since a summary can be made again.
   void writeSummary(const std::string& id, const std::string& summary) const;
 
-  /// The bundle, once its hash is found equal to its id. One that differs is renamed to "<id>.damaged" and reported as
-  /// notFound; uploading the scene again repairs it.
-  Result<SceneBundle> read(const std::string& id) const;
+  /// The bundle's file, for reading; an empty one where there is none, or where the disk refuses.
+  FileDescriptor openBundle(const std::string& id) const;
+
+  /// Renames a bundle whose bytes are not those that its id names to "<id>.damaged"; uploading the scene again repairs
+  /// it.
+  void setAside(const std::string& id) const;
 
   /// The summary's text as it was written; nothing when it is missing.
   std::optional<std::string> readSummary(const std::string& id) const;
@@ -37,11 +39,10 @@ class SceneDirectory {
   bool remove(const std::string& id) const;
 
  private:
-  SceneDirectory(std::string path, std::size_t maxSceneBytes) : path_(std::move(path)), maxSceneBytes_(maxSceneBytes) {}
+  explicit SceneDirectory(std::string path) : path_(std::move(path)) {}
   std::string pathOf(const std::string& id, const char* ending) const;
 
   std::string path_;
-  std::size_t maxSceneBytes_;
 };
 
 } // namespace gnomon

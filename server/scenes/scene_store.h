@@ -2,67 +2,61 @@
 
 #include <memory>
 #include <optional>
-#include <semaphore>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "protocol/report/replies.h"
+#include "protocol/base/result.h"
 #include "server/scenes/light_map_directory.h"
-#include "server/scenes/scene_cache.h"
 #include "server/scenes/scene_directory.h"
+#include "server/scenes/scene_memory.h"
 
 namespace gnomon {
 
 struct SceneStoreOptions {
   std::string directory;                ///< empty = scenes are in memory only, and the least recently used are dropped
-  std::size_t memoryBytes = 2ull << 30; ///< loaded scenes that are kept
-  Limits limits;                        ///< what a scene may be
+  std::size_t memoryBytes = 1ull << 30; ///< of their bundles, where there is no directory
   std::shared_ptr<LightMapDirectory> lightMaps{}; ///< those of a scene go with it; nullptr = there are none
 };
 
 /// The notFound problem of a route that names a scene.
 Problem unknownScene(std::string_view id);
 
-/// A scene that was put into the store.
-struct StoredScene {
-  LoadedScene loaded;
-  bool isNew = true;
+/// A bundle as it is sent to a worker.
+struct StoredBundle {
+  BundlePtr file;
+  bool isStored = false; ///< it comes from a disk, and may be damaged
 };
 
-/// Scenes by id. A scene is loaded on the calling thread, once for all callers, and only a few at a time. Any thread.
+/// Scenes by id: their bundles, and the summaries that workers made of them. Nothing here reads a scene. Any thread.
 class SceneStore {
  public:
   static Result<std::unique_ptr<SceneStore>> open(const SceneStoreOptions& options);
 
-  /// Loads the bundle, and keeps it if it can be loaded. With `expectedId`, hashMismatch when its id is another.
-  Result<StoredScene> put(const SceneBundle& bundle, const std::optional<std::string>& expectedId = std::nullopt);
+  /// Keeps a scene that a worker could load. False where it is there already. `bytes`: of the bundle.
+  Result<bool> put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);
 
-  /// The loaded bundle, kept in memory as the budget allows, and never written to the directory. `id` is its bundleId.
-  Result<LoadedScene> use(const std::string& id, const SceneBundle& bundle);
-
-  /// The scene, loaded from the directory where it is not in memory.
-  Result<LoadedScene> get(const std::string& id);
+  /// notFound, or unavailable where the disk refuses.
+  Result<StoredBundle> bundle(const std::string& id);
 
   bool contains(const std::string& id);
+  std::vector<std::string> ids(); ///< ascending
 
-  /// What the scene holds, as stored with it; loads the scene where that is missing or of another version.
-  Result<SceneSummary> summary(const std::string& id);
-  SceneList summaries(); ///< of all scenes, by ascending id
+  /// What the scene holds, as JSON; nothing where it is missing, damaged, or of another version.
+  std::optional<std::string> summary(const std::string& id) const;
+  void keepSummary(const std::string& id, const std::string& summary);
+
+  /// A worker found bytes that the id does not name: the scene is set aside.
+  void setAside(const std::string& id);
 
   bool remove(const std::string& id);
 
  private:
   SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory);
-  Result<LoadedScene> load(const std::string& id, const SceneBundle& bundle);
-  std::optional<SceneSummary> storedSummary(const std::string& id) const;
 
-  Limits limits_;
-  std::size_t memoryBytes_;
-  SceneCache cache_;
+  SceneMemory memory_;
   std::optional<SceneDirectory> directory_;
   std::shared_ptr<LightMapDirectory> lightMaps_;
-  SingleFlight<Result<LoadedScene>> loading_;
-  std::counting_semaphore<> loads_;
 };
 
 } // namespace gnomon

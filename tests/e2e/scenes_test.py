@@ -123,7 +123,7 @@ class Store(unittest.TestCase):
             bundle.write_bytes(bundle.read_bytes()[:-1] + b"x")
             with Server("--store", store) as server:
                 self.assertEqual(server.frame(scene, SMALL).status, 404)
-                self.assertIn("do not match", server.log_text())
+                self.assertTrue(server.log_has("do not match"))
                 server.upload("box_on_plane")
                 self.assertEqual(server.frame(scene, SMALL).status, 200)
                 self.assertEqual(server.end(), 0)

@@ -99,7 +99,7 @@ class End(unittest.TestCase):
                 idle = server.connect()
                 self.assertEqual(server.ask("GET", "/livez", connection=idle).status, 200)
                 self.assertEqual(server.end(number), 0)
-                self.assertIn("All work was finished.", server.log_text())
+                self.assertTrue(server.log_has("All work was finished."))
                 idle.close()
 
     def test_what_runs_is_finished(self):

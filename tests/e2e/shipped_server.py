@@ -71,6 +71,15 @@ class Server:
         self.log.seek(0)
         return self.log.read()
 
+    def log_has(self, words):
+        """Waits until the log has the words: it is written beside the replies."""
+        end = time.monotonic() + TIMEOUT
+        while words not in self.log_text():
+            if time.monotonic() > end:
+                raise AssertionError(f"the log has no {words!r}:\n" + self.log_text())
+            time.sleep(0.01)
+        return True
+
     def log_lines(self):
         return [json.loads(line) for line in self.log_text().splitlines() if line.startswith("{")]
 

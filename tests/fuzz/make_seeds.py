@@ -135,6 +135,28 @@ def grids(folder):
     write(folder / "vdb", "cut", vdb[:4000])
 
 
+def messages(folder):
+    """What the front and a worker tell each other."""
+    texts = (
+        {"order": {"number": 1, "kind": "frame", "scene": "ab" * 32, "isStored": True, "milliseconds": 60000.5,
+                   "mediaType": "image/png", "boundary": "gnomon-1", "light": 0}},
+        {"start": {"device": "cpu", "backend": "automatic", "sceneMemoryBytes": 1 << 30, "keepsLightMaps": True}},
+        {"cancel": {"number": 1}},
+        {"forget": {"scene": "ab" * 32}},
+        {"lightMap": {"number": 1}},
+        {"outcome": {"number": 1, "problems": [{"code": "tooLarge", "pointer": "/views", "detail": "No."}],
+                     "stages": {"load": 1.5, "shade": 2}}},
+        {"event": {"number": 1, "name": "progress", "data": "{}"}},
+        {"beat": {"scenes": 1, "sceneBytes": 100}},
+        {"ready": {"backend": "cpu", "software": True, "device": "cpu"}},
+        {"refusal": {"problems": []}},
+        {"wish": {"number": 1, "key": "a-b"}},
+        {"made": {"key": "a-b"}},
+    )
+    for text in texts:
+        write(folder / "messages", next(iter(text)), json.dumps(text).encode())
+
+
 def choices(folder):
     """Scenes and specs for both devices: any bytes are some."""
     for number in range(24):
@@ -149,6 +171,7 @@ def main(folder, scenes, assets=None):
     images(folder, assets)
     requests(folder)
     forms(folder, scenes)
+    messages(folder)
     grids(folder)
     choices(folder)
     for target in sorted(folder.iterdir()):

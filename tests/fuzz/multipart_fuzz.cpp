@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "server/http/multipart.h"
-#include "server/scenes/bundle.h"
+#include "server/scenes/upload.h"
+#include "server/wire/bundle.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {
@@ -17,7 +18,7 @@ void requireKept(const SceneBundle& bundle) {
   Bytes stored;
   writeBundle(bundle,
               [&](std::span<const std::uint8_t> bytes) { stored.insert(stored.end(), bytes.begin(), bytes.end()); });
-  fuzz::require(stored.size() == bundleBytes(bundle), "a bundle is as long as it says");
+  fuzz::require(stored.size() == packed(bundle)->bytes, "a bundle is as long as it says");
   (void)readBundle(stored);
 }
 

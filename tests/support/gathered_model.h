@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "renderer/scene/scene_bundle.h"
+#include "protocol/base/scene_bundle.h"
 #include "tests/support/files.h"
 
 namespace gnomon::testing {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/scene/scene_bundle.h"
+#include "protocol/base/scene_bundle.h"
 
 namespace gnomon::testing {
 

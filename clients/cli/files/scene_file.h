@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
 #include "protocol/spec/volume_options.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon::cli {
 

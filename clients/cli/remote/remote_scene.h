@@ -5,8 +5,8 @@
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/terminal/messages.h"
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/json/json_codec.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon::cli {
 

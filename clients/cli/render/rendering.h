@@ -6,10 +6,10 @@
 #include "clients/cli/terminal/messages.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon::cli {
 

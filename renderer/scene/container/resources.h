@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "renderer/scene/decode/decode_budget.h"
 #include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {
 

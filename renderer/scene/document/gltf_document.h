@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
 #include "renderer/scene/container/resources.h"
 #include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/scene_bundle.h"
 
 namespace gnomon {
 

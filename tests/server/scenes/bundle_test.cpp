@@ -1,8 +1,10 @@
-#include "server/scenes/bundle.h"
+#include "server/wire/bundle.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <set>
+
+#include "server/scenes/upload.h"
 
 namespace gnomon {
 namespace {
@@ -17,8 +19,8 @@ Bytes written(const SceneBundle& bundle) {
 TEST(BundleFormat, AModelAloneIsItself) {
   const SceneBundle bundle{{'a', 'b', 'c'}, {}};
   EXPECT_EQ(written(bundle), bundle.model);
-  EXPECT_EQ(bundleId(bundle), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"); // FIPS 180-2
-  EXPECT_EQ(bundleBytes(bundle), 3u);
+  EXPECT_EQ(packed(bundle)->id, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"); // FIPS 180-2
+  EXPECT_EQ(packed(bundle)->bytes, 3u);
 }
 
 TEST(BundleFormat, ReadsWhatItWrote) {
@@ -32,7 +34,7 @@ TEST(BundleFormat, ReadsWhatItWrote) {
     RC_ASSERT(static_cast<bool>(read));
     RC_ASSERT(read->model == bundle.model);
     RC_ASSERT(read->files == bundle.files);
-    RC_ASSERT(bundleBytes(bundle) == bytes.size());
+    RC_ASSERT(packed(bundle)->bytes == bytes.size());
   }));
 }
 
@@ -76,7 +78,7 @@ TEST(BundleFormat, TheIdTellsNamesAndContentsApart) {
       {{1}, {}}, {{1}, {{"a", {}}}}, {{1}, {{"b", {}}}}, {{1}, {{"a", {2}}}}, {{1, 2}, {{"a", {}}}}};
   std::set<std::string> ids;
   for (const SceneBundle& bundle : bundles) {
-    ids.insert(bundleId(bundle));
+    ids.insert(packed(bundle)->id);
   }
   EXPECT_EQ(ids.size(), bundles.size());
 }

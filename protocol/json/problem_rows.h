@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "protocol/base/result.h"
+#include "protocol/fields/fields.h"
+
+/// The rows of problems; see fields.h.
+namespace gnomon {
+
+/// `says` is the title: the reason phrase of its HTTP status where the code has one to itself, else a name in that
+/// form.
+template <>
+inline constexpr std::array kSpellings<ProblemCode>{
+    spelling(ProblemCode::malformed, "malformed", "Malformed Request"),
+    spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
+    spelling(ProblemCode::notFound, "notFound", "Not Found"),
+    spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
+    spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),
+    spelling(ProblemCode::lengthRequired, "lengthRequired", "Length Required"),
+    spelling(ProblemCode::tooLarge, "tooLarge", "Content Too Large"),
+    spelling(ProblemCode::unsupportedMediaType, "unsupportedMediaType", "Unsupported Media Type"),
+    spelling(ProblemCode::invalidScene, "invalidScene", "Invalid Scene"),
+    spelling(ProblemCode::unsupportedFeature, "unsupportedFeature", "Unsupported Feature"),
+    spelling(ProblemCode::hashMismatch, "hashMismatch", "Hash Mismatch"),
+    spelling(ProblemCode::busy, "busy", "Too Many Requests"),
+    spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "Deadline Exceeded"),
+    spelling(ProblemCode::unavailable, "unavailable", "Service Unavailable"),
+    spelling(ProblemCode::backend, "backend", "Graphics Backend Failure"),
+    spelling(ProblemCode::internal, "internal", "Internal Server Error"),
+};
+static_assert(spellsAll<ProblemCode>());
+
+template <>
+inline constexpr auto kRows<Problem> =
+    rows("Problem", "One thing that is wrong.", field("code", &Problem::code, {.says = "What kind of thing."}),
+         field("pointer", &Problem::pointer, {.says = "Where: a JSON pointer, a query key or the name of a part."}),
+         field("detail", &Problem::detail, {.says = "One sentence for people."}),
+         field("limit", &Problem::limit, {.says = "What would have been accepted."}),
+         field("actual", &Problem::actual, {.says = "What came, shortened."}));
+static_assert(kRowsAreComplete<Problem>);
+
+} // namespace gnomon

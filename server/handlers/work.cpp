@@ -1,0 +1,111 @@
+#include "server/handlers/work.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <limits>
+
+#include "protocol/base/text.h"
+#include "server/handlers/event_reply.h"
+#include "server/system/memory_file.h"
+
+namespace gnomon {
+namespace {
+
+/// Seconds of "wait=SECONDS" in a Prefer header; nothing where there is none.
+std::optional<int> preferredWait(const HttpRequest& request) {
+  constexpr std::string_view kWait = "wait=";
+  const auto prefer = headerValue(request.headers, "prefer");
+  for (const std::string& preference : splitTrimmed(prefer.value_or(""), ',')) {
+    if (!preference.starts_with(kWait)) continue;
+    int seconds = 0;
+    const char* const end = preference.data() + preference.size();
+    const auto [rest, error] = std::from_chars(preference.data() + kWait.size(), end, seconds);
+    if (error == std::errc() && rest == end && seconds > 0) return seconds;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
+             std::chrono::milliseconds timeout) {
+  Task task;
+  task.order.kind = kind;
+  task.order.scene = std::move(sceneId);
+  task.order.isStored = bundle.isStored;
+  task.bundle = std::move(bundle.file);
+  task.request = std::move(request);
+  task.client = call.request.client;
+  if (const auto seconds = preferredWait(call.request)) {
+    timeout = std::min<std::chrono::milliseconds>(timeout, std::chrono::seconds(*seconds));
+  }
+  task.deadline = call.request.arrived + timeout;
+  task.allowed = timeout;
+  return task;
+}
+
+TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events) {
+  const std::string scene = task.order.scene;
+  const auto allowed = std::chrono::duration_cast<std::chrono::seconds>(task.allowed).count();
+  TaskResult result = services.workers.run(std::move(task), gone, events);
+  if (result.outcome.damaged) {
+    services.store.setAside(scene);
+    result.outcome.problems = {
+        {ProblemCode::notFound, "id", "The stored bytes of this scene were damaged. Upload it again.", "", scene}};
+  }
+  for (Problem& problem : result.outcome.problems) {
+    if (problem.code == ProblemCode::deadlineExceeded) problem.limit = std::to_string(allowed) + " seconds";
+  }
+  return result;
+}
+
+std::string serverTiming(const std::vector<StageTime>& stages) {
+  std::string text;
+  for (const StageTime& stage : stages) {
+    std::array<char, 32> duration;
+    const int length = std::snprintf(duration.data(), duration.size(), "%.3f", stage.milliseconds);
+    text += (text.empty() ? "" : ", ") + stage.stage + ";dur=";
+    text.append(duration.data(), static_cast<std::size_t>(length));
+  }
+  return text;
+}
+
+HttpReply replyOf(TaskResult result, std::string_view requestId) {
+  Outcome& outcome = result.outcome;
+  std::optional<Bytes> body;
+  if (outcome.problems.empty() && result.body) body = readFile(*result.body, std::numeric_limits<std::int32_t>::max());
+  if (outcome.problems.empty() && !body) {
+    outcome.problems.push_back({ProblemCode::internal, "", "The worker's reply could not be read.", "", ""});
+  }
+  if (!outcome.problems.empty()) {
+    HttpReply reply = problemReply(outcome.problems, requestId, {.retryAfterSeconds = outcome.retryAfterSeconds});
+    reply.note = std::move(outcome.note);
+    return reply;
+  }
+  HttpReply reply;
+  reply.contentType = std::move(outcome.contentType);
+  reply.body = asText(*body);
+  reply.stages = std::move(outcome.stages);
+  if (!reply.stages.empty()) {
+    reply.headers.emplace_back("Server-Timing", serverTiming(reply.stages));
+    reply.headers.emplace_back("Timing-Allow-Origin", "*");
+  }
+  return reply;
+}
+
+HttpReply replyOfEvents(const RouteCall& call, EventedWork work) {
+  return eventReply(call, [work = std::move(work), requestId = call.request.id](const std::function<bool()>& gone,
+                                                                                EventStream& events) {
+    const TaskResult result = work(gone, [&](const OrderEvent& event) { events.put(event.name, event.data); });
+    if (!result.outcome.problems.empty()) events.put("problem", problemText(result.outcome.problems, requestId));
+  });
+}
+
+Permit permitOf(std::counting_semaphore<>& permits) {
+  if (!permits.try_acquire()) return nullptr;
+  return {&permits, [](std::counting_semaphore<>* taken) { taken->release(); }};
+}
+
+} // namespace gnomon

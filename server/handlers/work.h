@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <semaphore>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/handlers/handlers.h"
+#include "server/workers/task.h"
+
+/// How handlers have workers do the work.
+namespace gnomon {
+
+/// A task for the scene of a bundle, which ends `timeout` after the request's first byte, or earlier where the client's
+/// Prefer: wait=SECONDS (RFC 7240) says so.
+Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
+             std::chrono::milliseconds timeout);
+
+/// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem.
+TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
+
+/// The result as a reply: the body with its type, stages in Server-Timing, or the problems.
+HttpReply replyOf(TaskResult result, std::string_view requestId);
+
+/// Does the work, given who asks whether it is still wanted and who is told of events.
+using EventedWork = std::function<TaskResult(const std::function<bool()>& gone, const TaskEvents& events)>;
+
+/// Sends events while the work is done; problems become an event.
+HttpReply replyOfEvents(const RouteCall& call, EventedWork work);
+
+/// One of a few permits, given back when the last copy goes; null where all are taken.
+using Permit = std::shared_ptr<std::counting_semaphore<>>;
+Permit permitOf(std::counting_semaphore<>& permits);
+
+/// "queue;dur=0.12, load;dur=3.4": the value of a Server-Timing header.
+std::string serverTiming(const std::vector<StageTime>& stages);
+
+} // namespace gnomon

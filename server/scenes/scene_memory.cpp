@@ -1,0 +1,58 @@
+#include "server/scenes/scene_memory.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+/// With the mutex held.
+std::list<SceneMemory::Entry>::const_iterator SceneMemory::find(const std::string& id) const {
+  return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.id == id; });
+}
+
+bool SceneMemory::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary) {
+  const std::lock_guard lock(mutex_);
+  if (const auto known = find(id); known != entries_.end()) {
+    entries_.splice(entries_.begin(), entries_, known);
+    return false;
+  }
+  entries_.push_front({id, std::move(bundle), bytes + summary.size(), summary});
+  bytes_ += entries_.front().bytes;
+  while (bytes_ > budget_ && entries_.size() > 1) {
+    bytes_ -= entries_.back().bytes;
+    entries_.pop_back();
+  }
+  return true;
+}
+
+BundlePtr SceneMemory::bundle(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto known = find(id);
+  if (known == entries_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, known);
+  return entries_.front().bundle;
+}
+
+std::optional<std::string> SceneMemory::summary(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = find(id);
+  return known == entries_.end() ? std::nullopt : std::optional(known->summary);
+}
+
+std::vector<std::string> SceneMemory::ids() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> all;
+  for (const Entry& entry : entries_) all.push_back(entry.id);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+bool SceneMemory::remove(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto known = find(id);
+  if (known == entries_.end()) return false;
+  bytes_ -= known->bytes;
+  entries_.erase(known);
+  return true;
+}
+
+} // namespace gnomon

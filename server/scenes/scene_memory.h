@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/system/file_descriptor.h"
+
+namespace gnomon {
+
+using BundlePtr = std::shared_ptr<const FileDescriptor>;
+
+/// Uploaded scenes that no directory keeps: their bundles in memory, within a budget, the least recently used dropped
+/// first. Any thread.
+class SceneMemory {
+ public:
+  explicit SceneMemory(std::size_t budgetBytes) : budget_(budgetBytes) {}
+
+  /// False where it was there already. The newest stays, whatever its size. `bytes`: of the bundle.
+  bool put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);
+
+  BundlePtr bundle(const std::string& id); ///< and marks it as used; nullptr = there is none
+  std::optional<std::string> summary(const std::string& id) const;
+  std::vector<std::string> ids() const; ///< ascending
+  bool remove(const std::string& id);
+
+ private:
+  struct Entry {
+    std::string id;
+    BundlePtr bundle;
+    std::uint64_t bytes = 0; ///< with the summary
+    std::string summary;
+  };
+  std::list<Entry>::const_iterator find(const std::string& id) const;
+
+  mutable std::mutex mutex_;
+  std::size_t budget_;
+  std::uint64_t bytes_ = 0;
+  std::list<Entry> entries_; ///< most recently used first
+};
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+#include "protocol/spec/output_options.h"
+
+namespace gnomon {
+
+/// What a frame is sent as.
+enum class ReplyForm {
+  image,     ///< image/png of the first view, or image/x-exr of every view as layers
+  multipart, ///< multipart/mixed: the report, then every picture
+  json       ///< application/json: the report, and the pictures in base64
+};
+
+struct FrameForm {
+  ReplyForm form = ReplyForm::image;
+  ImageFormat format = ImageFormat::png; ///< of the pictures
+};
+
+std::string_view mediaTypeOf(ImageFormat format);
+std::string_view mediaTypeOf(FrameForm form); ///< without the boundary
+
+} // namespace gnomon

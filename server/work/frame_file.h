@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/render.h"
+
+namespace gnomon {
+
+/// A frame as it is sent.
+struct FrameFile {
+  std::string contentType;
+  std::string body;
+  std::vector<StageTime> stages; ///< of the frame, with `encode`
+};
+
+/// Encodes the frame and adds the stage `encode` to its report. `format`: of its pictures. `mediaType`: theirs, for the
+/// first view of a PNG or all of an EXR; multipart/mixed, whose parts `boundary` separates, which must not occur in a
+/// picture by chance; or application/json.
+Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary);
+
+} // namespace gnomon

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "renderer/render.h"
+#include "server/system/clock.h"
+
+namespace gnomon {
+
+/// Asked often by work in progress, by any thread; false = it should stop.
+using GoOn = std::function<bool()>;
+
+/// A frame, and how long it waited for its turn.
+struct DrawnFrame {
+  Frame frame;
+  double queuedMilliseconds = 0;
+};
+
+/// The thread that makes, owns and uses the renderer; first come, first served. Callers wait for their turn.
+class RenderThread {
+ public:
+  /// Returns once the renderer has drawn a small test frame with a shadow in it, or why it could not.
+  static Result<std::unique_ptr<RenderThread>> start(const RendererOptions& options);
+  ~RenderThread();
+  RenderThread(const RenderThread&) = delete;
+  RenderThread& operator=(const RenderThread&) = delete;
+
+  const RendererInfo& info() const { return info_; }
+
+  /// Bakes for the frames of this thread, without waiting for it.
+  const Baker& baker() const { return *baker_; }
+
+  /// Renderer::render; a problem of code unavailable where it was asked to stop before or while it drew.
+  Result<DrawnFrame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn);
+
+  /// Renderer::shimmer as flips in 1,000 points and a frame.
+  Result<double> shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path, const GoOn& goOn);
+
+ private:
+  RenderThread();
+
+  /// The result of `work`, which runs on the thread.
+  template <class T>
+  Result<T> ask(const std::function<Result<T>()>& work);
+  void serve();
+
+  std::optional<Renderer> renderer_; ///< touched on the thread only
+  RendererInfo info_;
+  std::optional<Baker> baker_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> waiting_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+} // namespace gnomon

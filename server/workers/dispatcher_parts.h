@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deque>
+#include <set>
+
+#include "server/workers/dispatcher.h"
+
+/// What Dispatcher's two source files share. Everything here is guarded by the dispatcher's mutex.
+namespace gnomon {
+
+/// A task, from its arrival to its result.
+struct Dispatcher::Ticket {
+  enum class State { waiting, running, done };
+
+  Task task;
+  std::shared_ptr<FileDescriptor> request; ///< its JSON
+  State state = State::waiting;
+  Clock::time_point since = Clock::now(); ///< that it waits, or runs
+  double waitedMilliseconds = 0;
+  int tries = 0;
+  std::size_t slot = 0;                       ///< where it runs
+  std::optional<Clock::time_point> calledOff; ///< nobody waits for it any more
+  std::deque<OrderEvent> events;              ///< not told yet
+  bool hasEvents = false;                     ///< some came, so that it can't be tried again
+  TaskResult result;
+  std::condition_variable changed;
+
+  /// Its worker ended: it is tried once more, with no other task beside it.
+  bool mustBeAlone() const { return tries > 0; }
+};
+
+/// One of the places for workers, and the one that is there.
+struct Dispatcher::Slot {
+  std::shared_ptr<WorkerProcess> process; ///< null between two
+  bool ready = false;
+  Clock::time_point heard; ///< its last sign of life, or its start
+  bool isHandled = false;  ///< a message of it is being handled, so that it can't be heard
+  Problem fault{};         ///< why it was killed; no detail = it wasn't
+  int failures = 0;        ///< in a row, before it was ready
+  std::map<std::uint64_t, TicketPtr> running;
+  Beat beat;
+  std::thread thread;
+};
+
+} // namespace gnomon

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/system/clock.h"
+#include "server/system/file_descriptor.h"
+#include "server/wire/messages.h"
+
+namespace gnomon {
+
+/// Tasks of one lane never stand before those of another.
+enum class Lane {
+  interactive, ///< somebody waits for it
+  batch,       ///< may take minutes
+  load         ///< scenes that are uploaded
+};
+inline constexpr std::size_t kLanes = 3;
+
+/// Work for whichever worker suits it.
+struct Task {
+  Order order; ///< its number and times are filled in when it is sent
+  std::shared_ptr<const FileDescriptor> bundle;
+  std::string request; ///< JSON
+  Clock::time_point deadline;
+  std::chrono::milliseconds
+      allowed{}; ///< from the request's first byte to the deadline, for the problem that quotes it
+  Lane lane = Lane::interactive;
+  bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
+  std::string client;         ///< who asks: tasks of different clients take turns
+};
+
+/// What became of a task.
+struct TaskResult {
+  Outcome outcome;
+  std::optional<FileDescriptor> body; ///< where there are no problems
+};
+
+/// Told of a task's events, in order, on the thread that waits for the task.
+using TaskEvents = std::function<void(const OrderEvent&)>;
+
+} // namespace gnomon

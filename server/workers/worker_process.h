@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <sys/types.h>
+
+#include "protocol/base/result.h"
+#include "server/wire/channel.h"
+
+namespace gnomon {
+
+/// A worker: another process of this program, at the other end of a channel. It ends when the channel is closed.
+class WorkerProcess {
+ public:
+  /// `program`: a path; it is started as "PROGRAM worker", with its end of the channel as descriptor 3. A worker has
+  /// none of this process's other files, and no signal that is meant for this process reaches it.
+  static Result<std::shared_ptr<WorkerProcess>> start(const std::string& program);
+
+  ~WorkerProcess(); ///< kills it
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+  Channel& channel() { return channel_; }
+  pid_t pid() const { return pid_; }
+
+  /// Any thread, until end() has returned.
+  void kill() noexcept;
+
+  /// Waits until it has ended, and tells how: "exit status 0", "signal 9". Once, by one thread.
+  std::string end();
+
+  /// Bytes of memory that it has now; 0 where the system doesn't tell.
+  std::uint64_t residentBytes() const;
+
+ private:
+  WorkerProcess(pid_t pid, FileDescriptor channel) : pid_(pid), channel_(std::move(channel)) {}
+
+  pid_t pid_;
+  bool ended_ = false;
+  Channel channel_;
+};
+
+} // namespace gnomon

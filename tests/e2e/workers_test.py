@@ -1,0 +1,155 @@
+"""Workers end, hang and grow: nobody else notices, and nothing that was stored is lost."""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+from shipped_server import SLOW, SMALL, Server, ServerTest
+
+FAULTY = os.environ["GNOMON_FAULTY_WORKER"]
+
+
+def workers_of(server):
+    """The process ids of a server's workers."""
+    found = set()
+    for task in Path(f"/proc/{server.process.pid}/task").iterdir():
+        found.update(int(pid) for pid in (task / "children").read_text().split())
+    return found
+
+
+class Load:
+    """Clients that ask for small frames until they are told to stop; how often each status came."""
+
+    def __init__(self, server, scene, clients=4):
+        self.server, self.scene = server, scene
+        self.statuses, self.longest, self.stopping = {}, 0, False
+        self.lock = threading.Lock()
+        self.threads = [threading.Thread(target=self.ask, args=(index,)) for index in range(clients)]
+
+    def ask(self, index):
+        count = 0
+        while not self.stopping:
+            count += 1
+            begun = time.monotonic()
+            status = self.server.frame(self.scene, SMALL | {"exposure": index + count / 1000}).status
+            with self.lock:
+                self.statuses[status] = self.statuses.get(status, 0) + 1
+                self.longest = max(self.longest, time.monotonic() - begun)
+
+    def __enter__(self):
+        for thread in self.threads:
+            thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.stopping = True
+        for thread in self.threads:
+            thread.join()
+
+
+class Liveness:
+    """Asks /livez all the while; the longest that it took."""
+
+    def __init__(self, server):
+        self.server, self.longest, self.failures, self.stopping = server, 0, 0, False
+        self.thread = threading.Thread(target=self.ask)
+
+    def ask(self):
+        while not self.stopping:
+            begun = time.monotonic()
+            if self.server.get("/livez").status != 200:
+                self.failures += 1
+            self.longest = max(self.longest, time.monotonic() - begun)
+            time.sleep(0.01)
+
+    def __enter__(self):
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.stopping = True
+        self.thread.join()
+
+
+class KilledWorkers(unittest.TestCase):
+    def test_every_worker_is_killed_again_and_again_under_load(self):
+        with tempfile.TemporaryDirectory() as directory, Server("--workers", "2", "--store", directory) as server:
+            scene = server.upload("box_on_plane")
+            before = workers_of(server)
+            self.assertEqual(len(before), 2)
+            with Liveness(server) as liveness, Load(server, scene) as load:
+                for _ in range(3):
+                    time.sleep(1)
+                    for pid in workers_of(server):
+                        os.kill(pid, signal.SIGKILL)
+                time.sleep(2)
+            self.assertEqual(set(load.statuses), {200}, "each frame is tried again")
+            self.assertGreater(load.statuses[200], 20)
+            self.assertEqual(liveness.failures, 0)
+            self.assertLess(liveness.longest, 1 * SLOW)
+            self.assertFalse(before & workers_of(server))
+            self.assertIn(scene.encode(), server.get("/v1/scenes").body)
+            self.assertEqual(server.get("/readyz").status, 200)
+
+    def test_workers_go_with_the_server(self):
+        with Server() as server:
+            workers = workers_of(server)
+            server.end(signal.SIGKILL)
+            end = time.monotonic() + 10 * SLOW
+            while any(Path(f"/proc/{pid}/exe").exists() and "gnomon" in os.readlink(f"/proc/{pid}/exe") for pid in workers):
+                self.assertLess(time.monotonic(), end)
+                time.sleep(0.05)
+
+    def test_a_ctrl_c_meets_the_server_alone(self):
+        with Server() as server:
+            scene = server.upload("box_on_plane")
+            for pid in workers_of(server):
+                os.kill(pid, signal.SIGINT)
+                os.kill(pid, signal.SIGTERM)
+            self.assertEqual(server.frame(scene, SMALL).status, 200)
+            self.assertNotIn("ended with", server.log_text())
+
+
+class FaultyWorkers(ServerTest):
+    """A frame's camera names what its worker does wrong."""
+
+    flags = ("--workers", "2", "--worker-program", FAULTY, "--device", "cpu")
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.scene = cls.server.upload("box_on_plane")
+
+    def assert_harmless(self, fault, statuses, **headers):
+        """The frame gets one of these statuses; all others are drawn, and /livez never blinks."""
+        with Liveness(self.server) as liveness, Load(self.server, self.scene, 2) as load:
+            time.sleep(0.3)
+            reply = self.server.frame(self.scene, SMALL | {"camera": {"node": fault}}, **headers)
+        self.assertIn(reply.status, statuses, reply.body)
+        self.assertEqual(set(load.statuses), {200})
+        self.assertEqual(liveness.failures, 0)
+        self.assertLess(liveness.longest, 1 * SLOW)
+        return reply
+
+    def test_a_frame_that_aborts(self):
+        reply = self.assert_harmless("fault-abort", {500})
+        self.assertIn("Two workers ended over this request", reply.json()["problems"][0]["detail"])
+
+    def test_a_frame_that_loops(self):
+        begun = time.monotonic()
+        reply = self.assert_harmless("fault-loop", {504}, Prefer="wait=2")
+        self.assertEqual(reply.json()["problems"][0]["limit"], "2 seconds")
+        self.assertLess(time.monotonic() - begun, 8 * SLOW)
+
+    def test_a_worker_that_speaks_nonsense(self):
+        self.assert_harmless("fault-garbage", {500})
+
+
+if __name__ == "__main__":
+    unittest.main()
