@@ -25,7 +25,9 @@ Result<Bytes> encodeExr(const Frame& frame) {
   return encodeExr(layers, output.exrCompression, output.exrPixelType);
 }
 
-Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most) {
+namespace {
+
+Result<std::vector<EncodedPicture>> allEncoded(const Frame& frame, std::size_t most) {
   const bool layered = frame.report.spec.output.format == ImageFormat::exr;
   const std::size_t count = std::min(frame.images.size(), layered ? std::size_t{1} : most);
   std::vector<EncodedPicture> pictures;
@@ -35,6 +37,12 @@ Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size
     pictures.push_back({std::string(spell(frame.images[i].view)), *std::move(file)});
   }
   return pictures;
+}
+
+} // namespace
+
+Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most, const GoOn& goOn) {
+  return untilStopped(goOn, [&] { return allEncoded(frame, most); });
 }
 
 void warmEncoders() {

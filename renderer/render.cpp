@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
-  return loadGltf(bundle, limits, id);
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits, const std::string& id, const GoOn& goOn) {
+  return untilStopped(goOn, [&] { return loadGltf(bundle, limits, id); });
 }
 
 const SceneSummary& summaryOf(const Scene& scene) {
@@ -72,8 +72,7 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
   return measureShimmer(**device, impl_->caches->traced, scene, spec, path, progress);
 }
 
-Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles,
-                               const std::function<bool()>& goOn) {
+Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
   return renderFrame(**device, *impl_->caches, scene, spec, tiles, goOn);

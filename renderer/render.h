@@ -14,6 +14,7 @@
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
 #include "renderer/core/progress.h"
+#include "renderer/core/stop.h"
 #include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
@@ -29,7 +30,9 @@ namespace gnomon {
 
 /// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly. `id`:
 /// names these very bytes in a LightMapStore; empty = nothing of the scene is kept there.
-Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits, const std::string& id = {});
+/// `goOn`: false ends the loading with a problem of code unavailable.
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits, const std::string& id = {},
+                           const GoOn& goOn = {});
 
 /// What the scene holds, and its id. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);
@@ -79,10 +82,9 @@ class Renderer {
   const RendererInfo& info() const;
 
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
-  /// `goOn` is asked often while a light is baked, by several threads in turn; false ends the frame with a problem of
-  /// code unavailable.
+  /// `goOn`: false ends the frame with a problem of code unavailable; nothing half made is kept for later frames.
   Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept,
-                       const std::function<bool()>& goOn = {});
+                       const GoOn& goOn = {});
 
   /// Makes light maps ahead of the frames that look them up.
   Baker baker() const;
@@ -112,7 +114,8 @@ struct EncodedPicture {
 };
 
 /// The frame's files in the format of its spec: a PNG of each of the first `most` views, or one EXR of all. Any thread.
-Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most);
+/// `goOn`: false ends the encoding with a problem of code unavailable.
+Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most, const GoOn& goOn = {});
 
 /// Loads what encoding needs ahead of the first picture. Any thread.
 void warmEncoders();

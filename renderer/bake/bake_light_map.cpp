@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 
 namespace gnomon {
 namespace {
@@ -112,6 +113,7 @@ class BandSums {
 
   void trace() {
     shares_.resize(points_.size());
+    stopIfAsked();
     if (listener_.goOn()) light_.visibility(points_, samples_, shares_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sums_[texels_[i]] += double{shares_[i]};
@@ -184,6 +186,7 @@ void spread(const Rect& rect, int mapWidth, Listener& listener, std::vector<std:
     }
   }
   while (!open.empty() && listener.goOn()) {
+    stopIfAsked();
     std::vector<glm::ivec2> still;
     std::vector<std::pair<std::size_t, std::int32_t>> found;
     for (const glm::ivec2& texel : open) {

@@ -6,11 +6,10 @@
 
 #include "renderer/bake/pack_rectangles.h"
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 
 namespace gnomon {
 namespace {
-
-using Stopped = std::function<bool()>;
 
 constexpr int kGutter = 1; ///< texels around a chart
 
@@ -19,10 +18,9 @@ struct InstanceCharts {
   bool authored = false;
 };
 
-std::vector<InstanceCharts> chartsOfAll(const Scene& scene, const SceneView& view, const Stopped& stopped) {
+std::vector<InstanceCharts> chartsOfAll(const Scene& scene, const SceneView& view) {
   std::vector<InstanceCharts> all(view.instances.size());
   forEach(all.size(), [&](std::size_t i) {
-    if (stopped && stopped()) return;
     const Instance& instance = view.instances[i];
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
     if (auto authored = authoredChartsOf(scene, primitive, instance.worldFromLocal)) {
@@ -76,7 +74,7 @@ std::optional<Packed> packed(const std::vector<glm::dvec2>& sizes, double densit
 }
 
 /// The finest density at which the map is no longer than `size`; 0 where none is.
-double densityFor(const std::vector<glm::dvec2>& sizes, int size, const Stopped& stopped) {
+double densityFor(const std::vector<glm::dvec2>& sizes, int size) {
   const auto fits = [&](double density) {
     const auto result = packed(sizes, density);
     return result && result->longest() <= size;
@@ -86,7 +84,8 @@ double densityFor(const std::vector<glm::dvec2>& sizes, int size, const Stopped&
   double high = 2 * size / std::sqrt(std::max(area, 1e-300));
   double low = 0;
   if (!fits(0)) return 0;
-  for (int step = 0; step < 14 && !(stopped && stopped()); ++step) {
+  for (int step = 0; step < 14; ++step) {
+    stopIfAsked();
     const double middle = 0.5 * (low + high);
     (fits(middle) ? low : high) = middle;
   }
@@ -133,13 +132,11 @@ LightMapLayout placed(const Scene& scene, const SceneView& view, std::vector<Ins
 
 } // namespace
 
-Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness,
-                                      const Stopped& stopped) {
-  std::vector<InstanceCharts> all = chartsOfAll(scene, view, stopped);
+Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness) {
+  std::vector<InstanceCharts> all = chartsOfAll(scene, view);
   const std::vector<glm::dvec2> sizes = sizesOf(all);
-  if (sizes.empty() || (stopped && stopped())) return LightMapLayout{};
-  const double density =
-      fineness.size ? densityFor(sizes, *fineness.size, stopped) : fineness.texelsPerMetre.value_or(0);
+  if (sizes.empty()) return LightMapLayout{};
+  const double density = fineness.size ? densityFor(sizes, *fineness.size) : fineness.texelsPerMetre.value_or(0);
   if (!(density > 0)) return tooLarge(fineness, sizes.size());
   const auto fitted = packed(sizes, density);
   if (!fitted) return tooLarge(fineness, sizes.size());

@@ -48,9 +48,7 @@ struct LightMapLayout {
 
 /// Every instance has its place, as each is shadowed in its own way: by its TEXCOORD_1 where that makes sound charts
 /// (authoredChartsOf), else by charts made here. The same for the same scene. A problem where the map would be larger
-/// than kLimits.maxLightMapSide, or where not even one texel a chart fits. Where `stopped` says so between two steps of
-/// the work, an unfinished layout, which is good for nothing.
-Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness,
-                                      const std::function<bool()>& stopped = {});
+/// than kLimits.maxLightMapSide, or where not even one texel a chart fits.
+Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view, const LightMapFineness& fineness);
 
 } // namespace gnomon

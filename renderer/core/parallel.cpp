@@ -9,6 +9,8 @@
 #include <tbb/task_arena.h>
 #include <thread>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 namespace {
 
@@ -68,19 +70,31 @@ int coresToUse() {
 
 void onAllCores(const std::function<void()>& task) {
   static tbb::task_arena arena(coresToUse());
-  arena.execute([&] { task(); });
+  Stop* const stop = Stop::current();
+  // A thread that waits for its own pieces takes none of another task's, which may be long and can't be stopped by it.
+  arena.execute([&] {
+    tbb::this_task_arena::isolate([&] {
+      const Listening listening(stop);
+      task();
+    });
+  });
 }
 
 void forEachPiece(std::size_t count, std::size_t size, const std::function<void(std::size_t, std::size_t)>& each) {
   const std::size_t pieces = (count + size - 1) / size;
   if (pieces == 0) return;
   if (pieces == 1) {
+    stopIfAsked();
     each(0, count);
     return;
   }
+  Stop* const stop = Stop::current();
   onAllCores([&] {
-    tbb::parallel_for(std::size_t{0}, pieces,
-                      [&](std::size_t piece) { each(piece * size, std::min(count, (piece + 1) * size)); });
+    tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
+      const Listening listening(stop);
+      stopIfAsked();
+      each(piece * size, std::min(count, (piece + 1) * size));
+    });
   });
 }
 

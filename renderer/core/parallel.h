@@ -20,7 +20,8 @@ std::optional<double> coresGranted(const std::filesystem::path& root, std::strin
 /// Cores to keep busy: the machine's, or as many as this process is granted where that is fewer; at least 1.
 int coresToUse();
 
-// The only parallel loops of the program: each runs on as many threads as `coresToUse()` allows, and no more.
+// The only parallel loops of the program: each runs on as many threads as `coresToUse()` allows, and no more. What they
+// run listens to what the calling thread listens to (stop.h), and is begun no more once that is to stop.
 
 /// Runs `task`; whatever it starts in parallel (Embree's builds, for one) keeps to that number of threads too.
 void onAllCores(const std::function<void()>& task);

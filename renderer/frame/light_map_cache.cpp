@@ -1,13 +1,13 @@
 #include "renderer/frame/light_map_cache.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <set>
 
 #include "protocol/base/elapsed.h"
 #include "renderer/bake/bake_light_map.h"
 #include "renderer/bake/light_map_file.h"
+#include "renderer/core/stop.h"
 
 namespace gnomon {
 
@@ -112,15 +112,9 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
   const auto start = std::chrono::steady_clock::now();
   BakedLight baked{keptLayout(input, options), {}, 0};
   if (!baked.layout) {
-    std::atomic<bool> ended = false;
-    std::mutex asking;
-    const auto isStopped = [&] {
-      const std::unique_lock lock(asking, std::try_to_lock);
-      if (lock && progress && !ended && !progress(0)) ended = true;
-      return ended.load();
-    };
-    auto made = lightMapLayout(*input.scene, input.traced.view(), finenessOf(options), isStopped);
-    if (ended) return stopped();
+    const GoOn goOn = progress ? GoOn([&] { return progress(0); }) : GoOn();
+    auto made =
+        untilStopped(goOn, [&] { return lightMapLayout(*input.scene, input.traced.view(), finenessOf(options)); });
     if (!made) return made.problems();
     baked.layout = std::make_shared<const LightMapLayout>(std::move(*made));
   }
@@ -156,6 +150,7 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
   while (beingMade()) {
     changed_.wait_for(lock, kAskAgain);
     lock.unlock();
+    stopIfAsked();
     if (progress && !progress(0)) return stopped();
     lock.lock();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/core/stop.h"
 #include "renderer/reference/shadow_edges.h"
 #include "renderer/shadow/edge_displacement.h"
 
@@ -16,6 +17,7 @@ Reference seenSurfaces(const CameraView& view, int width, int height, std::span<
   seen.surface.resize(footprints.size());
   seen.pixelWidth.resize(footprints.size());
   for (std::size_t i = 0; i < footprints.size(); ++i) {
+    if (i % static_cast<std::size_t>(width) == 0) stopIfAsked();
     const double depth = footprints[i].viewDepth;
     if (!(depth > 0)) continue;
     const glm::dvec2 pixel(static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "renderer/core/stop.h"
 #include "renderer/frame/baked_lights.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
@@ -16,9 +17,10 @@
 #include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
+namespace {
 
-Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
-                          TileUse tiles, const std::function<bool()>& goOn) {
+Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
+                         TileUse tiles) {
   const auto posed = posedScene(loaded, spec.animation);
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
@@ -41,8 +43,7 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
-  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved,
-                           goOn ? BakeProgress([&](int, double) { return goOn(); }) : BakeProgress());
+  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved);
   if (!found) return found.problems();
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
@@ -106,6 +107,13 @@ Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& l
   return Frame{makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked, made.reports,
                            *std::move(facts), error}),
                std::move(images)};
+}
+
+} // namespace
+
+Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& scene, const FrameSpec& spec,
+                          TileUse tiles, const GoOn& goOn) {
+  return untilStopped(goOn, [&] { return drawnFrame(device, caches, scene, spec, tiles); });
 }
 
 } // namespace gnomon

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <functional>
-
+#include "renderer/core/stop.h"
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_cache.h"
@@ -20,6 +19,6 @@ struct FrameCaches {
 /// A frame from top to bottom, whoever draws it: settled, surveyed, planned, cast, shown, compared with rays where a
 /// view asks, and reported. As Renderer::render.
 Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& scene, const FrameSpec& spec,
-                          TileUse tiles = TileUse::kept, const std::function<bool()>& goOn = {});
+                          TileUse tiles = TileUse::kept, const GoOn& goOn = {});
 
 } // namespace gnomon

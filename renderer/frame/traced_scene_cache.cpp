@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 
 namespace {
@@ -12,7 +14,7 @@ constexpr std::size_t kMostScenes = 256;
 } // namespace
 
 Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shared_ptr<const Scene>& scene, int index) {
-  const std::lock_guard lock(mutex_);
+  const auto lock = lockUnlessStopped(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.index == index && &entry.traced->scene() == scene.get();
   });

@@ -30,7 +30,7 @@ class TracedSceneCache {
   void drop();
 
   std::size_t budgetBytes_;
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::list<Entry> entries_; ///< most recently used first
 };
 

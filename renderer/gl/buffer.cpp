@@ -3,6 +3,8 @@
 #include <array>
 #include <cassert>
 
+#include "renderer/gl/draw.h"
+
 namespace gnomon::gl {
 namespace {
 
@@ -47,6 +49,7 @@ void Buffer::update(std::size_t offset, std::span<const std::byte> contents) {
 void Buffer::read(std::size_t offset, std::span<std::byte> contents) const {
   assert(offset <= bytes_ && contents.size() <= bytes_ - offset);
   if (contents.empty()) return;
+  waitUnlessStopped();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders may have written it
   glGetNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(contents.size()),
                           contents.data());

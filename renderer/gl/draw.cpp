@@ -1,5 +1,9 @@
 #include "renderer/gl/draw.h"
 
+#include <algorithm>
+
+#include "renderer/core/stop.h"
+
 namespace gnomon::gl {
 namespace {
 
@@ -38,6 +42,7 @@ VertexArray::VertexArray(std::span<const VertexStream> streams, std::span<const 
 void drawIndirect(const Program& program, const VertexArray& vertices, const Buffer& commands, std::size_t first,
                   std::size_t count) {
   if (count == 0) return;
+  stopIfAsked();
   program.use();
   glBindVertexArray(vertices.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
@@ -51,8 +56,49 @@ void drawFullscreen(const Program& program, const VertexArray& nothing) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void drawBands(const Program& program, const VertexArray& nothing, const Rect& viewport) {
+  if (Stop::current() == nullptr) {
+    drawFullscreen(program, nothing);
+    return;
+  }
+  constexpr int kRows = 64; // of the tiles in which software drivers draw
+  Steps bands;
+  glEnable(GL_SCISSOR_TEST);
+  for (int row = 0; row < viewport.height; row += kRows) {
+    glScissor(viewport.x, viewport.y + row, viewport.width, std::min(kRows, viewport.height - row));
+    drawFullscreen(program, nothing);
+    bands.end();
+  }
+}
+
 void submit() {
   glFlush();
+}
+
+Fence::Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {
+  submit();
+}
+
+Fence::~Fence() {
+  glDeleteSync(sync_);
+}
+
+void Fence::wait() const {
+  constexpr GLuint64 kAskAgain = 5'000'000; // nanoseconds
+  while (glClientWaitSync(sync_, 0, kAskAgain) == GL_TIMEOUT_EXPIRED) stopIfAsked();
+}
+
+void Steps::end() {
+  if (Stop::current() == nullptr) return;
+  stopIfAsked();
+  ended_.emplace_back();
+  if (ended_.size() < 3) return;
+  ended_.front().wait();
+  ended_.pop_front();
+}
+
+void waitUnlessStopped() {
+  if (Stop::current() != nullptr) Fence().wait();
 }
 
 } // namespace gnomon::gl

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <string_view>
 
+#include "renderer/core/rect.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/object.h"
 #include "renderer/gl/program.h"
@@ -63,7 +65,41 @@ void drawIndirect(const Program& program, const VertexArray& vertices, const Buf
 /// `nothing` is a vertex array without streams.
 void drawFullscreen(const Program& program, const VertexArray& nothing);
 
+/// The same over `viewport`, band by band, for long work: once the thread's task is to end (core/stop.h), no more bands
+/// are drawn. The scissor is left on the last one.
+void drawBands(const Program& program, const VertexArray& nothing, const Rect& viewport);
+
 /// Hands what was drawn so far to the device, without waiting for it.
 void submit();
+
+/// A point among the device's work.
+class Fence {
+ public:
+  Fence(); ///< behind what was drawn so far, which is submitted
+  ~Fence();
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+
+  /// Until the device has passed it. Throws Stopped.
+  void wait() const;
+
+ private:
+  GLsync sync_;
+};
+
+/// Long work step by step, of which little is left to do once it is to be stopped.
+class Steps {
+ public:
+  /// Ends a step. Where the thread's task may be stopped, waits until the device is done with all but two of them, or
+  /// throws Stopped.
+  void end();
+
+ private:
+  std::deque<Fence> ended_;
+};
+
+/// Where the thread's task may be stopped, waits until the device is done with what was drawn so far, or throws
+/// Stopped. Else returns at once: what needs the result waits by itself, and can't be stopped.
+void waitUnlessStopped();
 
 } // namespace gnomon::gl

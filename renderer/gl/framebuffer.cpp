@@ -5,6 +5,7 @@
 #include <string>
 
 #include "renderer/gl/debug_log.h"
+#include "renderer/gl/draw.h"
 
 namespace gnomon::gl {
 namespace {
@@ -86,6 +87,7 @@ void Framebuffer::clearStencil(int value) {
 
 void Framebuffer::readColor(int attachment, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
   assert(attachment >= 0 && attachment < colors_ && texels.size() >= bytesOf(rect, layout));
+  waitUnlessStopped();
   glNamedFramebufferReadBuffer(id(), colorAttachment(attachment));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
   glReadnPixels(rect.x, rect.y, rect.width, rect.height, layout.format, layout.type,

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "renderer/gl/draw.h"
+
 namespace gnomon::gl {
 namespace {
 
@@ -123,6 +125,7 @@ void Texture::writeLayer(int layer, TexelLayout layout, std::span<const std::byt
 
 void Texture::read(int level, const Rect& rect, TexelLayout layout, std::span<std::byte> texels) const {
   assert(texels.size() >= bytesOf(rect, layout));
+  waitUnlessStopped();
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT); // shaders may have written it
   glGetTextureSubImage(id(), level, rect.x, rect.y, 0, rect.width, rect.height, 1, layout.format, layout.type,
                        static_cast<GLsizei>(texels.size()), texels.data());

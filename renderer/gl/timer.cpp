@@ -79,6 +79,7 @@ void StageClock::finishDrawing(std::string stage) {
 }
 
 std::vector<StageTime> StageClock::take() {
+  waitUnlessStopped();
   std::vector<StageTime> stages;
   std::optional<Clock::time_point> zero;
   auto begin = begin_;

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <jpeglib.h>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 namespace {
 
@@ -27,6 +29,10 @@ void leaveAtWarning(j_common_ptr codec, int level) {
   if (level < 0) leaveWithMessage(codec);
 }
 
+struct Codec : jpeg_decompress_struct {
+  ~Codec() { jpeg_destroy_decompress(this); }
+};
+
 constexpr JDIMENSION kRowsAtOnce = 16; ///< read at a time
 
 /// False with a message in `errors`.
@@ -45,6 +51,7 @@ bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes es
   codec.out_color_space = JCS_EXT_RGBA;
   jpeg_start_decompress(&codec);
   while (codec.output_scanline < height) {
+    stopIfAsked();
     std::array<JSAMPROW, kRowsAtOnce> rows{};
     for (JDIMENSION i = 0; i < kRowsAtOnce; ++i) rows[i] = rgba + std::size_t{4} * width * (codec.output_scanline + i);
     jpeg_read_scanlines(&codec, rows.data(), std::min(kRowsAtOnce, height - codec.output_scanline));
@@ -56,13 +63,12 @@ bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes es
 } // namespace
 
 std::string decodeJpeg(EncodedBytes essential, const ImageSize& size, std::uint8_t* rgba) {
-  jpeg_decompress_struct codec{};
   JpegErrors errors{};
+  Codec codec{};
   codec.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leaveWithMessage;
   errors.base.emit_message = leaveAtWarning;
   const bool done = readInto(codec, errors, essential, size, rgba);
-  jpeg_destroy_decompress(&codec);
   return done ? std::string() : std::string(errors.message.data());
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/stop.h"
 #include "renderer/image/png_rows.h"
 
 namespace gnomon {
@@ -113,6 +114,8 @@ constexpr std::array<Pass, 1> kWhole{{{0, 0, 1, 1}}};
 constexpr std::array<Pass, 7> kAdam7{
     {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
 
+constexpr std::size_t kRowsAtOnce = 16; ///< read before it is asked whether to stop
+
 constexpr std::size_t stepsIn(std::size_t size, std::size_t first, std::size_t step) {
   return size > first ? (size - first + step - 1) / step : 0;
 }
@@ -135,6 +138,7 @@ std::string decodePng(EncodedBytes essential, const ImageSize& size, std::uint8_
     const std::size_t lines = columns > 0 ? stepsIn(height, pass.firstY, pass.stepY) : 0;
     rows.begin((columns * bits + 7) / 8, pixelBytes, lines);
     for (std::size_t i = 0; i < lines; ++i) {
+      if (i % kRowsAtOnce == 0) stopIfAsked();
       const std::uint8_t* row = rows.next();
       if (row == nullptr) return rows.wrong();
       std::uint8_t* to = rgba + 4 * width * (pass.firstY + i * pass.stepY);

@@ -67,8 +67,28 @@ void drawMapped(const Scene& scene, const SceneView& view, const LightMapLayout&
   }
 }
 
+std::vector<DrawRun> runsOf(std::span<const DrawRange> ranges, std::size_t triangles) {
+  std::vector<DrawRun> runs;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const std::size_t own = ranges[i].indexCount / 3;
+    if (runs.empty() || runs.back().triangles + own > triangles) runs.push_back({i, 0, 0});
+    runs.back().triangles += own;
+    ++runs.back().count;
+  }
+  return runs;
+}
+
 DrawBatch uploadDraws(const DrawList& list) {
-  return {gl::Buffer(gl::bytesOf(list.ranges), "draw ranges"), list.groups, list.triangles, list.ranges.size()};
+  std::vector<DrawPiece> pieces;
+  for (const DrawGroup& group : list.groups) {
+    const auto ranges = std::span(list.ranges).subspan(group.firstRange, group.rangeCount);
+    for (const DrawRun& run : runsOf(ranges, kStepTriangles)) {
+      pieces.push_back({group, run.triangles});
+      pieces.back().group.firstRange += run.first;
+      pieces.back().group.rangeCount = run.count;
+    }
+  }
+  return {gl::Buffer(gl::bytesOf(list.ranges), "draw ranges"), std::move(pieces), list.triangles, list.ranges.size()};
 }
 
 gl::Buffer numberedInstances(const FrameGeometry& geometry, DrawList& list) {

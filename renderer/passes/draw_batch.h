@@ -24,10 +24,29 @@ SceneVertices mappedVertices(const GpuMappedScene& scene, const gl::Buffer& inst
 /// Makes a draw list of the scene, whose ranges name its instances, one of a GpuMappedScene with that layout.
 void drawMapped(const Scene& scene, const SceneView& view, const LightMapLayout& layout, DrawList& list);
 
+/// Ranges that are drawn by one call, which can't be stopped.
+struct DrawRun {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::size_t triangles = 0;
+};
+
+/// All of `ranges`, in runs of no more triangles than that, or of a single range.
+std::vector<DrawRun> runsOf(std::span<const DrawRange> ranges, std::size_t triangles);
+
+/// That devices are given at a time, where a frame may be stopped in between.
+inline constexpr std::size_t kStepTriangles = 1 << 15;
+
+/// Of a group, as much as is drawn by one call.
+struct DrawPiece {
+  DrawGroup group;
+  std::size_t triangles = 0;
+};
+
 /// A draw list on the device.
 struct DrawBatch {
   gl::Buffer ranges;
-  std::vector<DrawGroup> groups;
+  std::vector<DrawPiece> pieces;
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
 };

@@ -11,7 +11,10 @@ void bindInputs(const PassInputs& inputs) {
 
 Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const DrawBatch& batch,
                   gl::PipelineState state, const GroupProgram& programOf) {
-  for (const DrawGroup& group : batch.groups) {
+  gl::Steps steps;
+  std::size_t triangles = 0; // since a step ended
+  for (const DrawPiece& piece : batch.pieces) {
+    const DrawGroup& group = piece.group;
     const Material* material =
         group.material < 0 ? nullptr : &inputs.scene.materials[static_cast<std::size_t>(group.material)];
     const auto program = programOf(group, material);
@@ -20,6 +23,10 @@ Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const
     applyFacing(group.facing, state);
     gl::apply(state);
     drawGroup(batch, group, vertices, **program);
+    triangles += piece.triangles;
+    if (triangles < kStepTriangles) continue;
+    steps.end();
+    triangles = 0;
   }
   return Done{};
 }

@@ -176,6 +176,7 @@ std::vector<float> distancesTo(std::span<const std::uint8_t> marks, int width, i
   const auto columns = columnDistances(marks, static_cast<std::size_t>(width), static_cast<std::size_t>(height));
   Envelope envelope;
   for (std::size_t begin = 0; begin < marks.size(); begin += static_cast<std::size_t>(width)) {
+    stopIfAsked();
     const int* row = columns.data() + begin;
     fillEnvelope(row, width, envelope);
     if (envelope.columns.empty()) continue;

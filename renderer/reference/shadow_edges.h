@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/core/stop.h"
 #include "renderer/reference/reference.h"
 
 namespace gnomon {
@@ -53,6 +54,7 @@ struct PixelPair {
 template <class Visit>
 void forEachPair(int width, int height, Visit visit) {
   for (int y = 0; y < height; ++y) {
+    stopIfAsked();
     for (int x = 0; x < width; ++x) {
       const std::size_t at =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 
 namespace gnomon {
 namespace {
@@ -14,6 +15,19 @@ using Tree = TracedScene::Tree;
 bool countBytes(void* tree, ssize_t bytes, bool /*after*/) {
   static_cast<Tree*>(tree)->embreeBytes += bytes;
   return true;
+}
+
+/// Called often by Embree, from any of its threads; false ends the build.
+bool goesOn(void* stop, double /*share*/) {
+  return !static_cast<Stop*>(stop)->asked();
+}
+
+void build(RTCScene scene) {
+  stopIfAsked();
+  if (Stop* const stop = Stop::current()) rtcSetSceneProgressMonitorFunction(scene, goesOn, stop);
+  rtcCommitScene(scene);
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+  stopIfAsked();
 }
 
 void keepError(void* tree, RTCError code, const char* /*text*/) {
@@ -105,7 +119,7 @@ std::map<int, RayScene> sortShared(Tree& tree, const std::vector<int>& shared) {
   for (const auto& [index, start] : first) {
     RayScene scene = emptyScene(tree, RTC_BUILD_QUALITY_MEDIUM);
     addTriangles(tree, scene.get(), tree.scene->primitives[static_cast<std::size_t>(index)], {tree.shared, start}, 0);
-    rtcCommitScene(scene.get());
+    build(scene.get());
     trees.emplace(index, std::move(scene));
   }
   return trees;
@@ -141,7 +155,7 @@ void sortAll(Tree& tree) {
       addTriangles(tree, tree.rays.get(), primitive, {tree.positions, tree.firstPosition[i]}, i);
     }
   }
-  rtcCommitScene(tree.rays.get());
+  build(tree.rays.get());
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 namespace {
 
@@ -64,6 +66,7 @@ void traceDrawn(const TracedLight& light, const DrawnPlaces& places, const Sampl
                 PictureShares& shares, const Which& which) {
   float found[DrawnPlaces::kCount];
   std::uint8_t away[DrawnPlaces::kCount];
+  stopIfAsked();
   const auto count = static_cast<std::uint32_t>(rays);
   light.visibility(places, at.sample * count, (at.sample + 1) * count, found, away);
   for (std::size_t i = 0; i < at.pixels.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbra_filter.h"
 
@@ -26,6 +27,7 @@ std::vector<Round> roundsUpTo(std::uint32_t most) {
 /// Adds what the rays of a round see to what was seen before. None wait any more.
 void add(const PicturePoints& points, const TracedLight& light, const Round& round, ShownSamples& waiting,
          PictureShares& shares) {
+  stopIfAsked();
   float found[DrawnPlaces::kCount];
   std::uint8_t away[DrawnPlaces::kCount];
   light.visibility(points.drawn(waiting), round.first, round.last, found, away);

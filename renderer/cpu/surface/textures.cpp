@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -174,8 +175,9 @@ std::future<void> Textures::decodeAhead(std::span<const TextureImage> wanted) co
   std::vector<int> images = imagesOf(missing(wanted));
   if (images.empty()) return {};
   try {
-    return std::async(std::launch::async, [all = images_, images = std::move(images)] {
-      (void)decodeImages(all, images); // need() tells what is broken
+    return std::async(std::launch::async, [all = images_, images = std::move(images), stop = Stop::current()] {
+      const Listening listening(stop);
+      (void)untilStopped({}, [&] { return decodeImages(all, images); }); // need() tells what is broken
     });
   } catch (const std::system_error&) { // no thread to be had: need() does it all
     return {};

@@ -44,7 +44,7 @@ Status blur(const PassInputs& inputs, const ShadowTile& tile, int samples, const
   (*program)->set(GNOMON_MOMENT_BLUR, glm::vec4(step.alongX ? texels.x : texels.y, perspective ? tile.near : 0.0,
                                                 perspective ? tile.far : 0.0, 0.0));
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawBands(**program, nothing, step.viewport);
   return Done{};
 }
 

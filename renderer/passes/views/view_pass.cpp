@@ -113,7 +113,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
   }
   const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawBands(**program, nothing, state.viewport);
   drawn.timer.stop();
   return drawn;
 }

@@ -6,6 +6,7 @@
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
+#include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/prepare/volume_mesh.h"
 #include "renderer/scene/mesh_edges.h"
@@ -26,7 +27,6 @@ struct UploadedDraws {
   gl::Buffer indices;
   gl::Buffer ranges;
   gl::VertexArray vertices;
-  std::size_t count = 0;
 };
 
 using Streams = std::array<gl::VertexStream, 2>; ///< positions, then instances
@@ -42,7 +42,6 @@ UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool wei
   uploaded.indices = gl::Buffer(gl::bytesOf(draws.indices), "shadow volume indices");
   uploaded.ranges = gl::Buffer(gl::bytesOf(draws.ranges), "shadow volume ranges");
   uploaded.vertices = gl::VertexArray(streams, attributes, &uploaded.indices, "shadow volumes");
-  uploaded.count = draws.ranges.size();
   return uploaded;
 }
 
@@ -106,9 +105,14 @@ class VolumeDraws {
     if (!program) return program.problems();
     const UploadedDraws uploaded = upload(draws, streams, weighted);
     gl::apply(state);
-    gl::drawIndirect(**program, uploaded.vertices, uploaded.ranges, 0, uploaded.count);
+    constexpr std::size_t kMostTriangles = 1 << 11; // each may cover the whole picture
+    gl::Steps steps;
+    for (const DrawRun& run : runsOf(draws.ranges, kMostTriangles)) {
+      gl::drawIndirect(**program, uploaded.vertices, uploaded.ranges, run.first, run.count);
+      steps.end();
+    }
     drawn_.triangles += draws.indices.size() / 3;
-    drawn_.drawCalls += uploaded.count;
+    drawn_.drawCalls += draws.ranges.size();
     return Done{};
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/core/aabb.h"
+#include "renderer/core/stop.h"
 #include "renderer/scene/animation/samplers.h"
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
@@ -119,6 +120,7 @@ Result<Properties> moveProperties(const Properties& rest, const Animation& anima
 /// False where an instance is not finite. What is flat is left out.
 bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene, SceneView& view) {
   view.instances.reserve(moving.placements.size());
+  stopIfAsked();
   for (const Placement& placement : moving.placements) {
     const auto node = static_cast<std::size_t>(placement.node);
     const glm::dmat4 worldFromLocal = placement.skin >= 0

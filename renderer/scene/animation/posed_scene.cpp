@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/core/stop.h"
 #include "renderer/scene/animation/motion.h"
 #include "renderer/scene/animation/pose_scene.h"
 #include "renderer/scene/findings.h"
@@ -60,7 +61,7 @@ Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const std::o
 }
 
 Result<std::shared_ptr<const Scene>> PoseCache::get(std::size_t animation, double timeSeconds, const Make& make) {
-  const std::lock_guard lock(mutex_);
+  const auto lock = lockUnlessStopped(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.animation == animation && entry.timeSeconds == timeSeconds;
   });

@@ -38,7 +38,7 @@ class PoseCache {
     std::shared_ptr<const Scene> scene;
   };
 
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::list<Entry> entries_; ///< most recently used first
 };
 

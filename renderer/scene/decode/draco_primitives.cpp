@@ -4,6 +4,7 @@
 #include <draco/mesh/mesh.h>
 #include <set>
 
+#include "renderer/core/stop.h"
 #include "renderer/scene/decode/draco_stream.h"
 
 namespace gnomon {
@@ -134,6 +135,7 @@ DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
     const gltf::Mesh& mesh = model.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       if (!mesh.primitives[p].draco) continue;
+      stopIfAsked();
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
       auto primitive = PrimitiveDecoding(load, mesh.primitives[p], pointer).decode(budget);
       if (!primitive) return {};

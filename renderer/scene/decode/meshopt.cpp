@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <meshoptimizer.h>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 
 namespace {
@@ -152,6 +154,7 @@ bool isSoundMeshopt(const gltf::BufferView& bufferView, const std::string& point
 
 Bytes decodeMeshopt(const gltf::Meshopt& view, const std::string& pointer, std::span<const std::uint8_t> compressed,
                     DecodeBudget& budget, Findings& findings) {
+  stopIfAsked();
   if (!mayHold(view, pointer, compressed, findings)) return {};
   if (!budget.take(view.decodedBytes(), pointer + "/count", findings)) return {};
   Bytes elements(view.decodedBytes());

@@ -1,5 +1,7 @@
 #include "renderer/scene/geometry/accessor_checks.h"
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 
 namespace {
@@ -131,6 +133,7 @@ std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limi
   views.reserve(document.model.accessors.size());
   std::size_t sparseValues = 0;
   for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+    stopIfAsked();
     const gltf::Accessor& accessor = document.model.accessors[i];
     if (accessor.sparse) sparseValues += accessor.sparse->count;
     if (sparseValues > limits.maxVertices) { // each of them is looked at, so many accessors on few bytes cost time

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/stop.h"
 #include "renderer/scene/geometry/triangle_mesh.h"
 #include "renderer/scene/posing/deformation.h"
 
@@ -73,6 +74,7 @@ class MeshBuilder {
       : defaultMaterial_(defaultMaterial), scene_(scene), deformables_(deformables), findings_(findings) {}
 
   void read(const PrimitiveSource& source, BuiltMesh& of) {
+    stopIfAsked();
     TriangleMesh mesh = buildVertices(source, findings_);
     if (mesh.indices.empty()) return;
     corners_ += mesh.indices.size();
@@ -86,7 +88,10 @@ class MeshBuilder {
       each.mesh = ordered(std::move(each.mesh));
       if (!each.source.deforms()) each.outline = outlineOf(each.mesh);
     });
-    for (ReadPrimitive& each : read_) add(each);
+    for (ReadPrimitive& each : read_) {
+      stopIfAsked();
+      add(each);
+    }
     read_.clear();
     corners_ = 0;
   }

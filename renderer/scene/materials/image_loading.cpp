@@ -3,6 +3,7 @@
 #include <map>
 #include <string_view>
 
+#include "renderer/core/stop.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/scene/materials/materials.h"
 
@@ -89,6 +90,7 @@ SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::
   if (findings.refused()) return images;
   for (const auto& [image, slot] : slots) {
     if (slot < 0) continue;
+    stopIfAsked();
     const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
     auto checked =
         checkImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide, limits.maxImagePixels);
