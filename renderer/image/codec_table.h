@@ -8,7 +8,7 @@
 namespace gnomon::codec {
 
 /// Rises whenever anything in this header changes, so that a stale module is refused and not called.
-inline constexpr std::uint32_t kTableVersion = 3;
+inline constexpr std::uint32_t kTableVersion = 4;
 
 inline constexpr const char* kTableFunction = "gnomonImageCodec";
 
@@ -16,6 +16,12 @@ inline constexpr const char* kTableFunction = "gnomonImageCodec";
 struct Sink {
   void* target = nullptr;
   bool (*accept)(void* target, const std::uint8_t* bytes, std::size_t size) = nullptr;
+};
+
+/// Asked every few rows whether the caller still wants the file.
+struct Caller {
+  void* task = nullptr;
+  bool (*wants)(void* task) = nullptr;
 };
 
 enum class Format : std::uint32_t { png, jpeg, webp };
@@ -36,9 +42,9 @@ struct FloatPart {
 struct Table {
   std::uint32_t version = 0;
 
-  /// Several parts need names that differ.
-  bool (*encodeExr)(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,
-                    const Sink& message) = nullptr;
+  /// Several parts need names that differ. Fails where the caller wants the file no more.
+  bool (*encodeExr)(const FloatPart* parts, std::size_t partCount, Compression compression, const Caller& caller,
+                    const Sink& encoded, const Sink& message) = nullptr;
 
   /// Fills width * height * 4 bytes with RGBA, straight alpha, no colour conversion. Fails where the encoded picture
   /// is not exactly width x height. A WebP must have no alpha.

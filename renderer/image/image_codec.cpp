@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "renderer/core/stop.h"
 #include "renderer/image/codec_loader.h"
 #include "renderer/image/exr_layout.h"
 #include "renderer/image/image_container.h"
@@ -97,8 +98,11 @@ Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compr
   if (!codec) return std::move(codec).problems();
   Bytes encoded;
   std::string message;
-  if (!(*codec)->encodeExr(tableParts.data(), tableParts.size(), tableValue(compression), sinkInto(encoded),
+  const codec::Caller caller{Stop::current(),
+                             [](void* stop) { return stop == nullptr || !static_cast<Stop*>(stop)->asked(); }};
+  if (!(*codec)->encodeExr(tableParts.data(), tableParts.size(), tableValue(compression), caller, sinkInto(encoded),
                            sinkInto(message))) {
+    stopIfAsked();
     return failure(ProblemCode::internal, "The EXR could not be written", message);
   }
   return encoded;

@@ -85,14 +85,14 @@ Json specWith(const Json& shadow, const Json& patch = Json::object()) {
   return spec;
 }
 
-class Stopping : public ::testing::TestWithParam<Case> {
+class StoppedFrame : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     if (GetParam().onlyGl) GNOMON_NEEDS_GL("shadow volumes are OpenGL's");
   }
 };
 
-TEST_P(Stopping, EndsAFrameAtOnceAndTheNextOneIsAsIfItHadNotBeen) {
+TEST_P(StoppedFrame, EndsAFrameAtOnceAndTheNextOneIsAsIfItHadNotBeen) {
   const ScenePtr scene = testing::generatedScene(GetParam().scene);
   const FrameSpec spec = specOf(GetParam().spec);
   Frame expected;
@@ -150,8 +150,52 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Frames, Stopping, ::testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Frames, StoppedFrame, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
+
+/// How late `task(goOn)` ends that nobody wants any more after a share of its time, and whether it says so.
+template <class Task>
+Attempt endAfter(double share, const Task& task) {
+  const auto start = Clock::now();
+  EXPECT_TRUE(task({}));
+  const double until = share * millisecondsBetween(start, Clock::now());
+  const auto again = Clock::now();
+  const auto result = task([&] { return millisecondsBetween(again, Clock::now()) < until; });
+  return {!result, millisecondsBetween(again, Clock::now()) - until};
+}
+
+TEST(Stopping, EndsLoading) {
+  const SceneBundle bundle{testing::generatedGlb("city"), {}};
+  for (const double share : {0.1, 0.3, 0.5, 0.7}) {
+    const Attempt made = endAfter(share, [&](const GoOn& goOn) { return loadScene(bundle, kLimits, {}, goOn); });
+    EXPECT_TRUE(made.stopped) << share;
+    EXPECT_LE(made.late, 2.5 * kLatest) << share;
+  }
+}
+
+TEST(Stopping, EndsEncoding) {
+  Frame frame;
+  for (const View view : {View::color, View::normal}) {
+    frame.images.push_back({view, {3000, 2000, {"R", "G", "B"}, std::vector<float>(18000000)}});
+    auto& pixels = std::get<std::vector<float>>(frame.images.back().image.pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<float>(i * 2654435761u % 1000003u);
+  }
+  for (const ImageFormat format : {ImageFormat::exr, ImageFormat::png}) {
+    frame.report.spec.output.format = format;
+    if (format == ImageFormat::png) {
+      for (ViewImage& each : frame.images) {
+        std::vector<std::uint8_t> bytes(18000000);
+        for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 2654435761u >> 13);
+        each.image.pixels = std::move(bytes);
+      }
+    }
+    for (const double share : {0.2, 0.5}) {
+      const Attempt made = endAfter(share, [&](const GoOn& goOn) { return encodePictures(frame, 2, goOn); });
+      EXPECT_TRUE(made.stopped) << share;
+      EXPECT_LE(made.late, 2.5 * kLatest) << share;
+    }
+  }
+}
 
 } // namespace
 } // namespace gnomon

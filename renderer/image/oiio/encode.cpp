@@ -1,4 +1,5 @@
 #include <OpenImageIO/imageio.h>
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,10 +47,20 @@ OIIO::ImageSpec specOf(const FloatPart& part, const FloatPart& first, Compressio
   return spec;
 }
 
+/// Of which the library makes blocks to compress: no more than so many of them.
+constexpr int kRows = 64;
+
+/// The next rows, from `y` on.
+bool writeRows(OIIO::ImageOutput& output, const FloatPart& part, int y) {
+  const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channelCount);
+  return output.write_scanlines(y, std::min(y + kRows, part.height), 0, OIIO::TypeFloat,
+                                part.pixels + static_cast<std::size_t>(y) * row);
+}
+
 } // namespace
 
-bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,
-               const Sink& message) {
+bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Caller& caller,
+               const Sink& encoded, const Sink& message) {
   return guarded(message, [&] {
     std::vector<OIIO::ImageSpec> specs;
     for (std::size_t i = 0; i < partCount; ++i) specs.push_back(specOf(parts[i], parts[0], compression));
@@ -62,8 +73,10 @@ bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compre
     }
     for (std::size_t i = 0; i < partCount; ++i) {
       const bool appended = i == 0 || output->open(file.path(), specs[i], OIIO::ImageOutput::AppendSubimage);
-      if (!appended || !output->write_image(OIIO::TypeFloat, parts[i].pixels)) {
-        return fail(message, output->geterror());
+      if (!appended) return fail(message, output->geterror());
+      for (int y = 0; y < parts[i].height; y += kRows) {
+        if (!caller.wants(caller.task)) return fail(message, "it is wanted no more");
+        if (!writeRows(*output, parts[i], y)) return fail(message, output->geterror());
       }
     }
     if (!output->close()) return fail(message, output->geterror());

@@ -12,8 +12,8 @@ namespace gnomon::codec {
 
 // The calls of the table, in terms of OpenImageIO. They throw nothing.
 
-bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Sink& encoded,
-               const Sink& message);
+bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Caller& caller,
+               const Sink& encoded, const Sink& message);
 
 bool decode(Format format, const std::uint8_t* encoded, std::size_t size, int width, int height, std::uint8_t* rgba,
             const Sink& message);
