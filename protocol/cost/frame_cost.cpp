@@ -1,0 +1,219 @@
+#include "protocol/cost/frame_cost.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "protocol/spec/traits.h"
+
+namespace gnomon {
+
+SceneCounts sceneCounts(const SceneSummary& summary) {
+  SceneCounts counts{summary.triangles, {}};
+  for (const LightSummary& light : summary.lights) {
+    counts.lights.push_back(light.type == "directional" ? LightType::directional
+                            : light.type == "spot"      ? LightType::spot
+                                                        : LightType::point);
+  }
+  return counts;
+}
+
+namespace {
+
+// Nanoseconds each, on two cores, by the CPU device: of shadow maps, rays and pictures measured, of the others
+// estimated.
+constexpr double kFrame = 1.5e6;        ///< whatever else a frame is
+constexpr double kTriangle = 8;         ///< of the scene, seen or not, once for the survey and once a tile
+constexpr double kSample = 4;           ///< of a pixel: to find the nearest surface
+constexpr double kTexel = 3;            ///< of a tile, and of each of its samples
+constexpr double kBlurredTexel = 14;    ///< of a tile with moments
+constexpr double kShadedPixel = 8;      ///< material and surroundings
+constexpr double kLitPixel = 4;         ///< for each light
+constexpr double kTap = 0.2;            ///< of a filter, for each light and pixel
+constexpr double kRay = 40;             ///< towards a light
+constexpr double kPenumbra = 0.1;       ///< share of the pixels in a penumbra, for each degree that a light spans
+constexpr double kVolumeTriangle = 400; ///< of a shadow volume
+constexpr double kReferenceRay = 90;
+constexpr double kMarchedPixel = 900; ///< through a volume
+constexpr double kVolumeLight = 4e8;  ///< light in a volume, for each light
+constexpr double kPredictedPixel = 80;
+constexpr double kReadPixel = 3;
+constexpr double kPngPixel = 2.5;    ///< by ISA-L
+constexpr double kSmallPngPixel = 8; ///< by libdeflate, for each level
+constexpr double kExrPixel = 40;     ///< of a view, compressed
+
+double pixelsOf(const FrameSpec& spec) {
+  return static_cast<double>(spec.width) * spec.height;
+}
+
+double samplesOf(const FrameSpec& spec) {
+  return spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+}
+
+/// As the renderer chooses them.
+std::vector<Light> lightsOf(const FrameSpec& spec, const SceneCounts& scene) {
+  std::vector<Light> lights = spec.lights.value_or(std::vector<Light>{});
+  if (!spec.lights) {
+    for (const LightType type : scene.lights) lights.push_back({.type = type});
+    if (lights.size() > static_cast<std::size_t>(kLimits.maxLights)) {
+      lights.resize(static_cast<std::size_t>(kLimits.maxLights));
+    }
+    if (lights.empty()) lights.emplace_back();
+  }
+  bool any = false; // some light casts a shadow
+  for (Light& light : lights) {
+    if (!light.shadow) light.shadow = spec.shadow;
+    if (any && spec.shadowLightPolicy == ShadowLightPolicy::first) light.shadow->enabled = false;
+    any = any || light.shadow->enabled;
+  }
+  return lights;
+}
+
+bool hasSize(const Light& light) {
+  return light.type == LightType::directional ? light.angularDiameterDegrees.value_or(0) > 0
+                                              : light.radius.value_or(0) > 0;
+}
+
+/// Share of the pixels that are in a penumbra, about. How far off a lamp is, a request does not tell.
+double penumbraOf(const Light& light) {
+  if (!hasSize(light)) return 0;
+  if (light.type != LightType::directional) return kPenumbra;
+  return std::clamp(kPenumbra * *light.angularDiameterDegrees, 0.02, 0.6);
+}
+
+double tilesOf(const Light& light) {
+  return light.type == LightType::directional ? light.shadow->cascadeCount : light.type == LightType::point ? 6 : 1;
+}
+
+double tileSide(const Light& light, const FrameSpec& spec) {
+  const ShadowSize usual = light.type == LightType::directional ? ShadowSize::Large
+                           : light.type == LightType::spot      ? ShadowSize::Medium
+                                                                : ShadowSize::Small;
+  const int steps = static_cast<int>(light.shadow->size.value_or(usual)) - static_cast<int>(ShadowSize::Large) +
+                    static_cast<int>(light.shadow->importance) - static_cast<int>(ShadowImportance::high);
+  const auto longest = std::bit_ceil(static_cast<unsigned>(std::max(spec.width, spec.height)));
+  return std::ldexp(std::min(static_cast<double>(spec.atlas.baseSize), static_cast<double>(longest)), steps);
+}
+
+/// Texels that a filter reads for a pixel, about.
+double tapsOf(const Filter& filter) {
+  switch (filter.type) {
+    case FilterType::hard:
+    case FilterType::vsm:
+    case FilterType::evsm:
+    case FilterType::msm:
+      return 4;
+    case FilterType::pcf:
+      return filter.radius ? 49 : static_cast<double>(filter.size) * filter.size;
+    case FilterType::pcss:
+      return 64;
+  }
+  return 4;
+}
+
+bool isBlurred(const Filter& filter) {
+  return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
+}
+
+/// Draws its shadow into a map, as far as a request tells.
+bool isMapped(const Light& light, bool tilesShown) {
+  const TechniqueTraits& technique = traitsOf(light.shadow->technique);
+  return technique.mapped && (!technique.layered || tilesShown);
+}
+
+double bakedTexels(const LightMapOptions& options) {
+  const double side = options.texelsPerMetre ? kLimits.maxLightMapSide / 4.0 : options.size;
+  return side * side;
+}
+
+/// What `light`'s shadow costs wherever it is looked at.
+void addShadow(const Light& light, const FrameSpec& spec, const SceneCounts& scene, bool tilesShown, FrameCost& cost) {
+  const Shadow& shadow = *light.shadow;
+  const TechniqueTraits& technique = traitsOf(shadow.technique);
+  const auto triangles = static_cast<double>(scene.triangles);
+  if (isMapped(light, tilesShown)) {
+    const double texels = tilesOf(light) * tileSide(light, spec) * tileSide(light, spec);
+    const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
+    const double each = spec.atlas.samples * kTexel + (isBlurred(shadow.filter) ? kBlurredTexel : 0.0);
+    cost[FramePart::shadow] += std::min(texels, room) * each + tilesOf(light) * triangles * kTriangle;
+  }
+  if (!technique.layered) return;
+  const double pixels = pixelsOf(spec);
+  if (technique.baked) {
+    cost[FramePart::bake] += bakedTexels(shadow.lightMap) * (hasSize(light) ? shadow.lightMap.samples : 16) * kRay;
+    cost[FramePart::visibility] += pixels * kLitPixel;
+  } else if (technique.traced) {
+    const double more = penumbraOf(light) * (shadow.raySamples - 1);
+    cost[FramePart::visibility] += pixels * (1 + more) * kRay;
+  } else {
+    cost[FramePart::visibility] += triangles * kVolumeTriangle + pixels * samplesOf(spec) * kSample;
+  }
+}
+
+double filterTaps(const std::vector<Light>& lights, bool tilesShown) {
+  double taps = 0;
+  for (const Light& light : lights) {
+    if (light.shadow->enabled && isMapped(light, tilesShown)) taps += tapsOf(light.shadow->filter);
+  }
+  return taps;
+}
+
+double encodedPixel(const Output& output) {
+  if (output.format == ImageFormat::exr) return kExrPixel;
+  return output.pngCompression <= 2 ? kPngPixel : kSmallPngPixel * output.pngCompression;
+}
+
+void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights, double taps, FrameCost& cost) {
+  const ViewTraits& traits = traitsOf(view);
+  const double pixels = pixelsOf(spec);
+  // Pixels at the edges of triangles show several of them.
+  const double shaded = pixels * (traits.source == ViewSource::picture && samplesOf(spec) > 1 ? 1.6 : 1.0);
+  if (traits.source == ViewSource::picture) {
+    cost[FramePart::shade] += shaded * (kShadedPixel + static_cast<double>(lights.size()) * kLitPixel + taps * kTap);
+  } else if (traits.source == ViewSource::data) {
+    cost[FramePart::shade] += shaded * (kLitPixel + (traits.shadowed ? kTap * 25 : 0.0));
+  } else if (traits.source == ViewSource::atlas) {
+    cost[FramePart::shade] += static_cast<double>(spec.atlas.size) * spec.atlas.size * kReadPixel;
+  }
+  cost[FramePart::readback] += pixels * kReadPixel;
+  cost[FramePart::encode] += pixels * encodedPixel(spec.output);
+}
+
+/// Rays towards the light that debug views are about: as many as a comparison takes, or as its shadow asks for.
+double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
+  constexpr int kLeast = 256;
+  const auto chosen = static_cast<std::size_t>(spec.debug.light.value_or(0));
+  const Light& light = lights[std::min(chosen, lights.size() - 1)];
+  return hasSize(light) ? std::max(kLeast, light.shadow->raySamples) : 1;
+}
+
+} // namespace
+
+FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene) {
+  const std::vector<Light> lights = lightsOf(spec, scene);
+  const double pixels = pixelsOf(spec);
+  const auto shows = [&](auto which) {
+    return std::any_of(spec.views.begin(), spec.views.end(), [&](View view) { return which(traitsOf(view)); });
+  };
+  const bool tilesShown = shows([](const ViewTraits& view) { return view.tiles; });
+  FrameCost cost;
+  cost[FramePart::fixed] = kFrame;
+  cost[FramePart::survey] = static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec) * kSample;
+  for (const Light& light : lights) {
+    if (light.shadow->enabled) addShadow(light, spec, scene, tilesShown, cost);
+  }
+  const double taps = filterTaps(lights, tilesShown);
+  for (const View view : spec.views) addView(view, spec, lights, taps, cost);
+  if (!lights.empty() && shows([](const ViewTraits& view) { return view.source == ViewSource::rays; })) {
+    cost[FramePart::reference] = pixels * (2 + referenceRays(spec, lights)) * kReferenceRay;
+  }
+  if (spec.debug.predictEdges) cost[FramePart::predict] = pixels * kPredictedPixel;
+  if (!spec.volumes.empty()) {
+    const auto volumes = static_cast<double>(spec.volumes.size());
+    cost[FramePart::volume] = volumes * static_cast<double>(std::max<std::size_t>(lights.size(), 1)) * kVolumeLight;
+    cost[FramePart::shade] += pixels * volumes * kMarchedPixel;
+  }
+  return cost;
+}
+
+} // namespace gnomon

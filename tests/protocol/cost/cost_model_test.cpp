@@ -1,0 +1,144 @@
+#include "protocol/cost/cost_model.h"
+
+#include <numeric>
+#include <random>
+#include <thread>
+
+namespace gnomon {
+namespace {
+
+const SceneCounts kCity{300'000, {LightType::directional}};
+
+FrameSpec anySpec(std::mt19937& random) {
+  const auto among = [&](std::initializer_list<int> values) {
+    return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
+  };
+  FrameSpec spec;
+  spec.width = among({320, 1280, 1920});
+  spec.height = among({200, 720, 1080});
+  spec.shadow.technique = static_cast<ShadowTechnique>(among({0, 0, 3}));
+  spec.shadow.raySamples = among({1, 16, 64});
+  spec.shadow.cascadeCount = among({1, 2, 4});
+  spec.lights.emplace(static_cast<std::size_t>(among({1, 2, 5})));
+  for (Light& light : *spec.lights) light.angularDiameterDegrees = 0.53;
+  return spec;
+}
+
+/// A machine on which each part takes its own factor of the usual time, and up to a tenth more or less.
+class Machine {
+ public:
+  FrameReport report(const FrameCost& cost) {
+    const auto time = [&](FramePart part) {
+      return 1e-6 * cost[part] * factors_[static_cast<std::size_t>(part)] * noise_(random_);
+    };
+    FrameReport report;
+    const double visibility = time(FramePart::visibility);
+    report.stages = {{"queue", 5000},
+                     {"load", 700},
+                     {"upload", time(FramePart::fixed)},
+                     {"survey", time(FramePart::survey)},
+                     {"shadow", time(FramePart::shadow)},
+                     {"shade", visibility + time(FramePart::shade)},
+                     {"readback", time(FramePart::readback)},
+                     {"encode", time(FramePart::encode)}};
+    report.passes = {{.pass = "survey", .cpuMilliseconds = 1}, {.pass = "visibility", .cpuMilliseconds = visibility}};
+    return report;
+  }
+
+  double milliseconds(const FrameCost& cost) const {
+    return 1e-6 * std::inner_product(cost.parts.begin(), cost.parts.end(), factors_.begin(), 0.0);
+  }
+
+ private:
+  std::array<double, kFrameParts> factors_{2, 1, 1, 5, 0.3, 7, 0.5, 1, 1, 2, 4};
+  std::uniform_real_distribution<double> noise_{0.9, 1.1};
+  std::mt19937 random_{7};
+};
+
+TEST(CostModel, AfterTwentyFramesItTellsTheTimeOfOthersWithinAFifth) {
+  std::mt19937 random(1);
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 20; ++i) {
+    const FrameCost cost = frameCost(anySpec(random), kCity);
+    model.learn(cost, machine.report(cost));
+  }
+  for (int i = 0; i < 50; ++i) {
+    const FrameCost cost = frameCost(anySpec(random), kCity);
+    EXPECT_NEAR(model.milliseconds(cost), machine.milliseconds(cost), 0.2 * machine.milliseconds(cost));
+  }
+}
+
+TEST(CostModel, BeforeItHasSeenAnyItTakesTheUsualTimes) {
+  const FrameCost cost = frameCost(FrameSpec{}, kCity);
+  EXPECT_NEAR(CostModel().milliseconds(cost), 1e-6 * std::accumulate(cost.parts.begin(), cost.parts.end(), 0.0), 1e-9);
+}
+
+TEST(CostModel, ForgetsAMachineThatHasChanged) {
+  const FrameCost cost = frameCost(FrameSpec{}, kCity);
+  FrameReport slow, fast;
+  slow.stages = {{"survey", 500}};
+  fast.stages = {{"survey", 5}};
+  CostModel model;
+  for (int i = 0; i < 20; ++i) model.learn(cost, slow);
+  EXPECT_NEAR(model.parts(cost)[FramePart::survey], 500, 25);
+  for (int i = 0; i < 60; ++i) model.learn(cost, fast);
+  EXPECT_NEAR(model.parts(cost)[FramePart::survey], 5, 1.5);
+}
+
+TEST(CostModel, WhatWasKeptFromEarlierFramesTeachesNothing) {
+  FrameSpec spec;
+  spec.shadow.technique = ShadowTechnique::lightMap;
+  spec.volumes.resize(1);
+  FrameCost cost = frameCost(spec, kCity);
+  cost[FramePart::shadow] = 1e6;
+  CostModel model;
+  const FrameCost before = model.parts(cost);
+  FrameReport report;
+  report.stages = {{"shadow", 0}, {"bake", 0}, {"volume", 0}, {"survey", 0}};
+  report.lights.resize(1);
+  report.lights[0].tiles.resize(2);
+  report.lights[0].tiles[1].reused = true;
+  report.volumes = {{.reused = true}};
+  for (int i = 0; i < 20; ++i) model.learn(cost, report);
+  const FrameCost after = model.parts(cost);
+  for (const FramePart part : {FramePart::shadow, FramePart::bake, FramePart::volume}) {
+    EXPECT_EQ(after[part], before[part]);
+  }
+  EXPECT_LT(after[FramePart::survey], 0.2 * before[FramePart::survey]);
+}
+
+TEST(CostModel, TheSameFramesTeachTheSame) {
+  const auto learned = [] {
+    std::mt19937 random(3);
+    Machine machine;
+    CostModel model;
+    for (int i = 0; i < 10; ++i) {
+      const FrameCost cost = frameCost(anySpec(random), kCity);
+      model.learn(cost, machine.report(cost));
+    }
+    return model.milliseconds(frameCost(FrameSpec{}, kCity));
+  };
+  EXPECT_EQ(learned(), learned());
+}
+
+TEST(CostModel, AnyThreadMayAskAndTeach) {
+  const FrameCost cost = frameCost(FrameSpec{}, kCity);
+  FrameReport report;
+  report.stages = {{"survey", 5}};
+  CostModel model;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      for (int frame = 0; frame < 200; ++frame) {
+        model.learn(cost, report);
+        EXPECT_GT(model.milliseconds(cost), 0);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_NEAR(model.parts(cost)[FramePart::survey], 5, 0.1);
+}
+
+} // namespace
+} // namespace gnomon
