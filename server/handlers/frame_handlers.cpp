@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -19,21 +20,44 @@ struct FrameCall {
   FrameSpec spec;
   std::function<Result<StoredBundle>()> bundle; ///< called only when a worker must see the scene
   std::string cacheControl;
+  SceneCounts counts; ///< as far as they are known
 };
 
-/// Settings for a target are found by drawing and measuring many frames.
-bool isBatch(const FrameSpec& spec) {
-  return spec.quality.has_value();
+/// Frames that are expected to take longer wait for each other, and leave a worker to all others.
+constexpr double kLongFrame = 1'000; ///< milliseconds
+
+/// An estimate counts work that a frame may be spared, and may be wrong by as much as this.
+constexpr double kDoubt = 4;
+
+std::string secondsText(double milliseconds) {
+  return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
+}
+
+/// Why a frame that takes so many milliseconds can't be done in time.
+std::optional<Problem> tooMuchWork(const Services& services, double estimate) {
+  const auto allowed = static_cast<double>(services.requestTimeout.count());
+  if (estimate <= allowed * kDoubt) return std::nullopt;
+  return Problem{ProblemCode::tooLarge, "",
+                 "This frame is more work than can be done in the time of a request "
+                 "(--request-timeout): fewer pixels, lights, samples or rays are less.",
+                 secondsText(allowed), "about " + secondsText(estimate)};
 }
 
 HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
                const std::string& etag) {
   auto bundle = frame.bundle();
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
-  const bool batch = isBatch(frame.spec);
+  const double estimate = services.workers.milliseconds(frameCost(frame.spec, frame.counts));
+  // Settings for a target are found by drawing and measuring many frames.
+  const bool hasTarget = frame.spec.quality.has_value();
+  if (!hasTarget) {
+    if (auto problem = tooMuchWork(services, estimate)) return problemReply({*std::move(problem)}, call.request.id);
+  }
+  const bool batch = hasTarget || estimate > kLongFrame;
   Task task = taskFor(call, OrderKind::frame, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
-                      batch ? services.evaluationTimeout : services.requestTimeout);
+                      hasTarget ? services.evaluationTimeout : services.requestTimeout);
   task.lane = batch ? Lane::batch : Lane::interactive;
+  task.holdsRenderer = batch && !hasTarget;
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
@@ -95,7 +119,8 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
     return problemReply(spec.problems(), call.request.id);
   }
   return answer(services, call,
-                {id, *std::move(spec), [&services, id] { return services.store.bundle(id); }, std::move(cacheControl)});
+                {id, *std::move(spec), [&services, id] { return services.store.bundle(id); }, std::move(cacheControl),
+                 services.store.counts(id).value_or(SceneCounts())});
 }
 
 /// Everything that the picture depends on is in the URL, but the renderer, and that is in the entity tag.
@@ -166,7 +191,7 @@ HttpReply renderOnce(Services& services, RouteCall call) {
   if (!pack) return problemReply(pack.problems(), id);
   bundle = SceneBundle();
   const auto give = [&pack]() -> Result<StoredBundle> { return StoredBundle{pack->file}; };
-  return answer(services, call, {pack->id, *std::move(spec), give, kPrivate});
+  return answer(services, call, {pack->id, *std::move(spec), give, kPrivate, {}});
 }
 
 } // namespace gnomon

@@ -66,6 +66,15 @@ std::optional<std::string> SceneStore::summary(const std::string& id) const {
   return text;
 }
 
+std::optional<SceneCounts> SceneStore::counts(const std::string& id) {
+  if (auto known = counts_.find(id)) return known;
+  const auto text = summary(id);
+  const auto decoded = text ? decodeSceneSummary(*text) : Result<SceneSummary>(Problems{});
+  if (!decoded) return std::nullopt;
+  counts_.keep(id, sceneCounts(*decoded));
+  return counts_.find(id);
+}
+
 void SceneStore::keepSummary(const std::string& id, const std::string& summary) {
   if (directory_) directory_->writeSummary(id, summary);
 }

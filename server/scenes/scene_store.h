@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "server/scenes/known_counts.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/scenes/scene_directory.h"
 #include "server/scenes/scene_memory.h"
@@ -46,6 +47,9 @@ class SceneStore {
   std::optional<std::string> summary(const std::string& id) const;
   void keepSummary(const std::string& id, const std::string& summary);
 
+  /// What the scene brings to its frames; nothing where its summary is missing.
+  std::optional<SceneCounts> counts(const std::string& id);
+
   /// A worker found bytes that the id does not name: the scene is set aside.
   void setAside(const std::string& id);
 
@@ -57,6 +61,7 @@ class SceneStore {
   SceneMemory memory_;
   std::optional<SceneDirectory> directory_;
   std::shared_ptr<LightMapDirectory> lightMaps_;
+  KnownCounts counts_;
 };
 
 } // namespace gnomon

@@ -97,7 +97,9 @@ static_assert(kRowsAreComplete<OrderEvent>);
 template <>
 inline constexpr auto kRows<Beat> = rows("Beat", "A sign of life.",
                                          field("scenes", &Beat::scenes, {.says = "Loaded scenes."}),
-                                         field("sceneBytes", &Beat::sceneBytes, {.says = "Of them.", .unit = "bytes"}));
+                                         field("sceneBytes", &Beat::sceneBytes, {.says = "Of them.", .unit = "bytes"}),
+                                         field("costFactors", &Beat::costFactors,
+                                               {.says = "Of each part of a frame.", .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<Beat>);
 
 template <>

@@ -98,8 +98,9 @@ struct OrderEvent {
 
 /// A sign of life, and what the worker holds.
 struct Beat {
-  std::uint64_t scenes = 0;     ///< loaded
-  std::uint64_t sceneBytes = 0; ///< of them
+  std::uint64_t scenes = 0;          ///< loaded
+  std::uint64_t sceneBytes = 0;      ///< of them
+  std::vector<double> costFactors{}; ///< milliseconds for a unit of each part of a FrameCost, learned there
 };
 
 /// A worker that can't start.

@@ -37,10 +37,11 @@ std::string jsonBody(Frame frame, const std::vector<EncodedPicture>& pictures, I
 
 } // namespace
 
-Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary) {
+Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary,
+                            const GoOn& goOn) {
   const auto start = std::chrono::steady_clock::now();
   const bool isPicture = mediaType == mediaTypeOf(format);
-  const auto pictures = encodePictures(frame, isPicture ? 1 : frame.images.size());
+  const auto pictures = encodePictures(frame, isPicture ? 1 : frame.images.size(), goOn);
   if (!pictures) return pictures.problems();
   if (pictures->empty()) return Problem{ProblemCode::internal, "", "The frame has no picture.", "", ""};
   frame.report.stages.push_back({"encode", millisecondsSince(start)});

@@ -17,7 +17,8 @@ struct FrameFile {
 
 /// Encodes the frame and adds the stage `encode` to its report. `format`: of its pictures. `mediaType`: theirs, for the
 /// first view of a PNG or all of an EXR; multipart/mixed, whose parts `boundary` separates, which must not occur in a
-/// picture by chance; or application/json.
-Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary);
+/// picture by chance; or application/json. `goOn`: as encodePictures takes it.
+Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary,
+                            const GoOn& goOn);
 
 } // namespace gnomon

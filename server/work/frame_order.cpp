@@ -40,8 +40,10 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
       report.stages.begin(),
       {StageTime{"queue", call.order.queuedMilliseconds + drawn->queuedMilliseconds}, StageTime{"load", loadMs}});
   report.quality = quality;
-  auto file = frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType, call.order.boundary);
-  if (!file) return {.problems = file.problems()};
+  context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
+  auto file =
+      frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType, call.order.boundary, call.goOn);
+  if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the frame", call)}};
   return {
       .contentType = std::move(file->contentType), .body = std::move(file->body), .stages = std::move(file->stages)};
 }

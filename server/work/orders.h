@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/cost/cost_model.h"
 #include "server/system/byte_budget.h"
 #include "server/wire/messages.h"
 #include "server/work/quality_choices.h"
@@ -19,6 +20,7 @@ struct WorkContext {
   SceneLoader& scenes;
   ByteBudget frameMemory; ///< of pictures that are being drawn or encoded
   QualityChoices choices;
+  CostModel costs; ///< learned from the frames drawn here
 };
 
 /// An order as it arrived.

@@ -14,9 +14,6 @@
 
 namespace gnomon {
 
-/// Asked often by work in progress, by any thread; false = it should stop.
-using GoOn = std::function<bool()>;
-
 /// A frame, and how long it waited for its turn.
 struct DrawnFrame {
   Frame frame;

@@ -17,7 +17,8 @@ bool isBundleOf(const std::string& id, std::span<const std::uint8_t> bytes) {
 
 } // namespace
 
-std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, const BundleFile& bundle) const {
+std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, const BundleFile& bundle,
+                                                         const GoOn& goOn) const {
   auto bytes = readFile(bundle.file, std::numeric_limits<std::size_t>::max()); // the front has bounded it
   if (!bytes) {
     return LoadFailure{{{ProblemCode::unavailable, "", "The scene's bytes could not be read.", "", ""}}};
@@ -26,7 +27,7 @@ std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, 
   if (bundle.isStored && !isBundleOf(id, *bytes)) return LoadFailure{{}, true};
   auto read = readBundle(*std::move(bytes), limits_);
   if (!read) return LoadFailure{std::move(read).problems()};
-  auto scene = loadScene(*read, limits_, id);
+  auto scene = loadScene(*read, limits_, id, goOn);
   if (!scene) return LoadFailure{std::move(scene).problems()};
   LoadedScene loaded{*scene, summaryOf(**scene)};
   loaded.summary.id = id;
@@ -38,15 +39,24 @@ std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, 
   return loaded;
 }
 
-std::variant<LoadedScene, LoadFailure> SceneLoader::get(const std::string& id, const BundleFile& bundle) {
-  if (auto known = cache_.get(id)) return *std::move(known);
-  return loading_.run(id, [&]() -> std::variant<LoadedScene, LoadFailure> {
-    if (auto known = cache_.get(id)) return *std::move(known); // loaded by another call meanwhile
-    auto loaded = load(id, bundle);
-    if (const auto* scene = std::get_if<LoadedScene>(&loaded)) cache_.put(*scene);
-    malloc_trim(0); // what a load leaves free in the heaps goes back to the system
-    return loaded;
-  });
+std::variant<LoadedScene, LoadFailure> SceneLoader::get(const std::string& id, const BundleFile& bundle,
+                                                        const GoOn& goOn) {
+  while (true) {
+    if (auto known = cache_.get(id)) return *std::move(known);
+    bool isOwn = false;
+    auto result = loading_.run(id, [&]() -> std::variant<LoadedScene, LoadFailure> {
+      isOwn = true;
+      if (auto known = cache_.get(id)) return *std::move(known); // loaded by another call meanwhile
+      auto loaded = load(id, bundle, goOn);
+      if (const auto* scene = std::get_if<LoadedScene>(&loaded)) cache_.put(*scene);
+      malloc_trim(0); // what a load leaves free in the heaps goes back to the system
+      return loaded;
+    });
+    const auto* failure = std::get_if<LoadFailure>(&result);
+    const bool otherStopped = failure != nullptr && !isOwn && !failure->problems.empty() &&
+                              failure->problems.front().code == ProblemCode::unavailable;
+    if (!otherStopped || (goOn && !goOn())) return result;
+  }
 }
 
 void SceneLoader::forget(const std::string& id) {

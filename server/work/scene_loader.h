@@ -31,7 +31,8 @@ class SceneLoader {
   SceneLoader(std::size_t memoryBytes, const Limits& limits)
       : limits_(limits), cache_(memoryBytes), most_(memoryBytes) {}
 
-  std::variant<LoadedScene, LoadFailure> get(const std::string& id, const BundleFile& bundle);
+  /// `goOn`: false ends the loading, unless others want the scene, too.
+  std::variant<LoadedScene, LoadFailure> get(const std::string& id, const BundleFile& bundle, const GoOn& goOn = {});
 
   /// Drops a scene from memory. Work in progress keeps what it has.
   void forget(const std::string& id);
@@ -40,7 +41,7 @@ class SceneLoader {
   std::size_t count() const { return cache_.count(); }
 
  private:
-  std::variant<LoadedScene, LoadFailure> load(const std::string& id, const BundleFile& bundle) const;
+  std::variant<LoadedScene, LoadFailure> load(const std::string& id, const BundleFile& bundle, const GoOn& goOn) const;
 
   Limits limits_;
   SceneCache cache_;

@@ -75,7 +75,7 @@ class Worker {
           end(1);
       }
       if (Clock::now() < nextBeat) continue;
-      say({.beat = Beat{scenes_->count(), scenes_->bytes()}});
+      say({.beat = beat()});
       nextBeat = Clock::now() + kBeatPause;
     }
   }
@@ -105,8 +105,8 @@ class Worker {
     }
     renderer_ = *std::move(renderer);
     scenes_ = std::make_unique<SceneLoader>(options.sceneMemoryBytes, limits);
-    context_ =
-        std::unique_ptr<WorkContext>(new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}});
+    context_ = std::unique_ptr<WorkContext>(
+        new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}, {}});
     warmEncoders(); // later it may open no files
     say({.ready = renderer_->info()});
   }
@@ -157,6 +157,13 @@ class Worker {
     const std::array files{body ? body->get() : -1};
     const std::string text = textOf({.outcome = std::move(outcome)});
     if (!channel_.send(text, std::span(files).first(body ? 1 : 0))) end(1);
+  }
+
+  Beat beat() const {
+    FrameCost unit;
+    unit.parts.fill(1);
+    const auto factors = context_->costs.parts(unit).parts;
+    return {scenes_->count(), scenes_->bytes(), {factors.begin(), factors.end()}};
   }
 
   void say(const ToFront& message) {

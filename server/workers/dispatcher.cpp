@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "protocol/base/elapsed.h"
@@ -33,7 +34,11 @@ Problem lateProblem(bool waited) {
 
 } // namespace
 
-Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)) {}
+Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)) {
+  FrameCost unit;
+  unit.parts.fill(1);
+  costFactors_ = CostModel().parts(unit); // until a worker has learned
+}
 
 Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options) {
   std::unique_ptr<Dispatcher> dispatcher(new Dispatcher(std::move(options)));
@@ -216,6 +221,11 @@ int Dispatcher::retryAfterSeconds() const {
   const double seconds = std::ceil(each * static_cast<double>(waiting_.size() + 1) /
                                    (1000.0 * static_cast<double>(std::max<std::size_t>(places, 1))));
   return static_cast<int>(std::clamp(seconds, 1.0, 60.0));
+}
+
+double Dispatcher::milliseconds(const FrameCost& cost) const {
+  const Lock lock(mutex_);
+  return std::inner_product(cost.parts.begin(), cost.parts.end(), costFactors_.parts.begin(), 0.0);
 }
 
 void Dispatcher::forget(const std::string& scene) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/cost/cost_model.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/workers/placement.h"
 #include "server/workers/task.h"
@@ -53,6 +54,9 @@ class Dispatcher {
   /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it.
   /// `gone` is asked some fifty times a second, on the calling thread, as are `events`.
   TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
+
+  /// How long a frame may take that finds nothing of earlier ones, as workers have learned.
+  double milliseconds(const FrameCost& cost) const;
 
   /// A scene was deleted: workers drop it.
   void forget(const std::string& scene);
@@ -98,6 +102,7 @@ class Dispatcher {
   std::uint64_t numbers_ = 0;
   double taskMs_ = 0; ///< moving average of what a task takes in a worker
   RendererInfo info_;
+  FrameCost costFactors_;           ///< milliseconds for a unit of each part
   std::optional<Problems> refusal_; ///< of a worker that could not start
   Clock::time_point endAt_ = Clock::time_point::max();
   bool ending_ = false;

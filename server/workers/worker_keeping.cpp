@@ -73,7 +73,13 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
   if (!message) return false;
   Lock lock(mutex_);
   slot.heard = Clock::now();
-  if (message->beat) slot.beat = *message->beat;
+  if (message->beat) {
+    slot.beat = *message->beat;
+    const std::vector<double>& factors = slot.beat.costFactors;
+    const bool sound = factors.size() == kFrameParts &&
+                       std::all_of(factors.begin(), factors.end(), [](double factor) { return factor >= 0; });
+    if (sound) std::copy(factors.begin(), factors.end(), costFactors_.parts.begin());
+  }
   if (message->ready) {
     info_ = *std::move(message->ready);
     slot.ready = true;

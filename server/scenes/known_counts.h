@@ -1,0 +1,28 @@
+#pragma once
+
+#include <list>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "protocol/cost/frame_cost.h"
+
+namespace gnomon {
+
+/// What scenes bring to their frames, by id, as it was last read from their summaries; the longest unused are
+/// forgotten. Any thread.
+class KnownCounts {
+ public:
+  std::optional<SceneCounts> find(const std::string& id);
+  void keep(const std::string& id, SceneCounts counts);
+
+ private:
+  static constexpr std::size_t kMost = 1024;       ///< scenes, a few kilobytes each at most
+  static constexpr std::size_t kMostLights = 1024; ///< more than a frame may have
+
+  std::mutex mutex_;
+  std::list<std::pair<std::string, SceneCounts>> entries_; ///< most recently used first
+};
+
+} // namespace gnomon
