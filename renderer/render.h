@@ -24,6 +24,7 @@
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
+#include "renderer/volume/vdb_file.h"
 
 /// The only door into the renderer.
 namespace gnomon {

@@ -97,6 +97,7 @@ KEPT_IN = {
     "draco/": ["renderer/scene/decode"],
     "meshoptimizer.h": ["renderer/scene"],
     "OpenImageIO/": ["renderer/image"],
+    "OpenEXR/": ["renderer/image"],
     "isa-l/": ["renderer/image"],
     "libdeflate.h": ["renderer/image"],
     "zlib.h": ["renderer/image"],

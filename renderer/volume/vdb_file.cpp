@@ -38,20 +38,19 @@ class Descriptor {
   int number_;
 };
 
-/// A process, ended and waited for at the end.
-class Child {
+/// A child, killed and waited for at the end.
+class Child : public VdbProcess {
  public:
   explicit Child(pid_t id) : id_(id) {}
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
-  ~Child() {
+  ~Child() override {
     if (id_ <= 0) return;
     kill(id_, SIGKILL);
     wait();
   }
 
-  /// How it ended, as of waitpid().
-  int wait() {
+  int wait() override {
     int status = 0;
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -62,6 +61,22 @@ class Child {
  private:
   pid_t id_;
 };
+
+/// Where this program's own may lie; none where the system does not tell.
+const std::vector<std::filesystem::path>& ownPrograms() {
+  static const std::vector<std::filesystem::path> paths = [] {
+    std::error_code error;
+    const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
+    return error ? std::vector<std::filesystem::path>() : vdbProgramPaths(executable);
+  }();
+  return paths;
+}
+
+/// What startVdbBy was given.
+StartVdb& starter() {
+  static StartVdb start = startVdbAsChild;
+  return start;
+}
 
 Problem unusable(const std::string& why) {
   return {ProblemCode::internal, "", "The reader of VDB files is not usable: " + why + ".", "", ""};
@@ -77,30 +92,6 @@ Descriptor memoryFileOf(std::span<const std::uint8_t> bytes) {
   }
   if (file.number() >= 0) lseek(file.number(), 0, SEEK_SET);
   return file;
-}
-
-/// Starts `program` with nothing of this process but these two files; -1 where that fails.
-pid_t start(const std::filesystem::path& program, const std::string& argument, int input, int output) {
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&files);
-  posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  std::string name = program.string(), text = argument;
-  std::array<char*, 3> arguments{name.data(), text.data(), nullptr};
-  std::array<char*, 1> environment{nullptr};
-  pid_t child = -1;
-  const int error = posix_spawn(&child, name.c_str(), &files, &attributes, arguments.data(), environment.data());
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
-  return error == 0 ? child : -1;
 }
 
 enum class Received { whole, less, late };
@@ -143,12 +134,12 @@ Problem problemOf(int outcome, const std::string& names) {
 }
 
 /// Why less came than belongs to a reply.
-Problem problemOf(Received received, Child& child, std::chrono::milliseconds deadline) {
+Problem problemOf(Received received, VdbProcess& process, std::chrono::milliseconds deadline) {
   if (received == Received::late) {
     return {ProblemCode::tooLarge, "", "The .vdb file takes too long to read.",
             std::to_string(deadline.count()) + " ms", ""};
   }
-  const int status = child.wait();
+  const int status = process.wait();
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : vdb::broken;
   // As a shell and the dynamic linker end.
   if (code == 126 || code == 127)
@@ -158,53 +149,77 @@ Problem problemOf(Received received, Child& child, std::chrono::milliseconds dea
 
 } // namespace
 
+std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::string& name, int input, int output) {
+  const auto program = std::find_if(programs.begin(), programs.end(), [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  });
+  if (program == programs.end()) return nullptr;
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&files);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  std::string path = program->string(), text = name;
+  std::array<char*, 3> arguments{path.data(), text.data(), nullptr};
+  std::array<char*, 1> environment{nullptr};
+  pid_t child = -1;
+  const int error = posix_spawn(&child, path.c_str(), &files, &attributes, arguments.data(), environment.data());
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return error == 0 ? std::make_unique<Child>(child) : nullptr;
+}
+
+void startVdbBy(StartVdb start) {
+  ownPrograms(); // read while that is allowed
+  starter() = std::move(start);
+}
+
 std::vector<std::filesystem::path> vdbProgramPaths(const std::filesystem::path& executable) {
   const std::filesystem::path folder = executable.parent_path();
   return {folder / vdb::kProgram, (folder / ".." / "lib" / "gnomon" / vdb::kProgram).lexically_normal()};
 }
 
-Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name,
-                            std::span<const std::filesystem::path> programs, std::chrono::milliseconds deadline) {
+Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name, VdbPrograms programs,
+                            std::chrono::milliseconds deadline) {
   const Clock::time_point end = Clock::now() + deadline;
-  const auto program = std::find_if(programs.begin(), programs.end(), [](const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-  });
-  if (program == programs.end()) {
-    return unusable(std::string(vdb::kProgram) + " lies neither beside the program nor in ../lib/gnomon");
-  }
   const Descriptor input = memoryFileOf(file);
   std::array<int, 2> ends{-1, -1};
   if (input.number() < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
     return unusable("there are no more files or no more memory");
   const Descriptor output(ends[0]);
   Descriptor written(ends[1]);
-  const pid_t id = start(*program, name, input.number(), written.number());
-  if (id < 0) return unusable(std::string(vdb::kProgram) + " cannot be started");
-  Child child(id);
+  const auto process = starter()(programs, name, input.number(), written.number());
+  if (!process)
+    return unusable(std::string(vdb::kProgram) +
+                    " can't be started; it belongs beside the program, or in ../lib/gnomon");
   written = Descriptor();
 
   vdb::Reply reply;
   Received received = receive(output, bytesOf(std::span(&reply, 1)), end);
-  if (received != Received::whole) return problemOf(received, child, deadline);
+  if (received != Received::whole) return problemOf(received, *process, deadline);
   if (reply.outcome != vdb::grid) {
     std::string names(static_cast<std::size_t>(std::clamp(reply.nameBytes, 0, vdb::kMaxNameBytes)), ' ');
     received = receive(output, bytesOf(std::span(names)), end);
-    return received == Received::whole ? problemOf(reply.outcome, names) : problemOf(received, child, deadline);
+    return received == Received::whole ? problemOf(reply.outcome, names) : problemOf(received, *process, deadline);
   }
   const auto count = voxelCount(reply.voxels[0], reply.voxels[1], reply.voxels[2]);
   if (!count) return count.problems();
   DensityGrid grid{glm::ivec3(reply.voxels[0], reply.voxels[1], reply.voxels[2]), std::vector<float>(*count)};
   received = receive(output, bytesOf(std::span(grid.values)), end);
-  if (received != Received::whole) return problemOf(received, child, deadline);
+  if (received != Received::whole) return problemOf(received, *process, deadline);
   return requireFinite(std::move(grid));
 }
 
 Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name) {
-  std::error_code error;
-  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return unusable("/proc/self/exe cannot be read");
-  return readVdb(file, name, vdbProgramPaths(executable));
+  return readVdb(file, name, ownPrograms());
 }
 
 } // namespace gnomon

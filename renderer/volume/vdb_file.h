@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,11 +18,33 @@ inline constexpr std::chrono::seconds kVdbDeadline{60};
 /// Where the program that calls OpenVDB may lie: beside the executable, then in ../lib/gnomon from there.
 std::vector<std::filesystem::path> vdbProgramPaths(const std::filesystem::path& executable);
 
+/// The program at work; it is ended, and waited for, with this.
+class VdbProcess {
+ public:
+  virtual ~VdbProcess() = default;
+
+  /// How it ended, as of waitpid(2). Once.
+  virtual int wait() = 0;
+};
+
+using VdbPrograms = std::span<const std::filesystem::path>;
+
+/// Starts the first of `programs` that exists with a grid's name as argument, `input` as standard input and `output` as
+/// standard output, and nothing else of this process. nullptr where that fails. Any thread.
+using StartVdb =
+    std::function<std::unique_ptr<VdbProcess>(VdbPrograms programs, const std::string& name, int input, int output)>;
+
+/// By a child of this process.
+std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::string& name, int input, int output);
+
+/// How the program is started from now on: for a process that is going to give up files and children. Call it before
+/// that, and before grids are read.
+void startVdbBy(StartVdb start);
+
 /// A float grid of an OpenVDB file: the box of its active voxels, with the background's value where there is none.
 /// `name`: that of the grid; empty = the only float grid. The first of `programs` that exists reads it, as a process of
 /// its own, whose memory and time are bounded. Safe from any thread.
-Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name,
-                            std::span<const std::filesystem::path> programs,
+Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name, VdbPrograms programs,
                             std::chrono::milliseconds deadline = kVdbDeadline);
 
 /// By the program that belongs to this one.

@@ -1,6 +1,14 @@
-#include <OpenImageIO/imageio.h>
+#include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <algorithm>
-#include <span>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -9,52 +17,86 @@
 namespace gnomon::codec {
 namespace {
 
-/// The library writes the time of day where none is given; pinned, equal pictures have equal bytes.
+/// Pinned, so that equal pictures have equal bytes.
 constexpr const char* kDateTime = "2000:01:01 00:00:00";
 constexpr const char* kSoftware = "Gnomon";
 
-const char* nameOf(Compression compression) {
+/// A file in memory: a process may write it that may open none.
+class MemoryStream : public Imf::OStream {
+ public:
+  MemoryStream() : Imf::OStream("memory") {}
+
+  void write(const char bytes[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (bytes_.size() < at_ + size) bytes_.resize(at_ + size);
+    std::memcpy(bytes_.data() + at_, bytes, size);
+    at_ += size;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+Imf::Compression compressionOf(Compression compression) {
   switch (compression) {
     case Compression::none:
-      return "none";
+      return Imf::NO_COMPRESSION;
     case Compression::rle:
-      return "rle";
+      return Imf::RLE_COMPRESSION;
     case Compression::zip:
-      return "zip";
+      return Imf::ZIP_COMPRESSION;
     case Compression::piz:
-      return "piz";
+      return Imf::PIZ_COMPRESSION;
   }
-  return "none";
+  return Imf::NO_COMPRESSION;
 }
 
 /// All parts of an EXR share one display window: that of `first`.
-OIIO::ImageSpec specOf(const FloatPart& part, const FloatPart& first, Compression compression) {
-  OIIO::ImageSpec spec(part.width, part.height, part.channelCount, OIIO::TypeFloat);
-  spec.full_width = first.width;
-  spec.full_height = first.height;
-  spec.channelnames.assign(part.channelNames, part.channelNames + part.channelCount);
-  bool anyFloat = false;
+Imf::Header headerOf(const FloatPart& part, const FloatPart& first, Compression compression) {
+  const auto window = [](const FloatPart& of) {
+    return Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(of.width - 1, of.height - 1));
+  };
+  Imf::Header header(window(first), window(part));
+  header.compression() = compressionOf(compression);
+  header.setName(part.name);
+  header.setType(Imf::SCANLINEIMAGE);
+  Imf::addCapDate(header, kDateTime);
+  header.insert("Software", Imf::StringAttribute(kSoftware));
   for (int i = 0; i < part.channelCount; ++i) {
-    spec.channelformats.push_back(part.channelIsHalf[i] ? OIIO::TypeHalf : OIIO::TypeFloat);
-    anyFloat = anyFloat || !part.channelIsHalf[i];
+    header.channels().insert(part.channelNames[i], Imf::Channel(part.channelIsHalf[i] ? Imf::HALF : Imf::FLOAT));
   }
-  if (!anyFloat) spec.set_format(OIIO::TypeHalf);
-  spec.attribute("compression", nameOf(compression));
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("oiio:subimagename", part.name);
-  spec.attribute("DateTime", kDateTime);
-  spec.attribute("Software", kSoftware);
-  return spec;
+  return header;
 }
 
-/// Of which the library makes blocks to compress: no more than so many of them.
+/// Rows that are compressed at a time.
 constexpr int kRows = 64;
 
-/// The next rows, from `y` on.
-bool writeRows(OIIO::ImageOutput& output, const FloatPart& part, int y) {
-  const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channelCount);
-  return output.write_scanlines(y, std::min(y + kRows, part.height), 0, OIIO::TypeFloat,
-                                part.pixels + static_cast<std::size_t>(y) * row);
+/// The next rows, from `y` on. `halves`: room for kRows rows of every channel.
+void writeRows(Imf::OutputPart& output, const FloatPart& part, int y, std::vector<half>& halves) {
+  const auto channels = static_cast<std::size_t>(part.channelCount);
+  const std::size_t row = static_cast<std::size_t>(part.width) * channels;
+  const int rows = std::min(kRows, part.height - y);
+  const float* const first = part.pixels + static_cast<std::size_t>(y) * row;
+  halves.resize(row * kRows);
+  std::copy_n(first, row * static_cast<std::size_t>(rows), halves.begin());
+  const auto slice = [&](const auto* pixels, Imf::PixelType type) { // as if row 0 were there, too
+    using Number = std::remove_cvref_t<decltype(*pixels)>;
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(pixels));
+    return Imf::Slice(type, base - static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row * sizeof(Number)),
+                      channels * sizeof(Number), row * sizeof(Number));
+  };
+  Imf::FrameBuffer frame;
+  for (std::size_t i = 0; i < channels; ++i) {
+    frame.insert(part.channelNames[i],
+                 part.channelIsHalf[i] ? slice(halves.data() + i, Imf::HALF) : slice(first + i, Imf::FLOAT));
+  }
+  output.setFrameBuffer(frame);
+  output.writePixels(rows);
 }
 
 } // namespace
@@ -62,27 +104,23 @@ bool writeRows(OIIO::ImageOutput& output, const FloatPart& part, int y) {
 bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Caller& caller,
                const Sink& encoded, const Sink& message) {
   return guarded(message, [&] {
-    std::vector<OIIO::ImageSpec> specs;
-    for (std::size_t i = 0; i < partCount; ++i) specs.push_back(specOf(parts[i], parts[0], compression));
-    const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output) return fail(message, OIIO::geterror());
-    MemoryFile file;
-    if (!file.valid()) return fail(message, "no memory file could be made");
-    if (!output->open(file.path(), static_cast<int>(specs.size()), specs.data())) {
-      return fail(message, output->geterror());
-    }
-    for (std::size_t i = 0; i < partCount; ++i) {
-      const bool appended = i == 0 || output->open(file.path(), specs[i], OIIO::ImageOutput::AppendSubimage);
-      if (!appended) return fail(message, output->geterror());
-      for (int y = 0; y < parts[i].height; y += kRows) {
-        if (!caller.wants(caller.task)) return fail(message, "it is wanted no more");
-        if (!writeRows(*output, parts[i], y)) return fail(message, output->geterror());
+    std::vector<Imf::Header> headers;
+    for (std::size_t i = 0; i < partCount; ++i) headers.push_back(headerOf(parts[i], parts[0], compression));
+    MemoryStream stream;
+    {
+      constexpr int kThreads = 0; // none of its own: whole requests run side by side instead
+      Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(partCount), false, kThreads);
+      std::vector<half> halves;
+      for (std::size_t i = 0; i < partCount; ++i) {
+        Imf::OutputPart output(file, static_cast<int>(i));
+        for (int y = 0; y < parts[i].height; y += kRows) {
+          if (!caller.wants(caller.task)) return fail(message, "it is wanted no more");
+          writeRows(output, parts[i], y, halves);
+        }
       }
     }
-    if (!output->close()) return fail(message, output->geterror());
-    const std::span<const std::uint8_t> bytes = file.contents();
-    if (bytes.empty()) return fail(message, "the memory file is empty");
-    return encoded.accept(encoded.target, bytes.data(), bytes.size()) || fail(message, "out of memory");
+    return encoded.accept(encoded.target, stream.bytes().data(), stream.bytes().size()) ||
+           fail(message, "out of memory");
   });
 }
 

@@ -1,9 +1,6 @@
 #include "renderer/image/oiio/module.h"
 
 #include <OpenImageIO/imageio.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace gnomon::codec {
 namespace {
@@ -19,28 +16,6 @@ bool setUpLibrary() noexcept {
 }
 
 } // namespace
-
-MemoryFile::MemoryFile() : descriptor_(memfd_create("gnomon", MFD_CLOEXEC)) {}
-
-MemoryFile::~MemoryFile() {
-  if (mapped_) munmap(mapped_, mappedSize_);
-  if (valid()) close(descriptor_);
-}
-
-std::string MemoryFile::path() const {
-  return "/proc/self/fd/" + std::to_string(descriptor_);
-}
-
-std::span<const std::uint8_t> MemoryFile::contents() {
-  struct stat status {};
-  if (mapped_ || fstat(descriptor_, &status) != 0 || status.st_size <= 0) return {};
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor_, 0);
-  if (mapped == MAP_FAILED) return {};
-  mapped_ = mapped;
-  mappedSize_ = size;
-  return {static_cast<const std::uint8_t*>(mapped), size};
-}
 
 } // namespace gnomon::codec
 
