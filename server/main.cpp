@@ -6,6 +6,7 @@
 #include "clients/web/web_files.h"
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
+#include "server/work/sandbox.h"
 #include "server/work/worker.h"
 
 namespace gnomon {
@@ -22,7 +23,11 @@ cli::Subcommand addServeCommand(CLI::App& app) {
 cli::Subcommand addWorkerCommand(CLI::App& app) {
   auto* command = app.add_subcommand("worker", "Load and draw for `gnomon serve`, which starts this by itself");
   command->group(""); // of no use to people
-  return {[command] { return command->parsed(); }, []() -> int { runWorker(FileDescriptor(kWorkerChannel)); }};
+  return {[command] { return command->parsed(); },
+          []() -> int {
+            closeInherited();
+            runWorker(FileDescriptor(kWorkerChannel));
+          }};
 }
 
 int run(int argc, char** argv) {

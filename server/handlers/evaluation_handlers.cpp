@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -23,8 +24,8 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   const std::string requestId = call.request.id;
   if (!services.store.contains(id)) return problemReply({unknownScene(id)}, requestId);
   std::string body(asText(call.request.body));
-  if (const auto evaluation = decodeEvaluation(body); !evaluation)
-    return problemReply(evaluation.problems(), requestId);
+  const auto evaluation = decodeEvaluation(body);
+  if (!evaluation) return problemReply(evaluation.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kForms);
   if (!form) {
@@ -43,6 +44,8 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   Task task = taskFor(call, OrderKind::evaluation, id, *std::move(bundle), std::move(body), services.evaluationTimeout);
   task.lane = Lane::batch;
   task.order.mediaType = kForms[*form];
+  task.needsDriver = std::any_of(evaluation->variants.begin(), evaluation->variants.end(),
+                                 [](const Variant& variant) { return needsDriver(variant.spec); });
   const EventedWork work = [&services, permit, task = std::move(task)](const std::function<bool()>& gone,
                                                                        const TaskEvents& events) {
     return runTask(services, task, gone, events);

@@ -58,6 +58,7 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
                       hasTarget ? services.evaluationTimeout : services.requestTimeout);
   task.lane = batch ? Lane::batch : Lane::interactive;
   task.holdsRenderer = batch && !hasTarget;
+  task.needsDriver = needsDriver(frame.spec);
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
@@ -69,6 +70,7 @@ HttpReply check(Services& services, const RouteCall& call, const FrameCall& fram
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   Task task = taskFor(call, OrderKind::plan, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
                       services.requestTimeout);
+  task.needsDriver = needsDriver(frame.spec);
   HttpReply reply = replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
   if (reply.status != 200) return reply;
   HttpReply checked;
@@ -149,6 +151,7 @@ HttpReply postPlan(Services& services, RouteCall call) {
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   Task task = taskFor(call, OrderKind::plan, id, *std::move(bundle), jsonText(toJson(*spec)), services.requestTimeout);
+  task.needsDriver = needsDriver(*spec);
   return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
 }
 

@@ -46,6 +46,15 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
   return task;
 }
 
+bool needsDriver(const FrameSpec& spec) {
+  const auto byStencil = [](const Shadow& shadow) { return shadow.technique == ShadowTechnique::shadowVolume; };
+  const bool isAnyLight = spec.lights && std::any_of(spec.lights->begin(), spec.lights->end(), [&](const Light& light) {
+                            return light.shadow && byStencil(*light.shadow);
+                          });
+  return spec.device == DeviceChoice::gl ||
+         (spec.device != DeviceChoice::cpu && (byStencil(spec.shadow) || isAnyLight));
+}
+
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events) {
   const std::string scene = task.order.scene;
   const auto allowed = std::chrono::duration_cast<std::chrono::seconds>(task.allowed).count();

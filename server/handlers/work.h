@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/spec/frame_spec.h"
 #include "server/handlers/handlers.h"
 #include "server/workers/task.h"
 
@@ -17,6 +18,9 @@ namespace gnomon {
 /// Prefer: wait=SECONDS (RFC 7240) says so.
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
              std::chrono::milliseconds timeout);
+
+/// Whether OpenGL draws it, whatever the server draws with: since it says so, or since nothing else can.
+bool needsDriver(const FrameSpec& spec);
 
 /// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem.
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});

@@ -30,6 +30,7 @@ struct WorkerOptions {
   std::uint64_t memoryBytes = 0; ///< of the whole process; 0 = as much as there is
 
   bool keepsLightMaps = false; ///< the front stores light maps
+  bool loadsDrivers = false;   ///< OpenGL may be wanted, though the processor draws: files stay open to its drivers
 };
 
 enum class OrderKind {

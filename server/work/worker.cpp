@@ -17,6 +17,8 @@
 #include "server/wire/messages.h"
 #include "server/work/front_light_maps.h"
 #include "server/work/orders.h"
+#include "server/work/sandbox.h"
+#include "server/work/vdb_starter.h"
 
 namespace gnomon {
 namespace {
@@ -108,6 +110,11 @@ class Worker {
     context_ = std::unique_ptr<WorkContext>(
         new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}, {}});
     warmEncoders(); // later it may open no files
+    const bool drivers = options.loadsDrivers || renderer_->info().device == DeviceChoice::gl;
+    if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
+      say({.refusal = Refusal{sealed.problems()}});
+      end(1);
+    }
     say({.ready = renderer_->info()});
   }
 
@@ -181,6 +188,11 @@ class Worker {
 } // namespace
 
 void runWorker(FileDescriptor channel) {
+  static const std::unique_ptr<VdbStarter> vdb = VdbStarter::start();
+  if (!vdb) end(1);
+  startVdbBy([](VdbPrograms programs, const std::string& name, int input, int output) {
+    return vdb->startVdb(programs, name, input, output);
+  });
   boundHeaps(coresToUse() + 1);
   // Signals are the front's; it closes the channel when it ends.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_IGN);

@@ -45,8 +45,10 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
   for (std::size_t i = 0; i < dispatcher->options_.workers; ++i) {
     dispatcher->slots_.push_back(std::make_unique<Slot>());
   }
-  for (const auto& slot : dispatcher->slots_) {
-    slot->thread = std::thread([&dispatcher = *dispatcher, &slot = *slot] { dispatcher.keepWorking(slot); });
+  for (const auto& slot : dispatcher->slots_) dispatcher->startSlot(*slot);
+  if (dispatcher->options_.each.device == DeviceChoice::auto_) {
+    dispatcher->slots_.push_back(std::make_unique<Slot>());
+    dispatcher->slots_.back()->loadsDrivers = true;
   }
   dispatcher->watching_ = std::thread([&dispatcher = *dispatcher] { dispatcher.watch(); });
   Lock lock(dispatcher->mutex_);
@@ -61,6 +63,10 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
     return problems;
   }
   return dispatcher;
+}
+
+void Dispatcher::startSlot(Slot& slot) {
+  slot.thread = std::thread([this, &slot] { keepWorking(slot); });
 }
 
 Dispatcher::~Dispatcher() {
@@ -133,18 +139,9 @@ void Dispatcher::callOff(const TicketPtr& ticket) {
 }
 
 /// With the mutex held.
-std::vector<WorkerView> Dispatcher::views() const {
-  std::vector<WorkerView> workers;
-  for (const auto& slot : slots_) {
-    WorkerView view{.ready = slot->ready && slot->fault.detail.empty()};
-    for (const auto& [number, ticket] : slot->running) {
-      ++view.running[static_cast<std::size_t>(ticket->task.lane)];
-      view.holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
-      view.reserved = view.reserved || ticket->mustBeAlone();
-    }
-    workers.push_back(view);
-  }
-  return workers;
+bool Dispatcher::suits(const Slot& slot, bool needsDriver) const {
+  const bool apart = info_.device == DeviceChoice::cpu && options_.each.device == DeviceChoice::auto_;
+  return slot.loadsDrivers == (needsDriver && apart);
 }
 
 /// Gives workers what they can take. Those who have to be alone come first, then whoever has the fewest tasks in
@@ -154,7 +151,19 @@ void Dispatcher::placeWaiting() {
   for (const auto& slot : slots_) {
     for (const auto& [number, ticket] : slot->running) ++inProgress[ticket->task.client];
   }
-  std::vector<WorkerView> workers = views();
+  // Those for tasks that need no driver, and those for tasks that do.
+  struct Group {
+    std::vector<std::size_t> slots;
+    std::vector<WorkerView> workers;
+  };
+  std::array<Group, 2> groups;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    for (const bool needsDriver : {false, true}) {
+      if (!suits(*slots_[i], needsDriver)) continue;
+      groups[needsDriver].slots.push_back(i);
+      groups[needsDriver].workers.push_back(slots_[i]->view());
+    }
+  }
   std::vector<TicketPtr> order(waiting_.begin(), waiting_.end());
   while (!order.empty()) {
     const auto next = std::min_element(order.begin(), order.end(), [&](const TicketPtr& a, const TicketPtr& b) {
@@ -163,6 +172,8 @@ void Dispatcher::placeWaiting() {
     });
     const TicketPtr ticket = *next;
     order.erase(next);
+    auto& [slots, workers] = groups[ticket->task.needsDriver];
+    if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable()) startSlot(*slots_[slots[0]]);
     std::optional<std::size_t> place;
     if (ticket->mustBeAlone()) {
       const auto lone = lonePlaceFor(ticket->task, workers);
@@ -176,7 +187,7 @@ void Dispatcher::placeWaiting() {
     ++inProgress[ticket->task.client];
     ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
     workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
-    send(ticket, *place);
+    send(ticket, slots[*place]);
   }
 }
 
@@ -242,7 +253,7 @@ RendererInfo Dispatcher::info() const {
 
 DispatcherState Dispatcher::state() const {
   const Lock lock(mutex_);
-  DispatcherState state{.workers = slots_.size(), .waiting = waiting_.size(), .limit = options_.queueLimit};
+  DispatcherState state{.workers = options_.workers, .waiting = waiting_.size(), .limit = options_.queueLimit};
   for (const auto& slot : slots_) {
     state.ready += slot->ready ? 1 : 0;
     state.running += slot->running.size();

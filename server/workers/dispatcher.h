@@ -39,9 +39,10 @@ struct DispatcherState {
   std::size_t limit = 0;   ///< tasks that may wait
 };
 
-/// Workers, and the queue before them. A worker that ends, falls silent, does not stop, or takes too much memory is
-/// replaced; each task that it had is tried once more, with no other beside it, and if that ends its worker too, it is
-/// a problem. Any thread.
+/// Workers, and the queue before them. Where the processor draws, but requests may ask for OpenGL, those go to a
+/// further worker, which is started for the first of them: only that one may open files, as drivers do. A worker that
+/// ends, falls silent, does not stop, or takes too much memory is replaced; each task that it had is tried once more,
+/// with no other beside it, and if that ends its worker too, it is a problem. Any thread.
 class Dispatcher {
  public:
   /// Returns once a worker is ready, or why none can be.
@@ -88,7 +89,8 @@ class Dispatcher {
   std::optional<Problem> faultOf(const Slot& slot) const;
   void endWorker(Slot& slot, Problem fault);
   void placeWaiting();
-  std::vector<WorkerView> views() const;
+  bool suits(const Slot& slot, bool needsDriver) const;
+  void startSlot(Slot& slot);
   void send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
   void callOff(const TicketPtr& ticket);

@@ -31,6 +31,7 @@ struct Dispatcher::Ticket {
 
 /// One of the places for workers, and the one that is there.
 struct Dispatcher::Slot {
+  bool loadsDrivers = false;              ///< for tasks that need one; its first worker starts with the first of them
   std::shared_ptr<WorkerProcess> process; ///< null between two
   bool ready = false;
   Clock::time_point heard; ///< its last sign of life, or its start
@@ -40,6 +41,16 @@ struct Dispatcher::Slot {
   std::map<std::uint64_t, TicketPtr> running;
   Beat beat;
   std::thread thread;
+
+  WorkerView view() const {
+    WorkerView view{.ready = ready && fault.detail.empty()};
+    for (const auto& [number, ticket] : running) {
+      ++view.running[static_cast<std::size_t>(ticket->task.lane)];
+      view.holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
+      view.reserved = view.reserved || ticket->mustBeAlone();
+    }
+    return view;
+  }
 };
 
 } // namespace gnomon

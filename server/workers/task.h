@@ -30,6 +30,7 @@ struct Task {
       allowed{}; ///< from the request's first byte to the deadline, for the problem that quotes it
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
+  bool needsDriver = false;   ///< OpenGL draws some of it, whatever the server draws with
   std::string client;         ///< who asks: tasks of different clients take turns
 };
 

@@ -51,7 +51,9 @@ bool Dispatcher::startWorker(Slot& slot) {
   slot.heard = Clock::now();
   slot.fault = {};
   if (ending_) slot.process->kill();
-  return slot.process->channel().send(textOf(ToWorker{.start = options_.each}));
+  WorkerOptions start = options_.each;
+  start.loadsDrivers = slot.loadsDrivers;
+  return slot.process->channel().send(textOf(ToWorker{.start = start}));
 }
 
 /// Until the worker's end of the channel is closed.
@@ -81,7 +83,7 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     if (sound) std::copy(factors.begin(), factors.end(), costFactors_.parts.begin());
   }
   if (message->ready) {
-    info_ = *std::move(message->ready);
+    info_ = *message->ready;
     slot.ready = true;
     slot.failures = 0;
     logEvent("worker", "Worker " + std::to_string(slot.process->pid()) + " is ready: " + info_.backend + " " +

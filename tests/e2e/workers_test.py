@@ -116,6 +116,41 @@ class KilledWorkers(unittest.TestCase):
             self.assertNotIn("ended with", server.log_text())
 
 
+class SealedWorkers(unittest.TestCase):
+    def rights(self, pid):
+        lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+        return dict(line.split(":\t", 1) for line in lines if ":\t" in line)
+
+    def assert_sealed(self, pid):
+        rights = self.rights(pid)
+        self.assertEqual((rights["Seccomp"], rights["NoNewPrivs"]), ("2", "1"))
+        for capabilities in ("CapEff", "CapPrm", "CapInh"):
+            self.assertEqual(int(rights[capabilities], 16), 0)
+
+    def test_workers_keep_no_right_that_they_do_not_need(self):
+        with Server("--workers", "2", "--device", "cpu") as server:
+            scene = server.upload("box_on_plane")
+            self.assertEqual(server.frame(scene, SMALL | {"output": {"format": "exr"}}).status, 200)
+            for pid in workers_of(server):
+                self.assert_sealed(pid)
+                names = {os.readlink(entry).split(":")[0] for entry in Path(f"/proc/{pid}/fd").iterdir()}
+                self.assertFalse({name for name in names if name.endswith((".bundle", ".map"))}, "work is done")
+
+    def test_opengl_has_a_worker_of_its_own(self):
+        with Server("--workers", "1") as server:
+            scene = server.upload("box_on_plane")
+            if server.get("/v1/capabilities").json()["renderer"]["device"] != "cpu":
+                self.skipTest("OpenGL draws everything here")
+            (first,) = workers_of(server)
+            reply = server.frame(scene, SMALL | {"device": "gl"}, "application/json")
+            self.assertEqual(reply.status, 200, reply.body)
+            self.assertEqual(len(workers_of(server)), 2)
+            for pid in workers_of(server):
+                self.assert_sealed(pid)
+            self.assertNotIn("libGL", Path(f"/proc/{first}/maps").read_text())
+            self.assertEqual(server.frame(scene, SMALL).status, 200)
+
+
 class FaultyWorkers(ServerTest):
     """A frame's camera names what its worker does wrong."""
 
