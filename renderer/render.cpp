@@ -1,5 +1,7 @@
 #include "renderer/render.h"
 
+#include <mutex>
+
 #include "renderer/devices.h"
 #include "renderer/evaluation/shimmer.h"
 #include "renderer/frame/baked_scene.h"
@@ -69,7 +71,19 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
                                   const Progress& progress) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  return measureShimmer(**device, impl_->caches->traced, scene, spec, path, progress);
+  std::mutex telling;
+  double done = 0;
+  const Progress told = [&](double share) {
+    const std::lock_guard lock(telling);
+    done = share;
+    return !progress || progress(share);
+  };
+  const GoOn goOn = progress ? GoOn([&] {
+    const std::lock_guard lock(telling);
+    return progress(done);
+  })
+                             : GoOn();
+  return untilStopped(goOn, [&] { return measureShimmer(**device, impl_->caches->traced, scene, spec, path, told); });
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {

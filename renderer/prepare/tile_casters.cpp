@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/core/stop.h"
+
 namespace gnomon {
 namespace {
 
@@ -14,6 +16,7 @@ void append(TileKey& key, const T& value) {
 
 TileCasters castersInto(const ShadowTile& tile, const Light& light, const SceneView& view,
                         const FrameGeometry& geometry, std::span<const NodeSwitches> nodes) {
+  stopIfAsked();
   TileCasters casters;
   casters.use = tile.space.fit.perspective ? DrawUse::castFromPoint : DrawUse::cast;
   casters.slots.resize(geometry.slotCount());

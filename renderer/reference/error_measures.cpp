@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "renderer/core/stop.h"
 #include "renderer/reference/shadow_edges.h"
 
 namespace gnomon {
@@ -73,6 +74,7 @@ void countLight(const Reference& truth, const SurfaceLinks& links, const LightRe
   assert(shown.size() == truth.surface.size());
   const TrueEdges nearest = trueEdges(truth, links, light);
   for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (i % static_cast<std::size_t>(truth.width) == 0) stopIfAsked();
     if (light.receiver[i] != 0) countPixel(light, nearest, i, shown[i], counts);
   }
   counts.edgeLength += edgeLength(truth, links, light.receiver, light.visibility);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "protocol/base/bytes.h"
+#include "renderer/core/stop.h"
 #include "renderer/volume/half.h"
 
 namespace gnomon {
@@ -197,7 +198,10 @@ Result<DensityGrid> readNpy(std::span<const std::uint8_t> file) {
                    std::to_string(*count * bytesOf(*type)) + " bytes", std::to_string(file.size() - begin)};
   }
   DensityGrid grid{glm::ivec3(shape[2], shape[1], shape[0]), std::vector<float>(*count)};
-  for (std::size_t i = 0; i < *count; ++i) grid.values[i] = numberAt(data + i * bytesOf(*type), *type);
+  for (std::size_t i = 0; i < *count; ++i) {
+    if (i % (1 << 16) == 0) stopIfAsked();
+    grid.values[i] = numberAt(data + i * bytesOf(*type), *type);
+  }
   return requireFinite(std::move(grid));
 }
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "renderer/core/stop.h"
 #include "renderer/volume/vdb/vdb_program.h"
 
 namespace gnomon {
@@ -99,11 +100,14 @@ enum class Received { whole, less, late };
 /// Fills `bytes` as far as the other side gives any before the deadline.
 Received receive(const Descriptor& from, std::span<std::uint8_t> bytes, Clock::time_point deadline) {
   while (!bytes.empty()) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    constexpr std::chrono::milliseconds kAskAgain{20};
+    stopIfAsked();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) return Received::late;
     pollfd waiting{from.number(), POLLIN, 0};
-    const int ready = left > 0 ? poll(&waiting, 1, static_cast<int>(left)) : 0;
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return Received::late;
+    const int ready = poll(&waiting, 1, static_cast<int>(std::min(left, kAskAgain).count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    if (ready < 0) return Received::late;
     const ssize_t count = read(from.number(), bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return Received::less;

@@ -156,6 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Frames, StoppedFrame, ::testing::ValuesIn(cases()),
 /// How late `task(goOn)` ends that nobody wants any more after a share of its time, and whether it says so.
 template <class Task>
 Attempt endAfter(double share, const Task& task) {
+  EXPECT_TRUE(task({})); // brings what is compiled or kept only once
   const auto start = Clock::now();
   EXPECT_TRUE(task({}));
   const double until = share * millisecondsBetween(start, Clock::now());
@@ -171,6 +172,22 @@ TEST(Stopping, EndsLoading) {
     EXPECT_TRUE(made.stopped) << share;
     EXPECT_LE(made.late, 2.5 * kLatest) << share;
   }
+}
+
+TEST(Stopping, EndsAShimmer) {
+  const ScenePtr scene = testing::generatedScene("city");
+  const FrameSpec spec = specOf(specWith({{"size", "XLarge"}}));
+  const std::vector<Camera> path(6, spec.camera);
+  onAnotherThread([&] {
+    Renderer renderer = freshRenderer();
+    for (const double share : {0.4, 0.6, 0.8}) {
+      const Attempt made = endAfter(share, [&](const GoOn& goOn) {
+        return renderer.shimmer(scene, spec, path, goOn ? Progress([&](double) { return goOn(); }) : Progress());
+      });
+      EXPECT_TRUE(made.stopped) << share;
+      EXPECT_LE(made.late, 2.5 * kLatest) << share;
+    }
+  });
 }
 
 TEST(Stopping, EndsEncoding) {

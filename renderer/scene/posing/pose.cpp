@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/core/stop.h"
 #include "renderer/scene/geometry/mesh_build.h"
 
 namespace gnomon {
@@ -100,13 +101,16 @@ PosedShape pose(const Deformable& deformable, std::span<const double> weights,
   const TriangleMesh& mesh = deformable.mesh;
   std::vector<Moving> vertices = atRest(mesh);
   for (std::size_t i = 0; i < deformable.targets.size() && i < weights.size(); ++i) {
+    stopIfAsked();
     addTarget(deformable.targets[i], weights[i], vertices);
   }
   PosedShape shape;
   shape.positions.reserve(vertices.size());
   shape.normals.reserve(vertices.size());
   if (mesh.hasTangents) shape.tangents.reserve(vertices.size());
+  constexpr std::size_t kVerticesAtOnce = 1 << 12;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (i % kVerticesAtOnce == 0) stopIfAsked();
     Moving& vertex = vertices[i];
     if (!localFromMesh.empty() && !deformable.influences.empty()) {
       follow(deformable.influences[i], localFromMesh, vertex);
@@ -136,6 +140,7 @@ void applyPose(const PosedShape& shape, int index, Scene& scene) {
   std::copy(clusters.begin(), clusters.end(), scene.clusters.begin() + primitive.firstCluster);
   primitive.bounds = {};
   for (const Cluster& cluster : clusters) primitive.bounds.add(cluster.bounds);
+  stopIfAsked();
   const std::vector<std::uint32_t> welded = weldedIndices(indices, shape.positions);
   std::copy(welded.begin(), welded.end(), scene.welded.begin() + primitive.firstIndex);
   primitive.solid = boundsSolids(welded, shape.positions);

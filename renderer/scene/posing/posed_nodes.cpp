@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "renderer/core/aabb.h"
+#include "renderer/core/stop.h"
 #include "renderer/scene/animation/animations.h"
 #include "renderer/scene/posing/pose.h"
 
@@ -73,6 +74,7 @@ class Posing {
     const int skin = model_.nodes[node].skin;
     if (skin >= 0) made.worldFromSkin = jointsOf(skin).worldFromLocal;
     for (const int index : mesh.deformables) {
+      stopIfAsked();
       const Deformable& source = deformable(index);
       const bool skinned = skin >= 0 && !source.influences.empty();
       if (!withinLimits(node, source)) return {};
