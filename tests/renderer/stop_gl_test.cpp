@@ -137,7 +137,7 @@ const std::vector<Case>& cases() {
   static const Json kMany = {{"lights", {{{"sun", {{"elevationDegrees", 35}}}}, lamp(-8), lamp(-4), lamp(0), lamp(4)}}};
   static const std::vector<Case> all{
       {"ShadowMap", specWith({{"filter", {{"type", "pcss"}}}, {"size", "XLarge"}}, kMany)},
-      {"Moments", specWith({{"filter", {{"type", "msm"}, {"size", 7}}}, {"size", "XLarge"}}, kMany)},
+      {"Moments", specWith({{"filter", {{"type", "msm"}, {"size", 7}}}, {"size", "Large"}})},
       {"RayTraced", specWith({{"technique", "rayTraced"}, {"raySamples", 256}})},
       {"Hybrid", specWith({{"technique", "hybrid"}, {"raySamples", 64}}, kMany)},
       {"LightMap", specWith({{"technique", "lightMap"}, {"lightMap", {{"size", 1024}, {"samples", 256}}}}), "long_row"},
