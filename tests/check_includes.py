@@ -81,7 +81,7 @@ ASSEMBLED = ["clients/cli", "clients/web"]
 
 # Third-party header (the first characters of its path) -> the only files or folders that may include it.
 KEPT_IN = {
-    "httplib.h": ["server/http/http_server.cpp", "clients/cli/remote/http_client.cpp"],
+    "httplib.h": ["clients/cli/remote/http_client.cpp"],
     "openssl/": ["protocol/base"],
     "nlohmann/": [
         "protocol",

@@ -15,6 +15,8 @@ enum class ProblemCode {
   invalidValue,         ///< well formed, but a value is of the wrong type, out of range or contradicts another
   notFound,             ///< a scene, route, node or camera that does not exist
   methodNotAllowed,     ///< the route exists, the method does not
+  forbidden,            ///< a page of another origin asks for what only known ones may
+  misdirected,          ///< the server is asked under a name that is not its own
   notAcceptable,        ///< no view or format matches the Accept header
   lengthRequired,       ///< a body without Content-Length where one is needed
   tooLarge,             ///< a limit on bytes, pixels, triangles or nodes was passed
@@ -25,6 +27,7 @@ enum class ProblemCode {
   busy,                 ///< the render queue is full
   deadlineExceeded,     ///< the job waited or ran longer than it may
   unavailable,          ///< not ready, or shutting down
+  insufficientStorage,  ///< the disk of the scene store is full
   backend,              ///< no graphics context, or the driver refused
   internal              ///< our own mistake
 };

@@ -16,6 +16,8 @@ inline constexpr std::array kSpellings<ProblemCode>{
     spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
     spelling(ProblemCode::notFound, "notFound", "Not Found"),
     spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
+    spelling(ProblemCode::forbidden, "forbidden", "Forbidden"),
+    spelling(ProblemCode::misdirected, "misdirected", "Misdirected Request"),
     spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),
     spelling(ProblemCode::lengthRequired, "lengthRequired", "Length Required"),
     spelling(ProblemCode::tooLarge, "tooLarge", "Content Too Large"),
@@ -26,6 +28,7 @@ inline constexpr std::array kSpellings<ProblemCode>{
     spelling(ProblemCode::busy, "busy", "Too Many Requests"),
     spelling(ProblemCode::deadlineExceeded, "deadlineExceeded", "Deadline Exceeded"),
     spelling(ProblemCode::unavailable, "unavailable", "Service Unavailable"),
+    spelling(ProblemCode::insufficientStorage, "insufficientStorage", "Insufficient Storage"),
     spelling(ProblemCode::backend, "backend", "Graphics Backend Failure"),
     spelling(ProblemCode::internal, "internal", "Internal Server Error"),
 };

@@ -108,7 +108,7 @@ Json jsonReply(const char* description, const char* schema) {
 
 Json sceneRoute() {
   Json put = operation("putScene", "Upload a scene by name",
-                       sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503"}));
+                       sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503", "507"}));
   Json get = operation("getScene", "What a scene holds", replies(jsonReply("Its summary.", "SceneSummary"), {"404"}));
   Json head =
       operation("headScene", "Whether a scene is there", replies({{"200", success("It is there.", Json())}}, {"404"}));
@@ -121,7 +121,7 @@ Json sceneRoute() {
 
 Json scenesRoute() {
   Json post = operation("postScene", "Upload a scene; its name is the hash of its bytes",
-                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503"}));
+                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503", "507"}));
   Json get = operation("listScenes", "The scenes that there are", jsonReply("All of them.", "SceneList"));
   return {{"get", std::move(get)}, {"post", withBody(std::move(post), sceneBody())}};
 }

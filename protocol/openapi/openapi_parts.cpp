@@ -32,6 +32,7 @@ constexpr std::array kRefusals{
     Refusal{"500", "An internal error, or a failure of the graphics context."},
     Refusal{"503", "The server is starting or shutting down."},
     Refusal{"504", "The request's deadline passed before its work was done."},
+    Refusal{"507", "The scene store's disk is full."},
 };
 
 Json header(const char* description) {

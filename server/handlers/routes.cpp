@@ -81,6 +81,12 @@ std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRe
     return std::move(*match);
   }
   if (const auto* refused = std::get_if<MethodRefused>(&found)) {
+    if (request.method == "OPTIONS") {
+      HttpReply reply;
+      reply.status = 204;
+      reply.headers.emplace_back("Allow", refused->allow);
+      return reply;
+    }
     HttpReply reply = problemReply({{ProblemCode::methodNotAllowed, "", "This path does not support this method.",
                                      refused->allow, asciiExcerpt(request.method)}},
                                    request.id);

@@ -1,52 +1,60 @@
 #include "server/http/connection.h"
 
 #include <exception>
+#include <memory>
+#include <sys/socket.h>
+#include <utility>
 
+#include "server/http/client_watch.h"
 #include "server/http/request_log.h"
+#include "server/http/socket_io.h"
 #include "server/system/log.h"
 
 namespace gnomon {
 namespace {
 
-/// How a connection goes on after a reply; it lingers where the client may still be sending a body that nobody reads.
-enum class After { keep, close, linger };
+constexpr int kStatusClientLeft = 499; ///< in the log alone: there is nobody to send it to
 
 class Connection {
  public:
-  Connection(FileDescriptor socket, ConnectionContext& context)
-      : socket_(std::move(socket)), context_(context), reader_(socket_.get(), context.stop.fd()) {}
+  Connection(OpenConnection connection, ConnectionContext& context)
+      : connection_(std::move(connection)),
+        context_(context),
+        reader_(connection_.socket.get(), std::exchange(connection_.received, {})) {}
 
-  void serve() {
-    auto patience = context_.limits.firstByte;
-    for (std::size_t count = 0; count < context_.limits.maxRequests; ++count) {
-      if (reader_.await(Clock::now() + patience, true) != SocketWait::ready) {
-        return;
+  OpenConnection serve() {
+    for (auto length = headWaiting(); length; length = headWaiting()) {
+      ++connection_.requests;
+      if (!serveOne(*length)) {
+        ::shutdown(connection_.socket.get(), SHUT_WR);
+        connection_.ending = true;
+        return std::move(connection_);
       }
-      const After after = serveOne(count + 1 < context_.limits.maxRequests);
-      if (after == After::linger) {
-        lingerAndClose(std::move(socket_), Clock::now() + context_.limits.linger);
-      }
-      if (after != After::keep) {
-        return;
-      }
-      patience = context_.limits.idle;
+      connection_.arrived = Clock::now(); // what is buffered already waited for the reply before it
     }
+    connection_.received = reader_.take();
+    return std::move(connection_);
   }
 
  private:
-  After serveOne(bool mayKeep) {
+  std::optional<std::size_t> headWaiting() const {
+    const auto length = headLength(reader_.buffered());
+    return length && *length <= kMaxHeadBytes ? length : std::nullopt;
+  }
+
+  /// False after the connection's last reply.
+  bool serveOne(std::size_t headBytes) {
     RequestRecord record;
-    auto head = readHead(record);
-    if (!head) {
-      return After::linger;
-    }
-    auto request = requestFromHead(*head);
+    record.client = connection_.peer.text;
+    record.start = connection_.arrived;
+    const auto head = parseRequestHead(reader_.buffered().substr(0, headBytes));
+    reader_.consume(headBytes);
+    auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
     if (!request) {
-      record.id = requestId(headerValue(head->headers, "x-request-id"));
-      send(problemReply(request.problems(), record.id), record, false, false);
-      return After::linger;
+      record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
+      return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
-    request->client = client_;
+    request->client = record.client;
     request->arrived = record.start;
     record.id = request->id;
     record.method = request->method;
@@ -55,74 +63,55 @@ class Connection {
 
     auto found = context_.service(*request);
     if (auto* refused = std::get_if<HttpReply>(&found)) {
-      const bool keep = mayKeep && !head->hasBody() && head->keepAlive && !context_.stop.raised();
-      return send(std::move(*refused), record, keep, bodyless) && keep ? After::keep : After::linger;
+      return send(std::move(*refused), record, mayKeep(*head) && !head->hasBody(), bodyless);
     }
     const auto& handler = std::get<RequestHandler>(found);
-    if (auto refused = refuseBody(*head, handler.body)) {
-      send(problemReply({*std::move(refused)}, record.id, {.read = RequestPart::body}), record, false, bodyless);
-      return After::linger;
-    }
-    ByteLease lease(context_.bodyBytes);
-    if (head->hasBody()) {
-      if (head->expectsContinue &&
-          !sendAll(socket_.get(), "HTTP/1.1 100 Continue\r\n\r\n", Clock::now() + context_.limits.pace.stall)) {
-        return After::close;
+    HttpReply reply;
+    {
+      ByteLease lease(context_.bodyBytes);
+      if (auto problem = receiveBody(*head, handler.body, *request, lease)) {
+        return send(problemReply({*std::move(problem)}, record.id, {.read = RequestPart::body}), record, false,
+                    bodyless);
       }
-      auto body = readBody(reader_, *head, handler.body, context_.limits.pace, lease);
-      if (!body) {
-        send(problemReply(body.problems(), record.id, {.read = RequestPart::body}), record, false, bodyless);
-        return After::linger;
-      }
-      request->body = *std::move(body);
       record.requestBytes = request->body.size();
+      watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
+      reply = answer(handler, *std::move(request));
     }
-    HttpReply reply = answer(handler, *std::move(request));
-    const bool keep = mayKeep && head->keepAlive && !context_.stop.raised();
-    return send(std::move(reply), record, keep, bodyless) && keep ? After::keep : After::close;
+    const bool kept = reply.stream ? sendStream(std::move(reply), record)
+                                   : sendAnswer(std::move(reply), record, mayKeep(*head), bodyless);
+    watch_->end();
+    return kept;
   }
 
-  /// The next request's head; nothing where it was refused, and the client knows.
-  std::optional<RequestHead> readHead(RequestRecord& record) {
-    auto head = receiveHead();
-    if (!head) {
-      record.id = requestId(std::nullopt);
-      send(problemReply(head.problems(), record.id, {.read = RequestPart::head}), record, false, false);
+  bool mayKeep(const RequestHead& head) const {
+    return head.keepAlive && connection_.requests < context_.limits.maxRequests && !context_.stop.raised();
+  }
+
+  std::optional<Problem> receiveBody(const RequestHead& head, const BodyRule& rule, HttpRequest& request,
+                                     ByteLease& lease) {
+    if (auto refused = refuseBody(head, rule)) {
+      return refused;
+    }
+    if (!head.hasBody()) {
       return std::nullopt;
     }
-    return *std::move(head);
-  }
-
-  Result<RequestHead> receiveHead() {
-    const auto deadline = Clock::now() + context_.limits.head;
-    while (true) {
-      const auto length = headLength(reader_.buffered());
-      if (length && *length <= kMaxHeadBytes) {
-        auto head = parseRequestHead(reader_.buffered().substr(0, *length));
-        reader_.consume(*length);
-        return head;
-      }
-      if (reader_.buffered().size() >= kMaxHeadBytes) {
-        return Problem{ProblemCode::tooLarge, "", "The request line and headers are too long.",
-                       std::to_string(kMaxHeadBytes) + " bytes", ""};
-      }
-      const SocketWait waited = reader_.receive(4 * 1024, deadline);
-      if (waited == SocketWait::timedOut) {
-        return Problem{ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""};
-      }
-      if (waited != SocketWait::ready) {
-        return Problem{ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""};
-      }
+    if (head.expectsContinue) {
+      sendAll(connection_.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n", context_.limits.pace);
     }
+    auto body = readBody(reader_, head, rule, context_.limits.pace, lease);
+    if (!body) {
+      return body.problems().front();
+    }
+    request.body = *std::move(body);
+    return std::nullopt;
   }
 
   /// Nothing that a handler throws leaves it.
   HttpReply answer(const RequestHandler& handler, HttpRequest request) {
     const std::string id = request.id;
-    const int fd = socket_.get();
     std::string note;
     try {
-      return handler.answer(std::move(request), [fd] { return peerGone(fd); });
+      return handler.answer(std::move(request), [watch = watch_] { return watch->left(); });
     } catch (const std::exception& error) {
       note = error.what();
     } catch (...) {
@@ -133,32 +122,54 @@ class Connection {
     return reply;
   }
 
-  /// True where the whole reply was sent and the connection can serve another request.
-  bool send(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
-    if (reply.stream) {
-      sendStream(reply, record);
+  /// Sends a handler's reply, once there is room for it beside those that other clients are taking.
+  bool sendAnswer(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
+    watch_->end();
+    if (watch_->left()) {
+      record.delivered = false;
+      reply.status = kStatusClientLeft;
+      reply.problem.clear();
+      logRequest(record, reply);
       return false;
     }
-    const auto deadline = context_.limits.pace.deadline(Clock::now(), reply.body.size());
+    constexpr std::size_t kSmall = 64 * 1024; // problems and probes need no room
+    ByteLease lease(context_.replyBytes);
+    const std::size_t size = std::min(reply.body.size(), context_.replyBytes.total());
+    if (!bodyless && size > kSmall && !lease.growBy(size, Clock::now() + context_.limits.replyRoom)) {
+      reply = problemReply({{ProblemCode::unavailable, "",
+                             "Replies that other clients are taking use all the memory for replies.", "", ""}},
+                           record.id);
+      reply.headers.emplace_back("Retry-After", "1");
+    }
+    return send(std::move(reply), record, keepAlive, bodyless);
+  }
+
+  /// True where the whole reply was sent and the connection can serve another request.
+  bool send(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
+    if (keepAlive) {
+      const auto idle = std::chrono::floor<std::chrono::seconds>(context_.limits.idle).count();
+      reply.headers.emplace_back("Keep-Alive", "timeout=" + std::to_string(idle));
+    }
     std::string head = replyHead(reply, record.id, keepAlive);
     const bool withBody = !bodyless && reply.status != 204 && reply.status != 304;
     constexpr std::size_t kOnePacket = 1400; // small replies leave in one piece
     if (withBody && reply.body.size() <= kOnePacket) {
       head += reply.body;
     }
-    bool sent = sendAll(socket_.get(), head, deadline);
+    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace);
     if (sent && withBody && reply.body.size() > kOnePacket) {
-      sent = sendAll(socket_.get(), reply.body, deadline);
+      sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace);
     }
     record.delivered = sent;
     logRequest(record, reply);
-    return sent;
+    return sent && keepAlive;
   }
 
-  void sendStream(HttpReply& reply, RequestRecord& record) {
+  /// Its end is the connection's.
+  bool sendStream(HttpReply reply, RequestRecord& record) {
+    watch_->beginStream();
     const auto sink = [&](std::string_view bytes) {
-      record.delivered =
-          record.delivered && sendAll(socket_.get(), bytes, context_.limits.pace.deadline(Clock::now(), bytes.size()));
+      record.delivered = record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace);
       return record.delivered;
     };
     if (sink(replyHead(reply, record.id, false))) {
@@ -169,21 +180,23 @@ class Connection {
       }
     }
     logRequest(record, reply);
+    return false;
   }
 
-  FileDescriptor socket_;
-  const std::string client_ = peerAddress(socket_.get());
+  OpenConnection connection_;
   ConnectionContext& context_;
   SocketReader reader_;
+  std::shared_ptr<ClientWatch> watch_; ///< of the request that is being answered
 };
 
 } // namespace
 
-void serveConnection(FileDescriptor socket, ConnectionContext& context) noexcept {
+std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context) noexcept {
   try {
-    Connection(std::move(socket), context).serve();
+    return Connection(std::move(connection), context).serve();
   } catch (const std::exception& error) {
     logEvent("connection", error.what()); // out of memory while a head was read: the client is cut off, we go on
+    return std::nullopt;
   }
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <variant>
 
+#include "server/http/open_connection.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
-#include "server/http/socket_io.h"
 
 namespace gnomon {
 
@@ -21,25 +22,30 @@ struct RequestHandler {
 /// Finds the handler of a request by its head alone, or gives the reply that refuses it. Many threads at once.
 using HttpService = std::function<std::variant<RequestHandler, HttpReply>(const HttpRequest&)>;
 
-/// How long a client may take, and how many requests it may send over one connection.
+/// How long a client may take, and how much it may ask for.
 struct ConnectionLimits {
   std::chrono::milliseconds firstByte{5'000}; ///< from connecting to the first byte
   std::chrono::milliseconds head{5'000};      ///< from the first byte of a request to the end of its head, in all
-  std::chrono::milliseconds idle{2'000};      ///< between two requests
-  std::chrono::milliseconds linger{2'000};    ///< for what a client still sends after a refusal
+  std::chrono::milliseconds idle{75'000};     ///< between two requests
+  std::chrono::milliseconds linger{2'000};    ///< for what a client still sends after its last reply
+  std::chrono::milliseconds replyRoom{5'000}; ///< for other replies to be taken where they use all the memory
   Pace pace;                                  ///< bodies, both ways
+  std::chrono::milliseconds threadWait{100};  ///< for a thread, once the head is complete
   std::size_t maxRequests = 10'000;
+  std::size_t maxWaiting = 2'048; ///< connections that have no request to serve
 };
 
 /// What all connections of a server share. Outlives them.
 struct ConnectionContext {
   HttpService service;
   ConnectionLimits limits;
-  ByteBudget bodyBytes;
-  StopSignal stop; ///< once raised: no further request is read, the running one is answered
+  ByteBudget bodyBytes;  ///< bodies that are read, or that their handlers work on
+  ByteBudget replyBytes; ///< bodies of replies that are being sent; one alone may be larger
+  StopSignal stop;       ///< once raised: no further request is read, the running one is answered
 };
 
-/// Serves one client until it leaves, is too slow, or the server stops. Throws nothing.
-void serveConnection(FileDescriptor socket, ConnectionContext& context) noexcept;
+/// Answers the requests whose heads have come whole. What comes back waits for the next one, or is ending; nothing
+/// where the connection is lost. Throws nothing.
+std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context) noexcept;
 
 } // namespace gnomon

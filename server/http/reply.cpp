@@ -45,6 +45,8 @@ std::string_view reasonPhrase(int status) {
       return "Not Modified";
     case 400:
       return "Bad Request";
+    case 403:
+      return "Forbidden";
     case 404:
       return "Not Found";
     case 405:
@@ -59,6 +61,8 @@ std::string_view reasonPhrase(int status) {
       return "Content Too Large";
     case 415:
       return "Unsupported Media Type";
+    case 421:
+      return "Misdirected Request";
     case 422:
       return "Unprocessable Content";
     case 429:
@@ -71,6 +75,8 @@ std::string_view reasonPhrase(int status) {
       return "Service Unavailable";
     case 504:
       return "Gateway Timeout";
+    case 507:
+      return "Insufficient Storage";
     default:
       return "Status";
   }
@@ -115,6 +121,8 @@ int statusOf(ProblemCode code, RequestPart read) {
     case ProblemCode::malformed:
     case ProblemCode::invalidValue:
       return 400;
+    case ProblemCode::forbidden:
+      return 403;
     case ProblemCode::notFound:
       return 404;
     case ProblemCode::methodNotAllowed:
@@ -131,12 +139,16 @@ int statusOf(ProblemCode code, RequestPart read) {
     case ProblemCode::unsupportedFeature:
     case ProblemCode::hashMismatch:
       return 422;
+    case ProblemCode::misdirected:
+      return 421;
     case ProblemCode::busy:
       return 429;
     case ProblemCode::unavailable:
       return 503;
     case ProblemCode::deadlineExceeded:
       return read == RequestPart::whole ? 504 : 408;
+    case ProblemCode::insufficientStorage:
+      return 507;
     case ProblemCode::backend:
     case ProblemCode::internal:
       return 500;

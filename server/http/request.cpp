@@ -30,14 +30,33 @@ bool isFieldValue(std::string_view text) {
                       [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; });
 }
 
-Status readRequestLine(std::string_view line, RequestHead& head) {
+/// A target in absolute form (RFC 9112 section 3.2.2), in its two parts.
+struct AbsoluteForm {
+  std::string authority; ///< empty: the target was in origin form
+  std::string target;
+};
+
+AbsoluteForm cutAbsoluteForm(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (lowerCase(target.substr(0, scheme.size())) == scheme) {
+      target.remove_prefix(scheme.size());
+      const std::size_t end = std::min(target.find_first_of("/?#"), target.size());
+      const std::string_view rest = target.substr(end);
+      return {std::string(target.substr(0, end)), (rest.starts_with('/') ? "" : "/") + std::string(rest)};
+    }
+  }
+  return {"", std::string(target)};
+}
+
+/// `authority` is that of a target in absolute form.
+Status readRequestLine(std::string_view line, RequestHead& head, std::string& authority) {
   const std::size_t first = line.find(' ');
   const std::size_t last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) {
     return malformedHead("The request line is not a method, a target and a version.");
   }
   const std::string_view method = line.substr(0, first);
-  std::string_view target = line.substr(first + 1, last - first - 1);
+  const std::string_view target = line.substr(first + 1, last - first - 1);
   const std::string_view version = line.substr(last + 1);
   if (!isToken(method) || method.size() > 16) {
     return malformedHead("The method is not a token of at most 16 characters.");
@@ -45,20 +64,16 @@ Status readRequestLine(std::string_view line, RequestHead& head) {
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
     return malformedHead("The version is neither HTTP/1.1 nor HTTP/1.0.");
   }
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (target.starts_with(scheme)) {
-      const std::size_t slash = target.find('/', scheme.size());
-      target = slash == std::string_view::npos ? "/" : target.substr(slash);
-      break;
-    }
-  }
-  if (target.empty() || target.front() != '/' ||
+  const AbsoluteForm absolute = cutAbsoluteForm(target);
+  if (absolute.target.empty() || absolute.target.front() != '/' ||
       std::any_of(target.begin(), target.end(), [](char c) { return c <= 0x20 || c == 0x7f; })) {
     return malformedHead("The request target must begin with '/' and contain only visible ASCII characters.");
   }
   head.method = method;
-  head.target = target;
-  head.keepAlive = version == "HTTP/1.1";
+  head.target = absolute.target;
+  authority = absolute.authority;
+  head.isHttp11 = version == "HTTP/1.1";
+  head.keepAlive = head.isHttp11;
   return Done{};
 }
 
@@ -81,14 +96,14 @@ std::size_t countOf(const Headers& headers, std::string_view name) {
 }
 
 /// Where the body ends, by the two headers that may say so (RFC 9112 section 6).
-Status readFraming(RequestHead& head, bool http11) {
+Status readFraming(RequestHead& head) {
   const auto encoding = headerValue(head.headers, "transfer-encoding");
   const auto length = headerValue(head.headers, "content-length");
   if (encoding && length) {
     return malformedHead("A request must not have both Content-Length and Transfer-Encoding.");
   }
   if (encoding) {
-    if (!http11 || lowerCase(*encoding) != "chunked") {
+    if (!head.isHttp11 || lowerCase(*encoding) != "chunked") {
       return malformedHead("The only Transfer-Encoding accepted is 'chunked', with HTTP/1.1.");
     }
     head.chunked = true;
@@ -151,7 +166,11 @@ std::optional<std::size_t> headLength(std::string_view bytes) {
 
 Result<RequestHead> parseRequestHead(std::string_view bytes) {
   RequestHead head;
+  std::string authority;
   bool first = true;
+  if (bytes.starts_with("\r\n")) {
+    bytes.remove_prefix(2);
+  }
   while (true) {
     const std::size_t end = bytes.find("\r\n");
     if (end == std::string_view::npos) {
@@ -165,22 +184,25 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
     if (!first && head.headers.size() == kMaxHeaders) {
       return Problem{ProblemCode::tooLarge, "", "The request has too many headers.", std::to_string(kMaxHeaders), ""};
     }
-    if (auto read = first ? readRequestLine(line, head) : readHeader(line, head); !read) {
+    if (auto read = first ? readRequestLine(line, head, authority) : readHeader(line, head); !read) {
       return std::move(read).problems();
     }
     first = false;
   }
-  const bool http11 = head.keepAlive;
-  if (auto framing = readFraming(head, http11); !framing) {
+  if (auto framing = readFraming(head); !framing) {
     return std::move(framing).problems();
   }
-  if (countOf(head.headers, "host") != 1 && (http11 || countOf(head.headers, "host") > 1)) {
+  if (countOf(head.headers, "host") != 1 && (head.isHttp11 || countOf(head.headers, "host") > 1)) {
     return malformedHead("The request must have exactly one Host header.");
+  }
+  if (!authority.empty()) {
+    std::erase_if(head.headers, [](const auto& header) { return header.first == "host"; });
+    head.headers.emplace_back("host", authority);
   }
   for (const std::string& option : splitTrimmed(lowerCase(headerValue(head.headers, "connection").value_or("")), ',')) {
     head.keepAlive = option == "close" ? false : option == "keep-alive" ? true : head.keepAlive;
   }
-  head.expectsContinue = lowerCase(headerValue(head.headers, "expect").value_or("")) == "100-continue";
+  head.expectsContinue = head.isHttp11 && lowerCase(headerValue(head.headers, "expect").value_or("")) == "100-continue";
   return head;
 }
 

@@ -28,12 +28,13 @@ std::string mediaType(std::string_view contentType);
 /// The part of a request before its body (RFC 9112).
 struct RequestHead {
   std::string method;
-  std::string target; ///< origin form; an absolute form is cut to it
+  std::string target; ///< origin form; an absolute form is cut to it, and its authority replaces the Host
   Headers headers;
   std::optional<std::uint64_t> contentLength; ///< absent = no body, or a chunked one
   bool chunked = false;
+  bool isHttp11 = true; ///< false: HTTP/1.0
   bool keepAlive = true;
-  bool expectsContinue = false;
+  bool expectsContinue = false; ///< never of HTTP/1.0
 
   bool hasBody() const { return chunked || contentLength.value_or(0) > 0; }
 };
@@ -41,8 +42,9 @@ struct RequestHead {
 /// The length of the head at the front of `bytes`, its empty line included; nothing while it is incomplete.
 std::optional<std::size_t> headLength(std::string_view bytes);
 
-/// Parses a head that ends with its empty line. Strict where servers in a chain could disagree about the end of a body:
-/// line ends are CR LF; folded lines, repeated lengths, and a length together with chunks are malformed.
+/// Parses a head that ends with its empty line; another one may precede it. Strict where servers in a chain could
+/// disagree about the end of a body: line ends are CR LF; folded lines, repeated lengths, and a length together with
+/// chunks are malformed.
 Result<RequestHead> parseRequestHead(std::string_view bytes);
 
 /// One request, every byte of it bounded and its syntax checked.

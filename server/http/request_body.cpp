@@ -19,7 +19,7 @@ Problem brokenChunks(std::string detail) {
 class BodyReader {
  public:
   BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease)
-      : reader_(reader), rule_(rule), pace_(pace), lease_(lease) {}
+      : reader_(reader), rule_(rule), meter_(pace, Clock::now()), lease_(lease) {}
 
   /// Appends `count` bytes to the body; false = refused.
   bool append(std::size_t count) {
@@ -108,8 +108,9 @@ class BodyReader {
   }
 
   bool more(std::size_t most) {
-    const auto deadline = std::min(pace_.deadline(start_, body.size()), Clock::now() + pace_.stall);
-    const SocketWait waited = reader_.receive(most, deadline);
+    const std::size_t before = reader_.buffered().size();
+    const SocketWait waited = reader_.receive(most, meter_.deadline(Clock::now()));
+    meter_.moved(reader_.buffered().size() - before, Clock::now());
     if (waited == SocketWait::timedOut) {
       refused = {ProblemCode::deadlineExceeded, "", "The body arrived too slowly.", "", ""};
     } else if (waited == SocketWait::closed) {
@@ -120,9 +121,8 @@ class BodyReader {
 
   SocketReader& reader_;
   const BodyRule& rule_;
-  const Pace& pace_;
+  PaceMeter meter_;
   ByteLease& lease_;
-  Clock::time_point start_ = Clock::now();
 };
 
 } // namespace

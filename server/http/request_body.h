@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "server/http/pace.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
 #include "server/system/byte_budget.h"
@@ -17,17 +18,6 @@ struct BodyRule {
   };
   Framing framing = Framing::none;
   std::size_t maxBytes = 0;
-};
-
-/// How slowly a client may send or receive: after `grace`, at least this many bytes a second on average.
-struct Pace {
-  std::chrono::milliseconds stall{5'000}; ///< the longest wait for the next byte
-  std::chrono::milliseconds grace{10'000};
-  std::size_t bytesPerSecond = 16 * 1024;
-
-  Clock::time_point deadline(Clock::time_point start, std::size_t bytes) const {
-    return start + grace + std::chrono::milliseconds(bytes * 1000 / bytesPerSecond);
-  }
 };
 
 /// Why the body that the head announces can't be accepted, before a byte of it is read or asked for: lengthRequired or

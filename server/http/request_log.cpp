@@ -19,6 +19,7 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
   constexpr std::size_t kMostOfTarget = 512;
   Line line{{"event", "request"},
             {"id", record.id},
+            {"client", record.client},
             {"method", record.method},
             {"target", record.target.substr(0, kMostOfTarget)},
             {"status", reply.status},

@@ -11,6 +11,7 @@ namespace gnomon {
 /// What the log says of a request, apart from its reply.
 struct RequestRecord {
   std::string id;
+  std::string client; ///< its address
   std::string method;
   std::string target; ///< as it came; shortened in the log
   std::size_t requestBytes = 0;
@@ -21,7 +22,7 @@ struct RequestRecord {
 /// The line's text: one JSON object, no scene contents.
 std::string requestLine(const RequestRecord& record, const HttpReply& reply, double milliseconds);
 
-/// Writes the line to the log (standard error). Never throws.
+/// Writes the line to the log. Never throws, never waits.
 void logRequest(const RequestRecord& record, const HttpReply& reply) noexcept;
 
 } // namespace gnomon

@@ -67,6 +67,7 @@ std::variant<RouteMatch, MethodRefused, NoSuchPath> Router::find(std::string_vie
   if (allowed.empty()) {
     return NoSuchPath{};
   }
+  allowed.insert("OPTIONS");
   std::string allow;
   for (const std::string& name : allowed) {
     allow += allow.empty() ? name : ", " + name;

@@ -15,6 +15,7 @@
 #include "renderer/core/parallel.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
+#include "server/http/origin_check.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/heaps.h"
@@ -64,8 +65,11 @@ ShutdownSignals::Event ShutdownSignals::wait(const StopSignal& done, Clock::time
   }
 }
 
+constexpr std::chrono::milliseconds kLogPatience{1'000};
+
 /// Prints one line for each problem.
 int failed(const Problems& problems) {
+  flushLog(kLogPatience);
   for (const Problem& problem : problems) {
     const std::string actual = problem.actual.empty() ? "" : " (" + problem.actual + ")";
     std::fprintf(stderr, "gnomon: %s%s\n", problem.detail.c_str(), actual.c_str());
@@ -89,6 +93,7 @@ std::string addressOf(const std::string& bind, int port) {
 
 [[noreturn]] void endNow(const char* why) {
   logEvent("ended", why);
+  flushLog(kLogPatience);
   ::_exit(1); // no destructors: threads may be stuck, and nothing on disk is half-written
 }
 
@@ -127,6 +132,7 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   }
   finishing.join();
   logEvent("ended", inOrder ? "All work was finished." : "Connections could no longer be accepted.");
+  flushLog(kLogPatience);
   return inOrder ? 0 : 1;
 }
 
@@ -187,8 +193,18 @@ int serve(const ServeOptions& options) {
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                     .page = options.page,
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations)};
-  ConnectionContext context{makeService(services), {}, ByteBudget(options.uploadMemoryBytes), {}};
-  auto server = HttpServer::listen({options.bind, options.port, options.httpThreads}, context);
+  ConnectionLimits connections;
+  connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
+  ConnectionContext context{
+      withOriginCheck(makeService(services), {options.allowedHosts, options.allowedOrigins, options.bind}),
+      connections,
+      ByteBudget(options.uploadMemoryBytes),
+      ByteBudget(options.replyMemoryBytes),
+      {}};
+  const std::size_t perClient = options.maxConnectionsPerAddress > 0
+                                    ? options.maxConnectionsPerAddress
+                                    : std::max<std::size_t>(options.httpThreads * 3 / 4, 1);
+  auto server = HttpServer::listen({options.bind, options.port, options.httpThreads, perClient}, context);
   if (!server) {
     return failed(server.problems());
   }

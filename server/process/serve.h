@@ -13,9 +13,11 @@ namespace gnomon {
 /// Everything that an operator can choose. The defaults suit one machine and its own users.
 struct ServeOptions {
   // Address and storage
-  std::string bind = "127.0.0.1"; ///< address to listen on; "0.0.0.0" = every IPv4 address, "::" = every address
-  int port = 8080;                ///< 0..65535; 0 = any free one, which is printed
-  std::string storeDirectory;     ///< where scenes are kept over a restart; created where missing; empty = memory only
+  std::string bind = "127.0.0.1";        ///< address to listen on; "0.0.0.0" = every IPv4 address, "::" = every address
+  std::vector<std::string> allowedHosts; ///< names by which clients may reach it (origin_check.h); 421 for others
+  std::vector<std::string> allowedOrigins; ///< pages of other servers that may use this one; 403 for others' requests
+  int port = 8080;                         ///< 0..65535; 0 = any free one, which is printed
+  std::string storeDirectory; ///< where scenes are kept over a restart; created where missing; empty = memory only
 
   // Workers and what draws in them
   std::size_t workers = 0;                      ///< processes that draw; 0 = a quarter of the cores, and at least two
@@ -34,13 +36,16 @@ struct ServeOptions {
   std::size_t maxSceneBytes = kLimits.maxSceneBytes; ///< one upload
   std::size_t uploadMemoryBytes = 1ull << 30;        ///< bodies of all requests in progress together (429)
   std::size_t frameMemoryBytes =
-      4ull << 30;                ///< pictures of all frames in progress together (429), and of one frame (413)
-  std::size_t httpThreads = 128; ///< >= 1; connections served at once; 503 beyond it, except for probes
-  int maxEvaluations = 1;        ///< >= 1; evaluations that may run at once (429)
+      4ull << 30; ///< pictures of all frames in progress together (429), and of one frame (413)
+  std::size_t replyMemoryBytes = 1ull << 30; ///< bodies of replies that clients are taking, together (503)
+  std::size_t httpThreads = 128;             ///< >= 1; requests served at once; 503 beyond it, except for probes
+  std::size_t maxConnectionsPerAddress = 0;  ///< of those for one client (429); 0 = three quarters of them
+  int maxEvaluations = 1;                    ///< >= 1; evaluations that may run at once (429)
 
   // Timeouts
   int requestTimeoutSeconds = 60;     ///< >= 1; from the arrival of a request to its frame (504)
   int evaluationTimeoutSeconds = 600; ///< >= 1; from the arrival of an evaluation to its report (504)
+  int idleTimeoutSeconds = 75;        ///< >= 1; between two requests of a connection
   int drainSeconds = 0;  ///< after SIGTERM, requests are served while /readyz fails, so that load balancers notice
   int graceSeconds = 30; ///< after that, for the requests in progress; the rest get 503
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 24);
+static_assert(memberCount<ServeOptions>() == 29);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -22,6 +22,20 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
       ->envname("GNOMON_LISTEN_PORT")
       ->check(CLI::Range(0, 65535))
       ->group("Address and storage");
+  const auto addNames = [&serve](const char* flag, const char* variable, std::vector<std::string>& names,
+                                 const char* what, const char* says) {
+    serve.add_option(flag, names, says)
+        ->envname(variable)
+        ->type_name(what)
+        ->delimiter(',')
+        ->default_str("")
+        ->group("Address and storage");
+  };
+  addNames("--allowed-hosts", "GNOMON_ALLOWED_HOSTS", options.allowedHosts, "NAMES",
+           "Names by which clients may reach the server, beside its addresses and localhost; comma-separated, * = any, "
+           "which is the default with --bind 0.0.0.0 or ::");
+  addNames("--allowed-origins", "GNOMON_ALLOWED_ORIGINS", options.allowedOrigins, "ORIGINS",
+           "Pages of other servers that may use this one, as https://page.example; comma-separated, * = any");
   serve
       .add_option("--store", options.storeDirectory,
                   "Directory that keeps scenes over a restart; without it they are kept in memory")
@@ -108,15 +122,22 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
   addBytes(serve, "--upload-memory-bytes", "GNOMON_UPLOAD_MEMORY_BYTES", options.uploadMemoryBytes,
            "Bodies of all requests in progress together; 429 beyond it");
   addBytes(serve, "--frame-memory-bytes", "GNOMON_FRAME_MEMORY_BYTES", options.frameMemoryBytes,
-           "Pictures of all frames in progress together (429 beyond it), and of one frame (413)");
+           "Pictures of all frames in progress together, and a worker's share of it for one frame (413)");
+  addBytes(serve, "--reply-memory-bytes", "GNOMON_REPLY_MEMORY_BYTES", options.replyMemoryBytes,
+           "Replies that clients are taking, together; 503 beyond it");
   serve.add_option("--queue-limit", options.queueLimit, "Requests that may wait for a worker; 429 beyond it")
       ->envname("GNOMON_QUEUE_LIMIT")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
       ->group("Limits");
-  serve
-      .add_option("--http-threads", options.httpThreads, "Connections served at once; beyond it 503, except for probes")
+  serve.add_option("--http-threads", options.httpThreads, "Requests served at once; beyond it 503, except for probes")
       ->envname("GNOMON_HTTP_THREADS")
       ->check(CLI::Range(std::size_t{1}, std::size_t{4'096}))
+      ->group("Limits");
+  serve
+      .add_option("--max-connections-per-address", options.maxConnectionsPerAddress,
+                  "Of these, requests of one client's address; beyond it 429. 0 = three quarters of --http-threads")
+      ->envname("GNOMON_MAX_CONNECTIONS_PER_ADDRESS")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{4'096}))
       ->group("Limits");
   serve
       .add_option("--max-evaluations", options.maxEvaluations,
@@ -138,6 +159,8 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
       "Time for a frame from the arrival of its request; 504 beyond it");
   add("--evaluation-timeout", "GNOMON_EVALUATION_TIMEOUT", options.evaluationTimeoutSeconds, 1,
       "Time for an evaluation from the arrival of its request; 504 beyond it");
+  add("--idle-timeout", "GNOMON_IDLE_TIMEOUT", options.idleTimeoutSeconds, 1,
+      "Time for which a connection without a request is kept; more than that of a proxy in front");
   add("--drain", "GNOMON_DRAIN", options.drainSeconds, 0,
       "Time after SIGTERM in which requests are served while /readyz fails, so that load balancers notice");
   add("--grace", "GNOMON_GRACE", options.graceSeconds, 0,

@@ -22,14 +22,26 @@ constexpr const char* kSummary = ".json";
 constexpr const char* kDamaged = ".damaged";
 constexpr std::size_t kMaxSummaryBytes = 16 << 20;
 
+/// By errno.
 Problem diskProblem(const char* what) {
-  logEvent("store", std::string(what) + " " + std::error_code(errno, std::generic_category()).message() + ".");
+  const int reason = errno;
+  logEvent("store", std::string(what) + " " + std::error_code(reason, std::generic_category()).message() + ".");
+  if (reason == ENOSPC || reason == EDQUOT) {
+    return {ProblemCode::insufficientStorage, "", "The disk of the scene store is full.", "", ""};
+  }
   return {ProblemCode::unavailable, "", "The scene store can't read or write its disk.", "", ""};
 }
 
-bool syncDirectory(const std::string& path) {
-  const FileDescriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return directory && ::fsync(directory.get()) == 0;
+/// Those whose bundle is gone: a server ended between removing the two.
+void removeOrphanSummaries(const std::string& path) {
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    const bool isSummary = entry->path().extension() == kSummary && isSceneId(entry->path().stem().string());
+    std::error_code ignored; // another process may be removing it too
+    if (isSummary && !fs::exists(fs::path(entry->path()).replace_extension(kBundle), ignored)) {
+      fs::remove(entry->path(), ignored);
+    }
+  }
 }
 
 /// A file's bytes, piece by piece.
@@ -56,6 +68,7 @@ Result<SceneDirectory> SceneDirectory::open(const std::string& path) {
     return Problem{ProblemCode::unavailable, "/store", "The scene store is not a writable directory.", "", path};
   }
   removeUnfinished(path);
+  removeOrphanSummaries(path);
   return SceneDirectory(path);
 }
 
@@ -76,13 +89,12 @@ bool SceneDirectory::contains(const std::string& id) const {
 }
 
 Status SceneDirectory::write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const {
-  // The bundle last: once it is there, the scene is.
-  const bool written = placeFile(pathOf(id, kSummary), [&](const FileSink& sink) { sink(asBytes(summary)); }) &&
-                       placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { copyBytes(bundle, sink); }) &&
-                       syncDirectory(path_);
-  if (!written) {
+  // The bundle first: no summary is ever left without one.
+  if (!placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { copyBytes(bundle, sink); }) ||
+      !syncDirectory(path_)) {
     return diskProblem("A scene could not be written.");
   }
+  writeSummary(id, summary);
   return Done{};
 }
 
@@ -112,6 +124,9 @@ std::optional<std::string> SceneDirectory::readSummary(const std::string& id) co
 bool SceneDirectory::remove(const std::string& id) const {
   const bool removed = ::unlink(pathOf(id, kBundle).c_str()) == 0;
   ::unlink(pathOf(id, kSummary).c_str());
+  if (removed && !syncDirectory(path_)) {
+    diskProblem("A removal may not outlive a power cut.");
+  }
   return removed;
 }
 

@@ -10,16 +10,17 @@
 namespace gnomon {
 
 /// Bundles on disk, one file each, named by id: "<id>.bundle", beside it "<id>.json" with the summary's text.
-/// Files appear by rename only, so that a crash leaves a whole file or none. Any thread.
+/// Files appear by rename only, so that a crash leaves a whole file or none. Any thread, and any number of processes.
 class SceneDirectory {
  public:
-  /// Makes the directory if need be, and removes what an interrupted write left.
+  /// Makes the directory if need be, and removes what an interrupted write or removal left.
   static Result<SceneDirectory> open(const std::string& path);
 
   std::vector<std::string> ids() const; ///< ascending
   bool contains(const std::string& id) const;
 
-  /// Writes the bundle's bytes and its summary through to the disk.
+  /// Writes the bundle's bytes and its summary through to the disk. Problems: insufficientStorage where it is full,
+  /// unavailable where it refuses otherwise; nothing is left of the scene then.
   Status write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const;
 
   /// Replaces the summary of a scene; what the disk refuses is logged only, since a summary can be made again.

@@ -1,15 +1,20 @@
 #include "server/scenes/whole_file.h"
 
-#include <atomic>
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <random>
 #include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
+#include "protocol/base/bytes.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -17,10 +22,9 @@ namespace {
 
 constexpr std::string_view kTemporary = ".writing-";
 
-/// Calls `produce` with a function that appends to the file; false when the disk refuses.
-bool writeThrough(const std::string& path, const std::function<void(const FileSink&)>& produce) {
-  const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640));
-  bool good = static_cast<bool>(file);
+/// Appends all that `produce` makes, through to the disk; false when the disk refuses.
+bool writeThrough(const FileDescriptor& file, const std::function<void(const FileSink&)>& produce) {
+  bool good = true;
   produce([&](std::span<const std::uint8_t> bytes) {
     while (good && !bytes.empty()) {
       const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
@@ -34,23 +38,44 @@ bool writeThrough(const std::string& path, const std::function<void(const FileSi
   return good && ::fsync(file.get()) == 0;
 }
 
-/// Unique among the threads and processes that write into the directory.
-std::string temporaryName() {
-  static std::atomic<std::uint64_t> count{0};
-  return std::string(kTemporary) + std::to_string(::getpid()) + "-" + std::to_string(++count);
+/// A file of its own among all threads, processes and machines that write into the directory.
+struct Temporary {
+  std::string path;
+  FileDescriptor file; ///< empty, with errno, where the disk refuses
+};
+
+Temporary makeTemporary(const std::filesystem::path& directory) {
+  std::random_device random;
+  while (true) {
+    std::array<std::uint8_t, 8> bytes;
+    std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random()); });
+    std::string path = directory / (std::string(kTemporary) + hexText(bytes));
+    FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640));
+    if (file || errno != EEXIST) {
+      return {std::move(path), std::move(file)};
+    }
+  }
 }
 
 } // namespace
 
 bool placeFile(const std::string& path, const std::function<void(const FileSink&)>& produce) {
-  const std::string temporary = std::filesystem::path(path).parent_path() / temporaryName();
-  if (writeThrough(temporary, produce) && ::rename(temporary.c_str(), path.c_str()) == 0) {
+  const Temporary temporary = makeTemporary(std::filesystem::path(path).parent_path());
+  if (!temporary.file) {
+    return false;
+  }
+  if (writeThrough(temporary.file, produce) && ::rename(temporary.path.c_str(), path.c_str()) == 0) {
     return true;
   }
   const int reason = errno;
-  ::unlink(temporary.c_str());
+  ::unlink(temporary.path.c_str());
   errno = reason;
   return false;
+}
+
+bool syncDirectory(const std::string& path) {
+  const FileDescriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return directory && ::fsync(directory.get()) == 0;
 }
 
 std::optional<Bytes> readWhole(const std::string& path, std::size_t most) {
@@ -77,9 +102,13 @@ void removeUnfinished(const std::string& directory) {
   namespace fs = std::filesystem;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().filename().string().starts_with(kTemporary)) {
-      std::error_code ignored; // another process may be removing it too
-      fs::remove(entry->path(), ignored);
+    if (!entry->path().filename().string().starts_with(kTemporary)) {
+      continue;
+    }
+    std::error_code gone; // another process may be removing it too
+    const auto written = entry->last_write_time(gone);
+    if (!gone && written < fs::file_time_type::clock::now() - std::chrono::hours(1)) {
+      fs::remove(entry->path(), gone);
     }
   }
 }

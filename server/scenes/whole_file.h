@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,9 +19,13 @@ using FileSink = std::function<void(std::span<const std::uint8_t>)>;
 bool placeFile(const std::string& path, const std::function<void(const FileSink&)>& produce);
 
 /// All of a regular file of at most so many bytes; nothing where it can't be read.
-std::optional<Bytes> readWhole(const std::string& path, std::size_t most);
+std::optional<Bytes> readWhole(const std::string& path, std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Removes what an interrupted placeFile left in a directory.
+/// Makes it lasting that files of this directory appeared or went. False, with errno, where the disk refuses.
+bool syncDirectory(const std::string& path);
+
+/// Removes what an interrupted placeFile left in a directory, an hour ago or earlier: another process may be writing
+/// what is younger.
 void removeUnfinished(const std::string& directory);
 
 } // namespace gnomon

@@ -1,7 +1,10 @@
 #pragma once
 
-#include <atomic>
+#include <condition_variable>
 #include <cstddef>
+#include <mutex>
+
+#include "server/system/clock.h"
 
 namespace gnomon {
 
@@ -12,21 +15,32 @@ class ByteBudget {
 
   std::size_t total() const { return total_; }
 
-  bool take(std::size_t bytes) {
-    std::size_t left = left_.load();
-    while (left >= bytes) {
-      if (left_.compare_exchange_weak(left, left - bytes)) {
-        return true;
-      }
+  bool take(std::size_t bytes) { return takeBy(bytes, Clock::time_point::min()); }
+
+  /// Waits until there are so many; false where the deadline comes first.
+  bool takeBy(std::size_t bytes, Clock::time_point deadline) {
+    std::unique_lock lock(mutex_);
+    const auto enough = [&] { return left_ >= bytes; };
+    if (!enough() && (Clock::now() >= deadline || !freed_.wait_until(lock, deadline, enough))) {
+      return false;
     }
-    return false;
+    left_ -= bytes;
+    return true;
   }
 
-  void giveBack(std::size_t bytes) { left_ += bytes; }
+  void giveBack(std::size_t bytes) {
+    {
+      const std::lock_guard lock(mutex_);
+      left_ += bytes;
+    }
+    freed_.notify_all();
+  }
 
  private:
   const std::size_t total_;
-  std::atomic<std::size_t> left_;
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  std::size_t left_;
 };
 
 /// What one request holds of a budget; given back when it goes.
@@ -37,8 +51,11 @@ class ByteLease {
   ByteLease& operator=(const ByteLease&) = delete;
   ~ByteLease() { budget_->giveBack(held_); }
 
-  bool grow(std::size_t bytes) {
-    if (!budget_->take(bytes)) {
+  bool grow(std::size_t bytes) { return growBy(bytes, Clock::time_point::min()); }
+
+  /// Waits for them until the deadline.
+  bool growBy(std::size_t bytes, Clock::time_point deadline) {
+    if (!budget_->takeBy(bytes, deadline)) {
       return false;
     }
     held_ += bytes;

@@ -1,5 +1,6 @@
 #include "server/work/sandbox.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
@@ -170,8 +171,11 @@ int dropCapabilities() {
   return ::syscall(SYS_capset, &header, none.data()) == 0 ? 0 : errno;
 }
 
+/// Never more than it has.
 int limit(__rlimit_resource resource, rlim_t most) {
-  const rlimit value{most, most};
+  rlimit value{};
+  if (::getrlimit(resource, &value) != 0) return errno;
+  value = {std::min(value.rlim_max, most), std::min(value.rlim_max, most)};
   return ::setrlimit(resource, &value) == 0 ? 0 : errno;
 }
 
@@ -189,7 +193,7 @@ Status seal(Seal kind, std::uint64_t memoryBytes) {
   if (const int error = limit(RLIMIT_CORE, 0)) return refused(error);
   if (const int error = limit(RLIMIT_NOFILE, kMostFiles)) return refused(error);
   if (memoryBytes > 0) {
-    if (const int error = limit(RLIMIT_DATA, memoryBytes)) return refused(error);
+    if (const int error = limit(RLIMIT_DATA, memoryBytes + memoryBytes / 4)) return refused(error);
   }
   if (const int error = dropCapabilities()) return refused(error);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return refused(errno);

@@ -17,7 +17,8 @@ void closeInherited();
 
 /// Gives up what a worker never needs, for good and for all its threads: no program is executed, no process started,
 /// looked into or signalled, no socket opened, no privilege gained or kept; with Seal::full no file opened, either
-/// (seccomp(2), capabilities(7)). `memoryBytes`: of what it allocates (RLIMIT_DATA); 0 = as much as there is. A call
+/// (seccomp(2), capabilities(7)). `memoryBytes`: the most that it should hold; what it may allocate
+/// is a quarter more (RLIMIT_DATA), since not all of that is touched; 0 = as much as there is. A call
 /// that is not allowed fails with EPERM. unavailable where the system refuses.
 Status seal(Seal kind, std::uint64_t memoryBytes);
 

@@ -43,7 +43,7 @@ class Bodies(ServerTest):
             return receive_all(connection)
 
     def head(self, path, *lines):
-        text = "\r\n".join([f"POST {path} HTTP/1.1", "Host: x", "Content-Type: model/gltf-binary", *lines, "", ""])
+        text = "\r\n".join([f"POST {path} HTTP/1.1", "Host: localhost", "Content-Type: model/gltf-binary", *lines, "", ""])
         return text.encode()
 
     def test_a_chunked_body_is_counted(self):
@@ -65,7 +65,7 @@ class Bodies(ServerTest):
 
     def test_chunks_are_not_taken_where_json_is(self):
         reply = self.raw(
-            b"POST /v1/scenes/x/frames HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+            b"POST /v1/scenes/x/frames HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
             b"Transfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n"
         )
         self.assertTrue(reply.startswith(b"HTTP/1.1 411 "), reply[:200])
@@ -90,13 +90,13 @@ class Bodies(ServerTest):
         self.assertTrue(reply.startswith(b"HTTP/1.1 400 "), reply[:200])
 
     def test_a_body_where_none_is_taken(self):
-        reply = self.raw(b"GET /livez HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\n\r\nhello")
+        reply = self.raw(b"GET /livez HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\nhello")
         self.assertTrue(reply.startswith(b"HTTP/1.1 413 "), reply[:200])
 
     def test_a_header_line_without_an_end(self):
         before = self.server.resident_bytes()
         with self.server.socket() as connection:
-            connection.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
+            connection.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ")
             send_until_refused(connection, b"a" * 65536, 64 * MEGABYTE)
             reply = receive_all(connection)
         if reply:
@@ -105,12 +105,12 @@ class Bodies(ServerTest):
 
     def test_heads_that_have_felled_servers(self):
         for lines in (
-            b"GET / HTTP/1.1\r\nHost: x\r\nRange: bytes=" + b"0-0," * 7000 + b"0-0\r\n\r\n",
-            b"GET /" + b"a" * 30000 + b" HTTP/1.1\r\nHost: x\r\n\r\n",
-            b"GET /?" + b"&" * 30000 + b" HTTP/1.1\r\nHost: x\r\n\r\n",
-            b"GET / HTTP/1.1\r\nHost: x\r\nAccept: " + b"," * 30000 + b"\r\n\r\n",
-            b"GET / HTTP/1.1\r\nHost: x\r\nX: a%0d%0aSet-Cookie: b\r\n\r\n",
-            b"GET / HTTP/1.1\r\nHost: x\r\n" + b"A: b\r\n" * 2000 + b"\r\n",
+            b"GET / HTTP/1.1\r\nHost: localhost\r\nRange: bytes=" + b"0-0," * 7000 + b"0-0\r\n\r\n",
+            b"GET /" + b"a" * 30000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n",
+            b"GET /?" + b"&" * 30000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n",
+            b"GET / HTTP/1.1\r\nHost: localhost\r\nAccept: " + b"," * 30000 + b"\r\n\r\n",
+            b"GET / HTTP/1.1\r\nHost: localhost\r\nX: a%0d%0aSet-Cookie: b\r\n\r\n",
+            b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"A: b\r\n" * 2000 + b"\r\n",
             b"\r\n\r\n", b"\0" * 1000 + b"\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\x16\x03\x01\x02\x00\r\n\r\n",
         ):  # fmt: skip
             reply = self.raw(lines)
@@ -126,7 +126,7 @@ class Bodies(ServerTest):
 
 
 class SlowClients(ServerTest):
-    flags = ("--http-threads", "8")
+    flags = ("--http-threads", "8", "--max-connections-per-address", "8")
 
     def get_coming_again(self, path):
         """The reply to a client that comes again for as long as it is told to."""
@@ -139,7 +139,10 @@ class SlowClients(ServerTest):
         slow = []
         for _ in range(60):  # far more than there are workers
             connection = self.server.socket()
-            connection.sendall(b"GET /livez HTTP/1.1\r\nHo")
+            connection.sendall(
+                b"POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/gltf-binary\r\n"
+                b"Content-Length: 1000\r\n\r\nglTF"
+            )
             slow.append(connection)
         for path in ("/livez", "/readyz"):
             self.assertEqual(self.server.get(path).status, 200)
@@ -149,7 +152,7 @@ class SlowClients(ServerTest):
         # Each is told off, or cut off, in time; then the workers are free again.
         for connection in slow:
             with connection:
-                self.assertRegex(receive_all(connection), rb"^(HTTP/1.1 408 |$)")
+                self.assertRegex(receive_all(connection), rb"^(HTTP/1.1 (408|503) |$)")
         self.assertEqual(self.get_coming_again("/v1/capabilities").status, 200)
 
 
@@ -163,7 +166,7 @@ class LeavingClients(ServerTest):
         for _ in range(20):
             with self.server.socket() as connection:
                 connection.sendall(
-                    b"POST /v1/scenes HTTP/1.1\r\nHost: x\r\nContent-Type: model/gltf-binary\r\n"
+                    b"POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/gltf-binary\r\n"
                     + f"Content-Length: {len(glb)}\r\n\r\n".encode()
                     + glb[: len(glb) // 2]
                 )

@@ -34,7 +34,7 @@ class BakesTest(ServerTest):
         """A bare connection to a bake that has begun, the events read so far, and its key."""
         body = json.dumps(spec)
         connection = self.server.socket()
-        head = f"POST /v1/scenes/{self.scene}/bakes HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n"
+        head = f"POST /v1/scenes/{self.scene}/bakes HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n"
         head += "Content-Type: application/json\r\nAccept: text/event-stream\r\n\r\n"
         connection.sendall((head + body).encode())
         text = ""
@@ -123,7 +123,7 @@ class Bakes(BakesTest):
     def test_who_leaves_a_frame_that_bakes_holds_up_no_other(self):
         body = json.dumps(SMALL | LONG)
         connection = self.server.socket()
-        head = f"POST /v1/scenes/{self.scene}/frames HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n"
+        head = f"POST /v1/scenes/{self.scene}/frames HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n"
         connection.sendall((head + "Content-Type: application/json\r\n\r\n" + body).encode())
         time.sleep(0.5 * SLOW)
         connection.close()

@@ -40,7 +40,7 @@ class Evaluations(ServerTest):
     def begin(self, request, accept):
         """A bare connection that has sent its request and reads nothing."""
         body = json.dumps(request)
-        lines = [f"POST /v1/scenes/{self.scene}/evaluations HTTP/1.1", "Host: x", f"Content-Length: {len(body)}"]
+        lines = [f"POST /v1/scenes/{self.scene}/evaluations HTTP/1.1", "Host: localhost", f"Content-Length: {len(body)}"]
         lines += [f"{name}: {value}" for name, value in self.headers(accept).items()]
         connection = self.server.socket()
         connection.sendall(("\r\n".join(lines) + "\r\n\r\n" + body).encode())

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/http/reply.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {
@@ -27,12 +28,12 @@ struct SocketPair {
 Outcome received(const std::string& sent, RequestHead head, BodyRule rule, bool staying = false, Pace pace = {}) {
   SocketPair pair;
   std::thread client([&] {
-    sendAll(pair.client.get(), sent, Clock::now() + std::chrono::seconds(10));
+    sendAll(pair.client.get(), sent, Pace{});
     if (!staying) {
       ::shutdown(pair.client.get(), SHUT_WR);
     }
   });
-  SocketReader reader(pair.server.get(), -1);
+  SocketReader reader(pair.server.get());
   ByteBudget budget(1 << 20);
   ByteLease lease(budget);
   Outcome outcome = readBody(reader, head, rule, pace, lease);
@@ -95,6 +96,26 @@ TEST(RequestBody, RefusesTheSlow) {
   EXPECT_EQ(statusOf(received("slow", lengthHead(10), {Framing::any, 100}, true, pace)), 408);
 }
 
+TEST(RequestBody, ABurstEarnsNoTimeForDripping) {
+  constexpr Pace kPace{std::chrono::milliseconds(500), std::chrono::milliseconds(200), 1000};
+  SocketPair pair;
+  std::thread client([&] {
+    std::string piece(100'000, 'x'); // at 1,000 bytes a second it would earn 100 seconds
+    while (sendAll(pair.client.get(), piece, Pace{})) {
+      piece = "x";
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  SocketReader reader(pair.server.get());
+  ByteBudget budget(1 << 20);
+  ByteLease lease(budget);
+  const auto start = Clock::now();
+  EXPECT_EQ(statusOf(readBody(reader, lengthHead(200'000), {Framing::any, 200'000}, kPace, lease)), 408);
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
+  pair.server.reset();
+  client.join();
+}
+
 TEST(RequestBody, RefusesByTheHeadAlone) {
   const auto status = [](const RequestHead& head, BodyRule rule) {
     const auto refusal = refuseBody(head, rule);
@@ -115,8 +136,8 @@ TEST(RequestBody, SharesABudgetAndGivesItBack) {
   ByteBudget budget(10);
   {
     SocketPair pair;
-    ASSERT_TRUE(sendAll(pair.client.get(), "0123456789ab", Clock::now() + std::chrono::seconds(1)));
-    SocketReader reader(pair.server.get(), -1);
+    ASSERT_TRUE(sendAll(pair.client.get(), "0123456789ab", Pace{}));
+    SocketReader reader(pair.server.get());
     ByteLease lease(budget);
     EXPECT_EQ(statusOf(readBody(reader, lengthHead(12), {Framing::any, 100}, {}, lease)), 429);
   }

@@ -42,6 +42,18 @@ TEST(RequestHead, ReadsFraming) {
 TEST(RequestHead, CutsAnAbsoluteTarget) {
   EXPECT_EQ(parsed("GET http://proxy.example:80/a?b HTTP/1.1\r\nHost: x\r\n")->target, "/a?b");
   EXPECT_EQ(parsed("GET http://proxy.example HTTP/1.1\r\nHost: x\r\n")->target, "/");
+  EXPECT_EQ(parsed("GET HTTP://proxy.example/a HTTP/1.1\r\nHost: x\r\n")->target, "/a");
+  EXPECT_EQ(parsed("GET http://proxy.example?b=/c HTTP/1.1\r\nHost: x\r\n")->target, "/?b=/c");
+  EXPECT_EQ(headerValue(parsed("GET http://a.example:80/ HTTP/1.1\r\nHost: x\r\n")->headers, "host"), "a.example:80");
+}
+
+TEST(RequestHead, PassesOverOneEmptyLine) {
+  EXPECT_TRUE(parsed("\r\nGET / HTTP/1.1\r\nHost: x\r\n"));
+  EXPECT_FALSE(parsed("\r\n\r\nGET / HTTP/1.1\r\nHost: x\r\n"));
+}
+
+TEST(RequestHead, InvitesNoBodyOfAnOldClient) {
+  EXPECT_FALSE(parsed("POST / HTTP/1.0\r\nExpect: 100-continue\r\n")->expectsContinue);
 }
 
 class RefusedHead : public ::testing::TestWithParam<const char*> {};

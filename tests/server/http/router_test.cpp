@@ -49,9 +49,9 @@ TEST(Router, AnswersHeadByGet) {
 }
 
 TEST(Router, NamesTheMethodsThatThereAre) {
-  EXPECT_EQ(patternOf("PATCH", {"v1", "scenes"}), "allow GET, HEAD, POST");
-  EXPECT_EQ(patternOf("GET", {"v1", "scenes", "x", "frames"}), "allow POST");
-  EXPECT_EQ(patternOf("get", {"v1", "scenes", "x", "frames"}), "allow POST");
+  EXPECT_EQ(patternOf("PATCH", {"v1", "scenes"}), "allow GET, HEAD, OPTIONS, POST");
+  EXPECT_EQ(patternOf("GET", {"v1", "scenes", "x", "frames"}), "allow OPTIONS, POST");
+  EXPECT_EQ(patternOf("get", {"v1", "scenes", "x", "frames"}), "allow OPTIONS, POST");
 }
 
 TEST(Router, KnowsNothingElse) {

@@ -100,10 +100,15 @@ TEST_F(SceneStoreTest, ASummaryThatCannotBeUsedIsNone) {
 
 TEST_F(SceneStoreTest, CleansUpAfterAnInterruptedWrite) {
   std::ofstream(directory_ / ".writing-1-1") << "half";
+  fs::last_write_time(directory_ / ".writing-1-1", fs::file_time_type::clock::now() - std::chrono::minutes(61));
+  std::ofstream(directory_ / ".writing-2-1") << "another server is writing this";
+  std::ofstream(directory_ / (std::string(64, 'a') + ".json")) << "the summary of a scene that is gone";
   std::ofstream(directory_ / "not a scene.bundle") << "x";
   const auto store = open(directory_);
   EXPECT_FALSE(fs::exists(directory_ / ".writing-1-1"));
   EXPECT_TRUE(store->ids().empty());
+  EXPECT_TRUE(fs::exists(directory_ / ".writing-2-1"));
+  EXPECT_FALSE(fs::exists(directory_ / (std::string(64, 'a') + ".json")));
 }
 
 TEST_F(SceneStoreTest, Removes) {

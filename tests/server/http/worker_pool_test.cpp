@@ -1,4 +1,4 @@
-#include "server/http/http_server.h"
+#include "server/http/worker_pool.h"
 
 #include <atomic>
 #include <chrono>

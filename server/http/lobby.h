@@ -1,0 +1,84 @@
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "server/http/client_shares.h"
+#include "server/http/connection.h"
+#include "server/http/request_log.h"
+#include "server/http/worker_pool.h"
+
+namespace gnomon {
+
+/// Holds every connection that has no request to serve: new ones, idle ones, slow ones whose head is still coming, and
+/// those that only wait to be closed. One thread watches them all, so that a silent client holds no other, and gives
+/// each complete head to a thread of its own. Where none is free, it answers itself: probes as ever, anything else with
+/// 503, and with 429 where this client alone takes too many.
+class Lobby {
+ public:
+  /// `threads` serve requests, at most `perClient` of them for one client. Throws std::system_error where the system
+  /// refuses a thread.
+  Lobby(ConnectionContext& context, std::size_t threads, std::size_t perClient);
+  ~Lobby() { finish(); }
+  Lobby(const Lobby&) = delete;
+  Lobby& operator=(const Lobby&) = delete;
+
+  /// Takes the connection over. Where too many wait, the client that has the most of them loses its oldest.
+  void adopt(OpenConnection connection) noexcept;
+
+  /// Closes one connection that waits: the system has no further descriptors. Takes effect a little later.
+  void makeRoom() noexcept;
+
+  /// Closes what is idle, and returns when every request whose head has begun to come is answered. Once.
+  void finish();
+
+ private:
+  struct Guest {
+    OpenConnection connection;
+    Clock::time_point since;
+    Clock::time_point deadline;
+    bool isReady = false;   ///< its head is complete and has no thread yet
+    bool isWaiting = false; ///< for a thread, since it is no probe
+  };
+  using Guests = std::map<int, Guest>; ///< by descriptor
+  enum class Place { taken, noThread, noShare };
+
+  void watch();
+  bool isOver();
+  bool isSettled();
+  void waitForBytes();
+  void takeAdopted();
+  void hear(int fd, bool lost);
+  void weigh(Guests::iterator guest, bool headBegins);
+  void placeReady();
+  Place place(Guests::iterator guest);
+  void answer(Guest& guest, Place why);
+  void refuse(Guest& guest, Problem problem);
+  void sendLast(Guest& guest, RequestRecord& record, const HttpReply& reply, bool bodyless);
+  void expectBy(Guest& guest, std::chrono::milliseconds patience);
+  void dropLate();
+  void dropIdle();
+  Guests::iterator leastWanted();
+  void dropOne();
+
+  ConnectionContext& context_;
+  ClientShares shares_;
+  FileDescriptor poll_;
+  StopSignal wake_;
+  std::atomic<bool> finishing_ = false;
+  std::atomic<bool> roomWanted_ = false;
+  std::mutex mutex_;
+  std::vector<OpenConnection> adopted_;
+  // Of the watching thread alone:
+  Guests guests_;
+  std::vector<int> ready_; ///< descriptors of guests that wait for a thread, in order
+  Clock::time_point nextDeadline_ = Clock::time_point::max(); ///< no guest's is earlier
+  bool isDrained_ = false;                                    ///< finishing, and no thread serves any longer
+  WorkerPool pool_;
+  std::thread thread_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "server/http/connection.h"
+#include "server/http/request_log.h"
+
+namespace gnomon {
+
+/// The reply to a request that no thread serves, as it is sent and logged.
+struct UnservedReply {
+  HttpReply reply;
+  RequestRecord record; ///< without its client and its start
+  bool bodyless = false;
+};
+
+/// What can be said to a complete head without a thread: a probe is answered, a malformed head refused, and anything
+/// else refused with `refusal`. Nothing where there is none: the request may go on waiting.
+std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::string_view head,
+                                             const std::optional<Problem>& refusal);
+
+} // namespace gnomon
