@@ -4,8 +4,10 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/web/web_files.h"
+#include "server/process/memory_plan.h"
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
+#include "server/system/memory_limit.h"
 #include "server/work/sandbox.h"
 #include "server/work/worker.h"
 
@@ -13,7 +15,7 @@ namespace gnomon {
 namespace {
 
 cli::Subcommand addServeCommand(CLI::App& app) {
-  auto options = std::make_shared<ServeOptions>();
+  auto options = std::make_shared<ServeOptions>(fittedTo(memoryLimit()));
   for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
   auto* command = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
   addServeFlags(*command, *options);

@@ -61,7 +61,13 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   task.needsDriver = needsDriver(frame.spec);
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
-  return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
+  const auto drawn = [&](const std::function<bool()>& gone) {
+    return replyOf(runTask(services, task, gone), call.request.id);
+  };
+  if (hasTarget || form.form != ReplyForm::image) return drawn(call.clientGone); // it tells times
+  HttpReply reply = services.shared.run(etag, task.deadline, call.clientGone, drawn);
+  services.replies.keep(etag, reply);
+  return reply;
 }
 
 /// What drawing would refuse, found by planning alone: nobody would see the picture.
@@ -96,6 +102,8 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const auto known = headerValue(request.headers, "if-none-match");
   if (known && !frame.spec.quality && etagMatches(*known, etag)) {
     reply.status = 304;
+  } else if (const auto kept = request.method == "HEAD" ? nullptr : services.replies.find(etag)) {
+    reply = *kept;
   } else {
     reply = request.method == "HEAD" ? check(services, call, frame, *form) : draw(services, call, frame, *form, etag);
     if (reply.status != 200) return reply;

@@ -7,6 +7,8 @@
 
 #include "protocol/spec/limits.h"
 #include "server/bakes/bake_book.h"
+#include "server/frames/reply_cache.h"
+#include "server/frames/shared_frames.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
 #include "server/scenes/scene_store.h"
@@ -25,6 +27,8 @@ struct Services {
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same
   BakeBook bakeBook{};
+  SharedFrames shared{};
+  ReplyCache replies{0};
   std::atomic<bool> draining = false; ///< true from the first signal on; readyz reports it
 };
 

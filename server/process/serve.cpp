@@ -16,10 +16,12 @@
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
+#include "server/process/memory_plan.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/heaps.h"
 #include "server/system/log.h"
+#include "server/system/memory_limit.h"
 
 namespace gnomon {
 namespace {
@@ -136,16 +138,10 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   return inOrder ? 0 : 1;
 }
 
-/// One worker at least, so that a long frame leaves another to short ones: a second is worth its memory on any machine.
-std::size_t workersOf(const ServeOptions& options) {
-  constexpr int kCoresOfAWorker = 4; ///< a frame draws on all of them
-  if (options.workers > 0) return options.workers;
-  return static_cast<std::size_t>(std::max(2, coresToUse() / kCoresOfAWorker));
-}
-
 /// What all workers may keep together is shared out.
 DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps) {
-  const std::size_t workers = workersOf(options);
+  const std::uint64_t memory = memoryLimit();
+  const std::size_t workers = options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memory);
   return {.program = options.workerProgram,
           .workers = workers,
           .queueLimit = options.queueLimit,
@@ -159,6 +155,7 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                    .sceneMemoryBytes = options.sceneMemoryBytes / workers,
                    .frameMemoryBytes = options.frameMemoryBytes / workers,
                    .maxSceneBytes = options.maxSceneBytes,
+                   .memoryBytes = workerBytes(options, workers, memory),
                    .keepsLightMaps = lightMaps != nullptr},
           .lightMaps = lightMaps};
 }
@@ -192,7 +189,8 @@ int serve(const ServeOptions& options) {
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                     .page = options.page,
-                    .evaluations = std::counting_semaphore<>(options.maxEvaluations)};
+                    .evaluations = std::counting_semaphore<>(options.maxEvaluations),
+                    .replies = ReplyCache(options.replyCacheBytes)};
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
   ConnectionContext context{

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 29);
+static_assert(memberCount<ServeOptions>() == 30);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -48,7 +48,7 @@ void addWhatDraws(CLI::App& serve, ServeOptions& options) {
   serve
       .add_option("--workers", options.workers,
                   "Processes that load scenes and draw, and share the memory for both; more draw more frames at once. "
-                  "0 = a quarter of the cores, and at least two")
+                  "0 = a quarter of the cores, at least two, or one where memory is short")
       ->envname("GNOMON_WORKERS")
       ->check(CLI::Range(0, 256))
       ->group("Renderer");
@@ -125,6 +125,8 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
            "Pictures of all frames in progress together, and a worker's share of it for one frame (413)");
   addBytes(serve, "--reply-memory-bytes", "GNOMON_REPLY_MEMORY_BYTES", options.replyMemoryBytes,
            "Replies that clients are taking, together; 503 beyond it");
+  addBytes(serve, "--reply-cache-bytes", "GNOMON_REPLY_CACHE_BYTES", options.replyCacheBytes,
+           "Pictures kept for requests that are equal, the least recently used dropped first; 0 = every one is drawn");
   serve.add_option("--queue-limit", options.queueLimit, "Requests that may wait for a worker; 429 beyond it")
       ->envname("GNOMON_QUEUE_LIMIT")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))

@@ -71,7 +71,8 @@ double DepthFloor::draw() {
   gl::apply(p.state);
   p.target.clearDepth(0.0f);
   p.frame.bindUniform(GNOMON_FRAME_BUFFER);
-  for (const DrawGroup& group : p.batch.groups) {
+  for (const DrawPiece& piece : p.batch.pieces) {
+    const DrawGroup& group = piece.group;
     applyFacing(group.facing, p.state);
     gl::apply(p.state);
     drawGroup(p.batch, group, p.vertices, *p.program);

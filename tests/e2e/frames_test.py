@@ -12,6 +12,8 @@ STAGES = ["queue", "load", "upload", "survey", "plan", "shadow", "shade", "readb
 
 
 class Frames(ServerTest):
+    flags = ("--reply-cache-bytes", "0")  # so that every frame is drawn
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -234,6 +236,41 @@ class LittleMemory(ServerTest):
         scene = self.server.upload("box_on_plane")
         self.assert_problem(self.server.frame(scene, {"width": 1280, "height": 720}), 413, "/views")
         self.assertEqual(self.server.frame(scene, SMALL).status, 200)
+
+
+class EqualFrames(ServerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.scene = cls.server.upload("box_on_plane")
+
+    def test_an_equal_request_is_answered_from_memory(self):
+        first = self.server.frame(self.scene, SMALL)
+        again = self.server.frame(self.scene, SMALL)
+        self.assertEqual((again.status, again.body), (200, first.body))
+        self.assertEqual(again.headers["Cache-Status"], "gnomon; hit")
+        self.assertEqual(again.headers["ETag"], first.headers["ETag"])
+        self.assertNotIn("Cache-Status", first.headers)
+        for other in (SMALL | {"exposure": 1}, SMALL | {"output": {"format": "exr"}}):
+            self.assertNotIn("Cache-Status", self.server.frame(self.scene, other).headers)
+        report = self.server.frame(self.scene, SMALL, "application/json")
+        self.assertNotIn("Cache-Status", report.headers, "it tells times")
+
+    def test_a_deleted_scene_is_not_answered_from_memory(self):
+        scene = self.server.upload("multi_scene")
+        self.assertEqual(self.server.frame(scene, SMALL).status, 200)
+        self.server.ask("DELETE", f"/v1/scenes/{scene}")
+        self.assertEqual(self.server.frame(scene, SMALL).status, 404)
+
+    def test_equal_frames_at_once_are_drawn_once(self):
+        shadow = {"technique": "rayTraced", "raySamples": 64}
+        spec = {"width": 1280, "height": 720, "shadow": shadow, "lights": [{"sun": {"azimuthDegrees": 10, "elevationDegrees": 45}, "angularDiameterDegrees": 30}]}
+        with ThreadPoolExecutor(8) as pool:
+            replies = list(pool.map(lambda _: self.server.frame(self.scene, spec), range(8)))
+        self.assertEqual({reply.status for reply in replies}, {200})
+        self.assertEqual(len({reply.body for reply in replies}), 1)
+        drawn = {reply.headers["Server-Timing"] for reply in replies if "Server-Timing" in reply.headers}
+        self.assertEqual(len(drawn), 1, "all have the times of the one that was drawn, or come from memory")
 
 
 if __name__ == "__main__":

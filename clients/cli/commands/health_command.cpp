@@ -12,20 +12,22 @@ namespace {
 struct HealthOptions {
   std::string url = "http://127.0.0.1:8080";
   int timeoutSeconds = 3;
+  bool live = false; ///< whether the server lives is enough
 };
 
 int runHealth(const HealthOptions& options) {
   HttpCall call;
-  call.path = "/readyz";
+  call.path = options.live ? "/livez" : "/readyz";
   call.patience = std::chrono::seconds(options.timeoutSeconds);
   const auto reply = callServer(options.url, call);
   if (!reply) return printProblems(reply.problems());
   if (reply->status == 200) {
-    std::cout << "ready\n";
+    std::cout << (options.live ? "alive\n" : "ready\n");
     return kExitOk;
   }
   return printProblems(
-      {{ProblemCode::unavailable, options.url, "The server is not ready.", "200", std::to_string(reply->status)}});
+      {{ProblemCode::unavailable, options.url, options.live ? "The server is not alive." : "The server is not ready.",
+        "200", std::to_string(reply->status)}});
 }
 
 } // namespace
@@ -37,6 +39,8 @@ Subcommand addHealthCommand(CLI::App& app) {
   command->add_option("--timeout", options->timeoutSeconds, "Seconds to wait for an answer")
       ->check(CLI::Range(1, 600))
       ->capture_default_str();
+  command->add_flag("--live", options->live,
+                    "Ask whether it lives, not whether it takes work: what a container should be restarted for");
   return {[command] { return command->parsed(); }, [options] { return runHealth(*options); }};
 }
 

@@ -1,0 +1,55 @@
+#include "server/system/memory_limit.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace gnomon {
+namespace {
+
+std::optional<std::uint64_t> numberIn(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::uint64_t number = 0;
+  return file >> number ? std::optional(number) : std::nullopt; // "max" is no number
+}
+
+/// The least number in files of this name, from a group up to the root.
+std::optional<std::uint64_t> leastUpwards(const std::filesystem::path& root, std::filesystem::path group,
+                                          const char* name) {
+  std::optional<std::uint64_t> least;
+  while (true) {
+    const auto granted = numberIn(root / group.relative_path() / name);
+    if (granted) least = std::min(*granted, least.value_or(*granted));
+    if (!group.has_relative_path()) return least;
+    group = group.parent_path();
+  }
+}
+
+} // namespace
+
+std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, const std::string& ownGroups) {
+  std::optional<std::uint64_t> least;
+  std::istringstream lines(ownGroups);
+  for (std::string line; std::getline(lines, line);) { // "0::/path", or "9:memory:/path" of version 1
+    const std::size_t controllers = line.find(':');
+    const std::size_t path = line.find(':', controllers + 1);
+    if (path == std::string::npos) continue;
+    const bool isFirst = line.substr(controllers + 1, path - controllers - 1) == "memory";
+    if (!isFirst && path != controllers + 1) continue;
+    const auto granted = isFirst ? leastUpwards(root / "memory", line.substr(path + 1), "memory.limit_in_bytes")
+                                 : leastUpwards(root, line.substr(path + 1), "memory.max");
+    if (granted) least = std::min(*granted, least.value_or(*granted));
+  }
+  return least;
+}
+
+std::uint64_t memoryLimit() {
+  const auto machine =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  std::ostringstream ownGroups;
+  ownGroups << std::ifstream("/proc/self/cgroup").rdbuf();
+  return std::min(machine, memoryGranted("/sys/fs/cgroup", ownGroups.str()).value_or(machine));
+}
+
+} // namespace gnomon

@@ -1,0 +1,51 @@
+#include "server/frames/reply_cache.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+HttpReply picture(std::size_t bytes) {
+  HttpReply reply;
+  reply.contentType = "image/png";
+  reply.body = std::string(bytes, 'x');
+  reply.stages = {{"shade", 1}};
+  return reply;
+}
+
+TEST(ReplyCache, GivesBackWhatItKept) {
+  ReplyCache cache(1000);
+  EXPECT_FALSE(cache.find("a"));
+  cache.keep("a", picture(100));
+  const auto found = cache.find("a");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->body.size(), 100u);
+  EXPECT_EQ(found->contentType, "image/png");
+  EXPECT_TRUE(found->stages.empty()) << "nothing was done for it";
+  EXPECT_EQ(found->headers.front().first, "Cache-Status");
+}
+
+TEST(ReplyCache, DropsTheLeastRecentlyUsed) {
+  ReplyCache cache(1000);
+  for (const char* etag : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"}) cache.keep(etag, picture(100));
+  EXPECT_TRUE(cache.find("a"));
+  cache.keep("k", picture(100));
+  EXPECT_TRUE(cache.find("a"));
+  EXPECT_FALSE(cache.find("b"));
+}
+
+TEST(ReplyCache, KeepsNoProblemsAndNothingLarge) {
+  ReplyCache cache(1000);
+  cache.keep("large", picture(126));
+  HttpReply problem = picture(10);
+  problem.status = 504;
+  cache.keep("problem", problem);
+  EXPECT_FALSE(cache.find("large"));
+  EXPECT_FALSE(cache.find("problem"));
+  ReplyCache none(0);
+  none.keep("a", picture(1));
+  EXPECT_FALSE(none.find("a"));
+}
+
+} // namespace
+} // namespace gnomon
