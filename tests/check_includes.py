@@ -8,7 +8,7 @@ Who may include whom, one way:
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
            <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/work;
-  protocol <- server/system <- server/wire <- server/work, server/http <- server/scenes <- server/workers
+  protocol <- server/system <- server/wire <- server/work, server/http <- server/access, server/scenes <- server/workers
            <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
@@ -28,7 +28,7 @@ DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
-FRONT = BOTH_PROCESSES + ["server/http", "server/scenes", "server/workers", "server/frames", "server/bakes"]
+FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/workers", "server/frames", "server/bakes"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -60,6 +60,7 @@ MAY_INCLUDE = {
     "server/wire": BOTH_PROCESSES,
     "server/work": BOTH_PROCESSES + ["server/work", "renderer/core/parallel.h"],
     "server/http": BOTH_PROCESSES + ["server/http"],
+    "server/access": BOTH_PROCESSES + ["server/http", "server/access"],
     "server/scenes": BOTH_PROCESSES + ["server/http", "server/scenes"],
     "server/workers": BOTH_PROCESSES + ["server/scenes", "server/workers"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],

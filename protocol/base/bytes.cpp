@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include "protocol/base/text.h"
 
@@ -114,6 +116,21 @@ std::string schemeOf(std::string_view uri) {
     return isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '.';
   });
   return isScheme ? lowerCase(scheme) : std::string();
+}
+
+bool equalInConstantTime(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+std::string hmacSha256Hex(std::string_view key, std::string_view text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  const auto bytes = asBytes(text);
+  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), bytes.data(), bytes.size(), digest.data(),
+           &length) == nullptr) {
+    throw std::bad_alloc(); // the only way to fail: the algorithm is built in
+  }
+  return hexText(std::span(digest).first(length));
 }
 
 Sha256::Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {

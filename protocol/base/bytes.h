@@ -50,6 +50,12 @@ std::optional<std::string> percentDecoded(std::string_view text);
 /// The scheme of a URI (RFC 3986, section 3.1) in lower case; empty for a relative reference.
 std::string schemeOf(std::string_view uri);
 
+/// Whether two texts are the same, in a time that tells only whether their lengths are: for secrets.
+bool equalInConstantTime(std::string_view a, std::string_view b);
+
+/// HMAC-SHA256 (RFC 2104) of a text under a secret key: 64 lower-case digits.
+std::string hmacSha256Hex(std::string_view key, std::string_view text);
+
 /// SHA-256 over bytes that come piece by piece.
 class Sha256 {
  public:

@@ -15,7 +15,8 @@ enum class ProblemCode {
   invalidValue,         ///< well formed, but a value is of the wrong type, out of range or contradicts another
   notFound,             ///< a scene, route, node or camera that does not exist
   methodNotAllowed,     ///< the route exists, the method does not
-  forbidden,            ///< a page of another origin asks for what only known ones may
+  unauthorized,         ///< no key came with the request, or one that is not known
+  forbidden,            ///< a page of another origin, or a key, asks for what only others may
   misdirected,          ///< the server is asked under a name that is not its own
   notAcceptable,        ///< no view or format matches the Accept header
   lengthRequired,       ///< a body without Content-Length where one is needed

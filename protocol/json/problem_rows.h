@@ -16,6 +16,7 @@ inline constexpr std::array kSpellings<ProblemCode>{
     spelling(ProblemCode::invalidValue, "invalidValue", "Invalid Value"),
     spelling(ProblemCode::notFound, "notFound", "Not Found"),
     spelling(ProblemCode::methodNotAllowed, "methodNotAllowed", "Method Not Allowed"),
+    spelling(ProblemCode::unauthorized, "unauthorized", "Unauthorized"),
     spelling(ProblemCode::forbidden, "forbidden", "Forbidden"),
     spelling(ProblemCode::misdirected, "misdirected", "Misdirected Request"),
     spelling(ProblemCode::notAcceptable, "notAcceptable", "Not Acceptable"),

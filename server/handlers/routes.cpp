@@ -131,26 +131,26 @@ std::vector<Route> makeRoutes(Services& services) {
     return [&services, handler](RouteCall call) { return handler(services, std::move(call)); };
   };
   std::vector<Route> routes{
-      {"POST", "/v1/scenes", upload, sceneTypes, bind(postScene)},
-      {"GET", "/v1/scenes", none, {}, bind(listScenes)},
-      {"PUT", "/v1/scenes/{id}", upload, sceneTypes, bind(putScene)},
-      {"GET", "/v1/scenes/{id}", none, {}, bind(getScene)},
-      {"DELETE", "/v1/scenes/{id}", none, {}, bind(deleteScene)},
-      {"POST", "/v1/scenes/{id}/frames", json, {"application/json"}, bind(postFrame)},
-      {"GET", "/v1/scenes/{id}/frame", none, {}, bind(getFrame)},
-      {"POST", "/v1/scenes/{id}/plan", json, {"application/json"}, bind(postPlan)},
-      {"POST", "/v1/scenes/{id}/evaluations", json, {"application/json"}, bind(postEvaluation)},
-      {"POST", "/v1/scenes/{id}/bakes", json, {"application/json"}, bind(postBake)},
-      {"GET", "/v1/scenes/{id}/bakes/{key}", none, {}, bind(getBake)},
-      {"DELETE", "/v1/scenes/{id}/bakes/{key}", none, {}, bind(deleteBake)},
-      {"POST", "/v1/render", oneShot, {"multipart/form-data"}, bind(renderOnce)},
-      {"GET", "/v1/capabilities", none, {}, bind(getCapabilities)},
-      {"GET", "/openapi.json", none, {}, bind(getOpenApi)},
-      {"GET", "/livez", none, {}, bind(getLivez), true},
-      {"GET", "/readyz", none, {}, bind(getReadyz), true},
+      {"POST", "/v1/scenes", Scope::upload, upload, sceneTypes, bind(postScene)},
+      {"GET", "/v1/scenes", Scope::read, none, {}, bind(listScenes)},
+      {"PUT", "/v1/scenes/{id}", Scope::upload, upload, sceneTypes, bind(putScene)},
+      {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
+      {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
+      {"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)},
+      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame)},
+      {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},
+      {"POST", "/v1/scenes/{id}/evaluations", Scope::render, json, {"application/json"}, bind(postEvaluation)},
+      {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
+      {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake)},
+      {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
+      {"POST", "/v1/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderOnce)},
+      {"GET", "/v1/capabilities", Scope::read, none, {}, bind(getCapabilities)},
+      {"GET", "/openapi.json", Scope::none, none, {}, bind(getOpenApi)},
+      {"GET", "/livez", Scope::none, none, {}, bind(getLivez), true},
+      {"GET", "/readyz", Scope::none, none, {}, bind(getReadyz), true},
   };
   for (const StaticFile& file : services.page) {
-    routes.push_back({"GET", std::string(file.path), none, {}, pageHandler(file)});
+    routes.push_back({"GET", std::string(file.path), Scope::none, none, {}, pageHandler(file)});
   }
   return routes;
 }
@@ -168,7 +168,7 @@ HttpService makeService(Services& services) {
       return problemReply({*std::move(problem)}, head.id);
     }
     // The handler keeps the router, whose route it calls.
-    return RequestHandler{route.body, route.probe,
+    return RequestHandler{route.body, route.scope, route.probe,
                           [router, &route, values = std::move(match.values)](HttpRequest request,
                                                                              const std::function<bool()>& clientGone) {
                             return route.handler({std::move(request), values, clientGone});

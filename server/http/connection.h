@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "protocol/access/access_key.h"
 #include "server/http/open_connection.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
@@ -13,7 +14,8 @@ namespace gnomon {
 /// What answers one request. Knows nothing of sockets.
 struct RequestHandler {
   BodyRule body;
-  bool isProbe = false; ///< answered however busy everything else is: it reads a few atomics and returns
+  Scope scope = Scope::none; ///< what a key must allow, where the server has keys
+  bool isProbe = false;      ///< answered however busy everything else is: it reads a few atomics and returns
 
   /// The reply. `clientGone` may be called at any time, by any thread that the handler waits for.
   std::function<HttpReply(HttpRequest, const std::function<bool()>& clientGone)> answer;

@@ -45,6 +45,8 @@ std::string_view reasonPhrase(int status) {
       return "Not Modified";
     case 400:
       return "Bad Request";
+    case 401:
+      return "Unauthorized";
     case 403:
       return "Forbidden";
     case 404:
@@ -121,6 +123,8 @@ int statusOf(ProblemCode code, RequestPart read) {
     case ProblemCode::malformed:
     case ProblemCode::invalidValue:
       return 400;
+    case ProblemCode::unauthorized:
+      return 401;
     case ProblemCode::forbidden:
       return 403;
     case ProblemCode::notFound:

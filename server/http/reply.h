@@ -28,6 +28,7 @@ struct HttpReply {
   std::vector<std::pair<std::string, std::string>> headers;
   bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent
   std::vector<StageTime> stages; ///< for the log
+  std::string key;               ///< for the log: the name of the key that the client has
   std::string problem;           ///< for the log: the first problem's detail, as the client reads it
   std::string note;              ///< for the log alone: an internal cause, which no client may read
 };

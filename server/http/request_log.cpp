@@ -26,6 +26,9 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
             {"requestBytes", record.requestBytes},
             {"replyBytes", reply.body.size()},
             {"milliseconds", milliseconds}};
+  if (!reply.key.empty()) {
+    line["key"] = reply.key;
+  }
   for (const StageTime& stage : reply.stages) {
     line["stages"][stage.stage] = stage.milliseconds;
   }

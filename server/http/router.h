@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "protocol/access/access_key.h"
 #include "server/http/reply.h"
 #include "server/http/request.h"
 #include "server/http/request_body.h"
@@ -26,6 +27,7 @@ struct RouteCall {
 struct Route {
   std::string method;  ///< GET answers HEAD too, unless a route of its own does
   std::string pattern; ///< "/v1/scenes/{id}/frames"
+  Scope scope;         ///< what a key must allow; none = anyone may ask
   BodyRule body;
   std::vector<std::string> contentTypes; ///< media types accepted; empty = any, or no body
   std::function<HttpReply(RouteCall)> handler;

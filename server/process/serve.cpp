@@ -6,13 +6,18 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 #include "renderer/core/parallel.h"
+#include "server/access/access_check.h"
+#include "server/access/key_ring.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
@@ -26,30 +31,34 @@
 namespace gnomon {
 namespace {
 
-/// SIGTERM and SIGINT, received by waiting. Blocks both for the calling thread and those that it starts later.
-class ShutdownSignals {
+/// SIGTERM and SIGINT, received by waiting, and SIGHUP while something is to be read again. Blocks them for the calling
+/// thread and those that it starts later.
+class Signals {
  public:
-  ShutdownSignals();
+  /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone.
+  explicit Signals(std::function<void()> onHangup);
 
   enum class Event { signal, done, timeout };
 
-  /// Waits for the next signal, for `done`, or for the deadline.
+  /// Waits for SIGTERM or SIGINT, for `done`, or for the deadline.
   Event wait(const StopSignal& done, Clock::time_point deadline);
 
  private:
+  std::function<void()> onHangup_;
   FileDescriptor signals_;
 };
 
-ShutdownSignals::ShutdownSignals() {
+Signals::Signals(std::function<void()> onHangup) : onHangup_(std::move(onHangup)) {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
   sigaddset(&set, SIGINT);
+  if (onHangup_) sigaddset(&set, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signals_ = FileDescriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
-ShutdownSignals::Event ShutdownSignals::wait(const StopSignal& done, Clock::time_point deadline) {
+Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline) {
   while (true) {
     std::array<pollfd, 2> waiting{{{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -59,7 +68,8 @@ ShutdownSignals::Event ShutdownSignals::wait(const StopSignal& done, Clock::time
     }
     signalfd_siginfo info{};
     if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {
-      return Event::signal;
+      if (info.ssi_signo != SIGHUP) return Event::signal;
+      onHangup_();
     }
     if (Clock::now() >= deadline) {
       return Event::timeout;
@@ -100,7 +110,7 @@ std::string addressOf(const std::string& bind, int port) {
 }
 
 /// Runs the listener until a signal arrives, then finishes the requests in progress. 0, or 1 where accepting failed.
-int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, HttpServer& server, Services& services) {
+int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer& server, Services& services) {
   StopSignal listenerEnded;
   bool inOrder = false;
   std::thread listening([&] {
@@ -112,7 +122,7 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   logEvent("draining", "The server is shutting down.");
   if (!listenerEnded.raised() && options.drainSeconds > 0 &&
       signals.wait(listenerEnded, Clock::now() + std::chrono::seconds(options.drainSeconds)) ==
-          ShutdownSignals::Event::signal) {
+          Signals::Event::signal) {
     endNow("A second signal arrived.");
   }
   StopSignal done;
@@ -125,11 +135,11 @@ int runUntilSignalled(const ServeOptions& options, ShutdownSignals& signals, Htt
   });
   constexpr std::chrono::seconds kSlack{5}; // for a frame that began just before the grace ended
   switch (signals.wait(done, grace + kSlack)) {
-    case ShutdownSignals::Event::signal:
+    case Signals::Event::signal:
       endNow("A second signal arrived.");
-    case ShutdownSignals::Event::timeout:
+    case Signals::Event::timeout:
       endNow("The grace period is over and work is still running.");
-    case ShutdownSignals::Event::done:
+    case Signals::Event::done:
       break;
   }
   finishing.join();
@@ -163,7 +173,14 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
 } // namespace
 
 int serve(const ServeOptions& options) {
-  ShutdownSignals signals;
+  std::shared_ptr<KeyRing> keys;
+  const std::function<void()> reload = [&keys] { keys->reload(); };
+  Signals signals(options.keysFile.empty() ? nullptr : reload);
+  if (!options.keysFile.empty()) {
+    auto opened = KeyRing::open(options.keysFile);
+    if (!opened) return failed(opened.problems());
+    keys = *std::move(opened);
+  }
   raiseDescriptorLimit();
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
@@ -193,8 +210,10 @@ int serve(const ServeOptions& options) {
                     .replies = ReplyCache(options.replyCacheBytes)};
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
+  HttpService service = makeService(services);
+  if (keys) service = withAccessCheck(std::move(service), keys);
   ConnectionContext context{
-      withOriginCheck(makeService(services), {options.allowedHosts, options.allowedOrigins, options.bind}),
+      withOriginCheck(std::move(service), {options.allowedHosts, options.allowedOrigins, options.bind}),
       connections,
       ByteBudget(options.uploadMemoryBytes),
       ByteBudget(options.replyMemoryBytes),

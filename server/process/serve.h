@@ -16,7 +16,8 @@ struct ServeOptions {
   std::string bind = "127.0.0.1";        ///< address to listen on; "0.0.0.0" = every IPv4 address, "::" = every address
   std::vector<std::string> allowedHosts; ///< names by which clients may reach it (origin_check.h); 421 for others
   std::vector<std::string> allowedOrigins; ///< pages of other servers that may use this one; 403 for others' requests
-  int port = 8080;                         ///< 0..65535; 0 = any free one, which is printed
+  std::string keysFile;       ///< keys of clients (access_key.h), read again on SIGHUP; empty = anyone may do anything
+  int port = 8080;            ///< 0..65535; 0 = any free one, which is printed
   std::string storeDirectory; ///< where scenes are kept over a restart; created where missing; empty = memory only
 
   // Workers and what draws in them
@@ -55,7 +56,8 @@ struct ServeOptions {
 
 /// Serves until SIGTERM or SIGINT, then ends in order: 0. A second signal ends at once. 1 = it could not start, or
 /// could not go on; the reason is on standard error. Once requests are accepted, the address is printed on standard
-/// output: "listening on http://127.0.0.1:8080". Call it before starting other threads: it blocks those two signals.
+/// output: "listening on http://127.0.0.1:8080". Call it before starting other threads: it blocks those two signals,
+/// and SIGHUP where there is a key file.
 int serve(const ServeOptions& options);
 
 } // namespace gnomon

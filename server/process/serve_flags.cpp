@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 30);
+static_assert(memberCount<ServeOptions>() == 31);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -36,6 +36,13 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
            "which is the default with --bind 0.0.0.0 or ::");
   addNames("--allowed-origins", "GNOMON_ALLOWED_ORIGINS", options.allowedOrigins, "ORIGINS",
            "Pages of other servers that may use this one, as https://page.example; comma-separated, * = any");
+  serve
+      .add_option("--keys", options.keysFile,
+                  "File of the keys that clients need, one a line; without it anyone may do anything. SIGHUP reads it "
+                  "again")
+      ->envname("GNOMON_KEYS")
+      ->type_name("FILE")
+      ->group("Address and storage");
   serve
       .add_option("--store", options.storeDirectory,
                   "Directory that keeps scenes over a restart; without it they are kept in memory")

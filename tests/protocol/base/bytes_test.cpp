@@ -92,5 +92,17 @@ TEST(Sha256, PiecesAreTheWhole) {
   EXPECT_EQ(hash.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+TEST(Hmac, IsThatOfRfc4231) {
+  EXPECT_EQ(hmacSha256Hex("Jefe", "what do ya want for nothing?"),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+}
+
+TEST(EqualInConstantTime, IsEquality) {
+  EXPECT_TRUE(equalInConstantTime("", ""));
+  EXPECT_TRUE(equalInConstantTime("secret", "secret"));
+  EXPECT_FALSE(equalInConstantTime("secret", "secreT"));
+  EXPECT_FALSE(equalInConstantTime("secret", "secret2"));
+}
+
 } // namespace
 } // namespace gnomon

@@ -10,25 +10,17 @@ namespace gnomon {
 namespace {
 
 TEST(ProblemReply, EveryKindHasItsStatus) {
-  const std::map<ProblemCode, int> expected{{ProblemCode::malformed, 400},
-                                            {ProblemCode::invalidValue, 400},
-                                            {ProblemCode::notFound, 404},
-                                            {ProblemCode::methodNotAllowed, 405},
-                                            {ProblemCode::forbidden, 403},
-                                            {ProblemCode::misdirected, 421},
-                                            {ProblemCode::insufficientStorage, 507},
-                                            {ProblemCode::notAcceptable, 406},
-                                            {ProblemCode::lengthRequired, 411},
-                                            {ProblemCode::tooLarge, 413},
-                                            {ProblemCode::unsupportedMediaType, 415},
-                                            {ProblemCode::invalidScene, 422},
-                                            {ProblemCode::unsupportedFeature, 422},
-                                            {ProblemCode::hashMismatch, 422},
-                                            {ProblemCode::busy, 429},
-                                            {ProblemCode::deadlineExceeded, 504},
-                                            {ProblemCode::unavailable, 503},
-                                            {ProblemCode::backend, 500},
-                                            {ProblemCode::internal, 500}};
+  const std::map<ProblemCode, int> expected{
+      {ProblemCode::malformed, 400},        {ProblemCode::invalidValue, 400},
+      {ProblemCode::notFound, 404},         {ProblemCode::methodNotAllowed, 405},
+      {ProblemCode::unauthorized, 401},     {ProblemCode::forbidden, 403},
+      {ProblemCode::misdirected, 421},      {ProblemCode::insufficientStorage, 507},
+      {ProblemCode::notAcceptable, 406},    {ProblemCode::lengthRequired, 411},
+      {ProblemCode::tooLarge, 413},         {ProblemCode::unsupportedMediaType, 415},
+      {ProblemCode::invalidScene, 422},     {ProblemCode::unsupportedFeature, 422},
+      {ProblemCode::hashMismatch, 422},     {ProblemCode::busy, 429},
+      {ProblemCode::deadlineExceeded, 504}, {ProblemCode::unavailable, 503},
+      {ProblemCode::backend, 500},          {ProblemCode::internal, 500}};
   for (const auto& [code, status] : expected) {
     EXPECT_EQ(statusOf(code), status);
   }

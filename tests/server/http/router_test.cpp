@@ -6,7 +6,7 @@ namespace gnomon {
 namespace {
 
 Route route(std::string method, std::string pattern) {
-  return {std::move(method), std::move(pattern), {}, {}, {}};
+  return {std::move(method), std::move(pattern), Scope::none, {}, {}, {}};
 }
 
 Router testRouter() {

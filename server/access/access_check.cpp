@@ -1,0 +1,87 @@
+#include "server/access/access_check.h"
+
+#include <string_view>
+#include <utility>
+
+#include "protocol/base/text.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::string_view kChallenge = "Bearer realm=\"gnomon\"";
+constexpr std::string_view kScheme = "bearer ";
+
+HttpReply unauthorized(std::string detail, std::string_view challengeMore, const HttpRequest& request) {
+  HttpReply reply = problemReply(
+      {{ProblemCode::unauthorized, "Authorization", std::move(detail), "Bearer and the secret of a key", ""}},
+      request.id);
+  reply.headers.emplace_back("WWW-Authenticate", std::string(kChallenge).append(challengeMore));
+  return reply;
+}
+
+HttpReply outOfScope(const AccessKey& key, Scope needed, const HttpRequest& request) {
+  HttpReply reply = problemReply({{ProblemCode::forbidden, "Authorization", "This key does not allow this request.",
+                                   scopeText(needed), scopeText(key.scope)}},
+                                 request.id);
+  reply.key = key.name;
+  return reply;
+}
+
+/// What was made for one client must not be handed to others.
+void keepPrivate(HttpReply& reply) {
+  constexpr std::string_view kPublic = "public";
+  for (auto& [name, value] : reply.headers) {
+    if (name == "Cache-Control" && value.starts_with(kPublic)) value.replace(0, kPublic.size(), "private");
+  }
+}
+
+class AccessCheck {
+ public:
+  AccessCheck(HttpService service, std::shared_ptr<KeyRing> keys)
+      : service_(std::move(service)), keys_(std::move(keys)) {}
+
+  std::variant<RequestHandler, HttpReply> operator()(const HttpRequest& request) const {
+    auto found = service_(request);
+    auto* handler = std::get_if<RequestHandler>(&found);
+    if (handler == nullptr || handler->scope == Scope::none) return found;
+    auto known = keyOf(request);
+    if (auto* refused = std::get_if<HttpReply>(&known)) return std::move(*refused);
+    auto& key = std::get<AccessKey>(known);
+    if (!allows(key.scope, handler->scope)) return outOfScope(key, handler->scope, request);
+    handler->answer = [answer = std::move(handler->answer), name = key.name](HttpRequest asked,
+                                                                             const std::function<bool()>& clientGone) {
+      asked.client = name;
+      HttpReply reply = answer(std::move(asked), clientGone);
+      reply.key = name;
+      keepPrivate(reply);
+      return reply;
+    };
+    return found;
+  }
+
+ private:
+  std::variant<AccessKey, HttpReply> keyOf(const HttpRequest& request) const {
+    const auto shown = headerValue(request.headers, "authorization");
+    if (!shown) return unauthorized("This server asks for a key.", "", request);
+    std::string_view secret = *shown;
+    if (lowerCase(secret.substr(0, kScheme.size())) != kScheme) {
+      return unauthorized("The Authorization is not of the kind that this server takes.", "", request);
+    }
+    secret.remove_prefix(kScheme.size());
+    auto key = keys_->withSecret(trimmed(secret));
+    if (!key) return unauthorized("No key has this secret.", ", error=\"invalid_token\"", request);
+    return *std::move(key);
+  }
+
+  HttpService service_;
+  std::shared_ptr<KeyRing> keys_;
+};
+
+} // namespace
+
+HttpService withAccessCheck(HttpService service, std::shared_ptr<KeyRing> keys) {
+  return [check = std::make_shared<const AccessCheck>(std::move(service), std::move(keys))](
+             const HttpRequest& request) { return (*check)(request); };
+}
+
+} // namespace gnomon

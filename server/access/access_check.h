@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "server/access/key_ring.h"
+#include "server/http/connection.h"
+
+namespace gnomon {
+
+/// The service behind a check of who asks. A request whose route needs a scope is answered only where it shows the
+/// secret of a key, as `Authorization: Bearer SECRET`: else 401. 403 where the key does not allow it. The client of an
+/// admitted request is its key's name, and no cache that clients share may keep its reply.
+HttpService withAccessCheck(HttpService service, std::shared_ptr<KeyRing> keys);
+
+} // namespace gnomon

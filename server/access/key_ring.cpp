@@ -1,0 +1,93 @@
+#include "server/access/key_ring.h"
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+#include "protocol/base/bytes.h"
+#include "server/system/file_descriptor.h"
+#include "server/system/log.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kLargestFile = 1 << 20;
+
+Problem unreadable(std::string detail) {
+  return {ProblemCode::invalidValue, "", std::move(detail), "", ""};
+}
+
+/// The whole file; says in the log where others may read it, too.
+Result<std::string> readKeyText(const std::string& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat about {};
+  if (!file || ::fstat(file.get(), &about) != 0) return unreadable("The key file can't be opened.");
+  if (!S_ISREG(about.st_mode)) return unreadable("The key file is no regular file.");
+  if ((about.st_mode & S_IROTH) != 0) {
+    logEvent("keys", "Every user of this machine may read the key file; chmod o-r takes that away.");
+  }
+  std::string text;
+  std::array<char, 4096> piece;
+  while (true) {
+    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return unreadable("The key file can't be read.");
+    if (count == 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(count));
+    if (text.size() > kLargestFile) return unreadable("The key file is larger than 1 MiB.");
+  }
+}
+
+Result<std::vector<AccessKey>> readKeys(const std::string& path) {
+  const auto text = readKeyText(path);
+  if (!text) return text.problems();
+  return parseKeyFile(*text);
+}
+
+} // namespace
+
+Result<std::shared_ptr<KeyRing>> KeyRing::open(std::string file) {
+  auto keys = readKeys(file);
+  if (!keys) return std::move(keys).problems();
+  auto ring = std::make_shared<KeyRing>(*std::move(keys));
+  ring->file_ = std::move(file);
+  return ring;
+}
+
+void KeyRing::reload() {
+  auto keys = readKeys(file_);
+  if (!keys) {
+    for (const Problem& problem : keys.problems()) logEvent("keys", problem.detail + " The keys stay as they were.");
+    return;
+  }
+  const std::string count = std::to_string(keys->size());
+  {
+    const std::lock_guard lock(mutex_);
+    keys_ = std::make_shared<const Keys>(*std::move(keys));
+  }
+  logEvent("keys", "The key file was read again; keys in it: " + count);
+}
+
+std::optional<AccessKey> KeyRing::withSecret(std::string_view secret) const {
+  Sha256 hash;
+  hash.add(secret);
+  const std::string shown = hash.hex();
+  const auto all = keys();
+  const AccessKey* found = nullptr;
+  for (const AccessKey& key : *all) {
+    for (const std::string& known : key.secretHashes) {
+      if (equalInConstantTime(known, shown)) found = &key;
+    }
+  }
+  return found == nullptr ? std::nullopt : std::optional(*found);
+}
+
+std::shared_ptr<const KeyRing::Keys> KeyRing::keys() const {
+  const std::lock_guard lock(mutex_);
+  return keys_;
+}
+
+} // namespace gnomon

@@ -1,0 +1,123 @@
+#include "server/access/access_check.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
+
+#include "protocol/base/bytes.h"
+
+namespace gnomon {
+namespace {
+
+std::string hashOf(std::string_view secret) {
+  Sha256 hash;
+  hash.add(secret);
+  return hash.hex();
+}
+
+AccessKey keyOf(std::string name, std::string_view secret, Scope scope) {
+  AccessKey key;
+  key.name = std::move(name);
+  key.secretHashes = {hashOf(secret)};
+  key.scope = scope;
+  return key;
+}
+
+/// A service whose every route needs `scope`; its reply says who asked.
+HttpService inner(Scope scope) {
+  return [scope](const HttpRequest&) -> std::variant<RequestHandler, HttpReply> {
+    RequestHandler handler;
+    handler.scope = scope;
+    handler.answer = [](HttpRequest request, const std::function<bool()>&) {
+      HttpReply reply;
+      reply.body = request.client;
+      reply.headers.emplace_back("Cache-Control", "public, max-age=60");
+      return reply;
+    };
+    return handler;
+  };
+}
+
+HttpReply ask(const HttpService& service, const std::optional<std::string>& authorization) {
+  HttpRequest request;
+  request.method = "GET";
+  request.client = "10.0.0.1";
+  if (authorization) request.headers.emplace_back("authorization", *authorization);
+  auto found = service(request);
+  if (auto* reply = std::get_if<HttpReply>(&found)) return *reply;
+  return std::get<RequestHandler>(found).answer(request, [] { return false; });
+}
+
+std::string header(const HttpReply& reply, std::string_view name) {
+  const auto found = std::find_if(reply.headers.begin(), reply.headers.end(),
+                                  [&](const auto& header) { return header.first == name; });
+  return found == reply.headers.end() ? "" : found->second;
+}
+
+std::shared_ptr<KeyRing> twoKeys() {
+  return std::make_shared<KeyRing>(
+      std::vector{keyOf("web", "of web", Scope::read | Scope::render), keyOf("ci", "of ci", Scope::upload)});
+}
+
+TEST(AccessCheck, WhatNeedsNoScopeIsForAnyone) {
+  const HttpReply reply = ask(withAccessCheck(inner(Scope::none), twoKeys()), std::nullopt);
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_EQ(reply.body, "10.0.0.1");
+}
+
+TEST(AccessCheck, WithoutTheSecretOfAKeyItIs401AndSaysHowToAsk) {
+  const auto service = withAccessCheck(inner(Scope::read), twoKeys());
+  for (const std::optional<std::string>& shown :
+       {std::optional<std::string>(), std::optional<std::string>("Bearer"), std::optional<std::string>("Bearer "),
+        std::optional<std::string>("Bearer of nobody"), std::optional<std::string>("Basic of web"),
+        std::optional<std::string>("of web"), std::optional<std::string>("Bearer " + hashOf("of web")),
+        std::optional<std::string>("Bearer of web, Bearer of ci")}) {
+    const HttpReply reply = ask(service, shown);
+    EXPECT_EQ(reply.status, 401) << shown.value_or("nothing");
+    EXPECT_TRUE(header(reply, "WWW-Authenticate").starts_with("Bearer realm="));
+  }
+}
+
+TEST(AccessCheck, AKeyThatAllowsItIsTheClient) {
+  const auto service = withAccessCheck(inner(Scope::render), twoKeys());
+  for (const char* shown : {"Bearer of web", "bearer  of web "}) {
+    const HttpReply reply = ask(service, shown);
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.body, "web");
+    EXPECT_EQ(reply.key, "web");
+    EXPECT_EQ(header(reply, "Cache-Control"), "private, max-age=60") << "a shared cache asks for no key";
+  }
+}
+
+TEST(AccessCheck, AKeyThatDoesNotAllowItIs403) {
+  const HttpReply reply = ask(withAccessCheck(inner(Scope::render | Scope::upload), twoKeys()), "Bearer of web");
+  EXPECT_EQ(reply.status, 403);
+  EXPECT_EQ(reply.key, "web");
+}
+
+TEST(KeyRing, ABrokenFileKeepsTheKeysOfTheOneBefore) {
+  std::string folder = (std::filesystem::temp_directory_path() / "gnomon-keys-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const std::string file = folder + "/keys";
+  const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
+  EXPECT_FALSE(KeyRing::open(file)) << "there is no file";
+  EXPECT_FALSE(KeyRing::open(folder)) << "a folder";
+  write("name=a scopes=read sha256=" + hashOf("first") + "\n");
+  const auto ring = KeyRing::open(file);
+  ASSERT_TRUE(ring);
+  write("nonsense\n");
+  (*ring)->reload();
+  EXPECT_TRUE((*ring)->withSecret("first"));
+  write("name=a scopes=read sha256=" + hashOf("second") + "\n");
+  (*ring)->reload();
+  EXPECT_FALSE((*ring)->withSecret("first"));
+  EXPECT_TRUE((*ring)->withSecret("second"));
+  std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace gnomon
