@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/base/text.h"
+#include "server/access/key_usage.h"
 
 namespace gnomon {
 namespace {
@@ -27,6 +28,20 @@ HttpReply outOfScope(const AccessKey& key, Scope needed, const HttpRequest& requ
   return reply;
 }
 
+HttpReply tooOften(const AccessKey& key, int seconds, const HttpRequest& request) {
+  HttpReply reply = problemReply(
+      {{ProblemCode::busy, "Authorization", "This key has as many requests as it may have for now.", "", ""}},
+      request.id, {.retryAfterSeconds = seconds});
+  reply.key = key.name;
+  return reply;
+}
+
+/// A reply that is made while it is sent is in progress until then.
+void holdWhileSent(HttpReply& reply, std::shared_ptr<void> place) {
+  if (!reply.stream) return;
+  reply.stream = [stream = std::move(reply.stream), place = std::move(place)](const BodySink& sink) { stream(sink); };
+}
+
 /// What was made for one client must not be handed to others.
 void keepPrivate(HttpReply& reply) {
   constexpr std::string_view kPublic = "public";
@@ -48,12 +63,17 @@ class AccessCheck {
     if (auto* refused = std::get_if<HttpReply>(&known)) return std::move(*refused);
     auto& key = std::get<AccessKey>(known);
     if (!allows(key.scope, handler->scope)) return outOfScope(key, handler->scope, request);
-    handler->answer = [answer = std::move(handler->answer), name = key.name](HttpRequest asked,
-                                                                             const std::function<bool()>& clientGone) {
-      asked.client = name;
+    // Before its body is read; when it is there, another request may have been quicker.
+    if (const int seconds = usage_->wait(key); seconds > 0) return tooOften(key, seconds, request);
+    handler->answer = [usage = usage_, answer = std::move(handler->answer), key](
+                          HttpRequest asked, const std::function<bool()>& clientGone) {
+      Admission admission = usage->admit(key);
+      if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
+      asked.client = key.name;
       HttpReply reply = answer(std::move(asked), clientGone);
-      reply.key = name;
+      reply.key = key.name;
       keepPrivate(reply);
+      holdWhileSent(reply, std::move(admission.place));
       return reply;
     };
     return found;
@@ -75,6 +95,7 @@ class AccessCheck {
 
   HttpService service_;
   std::shared_ptr<KeyRing> keys_;
+  std::shared_ptr<KeyUsage> usage_ = std::make_shared<KeyUsage>();
 };
 
 } // namespace

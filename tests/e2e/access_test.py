@@ -99,6 +99,19 @@ class Access(unittest.TestCase):
         self.assertEqual(logged["client"], "127.0.0.1")
         self.assertNotIn("secret of", server.log_text())
 
+    def test_a_key_beyond_its_rate_is_told_when_to_come_again(self):
+        server = self.start(line("slow", "read", "requestsPerSecond=0.5", "burst=3"), line("other", "read"))
+        for _ in range(3):
+            self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("slow")).status, 200)
+        refused = server.ask("GET", "/v1/scenes", headers=bearer("slow"))
+        self.assertEqual(refused.status, 429)
+        self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("other")).status, 200)
+        server.process.send_signal(signal.SIGHUP)
+        server.log_has("keys in it: 2")
+        self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("slow")).status, 429, "not a new burst")
+        time.sleep(int(refused.headers["Retry-After"]))
+        self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("slow")).status, 200)
+
     def test_a_signal_reads_the_keys_again(self):
         server = self.start(line("old", "read"))
         self.reload(server, line("old", "read") + line("new", "read"), "keys in it: 2")

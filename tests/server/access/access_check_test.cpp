@@ -99,6 +99,41 @@ TEST(AccessCheck, AKeyThatDoesNotAllowItIs403) {
   EXPECT_EQ(reply.key, "web");
 }
 
+TEST(AccessCheck, BeyondItsRateAKeyIsToldWhenToComeAgain) {
+  AccessKey key = keyOf("slow", "of slow", Scope::read);
+  key.requestsPerSecond = 0.01;
+  key.burst = 2;
+  const auto service = withAccessCheck(inner(Scope::read), std::make_shared<KeyRing>(std::vector{key}));
+  EXPECT_EQ(ask(service, "Bearer of slow").status, 200);
+  EXPECT_EQ(ask(service, "Bearer of slow").status, 200);
+  const HttpReply refused = ask(service, "Bearer of slow");
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(header(refused, "Retry-After"), "100");
+  EXPECT_EQ(refused.key, "slow");
+}
+
+TEST(AccessCheck, AStreamIsInProgressUntilItIsSent) {
+  AccessKey key = keyOf("one", "of one", Scope::read);
+  key.concurrent = 1;
+  const HttpService streams = [](const HttpRequest&) -> std::variant<RequestHandler, HttpReply> {
+    RequestHandler handler;
+    handler.scope = Scope::read;
+    handler.answer = [](HttpRequest, const std::function<bool()>&) {
+      HttpReply reply;
+      reply.stream = [](const BodySink&) {};
+      return reply;
+    };
+    return handler;
+  };
+  const auto service = withAccessCheck(streams, std::make_shared<KeyRing>(std::vector{key}));
+  {
+    const HttpReply sending = ask(service, "Bearer of one");
+    EXPECT_EQ(sending.status, 200);
+    EXPECT_EQ(ask(service, "Bearer of one").status, 429);
+  }
+  EXPECT_EQ(ask(service, "Bearer of one").status, 200);
+}
+
 TEST(KeyRing, ABrokenFileKeepsTheKeysOfTheOneBefore) {
   std::string folder = (std::filesystem::temp_directory_path() / "gnomon-keys-XXXXXX").string();
   ASSERT_NE(::mkdtemp(folder.data()), nullptr);
