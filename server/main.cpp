@@ -39,9 +39,9 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 a problem (described on standard error), 2 a wrong command line.\n"
       "gnomon COMMAND --help lists the options of a command.");
-  const std::array commands{addServeCommand(app),        addWorkerCommand(app),     cli::addRenderCommand(app),
-                            cli::addPlanCommand(app),    cli::addBakeCommand(app),  cli::addEvaluateCommand(app),
-                            cli::addInspectCommand(app), cli::addHealthCommand(app)};
+  const std::array commands{addServeCommand(app),        addWorkerCommand(app),      cli::addRenderCommand(app),
+                            cli::addPlanCommand(app),    cli::addBakeCommand(app),   cli::addEvaluateCommand(app),
+                            cli::addInspectCommand(app), cli::addHealthCommand(app), cli::addSignCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

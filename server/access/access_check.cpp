@@ -1,8 +1,11 @@
 #include "server/access/access_check.h"
 
+#include <algorithm>
+#include <chrono>
 #include <string_view>
 #include <utility>
 
+#include "protocol/access/signed_target.h"
 #include "protocol/base/text.h"
 #include "server/access/key_usage.h"
 
@@ -18,6 +21,22 @@ HttpReply unauthorized(std::string detail, std::string_view challengeMore, const
       request.id);
   reply.headers.emplace_back("WWW-Authenticate", std::string(kChallenge).append(challengeMore));
   return reply;
+}
+
+HttpReply notSigned(std::string_view queryKey, std::string detail, const HttpRequest& request) {
+  return problemReply({{ProblemCode::forbidden, std::string(queryKey), std::move(detail), "", ""}}, request.id);
+}
+
+bool hasSignature(const HttpRequest& request) {
+  return std::any_of(request.query.begin(), request.query.end(),
+                     [](const auto& pair) { return pair.first == kSignatureKey; });
+}
+
+/// What signing added says nothing about the frame.
+void dropSignature(HttpRequest& request) {
+  std::erase_if(request.query, [](const auto& pair) {
+    return pair.first == kExpiresKey || pair.first == kNameKey || pair.first == kSignatureKey;
+  });
 }
 
 HttpReply outOfScope(const AccessKey& key, Scope needed, const HttpRequest& request) {
@@ -59,16 +78,18 @@ class AccessCheck {
     auto found = service_(request);
     auto* handler = std::get_if<RequestHandler>(&found);
     if (handler == nullptr || handler->scope == Scope::none) return found;
-    auto known = keyOf(request);
+    const bool isSigned = handler->takesSignature && hasSignature(request);
+    auto known = isSigned ? keyOfSignature(request) : keyOfHeader(request);
     if (auto* refused = std::get_if<HttpReply>(&known)) return std::move(*refused);
     auto& key = std::get<AccessKey>(known);
     if (!allows(key.scope, handler->scope)) return outOfScope(key, handler->scope, request);
     // Before its body is read; when it is there, another request may have been quicker.
     if (const int seconds = usage_->wait(key); seconds > 0) return tooOften(key, seconds, request);
-    handler->answer = [usage = usage_, answer = std::move(handler->answer), key](
+    handler->answer = [usage = usage_, answer = std::move(handler->answer), key, isSigned](
                           HttpRequest asked, const std::function<bool()>& clientGone) {
       Admission admission = usage->admit(key);
       if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
+      if (isSigned) dropSignature(asked);
       asked.client = key.name;
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
@@ -80,7 +101,7 @@ class AccessCheck {
   }
 
  private:
-  std::variant<AccessKey, HttpReply> keyOf(const HttpRequest& request) const {
+  std::variant<AccessKey, HttpReply> keyOfHeader(const HttpRequest& request) const {
     const auto shown = headerValue(request.headers, "authorization");
     if (!shown) return unauthorized("This server asks for a key.", "", request);
     std::string_view secret = *shown;
@@ -90,6 +111,20 @@ class AccessCheck {
     secret.remove_prefix(kScheme.size());
     auto key = keys_->withSecret(trimmed(secret));
     if (!key) return unauthorized("No key has this secret.", ", error=\"invalid_token\"", request);
+    return *std::move(key);
+  }
+
+  std::variant<AccessKey, HttpReply> keyOfSignature(const HttpRequest& request) const {
+    const auto target = readSignedTarget(request.target);
+    auto key = target ? keys_->named(target->key) : std::nullopt;
+    if (!key || std::none_of(key->signingSecrets.begin(), key->signingSecrets.end(),
+                             [&](const std::string& secret) { return isSignedBy(*target, secret); })) {
+      return notSigned(kSignatureKey, "No key has signed this address as it is.", request);
+    }
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()).time_since_epoch();
+    if (now.count() >= target->expires) {
+      return notSigned(kExpiresKey, "The time of this address is over.", request);
+    }
     return *std::move(key);
   }
 

@@ -1,5 +1,6 @@
 #include "server/access/key_ring.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
@@ -83,6 +84,12 @@ std::optional<AccessKey> KeyRing::withSecret(std::string_view secret) const {
     }
   }
   return found == nullptr ? std::nullopt : std::optional(*found);
+}
+
+std::optional<AccessKey> KeyRing::named(std::string_view name) const {
+  const auto all = keys();
+  const auto found = std::find_if(all->begin(), all->end(), [&](const AccessKey& key) { return key.name == name; });
+  return found == all->end() ? std::nullopt : std::optional(*found);
 }
 
 std::shared_ptr<const KeyRing::Keys> KeyRing::keys() const {

@@ -25,6 +25,9 @@ class KeyRing {
   /// The key that has this secret; every key is looked at, whichever it is.
   std::optional<AccessKey> withSecret(std::string_view secret) const;
 
+  /// The key of this name.
+  std::optional<AccessKey> named(std::string_view name) const;
+
  private:
   using Keys = std::vector<AccessKey>;
 

@@ -137,7 +137,7 @@ std::vector<Route> makeRoutes(Services& services) {
       {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
       {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
       {"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)},
-      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame)},
+      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), false, true},
       {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", Scope::render, json, {"application/json"}, bind(postEvaluation)},
       {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
@@ -168,7 +168,7 @@ HttpService makeService(Services& services) {
       return problemReply({*std::move(problem)}, head.id);
     }
     // The handler keeps the router, whose route it calls.
-    return RequestHandler{route.body, route.scope, route.probe,
+    return RequestHandler{route.body, route.scope, route.takesSignature, route.probe,
                           [router, &route, values = std::move(match.values)](HttpRequest request,
                                                                              const std::function<bool()>& clientGone) {
                             return route.handler({std::move(request), values, clientGone});

@@ -14,8 +14,9 @@ namespace gnomon {
 /// What answers one request. Knows nothing of sockets.
 struct RequestHandler {
   BodyRule body;
-  Scope scope = Scope::none; ///< what a key must allow, where the server has keys
-  bool isProbe = false;      ///< answered however busy everything else is: it reads a few atomics and returns
+  Scope scope = Scope::none;   ///< what a key must allow, where the server has keys
+  bool takesSignature = false; ///< a signed address does instead of a key (signed_target.h)
+  bool isProbe = false;        ///< answered however busy everything else is: it reads a few atomics and returns
 
   /// The reply. `clientGone` may be called at any time, by any thread that the handler waits for.
   std::function<HttpReply(HttpRequest, const std::function<bool()>& clientGone)> answer;

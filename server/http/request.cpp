@@ -214,6 +214,7 @@ Result<HttpRequest> requestFromHead(const RequestHead& head) {
   HttpRequest request;
   request.id = requestId(headerValue(head.headers, "x-request-id"));
   request.method = head.method;
+  request.target = head.target;
   request.path = std::move(url->path);
   request.query = std::move(url->query);
   request.headers = head.headers;

@@ -51,6 +51,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes);
 struct HttpRequest {
   std::string id;                ///< X-Request-ID: the client's where it is well formed, else a new one
   std::string method;            ///< upper case
+  std::string target;            ///< as it came, without a scheme and authority
   std::vector<std::string> path; ///< percent-decoded segments; "/" has none
   std::vector<std::pair<std::string, std::string>> query; ///< percent-decoded, in order
   Headers headers;

@@ -1,5 +1,6 @@
 #include "server/http/request_log.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "server/system/log.h"
@@ -13,15 +14,20 @@ std::string dump(const Line& line) {
   return line.dump(-1, ' ', false, Line::error_handler_t::replace); // a client's text need not be UTF-8
 }
 
+/// The beginning of a target, without its signature: whoever reads the log could use it.
+std::string readableTarget(const std::string& target) {
+  constexpr std::size_t kMost = 512;
+  return target.substr(0, std::min(kMost, target.find("signature=")));
+}
+
 } // namespace
 
 std::string requestLine(const RequestRecord& record, const HttpReply& reply, double milliseconds) {
-  constexpr std::size_t kMostOfTarget = 512;
   Line line{{"event", "request"},
             {"id", record.id},
             {"client", record.client},
             {"method", record.method},
-            {"target", record.target.substr(0, kMostOfTarget)},
+            {"target", readableTarget(record.target)},
             {"status", reply.status},
             {"requestBytes", record.requestBytes},
             {"replyBytes", reply.body.size()},

@@ -13,7 +13,7 @@ struct RequestRecord {
   std::string id;
   std::string client; ///< its address
   std::string method;
-  std::string target; ///< as it came; shortened in the log
+  std::string target; ///< as it came; in the log shortened, and without a signature
   std::size_t requestBytes = 0;
   bool delivered = true; ///< false = the client was gone before the whole reply was sent
   Clock::time_point start = Clock::now();

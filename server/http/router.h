@@ -31,7 +31,8 @@ struct Route {
   BodyRule body;
   std::vector<std::string> contentTypes; ///< media types accepted; empty = any, or no body
   std::function<HttpReply(RouteCall)> handler;
-  bool probe = false; ///< answered however busy everything else is
+  bool probe = false;          ///< answered however busy everything else is
+  bool takesSignature = false; ///< a signed address does instead of a key
 };
 
 /// The route of a request.

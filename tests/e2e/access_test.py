@@ -1,9 +1,6 @@
 """A server with keys: who may do what, for how long, and how often."""
 
 import hashlib
-import http.client
-import os
-import re
 import signal
 import subprocess
 import tempfile
@@ -11,7 +8,7 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import BINARY, SCENES, SMALL, TIMEOUT, Server, form
+from shipped_server import BINARY, SCENES, TIMEOUT, Server
 
 MISSING = "0" * 64
 # A method and path, and the scopes that it needs.
@@ -111,6 +108,54 @@ class Access(unittest.TestCase):
         self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("slow")).status, 429, "not a new burst")
         time.sleep(int(refused.headers["Retry-After"]))
         self.assertEqual(server.ask("GET", "/v1/scenes", headers=bearer("slow")).status, 200)
+
+    def sign(self, url, key, expires):
+        """What `gnomon sign` prints."""
+        return subprocess.run([BINARY, "sign", url, "--key-file", str(self.keys), "--key", key, "--expires", expires],
+                              capture_output=True, text=True, timeout=TIMEOUT, check=True).stdout.strip()  # fmt: skip
+
+    def test_a_signed_address_is_a_picture_for_a_while(self):
+        old, new = "signingSecret=the-old-signing-secret", "signingSecret=the-new-signing-secret"
+        server = self.start(line("shop", "render,upload", old))
+        model = {"Content-Type": "model/gltf-binary"} | bearer("shop")
+        scene = server.ask("POST", "/v1/scenes", (SCENES / "box_on_plane.glb").read_bytes(), model).json()["id"]
+        host = "http://127.0.0.1:{}".format(server.address[1])
+        path = f"/v1/scenes/{scene}/frame?width=64&height=48&sun=135%2C40"
+        self.assertEqual(server.get(path).status, 401)
+
+        address = self.sign(host + path, "shop", "1h")
+        self.assertTrue(address.startswith(host + path + "&expires="))
+        signed = address.removeprefix(host)
+        picture = server.get(signed)
+        self.assertEqual(picture.status, 200)
+        self.assertEqual(picture.body, server.ask("GET", path, headers=bearer("shop")).body)
+        self.assertEqual(server.ask("HEAD", signed).status, 200)
+        self.assertNotIn("signature=", server.log_text())
+        self.assertEqual(server.get(signed.replace("width=64", "width=65")).status, 403)
+        self.assertEqual(server.get(signed[:-1] + ("1" if signed[-1] == "0" else "0")).status, 403)
+
+        short = self.sign(path, "shop", "2s")
+        self.assertEqual(server.get(short).status, 200)
+        time.sleep(2)
+        over = server.get(short)
+        self.assertEqual((over.status, over.pointers()), (403, ["expires"]))
+
+        self.reload(server, line("shop", "render,upload", new, old), "keys in it: 1")
+        self.assertEqual(server.get(signed).status, 200, "while the old secret is listed")
+        renewed = self.sign(path, "shop", "1h")
+        self.keys.write_text(line("shop", "render,upload", new) + line("other", "read"))
+        server.process.send_signal(signal.SIGHUP)
+        server.log_has("keys in it: 2")
+        self.assertEqual(server.get(signed).status, 403)
+        self.assertEqual(server.get(renewed).status, 200)
+
+    def test_what_can_not_be_signed_is_told(self):
+        self.keys.write_text(line("reader", "read", "signingSecret=0123456789abcdef") + line("bare", "render"))
+        frame = f"/v1/scenes/{MISSING}/frame"
+        for url, key in ((frame, "reader"), (frame, "bare"), (frame, "nobody"), ("/v1/scenes", "reader"), ("", "bare")):
+            told = subprocess.run([BINARY, "sign", url, "--key-file", str(self.keys), "--key", key, "--expires", "1h"],
+                                  capture_output=True, text=True, timeout=TIMEOUT)  # fmt: skip
+            self.assertEqual((told.returncode, told.stdout), (1, ""), (url, key))
 
     def test_a_signal_reads_the_keys_again(self):
         server = self.start(line("old", "read"))

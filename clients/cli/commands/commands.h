@@ -28,5 +28,6 @@ Subcommand addBakeCommand(CLI::App& app);
 Subcommand addEvaluateCommand(CLI::App& app);
 Subcommand addInspectCommand(CLI::App& app);
 Subcommand addHealthCommand(CLI::App& app);
+Subcommand addSignCommand(CLI::App& app);
 
 } // namespace gnomon::cli

@@ -1,6 +1,7 @@
 #include "server/access/access_check.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <unistd.h>
 
+#include "protocol/access/signed_target.h"
 #include "protocol/base/bytes.h"
 
 namespace gnomon {
@@ -132,6 +134,62 @@ TEST(AccessCheck, AStreamIsInProgressUntilItIsSent) {
     EXPECT_EQ(ask(service, "Bearer of one").status, 429);
   }
   EXPECT_EQ(ask(service, "Bearer of one").status, 200);
+}
+
+/// A server whose one key signs; its reply says which query keys the handler saw.
+HttpService signedService() {
+  AccessKey key = keyOf("shop", "of shop", Scope::render);
+  key.signingSecrets = {"the new signing secret", "the old signing secret"};
+  AccessKey reader = keyOf("reader", "of reader", Scope::read);
+  reader.signingSecrets = {"the secret of reader"};
+  const HttpService frames = [](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
+    RequestHandler handler;
+    handler.scope = Scope::render;
+    handler.takesSignature = head.path.back() == "frame";
+    handler.answer = [](HttpRequest request, const std::function<bool()>&) {
+      HttpReply reply;
+      for (const auto& [name, value] : request.query) reply.body += name + " ";
+      return reply;
+    };
+    return handler;
+  };
+  return withAccessCheck(frames, std::make_shared<KeyRing>(std::vector{key, reader}));
+}
+
+HttpReply follow(const std::string& target) {
+  const auto head = parseRequestHead("GET " + target + " HTTP/1.1\r\nHost: x\r\n\r\n");
+  auto request = requestFromHead(*head);
+  auto found = signedService()(*request);
+  if (auto* reply = std::get_if<HttpReply>(&found)) return *reply;
+  return std::get<RequestHandler>(found).answer(*request, [] { return false; });
+}
+
+constexpr std::int64_t kFarAway = 32'000'000'000;
+constexpr const char* kFrame = "/v1/scenes/x/frame?width=64";
+
+TEST(SignedAddress, IsAnsweredAsItWouldBeWithoutItsSignature) {
+  for (const char* secret : {"the new signing secret", "the old signing secret"}) {
+    const HttpReply reply = follow(signedTarget(kFrame, kFarAway, "shop", secret));
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.body, "width ");
+    EXPECT_EQ(reply.key, "shop");
+  }
+}
+
+TEST(SignedAddress, IsRefusedWhereNobodySignedItOrItsTimeIsOver) {
+  const std::string good = signedTarget(kFrame, kFarAway, "shop", "the new signing secret");
+  EXPECT_EQ(follow(signedTarget(kFrame, kFarAway, "shop", "of shop")).status, 403) << "not a signing secret";
+  EXPECT_EQ(follow(signedTarget(kFrame, kFarAway, "nobody", "the new signing secret")).status, 403);
+  EXPECT_EQ(follow(signedTarget(kFrame, kFarAway, "reader", "the secret of reader")).status, 403) << "not its scope";
+  EXPECT_EQ(follow(signedTarget(kFrame, 1'000'000'000, "shop", "the new signing secret")).status, 403) << "over";
+  EXPECT_EQ(follow(good + "&height=64").status, 403);
+  EXPECT_EQ(follow(std::string(kFrame) + "&signature=").status, 403);
+  EXPECT_EQ(follow(std::string(kFrame) + "&%73ignature=1").status, 403);
+  EXPECT_EQ(follow(kFrame).status, 401);
+}
+
+TEST(SignedAddress, IsNothingToOtherRoutes) {
+  EXPECT_EQ(follow(signedTarget("/v1/scenes/x/bakes", kFarAway, "shop", "the new signing secret")).status, 401);
 }
 
 TEST(KeyRing, ABrokenFileKeepsTheKeysOfTheOneBefore) {

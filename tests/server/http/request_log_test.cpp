@@ -20,6 +20,13 @@ TEST(RequestLog, IsOneJsonLine) {
   EXPECT_EQ(json["status"], 200);
 }
 
+TEST(RequestLog, HoldsNoSignatureThatAReaderCouldUse) {
+  RequestRecord record;
+  record.target = "/v1/scenes/x/frame?width=9&expires=1&key=a&signature=0123";
+  const auto told = nlohmann::json::parse(requestLine(record, {}, 1));
+  EXPECT_EQ(told["target"], "/v1/scenes/x/frame?width=9&expires=1&key=a&");
+}
+
 TEST(RequestLog, KeepsTheClientsSentenceApartFromTheCause) {
   HttpReply reply;
   reply.problem = "An internal error occurred.";
