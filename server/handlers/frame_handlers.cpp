@@ -65,9 +65,12 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
     return replyOf(runTask(services, task, gone), call.request.id);
   };
   if (hasTarget || form.form != ReplyForm::image) return drawn(call.clientGone); // it tells times
-  HttpReply reply = services.shared.run(etag, task.deadline, call.clientGone, drawn);
-  services.replies.keep(etag, reply);
-  return reply;
+  return services.shared.run(etag, task.deadline, call.clientGone, [&](const std::function<bool()>& gone) {
+    if (const auto kept = services.replies.find(etag)) return *kept; // drawn since we looked
+    HttpReply reply = drawn(gone);
+    services.replies.keep(etag, reply);
+    return reply;
+  });
 }
 
 /// What drawing would refuse, found by planning alone: nobody would see the picture.
