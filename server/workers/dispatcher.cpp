@@ -56,7 +56,12 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
     return std::any_of(dispatcher->slots_.begin(), dispatcher->slots_.end(),
                        [](const auto& slot) { return slot->ready; });
   };
-  dispatcher->changed_.wait(lock, [&] { return anyReady() || dispatcher->refusal_; });
+  // All of them, so that scenes go to the workers where they stay.
+  const auto allReady = [&] {
+    return std::all_of(dispatcher->slots_.begin(), dispatcher->slots_.end(),
+                       [](const auto& slot) { return slot->ready || slot->loadsDrivers; });
+  };
+  dispatcher->changed_.wait(lock, [&] { return allReady() || dispatcher->refusal_; });
   if (!anyReady()) {
     Problems problems = *dispatcher->refusal_;
     lock.unlock();

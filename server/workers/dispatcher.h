@@ -45,7 +45,7 @@ struct DispatcherState {
 /// with no other beside it, and if that ends its worker too, it is a problem. Any thread.
 class Dispatcher {
  public:
-  /// Returns once a worker is ready, or why none can be.
+  /// Returns once all workers are ready, or one of them can't start: with those that can, or why none can.
   static Result<std::unique_ptr<Dispatcher>> start(DispatcherOptions options);
   ~Dispatcher(); ///< kills the workers; no task may be in progress
   Dispatcher(const Dispatcher&) = delete;

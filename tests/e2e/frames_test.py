@@ -12,7 +12,7 @@ STAGES = ["queue", "load", "upload", "survey", "plan", "shadow", "shade", "readb
 
 
 class Frames(ServerTest):
-    flags = ("--reply-cache-bytes", "0")  # so that every frame is drawn
+    flags = ("--reply-cache-bytes", "0", "--workers", "1")  # so that every frame is drawn, by one that knows the last
 
     @classmethod
     def setUpClass(cls):
