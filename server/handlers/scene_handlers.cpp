@@ -45,6 +45,7 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
     const auto kept = services.store.put(pack->id, pack->file, pack->bytes, loaded.body);
     if (!kept) return problemReply(kept.problems(), call.request.id);
     isNew = *kept;
+    if (!isNew) services.store.keepSummary(pack->id, loaded.body); // the one beside it could not be used
     summary = std::move(loaded.body);
   }
   HttpReply reply = summaryReply(*std::move(summary), isNew ? 201 : 200);

@@ -66,19 +66,22 @@ Result<std::shared_ptr<WorkerProcess>> WorkerProcess::start(const std::string& p
 }
 
 WorkerProcess::~WorkerProcess() {
-  if (ended_) return;
   kill();
-  end();
+  if (!ended_) end();
 }
 
 void WorkerProcess::kill() noexcept {
-  ::kill(pid_, SIGKILL);
+  const std::lock_guard lock(ending_);
+  if (!ended_) ::kill(pid_, SIGKILL);
 }
 
 std::string WorkerProcess::end() {
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
+  const std::lock_guard lock(ending_); // its id is free for others from here on
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
   ended_ = true;
   return WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                              : "exit status " + std::to_string(WEXITSTATUS(status));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <sys/types.h>
 
@@ -24,7 +25,7 @@ class WorkerProcess {
   Channel& channel() { return channel_; }
   pid_t pid() const { return pid_; }
 
-  /// Any thread, until end() has returned.
+  /// Any thread, any time.
   void kill() noexcept;
 
   /// Waits until it has ended, and tells how: "exit status 0", "signal 9". Once, by one thread.
@@ -37,7 +38,8 @@ class WorkerProcess {
   WorkerProcess(pid_t pid, FileDescriptor channel) : pid_(pid), channel_(std::move(channel)) {}
 
   pid_t pid_;
-  bool ended_ = false;
+  std::mutex ending_;
+  bool ended_ = false; ///< its id may be another process's now
   Channel channel_;
 };
 

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 #include <fcntl.h>
+#include <fstream>
 #include <httplib.h>
 #include <sched.h>
 #include <stdexcept>
@@ -67,6 +68,23 @@ bool endedWell(pid_t child) {
   return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+/// A server and its workers.
+std::vector<pid_t> withChildren(pid_t process) {
+  std::vector<pid_t> all{process};
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::ifstream children(thread.path() / "children");
+    for (pid_t child = 0; children >> child;) all.push_back(child);
+  }
+  return all;
+}
+
+double processorTime(pid_t process) {
+  clockid_t clock;
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 /// The line that a server prints once it takes requests; empty where it ends first.
 std::string firstLine(int file) {
   std::string line;
@@ -124,7 +142,9 @@ Server::Server(const Program& program) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be made");
   const auto begin = Clock::now();
-  process_ = start(program, {"serve", "--port", "0", "--device", program.device}, ends[1]);
+  process_ =
+      start(program, {"serve", "--port", "0", "--device", program.device, "--workers", "1", "--reply-cache-bytes", "0"},
+            ends[1]);
   close(ends[1]);
   const std::string line = firstLine(ends[0]);
   close(ends[0]);
@@ -149,14 +169,15 @@ Server::~Server() {
 }
 
 double Server::peakBytes() const {
-  return statusBytes(std::to_string(process_), "VmHWM:");
+  double bytes = 0;
+  for (const pid_t each : withChildren(process_)) bytes += statusBytes(std::to_string(each), "VmHWM:");
+  return bytes;
 }
 
 double Server::processorMilliseconds() const {
-  clockid_t clock;
-  timespec time{};
-  if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  double milliseconds = 0;
+  for (const pid_t each : withChildren(process_)) milliseconds += processorTime(each);
+  return milliseconds;
 }
 
 double renderMilliseconds(const Program& program, std::vector<std::string> arguments) {

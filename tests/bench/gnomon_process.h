@@ -35,7 +35,7 @@ class Connection {
   std::unique_ptr<Client> client_;
 };
 
-/// `gnomon serve` on a free port of the loopback. Ends with this.
+/// `gnomon serve` with one worker on a free port of the loopback, which draws every frame anew. Ends with this.
 class Server {
  public:
   /// Waits until it is ready. Throws where the server ends first.
@@ -46,8 +46,8 @@ class Server {
 
   const std::string& origin() const { return origin_; } ///< "http://127.0.0.1:PORT"
   double readyMilliseconds() const { return ready_; }   ///< from the process's start to the first 200 of /readyz
-  double peakBytes() const;                             ///< most memory in use so far
-  double processorMilliseconds() const;                 ///< of all of its threads so far
+  double peakBytes() const;                             ///< most memory in use so far, by the server and its worker
+  double processorMilliseconds() const;                 ///< of all threads of both so far
 
  private:
   int process_ = 0;
