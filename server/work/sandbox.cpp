@@ -181,6 +181,14 @@ int limit(__rlimit_resource resource, rlim_t most) {
 
 } // namespace
 
+bool allocationsAreBounded() {
+#ifdef __SANITIZE_ADDRESS__
+  return false;
+#else
+  return true;
+#endif
+}
+
 void closeInherited() {
   const FileDescriptor nothing(::open("/dev/null", O_RDWR | O_CLOEXEC));
   ::dup2(nothing.get(), STDIN_FILENO);
@@ -192,7 +200,7 @@ Status seal(Seal kind, std::uint64_t memoryBytes) {
   constexpr rlim_t kMostFiles = 256; // bundles, requests and replies in hand
   if (const int error = limit(RLIMIT_CORE, 0)) return refused(error);
   if (const int error = limit(RLIMIT_NOFILE, kMostFiles)) return refused(error);
-  if (memoryBytes > 0) {
+  if (memoryBytes > 0 && allocationsAreBounded()) {
     if (const int error = limit(RLIMIT_DATA, memoryBytes + memoryBytes / 4)) return refused(error);
   }
   if (const int error = dropCapabilities()) return refused(error);

@@ -15,6 +15,9 @@ enum class Seal {
 /// Closes every descriptor but standard error and the channel. The first thing that a worker does.
 void closeInherited();
 
+/// False in a build with the address sanitizer, which allocates what no limit would allow.
+bool allocationsAreBounded();
+
 /// Gives up what a worker never needs, for good and for all its threads: no program is executed, no process started,
 /// looked into or signalled, no socket opened, no privilege gained or kept; with Seal::full no file opened, either
 /// (seccomp(2), capabilities(7)). `memoryBytes`: the most that it should hold; what it may allocate
