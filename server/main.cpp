@@ -8,8 +8,8 @@
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
 #include "server/system/memory_limit.h"
-#include "server/work/sandbox.h"
-#include "server/work/worker.h"
+#include "server/worker/sandbox.h"
+#include "server/worker/worker.h"
 
 namespace gnomon {
 namespace {

@@ -7,8 +7,8 @@ Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
            <- renderer/evaluation, renderer/export
-           <- renderer/render.h <- server/work;
-  protocol <- server/system <- server/wire <- server/work, server/http <- server/access, server/scenes <- server/workers
+           <- renderer/render.h <- server/worker;
+  protocol <- server/system <- server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
            <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
@@ -28,7 +28,7 @@ DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
-FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/workers", "server/frames", "server/bakes"]
+FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -58,11 +58,11 @@ MAY_INCLUDE = {
                  "renderer"],
     "server/system": ["protocol/base", "server/system"],
     "server/wire": BOTH_PROCESSES,
-    "server/work": BOTH_PROCESSES + ["server/work", "renderer/core/parallel.h"],
+    "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/parallel.h"],
     "server/http": BOTH_PROCESSES + ["server/http"],
     "server/access": BOTH_PROCESSES + ["server/http", "server/access"],
     "server/scenes": BOTH_PROCESSES + ["server/http", "server/scenes"],
-    "server/workers": BOTH_PROCESSES + ["server/scenes", "server/workers"],
+    "server/dispatch": BOTH_PROCESSES + ["server/scenes", "server/dispatch"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],
     "server/handlers": FRONT + ["server/handlers"],
@@ -74,7 +74,7 @@ MAY_INCLUDE = {
 
 # These also see the renderer's door: render.h, and the headers that it includes itself.
 DOOR = "renderer/render.h"
-AT_THE_DOOR = ("server/work", "clients/cli")
+AT_THE_DOOR = ("server/worker", "clients/cli")
 
 # The assembler puts the parts together, and so sees the clients that it offers.
 ASSEMBLER = "server/main.cpp"

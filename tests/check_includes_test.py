@@ -24,7 +24,7 @@ SOUND = {
     "renderer/render.cpp": '#include "renderer/render.h"\n\n#include "renderer/passes/gl_device.h"\n',
     "clients/cli/remote/http_client.cpp": "#include <httplib.h>\n",
     "server/http/http_server.cpp": "",
-    "server/work/worker.cpp": '#include "renderer/render.h"\n',
+    "server/worker/worker.cpp": '#include "renderer/render.h"\n',
     "server/main.cpp": '#include "clients/cli/commands.h"\n#include "clients/web/web_files.h"\n',
     "clients/cli/commands.h": '#include "renderer/image/image.h"\n',
     "clients/web/web_files.h": "",

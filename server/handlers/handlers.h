@@ -7,12 +7,12 @@
 
 #include "protocol/spec/limits.h"
 #include "server/bakes/bake_book.h"
+#include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
 #include "server/frames/shared_frames.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
 #include "server/scenes/scene_store.h"
-#include "server/workers/dispatcher.h"
 
 namespace gnomon {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "protocol/spec/frame_spec.h"
+#include "server/dispatch/task.h"
 #include "server/handlers/handlers.h"
-#include "server/workers/task.h"
 
 /// How handlers have workers do the work.
 namespace gnomon {

@@ -10,7 +10,7 @@
 #include "server/system/memory_file.h"
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"
-#include "server/work/worker.h"
+#include "server/worker/worker.h"
 
 /// A worker that goes wrong on request: a real one behind a relay that looks for the name of a fault in the text of
 /// each order. What has none is carried out as ever.

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "protocol/cost/cost_model.h"
+#include "server/dispatch/placement.h"
+#include "server/dispatch/task.h"
+#include "server/dispatch/worker_process.h"
+#include "server/scenes/light_map_directory.h"
+
+namespace gnomon {
+
+struct DispatcherOptions {
+  std::string program = "/proc/self/exe";         ///< what workers run; see WorkerProcess
+  std::size_t workers = 1;                        ///< >= 1
+  std::size_t queueLimit = 64;                    ///< >= 1; tasks that may wait
+  WorkerOptions each{};                           ///< for every worker
+  std::chrono::milliseconds silence{10'000};      ///< a worker that says nothing for so long is killed
+  std::chrono::milliseconds stopping{1'000};      ///< and one that does not stop a task that was called off
+  std::shared_ptr<LightMapDirectory> lightMaps{}; ///< nullptr = light maps are not stored
+};
+
+/// What the workers are doing.
+struct DispatcherState {
+  std::size_t workers = 0;
+  std::size_t ready = 0;
+  std::size_t waiting = 0; ///< tasks
+  std::size_t running = 0; ///< tasks
+  std::size_t limit = 0;   ///< tasks that may wait
+};
+
+/// Workers, and the queue before them. Where the processor draws, but requests may ask for OpenGL, those go to a
+/// further worker, which is started for the first of them: only that one may open files, as drivers do. A worker that
+/// ends, falls silent, does not stop, or takes too much memory is replaced; each task that it had is tried once more,
+/// with no other beside it, and if that ends its worker too, it is a problem. Any thread.
+class Dispatcher {
+ public:
+  /// Returns once all workers are ready, or one of them can't start: with those that can, or why none can.
+  static Result<std::unique_ptr<Dispatcher>> start(DispatcherOptions options);
+  ~Dispatcher(); ///< kills the workers; no task may be in progress
+  Dispatcher(const Dispatcher&) = delete;
+  Dispatcher& operator=(const Dispatcher&) = delete;
+
+  /// Waits for the task's result. Problems beside the worker's own: busy where too many tasks wait,
+  /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it.
+  /// `gone` is asked some fifty times a second, on the calling thread, as are `events`.
+  TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
+
+  /// How long a frame may take that finds nothing of earlier ones, as workers have learned.
+  double milliseconds(const FrameCost& cost) const;
+
+  /// A scene was deleted: workers drop it.
+  void forget(const std::string& scene);
+
+  /// Of the worker that became ready last.
+  RendererInfo info() const;
+  DispatcherState state() const;
+
+  /// The workers' process ids; 0 where one is being replaced.
+  std::vector<pid_t> processes() const;
+
+  /// Tasks that are not done by then are called off with a problem of code unavailable.
+  void endAt(Clock::time_point deadline);
+
+ private:
+  struct Ticket;
+  struct Slot;
+  using TicketPtr = std::shared_ptr<Ticket>;
+  using Lock = std::unique_lock<std::mutex>;
+
+  explicit Dispatcher(DispatcherOptions options);
+  void keepWorking(Slot& slot);
+  bool startWorker(Slot& slot);
+  void listen(Slot& slot);
+  bool take(Slot& slot, Packet packet);
+  void answerWish(Slot& slot, const LightMapWish& wish);
+  void replaceWorker(Slot& slot);
+  void watch();
+  std::optional<Problem> faultOf(const Slot& slot) const;
+  void endWorker(Slot& slot, Problem fault);
+  void placeWaiting();
+  bool suits(const Slot& slot, bool needsDriver) const;
+  void startSlot(Slot& slot);
+  void send(const TicketPtr& ticket, std::size_t worker);
+  void finish(const TicketPtr& ticket, TaskResult result);
+  void callOff(const TicketPtr& ticket);
+  int retryAfterSeconds() const;
+
+  const DispatcherOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_; ///< a worker became ready or refused, or the dispatcher ends
+  std::vector<std::unique_ptr<Slot>> slots_;
+  std::list<TicketPtr> waiting_; ///< in order of arrival
+  std::uint64_t numbers_ = 0;
+  double taskMs_ = 0; ///< moving average of what a task takes in a worker
+  RendererInfo info_;
+  FrameCost costFactors_;           ///< milliseconds for a unit of each part
+  std::optional<Problems> refusal_; ///< of a worker that could not start
+  Clock::time_point endAt_ = Clock::time_point::max();
+  bool ending_ = false;
+  std::thread watching_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <deque>
+#include <set>
+
+#include "server/dispatch/dispatcher.h"
+
+/// What Dispatcher's two source files share. Everything here is guarded by the dispatcher's mutex.
+namespace gnomon {
+
+/// A task, from its arrival to its result.
+struct Dispatcher::Ticket {
+  enum class State { waiting, running, done };
+
+  Task task;
+  std::shared_ptr<FileDescriptor> request; ///< its JSON
+  State state = State::waiting;
+  Clock::time_point since = Clock::now(); ///< that it waits, or runs
+  double waitedMilliseconds = 0;
+  int tries = 0;
+  std::size_t slot = 0;                       ///< where it runs
+  std::optional<Clock::time_point> calledOff; ///< nobody waits for it any more
+  std::deque<OrderEvent> events;              ///< not told yet
+  bool hasEvents = false;                     ///< some came, so that it can't be tried again
+  TaskResult result;
+  std::condition_variable changed;
+
+  /// Its worker ended: it is tried once more, with no other task beside it.
+  bool mustBeAlone() const { return tries > 0; }
+};
+
+/// One of the places for workers, and the one that is there.
+struct Dispatcher::Slot {
+  bool loadsDrivers = false;              ///< for tasks that need one; its first worker starts with the first of them
+  std::shared_ptr<WorkerProcess> process; ///< null between two
+  bool ready = false;
+  Clock::time_point heard; ///< its last sign of life, or its start
+  bool isHandled = false;  ///< a message of it is being handled, so that it can't be heard
+  Problem fault{};         ///< why it was killed; no detail = it wasn't
+  int failures = 0;        ///< in a row, before it was ready
+  std::map<std::uint64_t, TicketPtr> running;
+  Beat beat;
+  std::thread thread;
+
+  WorkerView view() const {
+    WorkerView view{.ready = ready && fault.detail.empty()};
+    for (const auto& [number, ticket] : running) {
+      ++view.running[static_cast<std::size_t>(ticket->task.lane)];
+      view.holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
+      view.reserved = view.reserved || ticket->mustBeAlone();
+    }
+    return view;
+  }
+};
+
+} // namespace gnomon

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "server/dispatch/dispatcher_parts.h"
+#include "server/system/log.h"
+#include "server/system/memory_file.h"
+
+/// How a dispatcher starts its workers, hears them, watches them and replaces them.
+namespace gnomon {
+namespace {
+
+constexpr std::chrono::seconds kStartPatience{60}; ///< drivers compile
+constexpr std::chrono::milliseconds kWatchPause{50};
+constexpr std::size_t kMostEvents = 64; ///< that wait for one client before progress is told less often
+
+Problem endedTwice(const Problem& fault) {
+  Problem problem = fault;
+  problem.detail = "Two workers ended over this request. " + fault.detail;
+  return problem;
+}
+
+Problem faultProblem(std::string detail) {
+  return {ProblemCode::internal, "", std::move(detail), "", ""};
+}
+
+} // namespace
+
+/// A slot's thread: one worker after the other.
+void Dispatcher::keepWorking(Slot& slot) {
+  while (true) {
+    if (startWorker(slot)) listen(slot);
+    replaceWorker(slot);
+    Lock lock(mutex_);
+    constexpr int kMostDoublings = 7;
+    const auto pause =
+        std::chrono::milliseconds(slot.failures == 0 ? 0 : 50 << std::min(slot.failures, kMostDoublings));
+    if (changed_.wait_for(lock, pause, [&] { return ending_; })) return;
+  }
+}
+
+bool Dispatcher::startWorker(Slot& slot) {
+  auto started = WorkerProcess::start(options_.program);
+  const Lock lock(mutex_);
+  if (!started) {
+    refusal_ = started.problems();
+    changed_.notify_all();
+    return false;
+  }
+  slot.process = *std::move(started);
+  slot.heard = Clock::now();
+  slot.fault = {};
+  if (ending_) slot.process->kill();
+  WorkerOptions start = options_.each;
+  start.loadsDrivers = slot.loadsDrivers;
+  return slot.process->channel().send(textOf(ToWorker{.start = start}));
+}
+
+/// Until the worker's end of the channel is closed.
+void Dispatcher::listen(Slot& slot) {
+  while (true) {
+    Packet packet;
+    const ChannelEvent event = slot.process->channel().receive(packet, std::chrono::seconds(1));
+    if (event == ChannelEvent::timeout) continue;
+    if (event == ChannelEvent::packet && take(slot, std::move(packet))) continue;
+    const Lock lock(mutex_);
+    if (event != ChannelEvent::ended) endWorker(slot, faultProblem("It sent what is no message."));
+    return;
+  }
+}
+
+/// False where the message is none.
+bool Dispatcher::take(Slot& slot, Packet packet) {
+  auto message = readToFront(packet.text);
+  if (!message) return false;
+  Lock lock(mutex_);
+  slot.heard = Clock::now();
+  if (message->beat) {
+    slot.beat = *message->beat;
+    const std::vector<double>& factors = slot.beat.costFactors;
+    const bool sound = factors.size() == kFrameParts &&
+                       std::all_of(factors.begin(), factors.end(), [](double factor) { return factor >= 0; });
+    if (sound) std::copy(factors.begin(), factors.end(), costFactors_.parts.begin());
+  }
+  if (message->ready) {
+    info_ = *message->ready;
+    slot.ready = true;
+    slot.failures = 0;
+    logEvent("worker", "Worker " + std::to_string(slot.process->pid()) + " is ready: " + info_.backend + " " +
+                           info_.platform + ", " + info_.renderer + ", " + info_.version + ".");
+    changed_.notify_all();
+    placeWaiting();
+  }
+  if (message->refusal) {
+    refusal_ = std::move(message->refusal->problems);
+    changed_.notify_all();
+  }
+  if (message->event) {
+    const auto found = slot.running.find(message->event->number);
+    if (found == slot.running.end()) return false;
+    Ticket& ticket = *found->second;
+    ticket.hasEvents = true;
+    // Who reads slowly gets the newest progress, so that what waits for them stays small.
+    const bool replaces = ticket.events.size() > kMostEvents && ticket.events.back().name == "progress" &&
+                          message->event->name == "progress";
+    if (replaces) ticket.events.pop_back();
+    ticket.events.push_back(*std::move(message->event));
+    ticket.changed.notify_one();
+  }
+  if (message->outcome) {
+    const auto found = slot.running.find(message->outcome->number);
+    if (found == slot.running.end()) return false;
+    const TicketPtr ticket = found->second;
+    slot.running.erase(found);
+    TaskResult result{*std::move(message->outcome), std::nullopt};
+    if (!packet.files.empty()) result.body = std::move(packet.files.front());
+    finish(ticket, std::move(result));
+    placeWaiting();
+  }
+  if ((message->wish || message->made) && options_.lightMaps) {
+    slot.isHandled = true;
+    lock.unlock();
+    if (message->wish) answerWish(slot, *message->wish);
+    if (message->made && !packet.files.empty()) options_.lightMaps->write(message->made->key, packet.files.front());
+    lock.lock();
+    slot.heard = Clock::now();
+    slot.isHandled = false;
+  }
+  return true;
+}
+
+void Dispatcher::answerWish(Slot& slot, const LightMapWish& wish) {
+  const FileDescriptor file = options_.lightMaps->open(wish.key);
+  const std::array files{file.get()};
+  slot.process->channel().send(textOf(ToWorker{.lightMap = LightMapFound{wish.number}}),
+                               std::span(files).first(file ? 1 : 0));
+}
+
+/// Clears up after a worker: its tasks wait again, or are done.
+void Dispatcher::replaceWorker(Slot& slot) {
+  if (!slot.process) {
+    ++slot.failures;
+    return;
+  }
+  slot.process->kill(); // whoever closed the channel is of no use
+  const std::string how = slot.process->end();
+  const Lock lock(mutex_);
+  if (!ending_) {
+    logEvent("worker",
+             "Worker " + std::to_string(slot.process->pid()) + " ended with " + how + ". " + slot.fault.detail);
+  }
+  if (!slot.ready) ++slot.failures;
+  if (!slot.ready && !refusal_) {
+    refusal_ = Problems{{ProblemCode::backend, "", "A worker ended before it could draw.", "", how}};
+    changed_.notify_all();
+  }
+  slot.ready = false;
+  slot.process.reset();
+  for (const auto& [number, ticket] : std::exchange(slot.running, {})) {
+    if (ticket->calledOff) continue;
+    if (++ticket->tries < 2 && !ticket->hasEvents) {
+      ticket->state = Ticket::State::waiting;
+      ticket->since = Clock::now();
+      waiting_.push_front(ticket);
+    } else {
+      TaskResult result;
+      result.outcome.problems = {endedTwice(slot.fault)};
+      finish(ticket, std::move(result));
+    }
+  }
+  placeWaiting();
+}
+
+/// The watching thread.
+void Dispatcher::watch() {
+  Lock lock(mutex_);
+  while (!changed_.wait_for(lock, kWatchPause, [&] { return ending_; })) {
+    for (const auto& slot : slots_) {
+      if (!slot->process || !slot->fault.detail.empty()) continue;
+      if (auto fault = faultOf(*slot)) endWorker(*slot, *std::move(fault));
+    }
+  }
+}
+
+/// Why a worker must be replaced. With the mutex held.
+std::optional<Problem> Dispatcher::faultOf(const Slot& slot) const {
+  const auto now = Clock::now();
+  if (!slot.ready && now - slot.heard > kStartPatience) return faultProblem("It did not become ready.");
+  if (slot.ready && !slot.isHandled && now - slot.heard > options_.silence)
+    return faultProblem("It said nothing any more.");
+  for (const auto& [number, ticket] : slot.running) {
+    if (ticket->calledOff && now - *ticket->calledOff > options_.stopping) {
+      return faultProblem("It did not stop work that nobody waited for.");
+    }
+  }
+  if (options_.each.memoryBytes > 0 && slot.process->residentBytes() > options_.each.memoryBytes) {
+    return Problem{ProblemCode::tooLarge, "", "It used more memory than it may.",
+                   std::to_string(options_.each.memoryBytes) + " bytes", ""};
+  }
+  return std::nullopt;
+}
+
+/// With the mutex held.
+void Dispatcher::endWorker(Slot& slot, Problem fault) {
+  slot.fault = std::move(fault);
+  slot.process->kill();
+}
+
+} // namespace gnomon

@@ -1,0 +1,97 @@
+#include "server/dispatch/worker_process.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace gnomon {
+namespace {
+
+constexpr int kChannelOfWorker = 3; ///< where `gnomon worker` looks for it
+
+/// posix_spawn(3)'s arguments: the channel's end, no blocked signals, and a process group of its own, so that a Ctrl-C
+/// meets the server alone.
+class Spawning {
+ public:
+  explicit Spawning(int channel) {
+    ::posix_spawn_file_actions_init(&files_);
+    ::posix_spawn_file_actions_adddup2(&files_, channel, kChannelOfWorker);
+    ::posix_spawnattr_init(&attributes_);
+    sigset_t none;
+    sigemptyset(&none);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setpgroup(&attributes_, 0);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~Spawning() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&files_);
+  }
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+
+  /// The new process; nothing, with errno, where the system refused.
+  std::optional<pid_t> spawn(const std::string& program) {
+    std::string name = "gnomon", command = "worker";
+    const std::array<char*, 3> arguments{name.data(), command.data(), nullptr};
+    pid_t pid = 0;
+    const int error = ::posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments.data(), environ);
+    errno = error;
+    return error == 0 ? std::optional(pid) : std::nullopt;
+  }
+
+ private:
+  posix_spawn_file_actions_t files_{};
+  posix_spawnattr_t attributes_{};
+};
+
+Problem refused() {
+  return {ProblemCode::unavailable, "", "The system refused to start a worker.", "",
+          std::error_code(errno, std::generic_category()).message()};
+}
+
+} // namespace
+
+Result<std::shared_ptr<WorkerProcess>> WorkerProcess::start(const std::string& program) {
+  auto ends = Channel::pair();
+  if (!ends) return refused();
+  const auto pid = Spawning(ends->second.get()).spawn(program);
+  if (!pid) return refused();
+  return std::shared_ptr<WorkerProcess>(new WorkerProcess(*pid, std::move(ends->first)));
+}
+
+WorkerProcess::~WorkerProcess() {
+  kill();
+  if (!ended_) end();
+}
+
+void WorkerProcess::kill() noexcept {
+  const std::lock_guard lock(ending_);
+  if (!ended_) ::kill(pid_, SIGKILL);
+}
+
+std::string WorkerProcess::end() {
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  const std::lock_guard lock(ending_); // its id is free for others from here on
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  ended_ = true;
+  return WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+                             : "exit status " + std::to_string(WEXITSTATUS(status));
+}
+
+std::uint64_t WorkerProcess::residentBytes() const {
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/statm"); // proc(5): pages, in all and resident
+  std::uint64_t all = 0, resident = 0;
+  file >> all >> resident;
+  return file ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+} // namespace gnomon

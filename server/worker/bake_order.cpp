@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "protocol/bake/bake_json.h"
+#include "protocol/json/json_codec.h"
+#include "server/worker/frame_memory.h"
+#include "server/worker/orders.h"
+
+namespace gnomon {
+namespace {
+
+/// Tells of progress, a few times a second and at each light.
+class BakeEvents {
+ public:
+  explicit BakeEvents(const OrderCall& call) : call_(call) {}
+
+  void tell(const BakeStep& step) {
+    constexpr std::chrono::milliseconds kPause{100};
+    if (step.light == light_ && Clock::now() < told_ + kPause) return;
+    call_.event("progress", jsonText(toJson(step)));
+    told_ = Clock::now();
+    light_ = step.light;
+  }
+
+ private:
+  const OrderCall& call_;
+  Clock::time_point told_{};
+  int light_ = -1;
+};
+
+BakeFile fileOf(std::string_view mediaType) {
+  const auto found = std::find(kBakeFileTypes.begin(), kBakeFileTypes.end(), mediaType);
+  return static_cast<BakeFile>(found - kBakeFileTypes.begin());
+}
+
+} // namespace
+
+Answer bakeOrder(WorkContext& context, const OrderCall& call) {
+  const auto spec = decodeFrameSpec(call.request);
+  if (!spec) return {.problems = spec.problems()};
+  auto loaded = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
+  ByteLease memory(context.frameMemory);
+  if (auto taken = takeMemory(memory, context.frameMemory, bakeBytes(*spec), "/shadow/lightMap", call); !taken) {
+    return {.problems = taken.problems()};
+  }
+  const std::string key = bakeKey(call.order.scene, *spec);
+  const bool asEvents = call.order.mediaType == kEventStream;
+  BakeEvents events(call);
+  auto report =
+      context.renderer.baker().bake(std::get<LoadedScene>(loaded).scene, bakedParts(*spec), [&](BakeStep step) {
+        step.key = key;
+        if (asEvents) events.tell(step);
+        return call.goOn();
+      });
+  if (!report) return {.problems = call.goOn() ? report.problems() : Problems{stoppedProblem("the bake", call)}};
+  report->key = key;
+  if (asEvents) {
+    call.event("result", jsonText(toJson(*report)));
+    return {.contentType = std::string(kEventStream)};
+  }
+  return {.contentType = std::string(kJson), .body = jsonText(toJson(*report))};
+}
+
+Answer bakeFileOrder(WorkContext& context, const OrderCall& call) {
+  constexpr std::size_t kParts = 4; ///< the map, its light in floats, the picture and its file
+  const auto spec = decodeFrameSpec(call.request);
+  if (!spec) return {.problems = spec.problems()};
+  auto loaded = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
+  ByteLease memory(context.frameMemory);
+  const std::size_t bytes = std::min(kParts * bakeBytes(*spec), context.frameMemory.total());
+  if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/shadow/lightMap", call); !taken) {
+    return {.problems = taken.problems()};
+  }
+  const auto file =
+      context.renderer.baker().file(std::get<LoadedScene>(loaded).scene, *spec, fileOf(call.order.mediaType),
+                                    call.order.light, [&](const BakeStep&) { return call.goOn(); });
+  if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the file", call)}};
+  return {.contentType = call.order.mediaType, .body = std::string(asText(*file))};
+}
+
+} // namespace gnomon

@@ -1,0 +1,51 @@
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "server/worker/evaluate_scene.h"
+#include "server/worker/frame_file.h"
+#include "server/worker/frame_memory.h"
+#include "server/worker/orders.h"
+
+namespace gnomon {
+
+Answer frameOrder(WorkContext& context, const OrderCall& call) {
+  auto decoded = decodeFrameSpec(call.request);
+  if (!decoded) return {.problems = decoded.problems()};
+  FrameSpec spec = *std::move(decoded);
+
+  const auto start = Clock::now();
+  auto loaded = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
+  const auto& scene = std::get<LoadedScene>(loaded);
+  const double loadMs = millisecondsSince(start);
+
+  std::optional<QualityReport> quality;
+  if (spec.quality) {
+    auto settled = settleQuality(context, scene, spec, call);
+    if (!settled) return {.problems = settled.problems()};
+    quality = *std::move(settled);
+    spec = withChoice(spec, *quality);
+  }
+  ByteLease memory(context.frameMemory);
+  if (auto taken = takeMemory(memory, context.frameMemory, frameBytes(spec), "/views", call); !taken) {
+    return {.problems = taken.problems()};
+  }
+  auto drawn = context.renderer.render(scene.scene, spec, TileUse::kept, call.goOn);
+  if (!drawn) {
+    return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
+  }
+  FrameReport& report = drawn->frame.report;
+  report.stages.insert(
+      report.stages.begin(),
+      {StageTime{"queue", call.order.queuedMilliseconds + drawn->queuedMilliseconds}, StageTime{"load", loadMs}});
+  report.quality = quality;
+  context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
+  auto file =
+      frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType, call.order.boundary, call.goOn);
+  if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the frame", call)}};
+  return {
+      .contentType = std::move(file->contentType), .body = std::move(file->body), .stages = std::move(file->stages)};
+}
+
+} // namespace gnomon

@@ -1,0 +1,86 @@
+#include "server/worker/orders.h"
+
+#include <array>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "protocol/json/json_codec.h"
+#include "server/system/log.h"
+
+namespace gnomon {
+namespace {
+
+struct OrderTraits {
+  OrderKind kind;
+  Answer (*carryOut)(WorkContext&, const OrderCall&);
+};
+
+constexpr std::array kOrderTraits{
+    OrderTraits{OrderKind::load, loadOrder}, OrderTraits{OrderKind::frame, frameOrder},
+    OrderTraits{OrderKind::plan, planOrder}, OrderTraits{OrderKind::evaluation, evaluationOrder},
+    OrderTraits{OrderKind::bake, bakeOrder}, OrderTraits{OrderKind::bakeFile, bakeFileOrder}};
+
+} // namespace
+
+Answer carryOut(WorkContext& context, const OrderCall& call) noexcept {
+  try {
+    return kOrderTraits[static_cast<std::size_t>(call.order.kind)].carryOut(context, call);
+  } catch (const std::bad_alloc&) {
+    return {{{ProblemCode::tooLarge, "", "The request needs more memory than a worker may use.", "", ""}}};
+  } catch (const std::exception& error) {
+    logEvent("order", error.what());
+  } catch (...) {
+    logEvent("order", "An exception of unknown type.");
+  }
+  return {{{ProblemCode::internal, "", "An internal error occurred.", "", ""}}};
+}
+
+std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall& call) {
+  auto loaded = context.scenes.get(call.order.scene, {call.bundle, call.order.isStored}, call.goOn);
+  if (auto* failure = std::get_if<LoadFailure>(&loaded)) {
+    if (!call.goOn()) return Answer{.problems = {stoppedProblem("the scene", call)}};
+    return Answer{.problems = std::move(failure->problems), .damaged = failure->damaged};
+  }
+  return std::get<LoadedScene>(std::move(loaded));
+}
+
+Problem stoppedProblem(std::string_view what, const OrderCall& call) {
+  if (Clock::now() < call.deadline) {
+    return {ProblemCode::unavailable, "", "Nobody waited for " + std::string(what) + " any more.", "", ""};
+  }
+  return {ProblemCode::deadlineExceeded, "", "The deadline came before " + std::string(what) + " was done.", "", ""};
+}
+
+Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes, std::string_view pointer,
+                  const OrderCall& call) {
+  constexpr std::chrono::milliseconds kNextTry{5};
+  if (bytes > budget.total()) {
+    return Problem{ProblemCode::tooLarge, std::string(pointer), "The pictures that this needs are too large together.",
+                   std::to_string(budget.total()) + " bytes", std::to_string(bytes) + " bytes"};
+  }
+  while (!lease.grow(bytes)) {
+    if (!call.goOn()) return stoppedProblem("the memory for it", call);
+    std::this_thread::sleep_for(kNextTry); // at most a few orders run in a worker
+  }
+  return Done{};
+}
+
+Answer loadOrder(WorkContext& context, const OrderCall& call) {
+  auto scene = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
+  return {.contentType = std::string(kJson), .body = jsonText(toJson(std::get<LoadedScene>(scene).summary))};
+}
+
+Answer planOrder(WorkContext& context, const OrderCall& call) {
+  const auto spec = decodeFrameSpec(call.request);
+  if (!spec) return {.problems = spec.problems()};
+  auto scene = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
+  const auto plan = planFrame(*std::get<LoadedScene>(scene).scene, *spec, context.renderer.info());
+  if (!plan) return {.problems = plan.problems()};
+  return {.contentType = std::string(kJson), .body = jsonText(toJson(*plan))};
+}
+
+} // namespace gnomon

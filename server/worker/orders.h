@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "protocol/cost/cost_model.h"
+#include "server/system/byte_budget.h"
+#include "server/wire/messages.h"
+#include "server/worker/quality_choices.h"
+#include "server/worker/render_thread.h"
+#include "server/worker/scene_loader.h"
+
+/// What a worker does: one function for each kind of order. Each runs on a thread of its own.
+namespace gnomon {
+
+/// What all orders of a worker share. Outlives them; each part may be used by any thread.
+struct WorkContext {
+  RenderThread& renderer;
+  SceneLoader& scenes;
+  ByteBudget frameMemory; ///< of pictures that are being drawn or encoded
+  QualityChoices choices;
+  CostModel costs; ///< learned from the frames drawn here
+};
+
+/// An order as it arrived.
+struct OrderCall {
+  Order order;
+  FileDescriptor bundle;
+  std::string request; ///< JSON
+  Clock::time_point deadline;
+  GoOn goOn; ///< false once the deadline has passed or nobody waits any more
+  std::function<void(std::string_view name, std::string_view data)> event;
+};
+
+/// The result of an order: problems, or a body, or neither where it was told as events.
+struct Answer {
+  Problems problems{};
+  bool damaged = false; ///< as in Outcome
+  std::string contentType{};
+  std::string body{};
+  std::vector<StageTime> stages{};
+};
+
+Answer loadOrder(WorkContext& context, const OrderCall& call);
+Answer frameOrder(WorkContext& context, const OrderCall& call);
+Answer planOrder(WorkContext& context, const OrderCall& call);
+Answer evaluationOrder(WorkContext& context, const OrderCall& call);
+Answer bakeOrder(WorkContext& context, const OrderCall& call);
+Answer bakeFileOrder(WorkContext& context, const OrderCall& call);
+
+/// Calls the one for the order's kind. Nothing that it throws leaves it.
+Answer carryOut(WorkContext& context, const OrderCall& call) noexcept;
+
+/// The order's scene, or the answer that says why it can't be had.
+std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall& call);
+
+/// Takes memory as soon as there is room. tooLarge at `pointer` where there can never be; deadlineExceeded where the
+/// order is stopped before.
+Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes, std::string_view pointer,
+                  const OrderCall& call);
+
+/// The problem of work that was stopped: at its deadline, or since nobody waits for it.
+Problem stoppedProblem(std::string_view what, const OrderCall& call);
+
+inline constexpr std::string_view kEventStream = "text/event-stream";
+inline constexpr std::string_view kJson = "application/json";
+
+} // namespace gnomon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+
+#include "protocol/base/scene_bundle.h"
+#include "server/system/file_descriptor.h"
+#include "server/worker/scene_cache.h"
+#include "server/worker/single_flight.h"
+
+namespace gnomon {
+
+/// A bundle as an order brings it.
+struct BundleFile {
+  const FileDescriptor& file;
+  bool isStored = false; ///< it comes from a disk, and may be damaged
+};
+
+/// Why an order's scene can't be had.
+struct LoadFailure {
+  Problems problems{};
+  bool damaged = false; ///< the bytes are not those that the id names
+};
+
+/// Loads scenes from their bundles and keeps them, within a budget. A scene is loaded once for all who want it at the
+/// same time. Any thread.
+class SceneLoader {
+ public:
+  /// `memoryBytes`: what loaded scenes may take together, and so the most for one. `limits`: of a single scene.
+  SceneLoader(std::size_t memoryBytes, const Limits& limits)
+      : limits_(limits), cache_(memoryBytes), most_(memoryBytes) {}
+
+  /// `goOn`: false ends the loading, unless others want the scene, too.
+  std::variant<LoadedScene, LoadFailure> get(const std::string& id, const BundleFile& bundle, const GoOn& goOn = {});
+
+  /// Drops a scene from memory. Work in progress keeps what it has.
+  void forget(const std::string& id);
+
+  std::size_t bytes() const { return cache_.bytes(); }
+  std::size_t count() const { return cache_.count(); }
+
+ private:
+  std::variant<LoadedScene, LoadFailure> load(const std::string& id, const BundleFile& bundle, const GoOn& goOn) const;
+
+  Limits limits_;
+  SceneCache cache_;
+  std::size_t most_;
+  SingleFlight<std::variant<LoadedScene, LoadFailure>> loading_;
+};
+
+} // namespace gnomon

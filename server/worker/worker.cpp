@@ -1,0 +1,204 @@
+#include "server/worker/worker.h"
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <unistd.h>
+
+#include "renderer/core/parallel.h"
+#include "server/system/heaps.h"
+#include "server/system/log.h"
+#include "server/system/memory_file.h"
+#include "server/wire/channel.h"
+#include "server/wire/messages.h"
+#include "server/worker/front_light_maps.h"
+#include "server/worker/orders.h"
+#include "server/worker/sandbox.h"
+#include "server/worker/vdb_starter.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::chrono::milliseconds kBeatPause{500};
+constexpr std::chrono::seconds kSendPatience{10}; ///< the front reads at once, unless it is stopped
+
+/// No destructors: threads may be at work, and a worker has nothing on any disk.
+[[noreturn]] void end(int status) {
+  flushLog(std::chrono::seconds(1));
+  ::_exit(status);
+}
+
+/// The orders in progress, each on a thread of its own.
+class OrderBook {
+ public:
+  using Flag = std::shared_ptr<std::atomic<bool>>;
+
+  Flag begin(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    return cancelled_[number] = std::make_shared<std::atomic<bool>>(false);
+  }
+  void cancel(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = cancelled_.find(number); found != cancelled_.end()) *found->second = true;
+  }
+  void end(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    cancelled_.erase(number);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uint64_t, Flag> cancelled_;
+};
+
+class Worker {
+ public:
+  explicit Worker(FileDescriptor socket)
+      : channel_(std::move(socket), kSendPatience), lightMaps_(std::make_shared<FrontLightMaps>(channel_)) {}
+
+  [[noreturn]] void run() {
+    start(firstMessage());
+    auto nextBeat = Clock::now();
+    while (true) {
+      Packet packet;
+      switch (channel_.receive(packet, kBeatPause)) {
+        case ChannelEvent::packet:
+          take(std::move(packet));
+          break;
+        case ChannelEvent::timeout:
+          break;
+        case ChannelEvent::ended:
+          end(0);
+        case ChannelEvent::broken:
+          end(1);
+      }
+      if (Clock::now() < nextBeat) continue;
+      say({.beat = beat()});
+      nextBeat = Clock::now() + kBeatPause;
+    }
+  }
+
+ private:
+  WorkerOptions firstMessage() {
+    constexpr std::chrono::seconds kPatience{30};
+    Packet packet;
+    if (channel_.receive(packet, kPatience) != ChannelEvent::packet) end(1);
+    const auto message = readToWorker(packet.text);
+    if (!message || !message->start) end(1);
+    return *message->start;
+  }
+
+  void start(const WorkerOptions& options) {
+    Limits limits;
+    limits.maxSceneBytes = options.maxSceneBytes;
+    auto renderer = RenderThread::start({.backend = {options.device, options.backend, options.requireGpu},
+                                         .gpuSceneBytes = options.gpuSceneBytes,
+                                         .tracedSceneBytes = options.tracedSceneBytes,
+                                         .lightMapBytes = options.lightMapBytes,
+                                         .lightMaps = options.keepsLightMaps ? lightMaps_ : nullptr,
+                                         .tileCacheBytes = options.tileCacheBytes});
+    if (!renderer) {
+      say({.refusal = Refusal{renderer.problems()}});
+      end(1);
+    }
+    renderer_ = *std::move(renderer);
+    scenes_ = std::make_unique<SceneLoader>(options.sceneMemoryBytes, limits);
+    context_ = std::unique_ptr<WorkContext>(
+        new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}, {}});
+    warmEncoders(); // later it may open no files
+    const bool drivers = options.loadsDrivers || renderer_->info().device == DeviceChoice::gl;
+    if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
+      say({.refusal = Refusal{sealed.problems()}});
+      end(1);
+    }
+    say({.ready = renderer_->info()});
+  }
+
+  void take(Packet packet) {
+    auto message = readToWorker(packet.text);
+    if (!message) end(1);
+    if (message->order) {
+      if (packet.files.size() != 2) end(1);
+      accept(std::move(*message->order), std::move(packet.files));
+    }
+    if (message->cancel) orders_.cancel(message->cancel->number);
+    if (message->forget) scenes_->forget(message->forget->scene);
+    if (message->lightMap) {
+      lightMaps_->found(message->lightMap->number, packet.files.empty() ? nullptr : &packet.files.front());
+    }
+  }
+
+  void accept(Order order, std::vector<FileDescriptor> files) {
+    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                             std::chrono::duration<double, std::milli>(order.milliseconds));
+    const auto cancelled = orders_.begin(order.number);
+    std::thread([this, order = std::move(order), files = std::move(files), deadline, cancelled]() mutable {
+      const std::uint64_t number = order.number;
+      carry({std::move(order), std::move(files[0]),
+             std::string(asText(readFile(files[1], kLimits.maxSpecBytes).value_or(Bytes()))), deadline,
+             [deadline, cancelled] { return !*cancelled && Clock::now() < deadline; },
+             [this, number](std::string_view name, std::string_view data) {
+               say({.event = OrderEvent{number, std::string(name), std::string(data)}});
+             }});
+    }).detach();
+  }
+
+  void carry(const OrderCall& call) {
+    Answer answer = carryOut(*context_, call);
+    Outcome outcome{.number = call.order.number,
+                    .problems = std::move(answer.problems),
+                    .damaged = answer.damaged,
+                    .contentType = std::move(answer.contentType),
+                    .stages = std::move(answer.stages)};
+    std::optional<FileDescriptor> body;
+    if (outcome.problems.empty() && !outcome.damaged && outcome.contentType != kEventStream) {
+      body = memoryFile(asBytes(answer.body));
+      if (!body)
+        outcome.problems.push_back({ProblemCode::unavailable, "", "There is no memory for the reply.", "", ""});
+    }
+    orders_.end(outcome.number);
+    const std::array files{body ? body->get() : -1};
+    const std::string text = textOf({.outcome = std::move(outcome)});
+    if (!channel_.send(text, std::span(files).first(body ? 1 : 0))) end(1);
+  }
+
+  Beat beat() const {
+    FrameCost unit;
+    unit.parts.fill(1);
+    const auto factors = context_->costs.parts(unit).parts;
+    return {scenes_->count(), scenes_->bytes(), {factors.begin(), factors.end()}};
+  }
+
+  void say(const ToFront& message) {
+    if (!channel_.send(textOf(message))) end(1);
+  }
+
+  Channel channel_;
+  std::shared_ptr<FrontLightMaps> lightMaps_;
+  std::unique_ptr<RenderThread> renderer_;
+  std::unique_ptr<SceneLoader> scenes_;
+  std::unique_ptr<WorkContext> context_;
+  OrderBook orders_;
+};
+
+} // namespace
+
+void runWorker(FileDescriptor channel) {
+  static const std::unique_ptr<VdbStarter> vdb = VdbStarter::start();
+  if (!vdb) end(1);
+  startVdbBy([](VdbPrograms programs, const std::string& name, int input, int output) {
+    return vdb->startVdb(programs, name, input, output);
+  });
+  boundHeaps(coresToUse() + 1);
+  // Signals are the front's; it closes the channel when it ends.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_IGN);
+  // Lives as long as the process: its threads may outlast this one.
+  auto* worker = new Worker(std::move(channel));
+  worker->run();
+}
+
+} // namespace gnomon

@@ -1,0 +1,194 @@
+#include "server/dispatch/dispatcher.h"
+
+#include <atomic>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "protocol/json/json_codec.h"
+#include "server/scenes/upload.h"
+#include "server/system/memory_file.h"
+#include "tests/support/glb_builder.h"
+
+namespace gnomon {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::function<bool()> kStays = [] { return false; };
+
+/// Real workers, behind relays that make them go wrong on request (faulty_worker.cpp).
+class DispatcherTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<Dispatcher> start(std::size_t workers, DispatcherOptions options = {}) {
+    options.program = GNOMON_FAULTY_WORKER;
+    options.workers = workers;
+    options.each.device = DeviceChoice::cpu;
+    auto started = Dispatcher::start(options);
+    EXPECT_TRUE(started);
+    return started ? *std::move(started) : nullptr;
+  }
+
+  /// A small frame of a cube; a fault's name makes it go wrong.
+  Task frame(const std::string& node = "") const {
+    Task task;
+    task.order.kind = OrderKind::frame;
+    task.order.scene = scene_.id;
+    task.order.mediaType = "image/png";
+    task.bundle = scene_.file;
+    task.request =
+        R"({"width": 16, "height": 16)" + (node.empty() ? "" : R"(, "camera": {"node": ")" + node + "\"}") + "}";
+    task.deadline = Clock::now() + 60s;
+    task.client = "test";
+    return task;
+  }
+
+  static std::string problemOf(const TaskResult& result) {
+    return result.outcome.problems.empty() ? "" : std::string(problemName(result.outcome.problems[0].code));
+  }
+
+  PackedBundle scene_ = *packed(testing::cube().bundle());
+};
+
+TEST_F(DispatcherTest, DrawsFrames) {
+  const auto dispatcher = start(2);
+  EXPECT_EQ(dispatcher->info().backend, "cpu");
+  const TaskResult result = dispatcher->run(frame(), kStays);
+  ASSERT_EQ(problemOf(result), "");
+  ASSERT_TRUE(result.body);
+  EXPECT_EQ(asText(*readFile(*result.body, 1 << 20)).substr(1, 3), "PNG");
+  EXPECT_EQ(result.outcome.stages.front().stage, "queue");
+}
+
+TEST_F(DispatcherTest, WhatEndsItsWorkerTwiceIsAProblemAndHarmsNobodyElse) {
+  const auto dispatcher = start(2);
+  for (const char* fault : {"fault-abort", "fault-garbage"}) {
+    std::atomic<bool> done = false;
+    std::vector<std::thread> others;
+    for (int i = 0; i < 3; ++i) {
+      others.emplace_back([&] {
+        while (!done) EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+      });
+    }
+    EXPECT_EQ(problemOf(dispatcher->run(frame(fault), kStays)), "internal") << fault;
+    done = true;
+    for (std::thread& other : others) other.join();
+  }
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+TEST_F(DispatcherTest, AKilledWorkersTasksAreTriedAgain) {
+  const auto dispatcher = start(1);
+  const pid_t victim = dispatcher->processes().at(0);
+  std::thread asking([&] { EXPECT_EQ(problemOf(dispatcher->run(frame("fault-loop"), kStays)), "internal"); });
+  while (dispatcher->state().running == 0) std::this_thread::sleep_for(1ms);
+  ::kill(victim, SIGKILL);
+  while (dispatcher->state().running == 0 || dispatcher->processes().at(0) == victim) std::this_thread::sleep_for(1ms);
+  ::kill(dispatcher->processes().at(0), SIGKILL); // a second time, and alone: now it is its own doing
+  asking.join();
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+TEST_F(DispatcherTest, ATaskThatDoesNotStopCostsItsWorker) {
+  const auto dispatcher = start(1, {.stopping = 200ms});
+  const pid_t before = dispatcher->processes().at(0);
+  Task loop = frame("fault-loop");
+  loop.deadline = Clock::now() + 300ms;
+  const auto begun = Clock::now();
+  EXPECT_EQ(problemOf(dispatcher->run(loop, kStays)), "deadlineExceeded");
+  EXPECT_LT(Clock::now() - begun, 500ms * 4) << "the answer does not wait for the worker's end";
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+  while (dispatcher->state().ready == 0) std::this_thread::sleep_for(1ms);
+  while (dispatcher->processes().at(0) == before) std::this_thread::sleep_for(1ms);
+}
+
+TEST_F(DispatcherTest, WhoLeavesIsNotWaitedFor) {
+  const auto dispatcher = start(1, {.stopping = 200ms});
+  const auto begun = Clock::now();
+  EXPECT_EQ(problemOf(dispatcher->run(frame("fault-loop"), [&] { return Clock::now() - begun > 100ms; })),
+            "unavailable");
+  EXPECT_LT(Clock::now() - begun, 1s);
+}
+
+TEST_F(DispatcherTest, ASilentWorkerIsReplaced) {
+  const auto dispatcher = start(1, {.silence = 1500ms});
+  EXPECT_EQ(problemOf(dispatcher->run(frame("fault-silence"), kStays)), "internal");
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+TEST_F(DispatcherTest, AWorkerThatTakesTooMuchMemoryIsReplaced) {
+  DispatcherOptions options;
+  options.each.memoryBytes = 1'000u << 20;
+  const auto dispatcher = start(1, options);
+  const TaskResult result = dispatcher->run(frame("fault-memory"), kStays);
+  ASSERT_EQ(problemOf(result), "tooLarge");
+  EXPECT_EQ(result.outcome.problems[0].limit, std::to_string(1'000u << 20) + " bytes");
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+TEST_F(DispatcherTest, TheQueueIsBoundedAndSaysWhenToComeAgain) {
+  const auto dispatcher = start(1, {.queueLimit = 1, .stopping = 200ms});
+  std::atomic<bool> leave = false;
+  std::vector<std::thread> held;
+  for (std::size_t i = 0; i < kPlaces[0] + 1; ++i) {
+    held.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
+  }
+  while (dispatcher->state().waiting == 0) std::this_thread::sleep_for(1ms);
+  std::this_thread::sleep_for(1200ms);
+  const TaskResult refused = dispatcher->run(frame(), kStays);
+  EXPECT_EQ(problemOf(refused), "busy");
+  EXPECT_GE(refused.outcome.retryAfterSeconds, 3) << "what runs has taken more than a second already";
+  leave = true;
+  for (std::thread& each : held) each.join();
+}
+
+TEST_F(DispatcherTest, ClientsTakeTurns) {
+  const auto dispatcher = start(1, {.stopping = 200ms});
+  std::atomic<bool> leave = false;
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < kPlaces[0]; ++i) {
+    threads.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
+  }
+  while (dispatcher->state().running < kPlaces[0]) std::this_thread::sleep_for(1ms);
+  std::atomic<int> greedyDone = 0, greedyBefore = -1;
+  for (int i = 0; i < 20; ++i) {
+    threads.emplace_back([&] {
+      Task task = frame();
+      task.client = "greedy";
+      dispatcher->run(task, kStays);
+      ++greedyDone;
+    });
+  }
+  while (dispatcher->state().waiting < 20) std::this_thread::sleep_for(1ms);
+  threads.emplace_back([&] {
+    Task task = frame();
+    task.client = "modest";
+    dispatcher->run(task, kStays);
+    greedyBefore = greedyDone.load();
+  });
+  while (dispatcher->state().waiting < 21) std::this_thread::sleep_for(1ms);
+  leave = true;
+  for (std::thread& each : threads) each.join();
+  EXPECT_LT(greedyBefore, 8) << "who came last, but has nothing in progress, does not wait for all of another's";
+}
+
+TEST_F(DispatcherTest, EndsInTime) {
+  const auto dispatcher = start(1);
+  std::thread asking([&] { EXPECT_EQ(problemOf(dispatcher->run(frame("fault-loop"), kStays)), "unavailable"); });
+  while (dispatcher->state().running == 0) std::this_thread::sleep_for(1ms);
+  dispatcher->endAt(Clock::now() + 100ms);
+  asking.join();
+}
+
+TEST(Dispatcher, SaysWhyNoWorkerCanStart) {
+  const auto missing = Dispatcher::start({.program = "/nowhere/gnomon"});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.problems()[0].code, ProblemCode::unavailable);
+  const auto other = Dispatcher::start({.program = "/bin/false"});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.problems()[0].code, ProblemCode::backend);
+}
+
+} // namespace
+} // namespace gnomon
