@@ -1,0 +1,102 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <sys/socket.h>
+#include <vector>
+
+#include "server/http/connection.h"
+#include "server/http/lobby.h"
+#include "server/http/reply.h"
+#include "server/http/socket_io.h"
+
+namespace gnomon {
+
+using namespace std::chrono_literals;
+
+/// Echoes method, path and body; "/throw" throws, "/stream" streams and then throws, "/none" takes no body, "/probe" is
+/// a probe.
+inline HttpReply echo(const HttpRequest& request) {
+  if (request.path == std::vector<std::string>{"throw"}) {
+    throw std::runtime_error("secret");
+  }
+  HttpReply reply;
+  reply.contentType = "text/plain";
+  if (request.path == std::vector<std::string>{"stream"}) {
+    reply.stream = [](const BodySink& sink) {
+      for (int i = 0; i < 3 && sink("piece "); ++i) {
+      }
+      throw std::runtime_error("secret");
+    };
+    return reply;
+  }
+  reply.body = request.method + " " + std::to_string(request.path.size()) + " " + std::string(asText(request.body));
+  return reply;
+}
+
+inline HttpService echoService() {
+  return [](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
+    if (head.path == std::vector<std::string>{"refused"}) {
+      return problemReply({{ProblemCode::notFound, "", "No.", "", ""}}, head.id);
+    }
+    RequestHandler handler;
+    handler.body = head.method == "POST" ? BodyRule{BodyRule::Framing::any, 100} : BodyRule{};
+    handler.isProbe = head.path == std::vector<std::string>{"probe"};
+    handler.answer = [](const HttpRequest& request, const std::function<bool()>&) { return echo(request); };
+    return handler;
+  };
+}
+
+class ConnectionTest : public ::testing::Test {
+ protected:
+  ConnectionTest() : context_{echoService(), {}, ByteBudget(1 << 20), ByteBudget(1 << 20), {}} {
+    int fds[2];
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
+    client_ = FileDescriptor(fds[0]);
+    server_ = FileDescriptor(fds[1]);
+    context_.limits.linger = 50ms;
+  }
+
+  /// The server's side of the pair goes to a lobby with two threads.
+  std::unique_ptr<Lobby> enter() {
+    auto lobby = std::make_unique<Lobby>(context_, 2, 2);
+    lobby->adopt({std::move(server_), {"client", "client"}});
+    return lobby;
+  }
+
+  /// Everything that comes back when the client sends this and then only listens.
+  std::string exchange(const std::string& sent) {
+    const auto lobby = enter();
+    EXPECT_TRUE(sendAll(client_.get(), sent, Pace{}));
+    ::shutdown(client_.get(), SHUT_WR);
+    return readAll();
+  }
+
+  std::string readAll() {
+    std::string received;
+    char bytes[4096];
+    for (ssize_t count = 0; (count = ::recv(client_.get(), bytes, sizeof bytes, 0)) > 0;) {
+      received.append(bytes, static_cast<std::size_t>(count));
+    }
+    return received;
+  }
+
+  ConnectionContext context_;
+  FileDescriptor client_, server_;
+};
+
+inline std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+  return countOf(text, part) > 0;
+}
+
+} // namespace gnomon
