@@ -80,8 +80,7 @@ HttpReply postBake(Services& services, RouteCall call) {
     services.bakeBook.end(name, result.outcome.problems.empty());
     return result;
   };
-  HttpReply reply =
-      kReportForms[*form] == kEventStream ? replyOfEvents(call, work) : replyOf(work(call.clientGone, {}), requestId);
+  HttpReply reply = replyAs(kReportForms[*form], call, work);
   if (reply.status != 200) return reply;
   reply.headers.emplace_back("Cache-Control", "no-store"); // says whether the maps were there already
   reply.headers.emplace_back("Vary", "Accept");

@@ -50,8 +50,7 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
                                                                        const TaskEvents& events) {
     return runTask(services, task, gone, events);
   };
-  HttpReply reply =
-      kForms[*form] == kEventStream ? replyOfEvents(call, work) : replyOf(work(call.clientGone, {}), requestId);
+  HttpReply reply = replyAs(kForms[*form], call, work);
   if (reply.status != 200) return reply;
   if (reply.contentType == "image/svg+xml") { // a chart opened by itself needs its own style and nothing else
     reply.headers.emplace_back("Content-Security-Policy", "default-src 'none'; style-src 'unsafe-inline'");

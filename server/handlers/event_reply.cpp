@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "protocol/json/json_codec.h"
+#include "server/wire/messages.h"
 
 namespace gnomon {
 

@@ -8,8 +8,6 @@
 
 namespace gnomon {
 
-inline constexpr std::string_view kEventStream = "text/event-stream";
-
 /// Work that puts its progress and its result as events. `gone` may be called by any thread; true = nobody listens any
 /// more, and the work should end soon.
 using EventWork = std::function<void(const std::function<bool()>& gone, EventStream& events)>;

@@ -104,7 +104,8 @@ HttpReply replyOf(TaskResult result, std::string_view requestId) {
   return reply;
 }
 
-HttpReply replyOfEvents(const RouteCall& call, EventedWork work) {
+HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork work) {
+  if (mediaType != kEventStream) return replyOf(work(call.clientGone, {}), call.request.id);
   return eventReply(call, [work = std::move(work), requestId = call.request.id](const std::function<bool()>& gone,
                                                                                 EventStream& events) {
     const TaskResult result = work(gone, [&](const OrderEvent& event) { events.put(event.name, event.data); });

@@ -31,8 +31,9 @@ HttpReply replyOf(TaskResult result, std::string_view requestId);
 /// Does the work, given who asks whether it is still wanted and who is told of events.
 using EventedWork = std::function<TaskResult(const std::function<bool()>& gone, const TaskEvents& events)>;
 
-/// Sends events while the work is done; problems become an event.
-HttpReply replyOfEvents(const RouteCall& call, EventedWork work);
+/// The result of the work as `mediaType`: where that is kEventStream, events are sent while it is done, and problems
+/// become one of them.
+HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork work);
 
 /// One of a few permits, given back when the last copy goes; null where all are taken.
 using Permit = std::shared_ptr<std::counting_semaphore<>>;

@@ -33,6 +33,9 @@ struct WorkerOptions {
   bool loadsDrivers = false;   ///< OpenGL may be wanted, though the processor draws: files stay open to its drivers
 };
 
+/// The media type of results that are told as events.
+inline constexpr std::string_view kEventStream = "text/event-stream";
+
 enum class OrderKind {
   load,       ///< loads a scene; the result is its SceneSummary
   frame,      ///< a picture, or report and pictures

@@ -63,7 +63,6 @@ Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes,
 /// The problem of work that was stopped: at its deadline, or since nobody waits for it.
 Problem stoppedProblem(std::string_view what, const OrderCall& call);
 
-inline constexpr std::string_view kEventStream = "text/event-stream";
 inline constexpr std::string_view kJson = "application/json";
 
 } // namespace gnomon

@@ -3,20 +3,9 @@
 import time
 import unittest
 
-from shipped_server import SCENES, SLOW, ServerTest
+from shipped_server import SCENES, SLOW, ServerTest, receive_all
 
 MEGABYTE = 1 << 20
-
-
-def receive_all(connection):
-    """What comes until the server closes; a reset after the reply counts as the end."""
-    received = b""
-    try:
-        while piece := connection.recv(65536):
-            received += piece
-    except ConnectionResetError:
-        pass
-    return received
 
 
 def send_until_refused(connection, piece, most):

@@ -159,6 +159,17 @@ class ServerTest(unittest.TestCase):
             self.assertIn(pointer, reply.pointers())
 
 
+def receive_all(connection, at_reset=b""):
+    """What comes until the server closes; a reset after the reply counts as the end, and leaves `at_reset` there."""
+    received = b""
+    try:
+        while piece := connection.recv(65536):
+            received += piece
+    except ConnectionResetError:
+        received += at_reset
+    return received
+
+
 def form(parts):
     """(body, Content-Type) of multipart/form-data; parts are (name, file name or None, bytes)."""
     boundary = "a-boundary-of-the-tests"

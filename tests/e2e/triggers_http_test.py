@@ -9,7 +9,7 @@ import threading
 import time
 import unittest
 
-from shipped_server import BINARY, SCENES, SLOW, SMALL, TIMEOUT, Server, ServerTest
+from shipped_server import BINARY, SCENES, SLOW, SMALL, Server, ServerTest, TIMEOUT, receive_all
 
 GET = "GET {} HTTP/1.1\r\nHost: localhost\r\n{}\r\n"
 
@@ -22,16 +22,6 @@ def post_head(path, content_type, length):
 def frame_request(scene, spec):
     body = json.dumps(spec).encode()
     return post_head(f"/v1/scenes/{scene}/frames", "application/json", len(body)) + body
-
-
-def receive_all(connection):
-    received = b""
-    try:
-        while piece := connection.recv(65536):
-            received += piece
-    except ConnectionResetError:
-        received += b" <reset>"
-    return received
 
 
 def large_picture(width=2048, height=2048):
@@ -183,7 +173,7 @@ class LeavingClients(ServerTest):
                 line = f"GET /v1/scenes/{scene}/frame?width=64&height=48&exposure=0.{version[2]} HTTP/{version}\r\n"
                 connection.sendall(line.encode() + b"Host: localhost\r\nConnection: close\r\n\r\n")
                 connection.shutdown(socket.SHUT_WR)
-                reply = receive_all(connection)
+                reply = receive_all(connection, at_reset=b" <reset>")
             if version == "1.1":
                 reply = reply.removeprefix(b"HTTP/1.1 100 Continue\r\n\r\n")
             self.assertTrue(reply.startswith(b"HTTP/1.1 200 OK\r\n"), reply[:200])
@@ -243,7 +233,7 @@ class Slowloris(ServerTest):
         self.assertEqual(self.server.get("/readyz").status, 200)
         with socket.create_connection(self.server.address, timeout=TIMEOUT, source_address=("127.0.0.2", 0)) as other:
             other.sendall(GET.format("/v1/capabilities", "Connection: close\r\n").encode())
-            self.assertTrue(receive_all(other).startswith(b"HTTP/1.1 200 "))
+            self.assertTrue(receive_all(other, at_reset=b" <reset>").startswith(b"HTTP/1.1 200 "))
         for connection in dripping:
             connection.close()
 
@@ -254,7 +244,7 @@ class Protocol(ServerTest):
     def raw(self, text):
         with self.server.socket() as connection:
             connection.sendall(text.encode())
-            return receive_all(connection)
+            return receive_all(connection, at_reset=b" <reset>")
 
     def test_an_idle_connection_is_kept_and_says_for_how_long(self):
         connection = self.server.connect()
@@ -274,7 +264,7 @@ class Protocol(ServerTest):
             connection.sendall(head.replace(b"Host:", b"Connection: close\r\nHost:") + body)
             time.sleep(0.3)
             connection.sendall(b"\r\n")
-            reply = receive_all(connection)
+            reply = receive_all(connection, at_reset=b" <reset>")
         announced = int(reply.split(b"Content-Length: ")[1].split(b"\r\n")[0])
         self.assertEqual(len(reply.split(b"\r\n\r\n", 1)[1]), announced)
 
