@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
 #include <limits>
 #include <memory>
 #include <new>
 #include <optional>
-#include <utility>
-#include <vector>
 #include <zlib.h>
 
 namespace gnomon {
@@ -43,62 +40,39 @@ Bytes stored(Data data) {
   return blocks;
 }
 
-/// What the instruction crc32 makes of four bytes.
-std::uint32_t hashOf(std::uint32_t word) {
-  for (int bit = 0; bit < 32; ++bit) word = word >> 1 ^ (word & 1 ? 0x82f63b78u : 0u);
-  return word;
-}
-
-/// ISA-L 2.30 enters the third place of the data under a hash not of the bytes there but of the stream's own address
-/// (level 1 on x86: `write_first_byte` shifts the wrong register). Nearly always that has no effect; but where the hash
-/// is by chance that of one of the first three places, other matches are found. Any address but those gives the same
-/// bytes.
-bool mayChangeBytes(const isal_zstream* stream, Data data) {
-  if (data.size() < 6) return false;
-  constexpr std::uint32_t kPart = 0xff; // of the bits that choose a place in ISA-L's table, however many they are
-  const auto entered = hashOf(static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(stream) >> 16)) & kPart;
-  for (std::size_t place = 0; place < 3; ++place) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, data.data() + place, sizeof(word));
-    if ((hashOf(word) & kPart) == entered) return true;
-  }
-  return false;
-}
-
-/// A zeroed one at an address that does not change the bytes.
-std::unique_ptr<isal_zstream> streamFor(Data data) {
-  static_assert(sizeof(isal_zstream) >= 1u << 16, "two streams differ in what ISA-L reads of their addresses");
-  std::vector<std::unique_ptr<isal_zstream>> refused;
-  auto stream = std::make_unique<isal_zstream>();
-  while (mayChangeBytes(stream.get(), data)) {
-    refused.push_back(std::exchange(stream, std::make_unique<isal_zstream>()));
-  }
-  return stream;
-}
-
 /// Empty where it does not fit into `room`. ISA-L's level 3 is not used: its bytes differ between SSE 4.2, AVX2 and
 /// AVX-512.
+///
+/// The first byte is stored, and is the dictionary of the rest. Without a dictionary ISA-L 2.30 enters the first place
+/// of the data into its table under a hash not of the bytes there but of the stream's own address (level 1 on x86:
+/// `write_first_byte` shifts the wrong register), and now and then finds other matches for it.
 Bytes byIsal(Data data, int level, std::size_t room) {
   static_assert(ISAL_DEF_LVL1_SMALL > ISAL_DEF_LVL0_SMALL);
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kSlack;
-  if (data.size() > kMost) return {};
+  constexpr std::size_t kStored = 1;
+  if (data.size() <= kStored || data.size() > kMost) return {};
+  const Data rest = data.subspan(kStored);
+  Bytes blocks = stored(data.first(kStored));
+  const std::size_t begin = blocks.size();
+  blocks.resize(std::min(room, kMost));
   // Zeroed: ISA-L reads members that its init leaves alone, hist_bits among them, and the bytes must not depend on
   // them.
   const auto tokens = std::make_unique<std::uint8_t[]>(ISAL_DEF_LVL1_SMALL);
-  const auto stream = streamFor(data);
-  isal_deflate_stateless_init(stream.get());
+  const auto stream = std::make_unique<isal_zstream>();
+  isal_deflate_init(stream.get());
   stream->level = static_cast<std::uint32_t>(level);
   stream->level_buf = tokens.get();
   stream->level_buf_size = level == 0 ? ISAL_DEF_LVL0_SMALL : ISAL_DEF_LVL1_SMALL;
   stream->flush = FULL_FLUSH;
   stream->end_of_stream = 0;
-  stream->next_in = const_cast<std::uint8_t*>(data.data()); // it only reads
-  stream->avail_in = static_cast<std::uint32_t>(data.size());
-  Bytes blocks(std::min(room, kMost));
-  stream->next_out = blocks.data();
-  stream->avail_out = static_cast<std::uint32_t>(blocks.size());
-  if (isal_deflate_stateless(stream.get()) != COMP_OK || stream->avail_in != 0) return {};
-  blocks.resize(stream->total_out);
+  // ISA-L only reads dictionary and input.
+  if (isal_deflate_set_dict(stream.get(), const_cast<std::uint8_t*>(data.data()), kStored) != COMP_OK) return {};
+  stream->next_in = const_cast<std::uint8_t*>(rest.data());
+  stream->avail_in = static_cast<std::uint32_t>(rest.size());
+  stream->next_out = blocks.data() + begin;
+  stream->avail_out = static_cast<std::uint32_t>(blocks.size() - begin);
+  if (isal_deflate(stream.get()) != COMP_OK || stream->avail_in != 0 || stream->avail_out == 0) return {};
+  blocks.resize(begin + stream->total_out);
   return blocks;
 }
 
