@@ -45,8 +45,4 @@ Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size
   return untilStopped(goOn, [&] { return allEncoded(frame, most); });
 }
 
-void warmEncoders() {
-  warmImageCodec();
-}
-
 } // namespace gnomon

@@ -118,7 +118,4 @@ struct EncodedPicture {
 /// `goOn`: false ends the encoding with a problem of code unavailable.
 Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most, const GoOn& goOn = {});
 
-/// Loads what encoding needs ahead of the first picture. Any thread.
-void warmEncoders();
-
 } // namespace gnomon

@@ -8,7 +8,6 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/output_options.h"
-#include "renderer/image/codec_table.h"
 #include "renderer/image/image.h"
 
 namespace gnomon {
@@ -34,12 +33,14 @@ Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compr
 /// Size of a PNG, JPEG or still WebP, told by its signature and header; anything else is unsupportedFeature.
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
 
+/// What is read: the formats of glTF and of EXT_texture_webp.
+enum class PictureFormat { png, jpeg, webp };
+
 /// An encoded image whose header and structure hold, with nothing but what its pixels depend on.
 struct CheckedImage {
-  codec::Format format = codec::Format::png;
+  PictureFormat format = PictureFormat::png;
   ImageSize size;
   Bytes picture;
-  Bytes alpha{}; ///< of a WebP with alpha, which is read on its own; else empty
 };
 
 /// Checks a PNG, JPEG or still WebP without decoding a pixel. Refuses what is larger than `maxSide` a side or
@@ -51,8 +52,5 @@ Result<Image> decodeImage(const CheckedImage& image);
 
 /// Both in turn.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
-
-/// Loads the image library now, so that the first picture does not wait for it. Safe from any thread.
-void warmImageCodec();
 
 } // namespace gnomon

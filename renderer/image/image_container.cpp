@@ -36,11 +36,11 @@ bool isCritical(std::string_view type) {
 
 } // namespace
 
-std::optional<codec::Format> formatOf(EncodedBytes encoded) {
-  if (startsWith(encoded, kPngSignature)) return codec::Format::png;
-  if (startsWith(encoded, kJpegSignature)) return codec::Format::jpeg;
+std::optional<PictureFormat> formatOf(EncodedBytes encoded) {
+  if (startsWith(encoded, kPngSignature)) return PictureFormat::png;
+  if (startsWith(encoded, kJpegSignature)) return PictureFormat::jpeg;
   if (startsWith(encoded, kRiffSignature) && encoded.size() >= 12 && startsWith(encoded.subspan(8), kWebpForm)) {
-    return codec::Format::webp;
+    return PictureFormat::webp;
   }
   return std::nullopt;
 }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "protocol/base/result.h"
-#include "renderer/image/codec_table.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
 
@@ -16,26 +15,17 @@ namespace gnomon {
 using EncodedBytes = std::span<const std::uint8_t>;
 
 /// The format that the signature claims.
-std::optional<codec::Format> formatOf(EncodedBytes encoded);
+std::optional<PictureFormat> formatOf(EncodedBytes encoded);
 
 Result<ImageSize> pngSize(EncodedBytes encoded);
 Result<ImageSize> jpegSize(EncodedBytes encoded);
 Result<ImageSize> webpSize(EncodedBytes encoded);
 
 /// The picture with nothing but the parts that its pixels depend on: metadata is where decoders are attacked.
-/// Fails where the file is cut short.
+/// Fails where the file is cut short; an animated WebP is unsupportedFeature.
 Result<Bytes> essentialPng(EncodedBytes encoded);
 Result<Bytes> essentialJpeg(EncodedBytes encoded);
-
-/// A WebP as two files, since its reader multiplies color by alpha, which can't be undone: one is opaque, the other is
-/// read for its alpha alone.
-struct EssentialWebp {
-  Bytes color;
-  Bytes alpha; ///< empty = opaque
-};
-
-/// Animated pictures are unsupportedFeature.
-Result<EssentialWebp> essentialWebp(EncodedBytes encoded);
+Result<Bytes> essentialWebp(EncodedBytes encoded);
 
 /// The unsigned number of `count` bytes at `offset`, most significant first. REQUIRES: offset + count <= size.
 std::uint32_t bigEndian(EncodedBytes bytes, std::size_t offset, std::size_t count);

@@ -13,7 +13,6 @@ constexpr std::size_t kChunkHeader = 8;
 constexpr std::size_t kExtendedHeader = 10;
 constexpr std::uint8_t kAnimationFlag = 0x02;
 constexpr std::uint8_t kAlphaFlag = 0x10;
-constexpr std::uint8_t kLosslessAlphaBit = 0x10; ///< in byte 4 of a lossless bitstream
 
 struct Chunk {
   std::string_view type;
@@ -166,17 +165,10 @@ Result<ImageSize> webpSize(EncodedBytes encoded) {
   return still->size;
 }
 
-Result<EssentialWebp> essentialWebp(EncodedBytes encoded) {
+Result<Bytes> essentialWebp(EncodedBytes encoded) {
   const auto still = readStill(encoded);
   if (!still) return still.problems();
-  EssentialWebp essential{fileOf(pictureChunk(*still)), {}};
-  if (!still->alpha.empty()) essential.alpha = withLossyAlpha(*still);
-  constexpr std::size_t kAlphaByte = kFileHeader + kChunkHeader + 4;
-  if (still->lossless && (essential.color[kAlphaByte] & kLosslessAlphaBit) != 0) {
-    essential.alpha = essential.color;
-    essential.color[kAlphaByte] &= static_cast<std::uint8_t>(~kLosslessAlphaBit);
-  }
-  return essential;
+  return still->alpha.empty() ? fileOf(pictureChunk(*still)) : withLossyAlpha(*still);
 }
 
 } // namespace gnomon

@@ -12,7 +12,7 @@ SceneImage::SceneImage(CheckedImage file, std::string pointer)
     : size_(file.size),
       bytes_(std::max(
           std::uint64_t{4} * static_cast<std::uint64_t>(size_.width) * static_cast<std::uint64_t>(size_.height),
-          std::uint64_t{file.picture.size() + file.alpha.size()})),
+          std::uint64_t{file.picture.size()})),
       pointer_(std::move(pointer)),
       file_(std::move(file)) {}
 

@@ -109,7 +109,6 @@ class Worker {
     scenes_ = std::make_unique<SceneLoader>(options.sceneMemoryBytes, limits);
     context_ = std::unique_ptr<WorkContext>(
         new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}, {}});
-    warmEncoders(); // later it may open no files
     const bool drivers = options.loadsDrivers || renderer_->info().device == DeviceChoice::gl;
     if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
       say({.refusal = Refusal{sealed.problems()}});

@@ -143,7 +143,6 @@ int main(int argc, char** argv) {
   app.add_option("others", others, "Further .glb files")->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
 
-  gnomon::warmImageCodec();
   char head[1024];
   std::snprintf(head, sizeof head, kHead, rounds);
   std::string table = head;

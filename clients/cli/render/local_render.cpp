@@ -1,6 +1,5 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "clients/cli/render/local_scene.h"
 #include "clients/cli/render/rendering.h"
@@ -33,10 +32,6 @@ Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Rende
 
 Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                             ProgressLine& progress) {
-  // The libraries of EXRs load while the scene and the graphics context do.
-  std::jthread warming;
-  if (spec.output.format == ImageFormat::exr) warming = std::jthread(warmEncoders);
-
   auto here = openHere(bundle, backend, progress);
   if (!here) return here.problems();
   auto settled = settleTarget(here->scene, spec, here->renderer, progress);

@@ -85,7 +85,7 @@ TEST(CpuTextures, AreMadeOnceWhoeverAsks) {
 
 TEST(CpuTextures, AreMadeAheadWhereTheyAreNeededAndTellOfBrokenImages) {
   SceneImages images = noises({16, 8});
-  const CheckedImage broken{codec::Format::png, {4, 4}, Bytes(60, 0)};
+  const CheckedImage broken{PictureFormat::png, {4, 4}, Bytes(60, 0)};
   images.push_back(std::make_shared<const SceneImage>(broken, "/images/7"));
   const Textures textures(images);
   const std::vector<TextureImage> sound{{0, false}, {0, true}, {1, true}};
@@ -119,7 +119,7 @@ TEST(CpuTextures, ImagesThatAreDecodedAheadAreThoseThatAreMade) {
   };
   EXPECT_EQ(texels(true), texels(false));
 
-  const CheckedImage broken{codec::Format::png, {4, 4}, Bytes(60, 0)};
+  const CheckedImage broken{PictureFormat::png, {4, 4}, Bytes(60, 0)};
   const Textures textures({std::make_shared<const SceneImage>(broken, "/images/7")});
   const std::vector<TextureImage> only{{0, true}};
   const std::future<void> decoding = textures.decodeAhead(only);

@@ -1,3 +1,5 @@
+#include "renderer/image/exr_encode.h"
+
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -8,13 +10,15 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <exception>
 #include <string>
 #include <vector>
 
-#include "renderer/image/oiio/module.h"
+#include "renderer/core/stop.h"
 
-namespace gnomon::codec {
+namespace gnomon {
 namespace {
 
 /// Pinned, so that equal pictures have equal bytes.
@@ -35,30 +39,29 @@ class MemoryStream : public Imf::OStream {
   std::uint64_t tellp() override { return at_; }
   void seekp(std::uint64_t position) override { at_ = position; }
 
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  Bytes take() { return std::move(bytes_); }
 
  private:
-  std::vector<std::uint8_t> bytes_;
+  Bytes bytes_;
   std::size_t at_ = 0;
 };
 
-Imf::Compression compressionOf(Compression compression) {
+Imf::Compression compressionOf(ExrCompression compression) {
   switch (compression) {
-    case Compression::none:
+    case ExrCompression::none:
       return Imf::NO_COMPRESSION;
-    case Compression::rle:
+    case ExrCompression::rle:
       return Imf::RLE_COMPRESSION;
-    case Compression::zip:
+    case ExrCompression::zip:
       return Imf::ZIP_COMPRESSION;
-    case Compression::piz:
+    case ExrCompression::piz:
       return Imf::PIZ_COMPRESSION;
   }
   return Imf::NO_COMPRESSION;
 }
 
-/// All parts of an EXR share one display window: that of `first`.
-Imf::Header headerOf(const FloatPart& part, const FloatPart& first, Compression compression) {
-  const auto window = [](const FloatPart& of) {
+Imf::Header headerOf(const ExrPart& part, const ExrPart& first, ExrCompression compression) {
+  const auto window = [](const ExrPart& of) {
     return Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(of.width - 1, of.height - 1));
   };
   Imf::Header header(window(first), window(part));
@@ -67,8 +70,8 @@ Imf::Header headerOf(const FloatPart& part, const FloatPart& first, Compression 
   header.setType(Imf::SCANLINEIMAGE);
   Imf::addCapDate(header, kDateTime);
   header.insert("Software", Imf::StringAttribute(kSoftware));
-  for (int i = 0; i < part.channelCount; ++i) {
-    header.channels().insert(part.channelNames[i], Imf::Channel(part.channelIsHalf[i] ? Imf::HALF : Imf::FLOAT));
+  for (std::size_t i = 0; i < part.channels.size(); ++i) {
+    header.channels().insert(part.channels[i], Imf::Channel(part.half[i] ? Imf::HALF : Imf::FLOAT));
   }
   return header;
 }
@@ -77,11 +80,11 @@ Imf::Header headerOf(const FloatPart& part, const FloatPart& first, Compression 
 constexpr int kRows = 64;
 
 /// The next rows, from `y` on. `halves`: room for kRows rows of every channel.
-void writeRows(Imf::OutputPart& output, const FloatPart& part, int y, std::vector<half>& halves) {
-  const auto channels = static_cast<std::size_t>(part.channelCount);
+void writeRows(Imf::OutputPart& output, const ExrPart& part, int y, std::vector<half>& halves) {
+  const std::size_t channels = part.channels.size();
   const std::size_t row = static_cast<std::size_t>(part.width) * channels;
   const int rows = std::min(kRows, part.height - y);
-  const float* const first = part.pixels + static_cast<std::size_t>(y) * row;
+  const float* const first = part.pixels.data() + static_cast<std::size_t>(y) * row;
   halves.resize(row * kRows);
   std::copy_n(first, row * static_cast<std::size_t>(rows), halves.begin());
   const auto slice = [&](const auto* pixels, Imf::PixelType type) { // as if row 0 were there, too
@@ -92,8 +95,7 @@ void writeRows(Imf::OutputPart& output, const FloatPart& part, int y, std::vecto
   };
   Imf::FrameBuffer frame;
   for (std::size_t i = 0; i < channels; ++i) {
-    frame.insert(part.channelNames[i],
-                 part.channelIsHalf[i] ? slice(halves.data() + i, Imf::HALF) : slice(first + i, Imf::FLOAT));
+    frame.insert(part.channels[i], part.half[i] ? slice(halves.data() + i, Imf::HALF) : slice(first + i, Imf::FLOAT));
   }
   output.setFrameBuffer(frame);
   output.writePixels(rows);
@@ -101,27 +103,28 @@ void writeRows(Imf::OutputPart& output, const FloatPart& part, int y, std::vecto
 
 } // namespace
 
-bool encodeExr(const FloatPart* parts, std::size_t partCount, Compression compression, const Caller& caller,
-               const Sink& encoded, const Sink& message) {
-  return guarded(message, [&] {
+Result<Bytes> encodeExrParts(std::span<const ExrPart> parts, ExrCompression compression) {
+  try {
     std::vector<Imf::Header> headers;
-    for (std::size_t i = 0; i < partCount; ++i) headers.push_back(headerOf(parts[i], parts[0], compression));
+    for (const ExrPart& part : parts) headers.push_back(headerOf(part, parts[0], compression));
     MemoryStream stream;
     {
       constexpr int kThreads = 0; // none of its own: whole requests run side by side instead
-      Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(partCount), false, kThreads);
+      Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(parts.size()), false, kThreads);
       std::vector<half> halves;
-      for (std::size_t i = 0; i < partCount; ++i) {
+      for (std::size_t i = 0; i < parts.size(); ++i) {
         Imf::OutputPart output(file, static_cast<int>(i));
         for (int y = 0; y < parts[i].height; y += kRows) {
-          if (!caller.wants(caller.task)) return fail(message, "it is wanted no more");
+          stopIfAsked();
           writeRows(output, parts[i], y, halves);
         }
       }
     }
-    return encoded.accept(encoded.target, stream.bytes().data(), stream.bytes().size()) ||
-           fail(message, "out of memory");
-  });
+    return stream.take();
+  } catch (const std::exception& error) {
+    return Problem{ProblemCode::internal, "", std::string("The EXR could not be written: ") + error.what() + ".", "",
+                   ""};
+  }
 }
 
-} // namespace gnomon::codec
+} // namespace gnomon
