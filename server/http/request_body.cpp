@@ -15,6 +15,22 @@ Problem brokenChunks(std::string detail) {
   return {ProblemCode::malformed, "", std::move(detail), "", ""};
 }
 
+/// What one server takes for the end of a line another one may not (a lone CR or LF).
+bool isControl(char c) {
+  return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
+}
+
+/// Of a chunk's first line: hexadecimal digits, and after blanks the extensions, which say nothing to us.
+std::optional<std::size_t> chunkSize(std::string_view line) {
+  const std::string_view digits = line.substr(0, line.find_first_of("; \t"));
+  const std::size_t rest = std::min(line.find_first_not_of(" \t", digits.size()), line.size());
+  std::size_t size = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), size, 16);
+  const bool whole = !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
+  if (!whole || (rest < line.size() && line[rest] != ';')) return std::nullopt;
+  return size;
+}
+
 /// Takes bytes off the socket as the framing of the body needs them.
 class BodyReader {
  public:
@@ -47,6 +63,10 @@ class BodyReader {
       if (end != std::string_view::npos) {
         text = reader_.buffered().substr(0, end);
         reader_.consume(end + 2);
+        if (std::any_of(text.begin(), text.end(), isControl)) {
+          refused = brokenChunks("A chunk's line has a control character.");
+          return false;
+        }
         return true;
       }
       if (reader_.buffered().size() > kMost) {
@@ -65,13 +85,12 @@ class BodyReader {
       if (!line(text)) {
         return false;
       }
-      std::size_t size = 0;
-      const std::string_view digits = std::string_view(text).substr(0, text.find_first_of("; \t"));
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), size, 16);
-      if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
+      const std::optional<std::size_t> announced = chunkSize(text);
+      if (!announced) {
         refused = brokenChunks("A chunk's size is not a hexadecimal number.");
         return false;
       }
+      const std::size_t size = *announced;
       if (size == 0) {
         return trailers();
       }

@@ -123,6 +123,21 @@ def forms(folder, scenes):
     write(folder / "multipart", "stored", stored)
 
 
+def heads_and_bodies(folder):
+    request = b"POST /v1/scenes?a=%20b HTTP/1.1\r\nHost: localhost:8080\r\n"
+    for name, rest in {
+        "length": b"Content-Length: 5\r\nConnection: close\r\nExpect: 100-continue\r\n\r\n",
+        "chunked": b"Transfer-Encoding: chunked\r\nX-Request-ID: a-1\r\nAccept: image/png;q=0.5, */*\r\n\r\n",
+        "both": b"Transfer-Encoding: chunked\r\nContent-Length: 5\r\n\r\n",
+    }.items():
+        write(folder / "head", name, request + rest)
+    write(folder / "head", "absolute", b"GET http://other/a/../b HTTP/1.0\r\nHost: x\r\nConnection: keep-alive\r\n\r\n")
+    chunks = b"5\r\nhello\r\n1 ;ext=\"1\"\r\n,\r\n00A\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\nGET / HTTP/1.1\r\n"
+    for first in (0, 6, 2, 9):
+        write(folder / "body", f"chunks_{first}", bytes([first]) + chunks)
+    write(folder / "body", "length", bytes([1]) + b"sixteen bytes ..GET / HTTP/1.1\r\n")
+
+
 def grids(folder):
     shape = "'shape': (2, 1, 3), }\n"
     for name, descr, numbers in (("float32", "<f4", struct.pack("<6f", 0, 1, -2, 0.5, 1e9, 3)),
@@ -171,6 +186,7 @@ def main(folder, scenes, assets=None):
     images(folder, assets)
     requests(folder)
     forms(folder, scenes)
+    heads_and_bodies(folder)
     messages(folder)
     grids(folder)
     choices(folder)

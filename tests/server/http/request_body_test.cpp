@@ -67,7 +67,7 @@ TEST(RequestBody, ReadsALength) {
 }
 
 TEST(RequestBody, ReadsChunks) {
-  const std::string sent = "5\r\nhello\r\n1;ext=1\r\n,\r\nA\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n";
+  const std::string sent = "5\r\nhello\r\n1 \t;ext=1\r\n,\r\nA\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n";
   EXPECT_EQ(bodyOf(received(sent, chunkedHead(), {Framing::any, 16})), "hello,0123456789");
 }
 
@@ -80,7 +80,8 @@ TEST(RequestBody, CountsChunks) {
 
 TEST(RequestBody, RefusesBrokenChunks) {
   for (const char* sent : {"x\r\n", "\r\n", "-5\r\nhello\r\n0\r\n\r\n", "0x5\r\nhello\r\n", "5\r\nhelloo\r\n0\r\n\r\n",
-                           "5\r\nhel", "5\r\nhello\r\n"}) {
+                           "5\r\nhel", "5\r\nhello\r\n", "5 5\r\nhello\r\n0\r\n\r\n", "5;a\nb\r\nhello\r\n0\r\n\r\n",
+                           "5;\r;\r\nhello\r\n0\r\n\r\n", "0\r\nTrailer: x\n\n\r\n\r\n"}) {
     EXPECT_EQ(statusOf(received(sent, chunkedHead(), {Framing::any, 100})), 400) << sent;
   }
   EXPECT_EQ(statusOf(received(std::string(3000, '1'), chunkedHead(), {Framing::any, 100})), 400);
