@@ -12,7 +12,7 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import SCENES, SMALL, Server
+from shipped_server import SCENES, SLOW, SMALL, Server
 
 MEGABYTE = 1 << 20
 
@@ -84,6 +84,24 @@ class Store(unittest.TestCase):
         orphan.write_text("{}")
         with Server(*self.flags):
             self.assertFalse(orphan.exists())
+
+    def test_scenes_read_from_disk_are_in_no_memory_of_the_front(self):  # T6
+        with Server(*self.flags) as server:
+            scenes = [upload(server, padded(24 * MEGABYTE, str(number))).json()["id"] for number in range(12)]
+        with Server(*self.flags) as server:
+            before, statuses = server.resident_bytes(), []
+            threads = [
+                threading.Thread(target=lambda scene=scene: statuses.append(server.frame(scene, SMALL).status))
+                for scene in scenes
+            ]
+            for thread in threads:
+                thread.start()
+            most = 0
+            while any(thread.is_alive() for thread in threads):
+                most = max(most, server.resident_bytes())
+                time.sleep(0.01)
+            self.assertEqual(statuses, [200] * len(scenes))
+            self.assertLess(most - before, 32 * MEGABYTE * SLOW, "of 288 MB that the workers read")
 
     def test_a_full_disk_is_said_to_be_full_and_keeps_nothing(self):
         if "GNOMON_IN_NAMESPACE" not in os.environ:  # mounting needs a namespace of one's own

@@ -1,0 +1,164 @@
+"""Clients that mean well: frames at a steady pace, uploads, the command line, curl, the page in a browser."""
+
+import http.client
+import json
+import os
+import random
+import shutil
+import subprocess
+import threading
+import time
+import zlib
+
+from service import PORT
+
+PERIOD = 0.5  # seconds between two frames of one client
+WHOLE = {200, 201, 204, 304}
+
+
+def is_whole_png(data):
+    """Whether every chunk is there, with its checksum, up to the end."""
+    at = 8
+    while data[:8] == b"\x89PNG\r\n\x1a\n" and at + 12 <= len(data):
+        length, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
+        end = at + 12 + length
+        if end > len(data) or zlib.crc32(data[at + 4 : end - 4]) != int.from_bytes(data[end - 4 : end], "big"):
+            return False
+        if kind == b"IEND":
+            return end == len(data)
+        at = end
+    return False
+
+
+class Tally:
+    """What became of requests, by kind of client. Any thread."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.outcomes = {}  # (client, outcome) -> how often
+        self.latencies = []  # (when it ended, seconds) of frames that came
+        self.broken = []  # what was neither whole nor a problem
+
+    def note(self, client, outcome, seconds=None):
+        with self.lock:
+            self.outcomes[client, outcome] = self.outcomes.get((client, outcome), 0) + 1
+            if seconds is not None:
+                self.latencies.append((time.monotonic(), seconds))
+
+    def note_broken(self, client, what):
+        with self.lock:
+            self.broken.append((time.monotonic(), f"{client}: {what}"))
+
+
+def ask(connection, method, path, body=None, headers=None):
+    """Status and body of a whole reply; raises what http.client raises where it is cut."""
+    connection.request(method, path, body, headers or {})
+    reply = connection.getresponse()
+    return reply.status, reply.headers, reply.read()
+
+
+def check(tally, client, status, headers, body, seconds=None):
+    """A reply is whole, or a problem with its words. True = what was asked for."""
+    if status in WHOLE:
+        if headers.get("Content-Type") == "image/png" and not is_whole_png(body):
+            tally.note_broken(client, f"a picture of {len(body)} bytes is cut")
+            return False
+        tally.note(client, "served", seconds)
+        return True
+    if headers.get("Content-Type") == "application/problem+json" and json.loads(body).get("problems"):
+        tally.note(client, str(status))
+    else:
+        tally.note_broken(client, f"status {status} without a problem")
+    return False
+
+
+class Client(threading.Thread):
+    """Repeats `step` until `stop`; a connection that ends within a request is noted as broken."""
+
+    def __init__(self, name, tally, stop, period):
+        super().__init__(name=name, daemon=True)
+        self.tally, self.stop_event, self.period = tally, stop, period
+        self.connection = None
+
+    def connect(self):
+        if self.connection is None:
+            self.connection = http.client.HTTPConnection("127.0.0.1", PORT, timeout=40)
+        return self.connection
+
+    def run(self):
+        due = time.monotonic()
+        while not self.stop_event.is_set():
+            try:
+                self.step()
+            except (OSError, http.client.HTTPException) as error:
+                self.tally.note_broken(self.name, repr(error))
+                self.connection = None
+            due = max(due + self.period, time.monotonic())
+            self.stop_event.wait(due - time.monotonic())
+
+
+class Frames(Client):
+    """Somebody who drags the sun: a new picture twice a second."""
+
+    def __init__(self, name, tally, stop, scene):
+        super().__init__(name, tally, stop, PERIOD)
+        self.scene = scene
+
+    def step(self):
+        spec = {"width": 320, "height": 180,
+                "lights": [{"sun": {"azimuthDegrees": random.uniform(0, 360), "elevationDegrees": 40}}]}  # fmt: skip
+        begun = time.monotonic()
+        reply = ask(self.connect(), "POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec),
+                    {"Content-Type": "application/json", "Accept": "image/png"})  # fmt: skip
+        check(self.tally, "frames", *reply, time.monotonic() - begun)
+
+
+class Uploads(Client):
+    """Small models, each of its own; `accepted` has the ids that were answered with 201."""
+
+    def __init__(self, tally, stop, model):
+        super().__init__("uploads", tally, stop, 1.0)
+        self.model, self.accepted = model, []
+
+    def step(self):
+        text = json.loads(self.model)
+        text["extras"] = {"number": random.getrandbits(64)}
+        reply = ask(self.connect(), "POST", "/v1/scenes", json.dumps(text), {"Content-Type": "model/gltf+json"})
+        if check(self.tally, "uploads", *reply):
+            self.accepted.append(json.loads(reply[2])["id"])
+
+
+class Program(Client):
+    """A program that is run again and again: curl, the command line, a browser."""
+
+    def __init__(self, name, tally, stop, period, command):
+        super().__init__(name, tally, stop, period)
+        self.command = command
+
+    def step(self):
+        ended = subprocess.run(self.command, capture_output=True, timeout=60, check=False)
+        if ended.returncode == 0:
+            self.tally.note(self.name, "served")
+        else:
+            words = (ended.stderr or ended.stdout).decode(errors="replace").strip().splitlines()
+            self.tally.note(self.name, f"ended with {ended.returncode}: " + (words[-1][:80] if words else ""))
+
+
+def programs(tally, stop, binary, url, scene, demo, folder):
+    """Those of them that this machine has."""
+    query = f"{url}/v1/scenes/{scene}/frame?width=160&height=90"
+    found = [
+        Program("curl", tally, stop, 2, ["curl", "-fsS", "-m", "30", "-o", os.devnull, query]),
+        Program("gnomon", tally, stop, 5,
+                [binary, "render", demo, "--server", url, "--width", "160", "--height", "90", "-o", f"{folder}/cli.png"]),
+    ]  # fmt: skip
+    browser = shutil.which("chromium")
+    if browser:
+        found.append(
+            Program("page", tally, stop, 15,
+                    [browser, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=4000",
+                     f"--user-data-dir={folder}/browser", f"--screenshot={folder}/page.png", url + "/"])
+        )  # fmt: skip
+    else:
+        print("no chromium here: the page is left out")
+    return found
