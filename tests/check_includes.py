@@ -9,7 +9,7 @@ Who may include whom, one way:
            <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/worker;
   protocol <- server/system <- server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
-           <- server/handlers <- server/process: of the server, only its workers see the renderer;
+           <- server/metrics <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
 """
@@ -28,7 +28,8 @@ DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
-FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes"]
+FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes",
+                          "server/metrics"]
 
 # Folder -> folders, or single headers, that its files may include.
 MAY_INCLUDE = {
@@ -65,6 +66,7 @@ MAY_INCLUDE = {
     "server/dispatch": BOTH_PROCESSES + ["server/scenes", "server/dispatch"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],
+    "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/metrics"],
     "server/handlers": FRONT + ["server/handlers"],
     "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],
@@ -84,6 +86,7 @@ ASSEMBLED = ["clients/cli", "clients/web"]
 KEPT_IN = {
     "httplib.h": ["clients/cli/remote/http_client.cpp"],
     "openssl/": ["protocol/base"],
+    "prometheus/": ["server/metrics"],
     "nlohmann/": [
         "protocol",
         "server",

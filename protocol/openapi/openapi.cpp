@@ -233,6 +233,11 @@ Json paths() {
   paths["/openapi.json"] = getRoute("openApi", "This document", {{"200", success("OpenAPI 3.1.", document)}});
   paths["/livez"] = getRoute("live", "Whether the process lives", probe);
   paths["/readyz"] = getRoute("ready", "Whether frames can be asked for", replies(probe, {"503"}));
+  Json metrics = getRoute("metrics", "What the server has done and is doing, in Prometheus' text format",
+                          {{"200", success("All metrics.", {{"text/plain", bytesContent()}})}});
+  metrics["get"]["description"] =
+      "A server with an address for operators (--admin-port) serves it there alone, and answers 404 here.";
+  paths["/metrics"] = std::move(metrics);
   paths["/"] =
       getRoute("page", "A page to try it all", {{"200", success("The page.", {{"text/html", bytesContent()}})}});
   return paths;

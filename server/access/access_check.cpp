@@ -20,11 +20,15 @@ HttpReply unauthorized(std::string detail, std::string_view challengeMore, const
       {{ProblemCode::unauthorized, "Authorization", std::move(detail), "Bearer and the secret of a key", ""}},
       request.id);
   reply.headers.emplace_back("WWW-Authenticate", std::string(kChallenge).append(challengeMore));
+  reply.refusal = RefusalReason::keys;
   return reply;
 }
 
 HttpReply notSigned(std::string_view queryKey, std::string detail, const HttpRequest& request) {
-  return problemReply({{ProblemCode::forbidden, std::string(queryKey), std::move(detail), "", ""}}, request.id);
+  HttpReply reply =
+      problemReply({{ProblemCode::forbidden, std::string(queryKey), std::move(detail), "", ""}}, request.id);
+  reply.refusal = RefusalReason::keys;
+  return reply;
 }
 
 bool hasSignature(const HttpRequest& request) {
@@ -44,6 +48,7 @@ HttpReply outOfScope(const AccessKey& key, Scope needed, const HttpRequest& requ
                                    scopeText(needed), scopeText(key.scope)}},
                                  request.id);
   reply.key = key.name;
+  reply.refusal = RefusalReason::keys;
   return reply;
 }
 
@@ -52,6 +57,7 @@ HttpReply tooOften(const AccessKey& key, int seconds, const HttpRequest& request
       {{ProblemCode::busy, "Authorization", "This key has as many requests as it may have for now.", "", ""}},
       request.id, {.retryAfterSeconds = seconds});
   reply.key = key.name;
+  reply.refusal = RefusalReason::rate;
   return reply;
 }
 
@@ -79,12 +85,16 @@ class AccessCheck {
     auto* handler = std::get_if<RequestHandler>(&found);
     if (handler == nullptr || handler->scope == Scope::none) return found;
     const bool isSigned = handler->takesSignature && hasSignature(request);
+    const auto refuse = [&](HttpReply reply) {
+      reply.route = handler->route;
+      return reply;
+    };
     auto known = isSigned ? keyOfSignature(request) : keyOfHeader(request);
-    if (auto* refused = std::get_if<HttpReply>(&known)) return std::move(*refused);
+    if (auto* refused = std::get_if<HttpReply>(&known)) return refuse(std::move(*refused));
     auto& key = std::get<AccessKey>(known);
-    if (!allows(key.scope, handler->scope)) return outOfScope(key, handler->scope, request);
+    if (!allows(key.scope, handler->scope)) return refuse(outOfScope(key, handler->scope, request));
     // Before its body is read; when it is there, another request may have been quicker.
-    if (const int seconds = usage_->wait(key); seconds > 0) return tooOften(key, seconds, request);
+    if (const int seconds = usage_->wait(key); seconds > 0) return refuse(tooOften(key, seconds, request));
     handler->answer = [usage = usage_, answer = std::move(handler->answer), key, isSigned](
                           HttpRequest asked, const std::function<bool()>& clientGone) {
       Admission admission = usage->admit(key);

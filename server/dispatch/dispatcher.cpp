@@ -93,7 +93,9 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
   constexpr std::chrono::milliseconds kPause{20};
   auto request = memoryFile(asBytes(task.request));
   if (!request || !task.bundle) {
-    return failed({ProblemCode::unavailable, "", "There is no memory for the request.", "", ""});
+    TaskResult result = failed({ProblemCode::unavailable, "", "There is no memory for the request.", "", ""});
+    result.refusal = TaskRefusal::memory;
+    return result;
   }
   const auto ticket = std::make_shared<Ticket>();
   ticket->request = std::make_shared<FileDescriptor>(*std::move(request));
@@ -104,9 +106,11 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
   placeWaiting();
   if (ticket->state == Ticket::State::waiting && waiting_.size() > options_.queueLimit) {
     waiting_.remove(ticket);
-    return failed({ProblemCode::busy, "", "The queue before the workers is full.",
-                   std::to_string(options_.queueLimit) + " requests", ""},
-                  retryAfterSeconds());
+    TaskResult result = failed({ProblemCode::busy, "", "The queue before the workers is full.",
+                                std::to_string(options_.queueLimit) + " requests", ""},
+                               retryAfterSeconds());
+    result.refusal = TaskRefusal::queue;
+    return result;
   }
   while (true) {
     const auto deadline = std::min(ticket->task.deadline, endAt_);
@@ -199,7 +203,9 @@ void Dispatcher::placeWaiting() {
 /// With the mutex held.
 void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   Slot& slot = *slots_[worker];
-  ticket->waitedMilliseconds += millisecondsSince(ticket->since);
+  const double waited = millisecondsSince(ticket->since);
+  if (options_.waited) options_.waited(ticket->task.lane, waited / 1000);
+  ticket->waitedMilliseconds += waited;
   ticket->since = Clock::now();
   ticket->state = Ticket::State::running;
   ticket->slot = worker;
@@ -211,7 +217,7 @@ void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   const std::array files{ticket->task.bundle->get(), ticket->request->get()};
   if (!slot.process->channel().send(textOf(ToWorker{.order = order}), files)) {
     // The task comes back as the worker goes.
-    endWorker(slot, {ProblemCode::internal, "", "It did not read its messages.", "", ""});
+    endWorker(slot, {{ProblemCode::internal, "", "It did not read its messages.", "", ""}, WorkerEnd::silence});
   }
 }
 
@@ -262,8 +268,23 @@ DispatcherState Dispatcher::state() const {
   for (const auto& slot : slots_) {
     state.ready += slot->ready ? 1 : 0;
     state.running += slot->running.size();
+    for (const auto& [number, ticket] : slot->running)
+      ++state.runningByLane[static_cast<std::size_t>(ticket->task.lane)];
   }
+  for (const TicketPtr& ticket : waiting_) ++state.waitingByLane[static_cast<std::size_t>(ticket->task.lane)];
+  state.replacements = replacements_;
   return state;
+}
+
+std::uint64_t Dispatcher::residentBytes() const {
+  std::vector<std::shared_ptr<WorkerProcess>> processes;
+  {
+    const Lock lock(mutex_);
+    for (const auto& slot : slots_) processes.push_back(slot->process);
+  }
+  std::uint64_t bytes = 0;
+  for (const auto& process : processes) bytes += process ? process->residentBytes() : 0;
+  return bytes;
 }
 
 std::vector<pid_t> Dispatcher::processes() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <functional>
 #include <list>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -28,15 +30,31 @@ struct DispatcherOptions {
   std::chrono::milliseconds silence{10'000};      ///< a worker that says nothing for so long is killed
   std::chrono::milliseconds stopping{1'000};      ///< and one that does not stop a task that was called off
   std::shared_ptr<LightMapDirectory> lightMaps{}; ///< nullptr = light maps are not stored
+
+  /// Told of each task that goes to a worker, and how long it waited. It must return at once.
+  std::function<void(Lane, double seconds)> waited{};
 };
+
+/// Why a worker had to be replaced.
+enum class WorkerEnd {
+  crash,       ///< it ended by itself, or sent what is no message
+  silence,     ///< it said nothing any more, or never became ready
+  notStopping, ///< it went on with work that nobody waited for
+  memory       ///< it used more than it may
+};
+inline constexpr std::size_t kWorkerEnds = 4;
+inline constexpr std::array<std::string_view, kWorkerEnds> kWorkerEndNames{"crash", "silence", "notStopping", "memory"};
 
 /// What the workers are doing.
 struct DispatcherState {
   std::size_t workers = 0;
   std::size_t ready = 0;
-  std::size_t waiting = 0; ///< tasks
-  std::size_t running = 0; ///< tasks
-  std::size_t limit = 0;   ///< tasks that may wait
+  std::size_t waiting = 0;                               ///< tasks
+  std::size_t running = 0;                               ///< tasks
+  std::size_t limit = 0;                                 ///< tasks that may wait
+  std::array<std::size_t, kLanes> waitingByLane{};       ///< tasks
+  std::array<std::size_t, kLanes> runningByLane{};       ///< tasks
+  std::array<std::uint64_t, kWorkerEnds> replacements{}; ///< workers, since the start
 };
 
 /// Workers, and the queue before them. Where the processor draws, but requests may ask for OpenGL, those go to a
@@ -66,6 +84,9 @@ class Dispatcher {
   RendererInfo info() const;
   DispatcherState state() const;
 
+  /// Bytes of memory that all workers have now.
+  std::uint64_t residentBytes() const;
+
   /// The workers' process ids; 0 where one is being replaced.
   std::vector<pid_t> processes() const;
 
@@ -86,8 +107,12 @@ class Dispatcher {
   void answerWish(Slot& slot, const LightMapWish& wish);
   void replaceWorker(Slot& slot);
   void watch();
-  std::optional<Problem> faultOf(const Slot& slot) const;
-  void endWorker(Slot& slot, Problem fault);
+  struct Fault {
+    Problem problem;
+    WorkerEnd end = WorkerEnd::crash;
+  };
+  std::optional<Fault> faultOf(const Slot& slot) const;
+  void endWorker(Slot& slot, Fault fault);
   void placeWaiting();
   bool suits(const Slot& slot, bool needsDriver) const;
   void startSlot(Slot& slot);
@@ -102,6 +127,7 @@ class Dispatcher {
   std::vector<std::unique_ptr<Slot>> slots_;
   std::list<TicketPtr> waiting_; ///< in order of arrival
   std::uint64_t numbers_ = 0;
+  std::array<std::uint64_t, kWorkerEnds> replacements_{};
   double taskMs_ = 0; ///< moving average of what a task takes in a worker
   RendererInfo info_;
   FrameCost costFactors_;           ///< milliseconds for a unit of each part

@@ -36,14 +36,14 @@ struct Dispatcher::Slot {
   bool ready = false;
   Clock::time_point heard; ///< its last sign of life, or its start
   bool isHandled = false;  ///< a message of it is being handled, so that it can't be heard
-  Problem fault{};         ///< why it was killed; no detail = it wasn't
+  Fault fault{};           ///< why it was killed; no detail = it wasn't
   int failures = 0;        ///< in a row, before it was ready
   std::map<std::uint64_t, TicketPtr> running;
   Beat beat;
   std::thread thread;
 
   WorkerView view() const {
-    WorkerView view{.ready = ready && fault.detail.empty()};
+    WorkerView view{.ready = ready && fault.problem.detail.empty()};
     for (const auto& [number, ticket] : running) {
       ++view.running[static_cast<std::size_t>(ticket->task.lane)];
       view.holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;

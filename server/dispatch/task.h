@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
@@ -19,6 +21,7 @@ enum class Lane {
   load         ///< scenes that are uploaded
 };
 inline constexpr std::size_t kLanes = 3;
+inline constexpr std::array<std::string_view, kLanes> kLaneNames{"interactive", "batch", "load"};
 
 /// Work for whichever worker suits it.
 struct Task {
@@ -34,10 +37,18 @@ struct Task {
   std::string client;         ///< who asks: tasks of different clients take turns
 };
 
+/// Why the dispatcher itself refused a task.
+enum class TaskRefusal {
+  none,
+  queue, ///< too many wait
+  memory ///< there is too little for it
+};
+
 /// What became of a task.
 struct TaskResult {
   Outcome outcome;
-  std::optional<FileDescriptor> body; ///< where there are no problems
+  std::optional<FileDescriptor> body{}; ///< where there are no problems
+  TaskRefusal refusal = TaskRefusal::none;
 };
 
 /// Told of a task's events, in order, on the thread that waits for the task.

@@ -64,7 +64,7 @@ void Dispatcher::listen(Slot& slot) {
     if (event == ChannelEvent::timeout) continue;
     if (event == ChannelEvent::packet && take(slot, std::move(packet))) continue;
     const Lock lock(mutex_);
-    if (event != ChannelEvent::ended) endWorker(slot, faultProblem("It sent what is no message."));
+    if (event != ChannelEvent::ended) endWorker(slot, {faultProblem("It sent what is no message."), WorkerEnd::crash});
     return;
   }
 }
@@ -146,8 +146,9 @@ void Dispatcher::replaceWorker(Slot& slot) {
   const std::string how = slot.process->end();
   const Lock lock(mutex_);
   if (!ending_) {
+    ++replacements_[static_cast<std::size_t>(slot.fault.end)];
     logEvent("worker",
-             "Worker " + std::to_string(slot.process->pid()) + " ended with " + how + ". " + slot.fault.detail);
+             "Worker " + std::to_string(slot.process->pid()) + " ended with " + how + ". " + slot.fault.problem.detail);
   }
   if (!slot.ready) ++slot.failures;
   if (!slot.ready && !refusal_) {
@@ -164,7 +165,8 @@ void Dispatcher::replaceWorker(Slot& slot) {
       waiting_.push_front(ticket);
     } else {
       TaskResult result;
-      result.outcome.problems = {endedTwice(slot.fault)};
+      result.outcome.problems = {endedTwice(slot.fault.problem)};
+      if (slot.fault.end == WorkerEnd::memory) result.refusal = TaskRefusal::memory;
       finish(ticket, std::move(result));
     }
   }
@@ -176,32 +178,36 @@ void Dispatcher::watch() {
   Lock lock(mutex_);
   while (!changed_.wait_for(lock, kWatchPause, [&] { return ending_; })) {
     for (const auto& slot : slots_) {
-      if (!slot->process || !slot->fault.detail.empty()) continue;
+      if (!slot->process || !slot->fault.problem.detail.empty()) continue;
       if (auto fault = faultOf(*slot)) endWorker(*slot, *std::move(fault));
     }
   }
 }
 
 /// Why a worker must be replaced. With the mutex held.
-std::optional<Problem> Dispatcher::faultOf(const Slot& slot) const {
+std::optional<Dispatcher::Fault> Dispatcher::faultOf(const Slot& slot) const {
   const auto now = Clock::now();
-  if (!slot.ready && now - slot.heard > kStartPatience) return faultProblem("It did not become ready.");
-  if (slot.ready && !slot.isHandled && now - slot.heard > options_.silence)
-    return faultProblem("It said nothing any more.");
+  if (!slot.ready && now - slot.heard > kStartPatience) {
+    return Fault{faultProblem("It did not become ready."), WorkerEnd::silence};
+  }
+  if (slot.ready && !slot.isHandled && now - slot.heard > options_.silence) {
+    return Fault{faultProblem("It said nothing any more."), WorkerEnd::silence};
+  }
   for (const auto& [number, ticket] : slot.running) {
     if (ticket->calledOff && now - *ticket->calledOff > options_.stopping) {
-      return faultProblem("It did not stop work that nobody waited for.");
+      return Fault{faultProblem("It did not stop work that nobody waited for."), WorkerEnd::notStopping};
     }
   }
   if (options_.each.memoryBytes > 0 && slot.process->residentBytes() > options_.each.memoryBytes) {
-    return Problem{ProblemCode::tooLarge, "", "It used more memory than it may.",
-                   std::to_string(options_.each.memoryBytes) + " bytes", ""};
+    return Fault{{ProblemCode::tooLarge, "", "It used more memory than it may.",
+                  std::to_string(options_.each.memoryBytes) + " bytes", ""},
+                 WorkerEnd::memory};
   }
   return std::nullopt;
 }
 
 /// With the mutex held.
-void Dispatcher::endWorker(Slot& slot, Problem fault) {
+void Dispatcher::endWorker(Slot& slot, Fault fault) {
   slot.fault = std::move(fault);
   slot.process->kill();
 }

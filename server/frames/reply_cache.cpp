@@ -6,6 +6,23 @@ namespace gnomon {
 
 std::shared_ptr<const HttpReply> ReplyCache::find(const std::string& etag) {
   const std::lock_guard lock(mutex_);
+  auto found = lookUp(etag);
+  ++(found ? use_.hits : use_.misses);
+  return found;
+}
+
+std::shared_ptr<const HttpReply> ReplyCache::findAgain(const std::string& etag) {
+  const std::lock_guard lock(mutex_);
+  return lookUp(etag);
+}
+
+CacheUse ReplyCache::use() {
+  const std::lock_guard lock(mutex_);
+  return use_;
+}
+
+/// With the mutex held.
+std::shared_ptr<const HttpReply> ReplyCache::lookUp(const std::string& etag) {
   const auto known = byTag_.find(etag);
   if (known == byTag_.end()) return nullptr;
   entries_.splice(entries_.begin(), entries_, known->second);
@@ -21,11 +38,11 @@ void ReplyCache::keep(const std::string& etag, const HttpReply& reply) {
   kept->headers = {{"Cache-Status", "gnomon; hit"}};
   const std::lock_guard lock(mutex_);
   if (byTag_.contains(etag)) return;
-  bytes_ += kept->body.size();
+  use_.bytes += kept->body.size();
   entries_.push_front({etag, std::move(kept)});
   byTag_[etag] = entries_.begin();
-  while (bytes_ > budget_) {
-    bytes_ -= entries_.back().reply->body.size();
+  while (use_.bytes > budget_) {
+    use_.bytes -= entries_.back().reply->body.size();
     byTag_.erase(entries_.back().etag);
     entries_.pop_back();
   }

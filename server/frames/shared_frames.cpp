@@ -25,7 +25,9 @@ HttpReply SharedFrames::run(const std::string& etag, Clock::time_point deadline,
     const auto flight = found->second; // it leaves the map when it is done
     const auto reply = await(flight, deadline, gone, lock);
     lock.unlock();
-    return reply ? *reply : draw(gone);
+    if (!reply) return draw(gone);
+    ++shared_;
+    return *reply;
   }
   const auto flight = std::make_shared<Flight>();
   flights_[etag] = flight;

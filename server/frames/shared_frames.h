@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,6 +27,9 @@ class SharedFrames {
   HttpReply run(const std::string& etag, Clock::time_point deadline, const Gone& gone,
                 const std::function<HttpReply(const Gone&)>& draw);
 
+  /// Replies that were drawn for another call, since the start.
+  std::uint64_t shared() const { return shared_; }
+
  private:
   struct Flight {
     int joined = 0;
@@ -36,6 +41,7 @@ class SharedFrames {
   std::shared_ptr<const HttpReply> await(const std::shared_ptr<Flight>& flight, Clock::time_point deadline,
                                          const Gone& gone, std::unique_lock<std::mutex>& lock);
 
+  std::atomic<std::uint64_t> shared_{0};
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Flight>> flights_;
 };

@@ -65,8 +65,11 @@ HttpReply postBake(Services& services, RouteCall call) {
   if (!bundle) return problemReply(bundle.problems(), requestId);
   const Permit permit = permitOf(services.bakes);
   if (!permit) {
-    return problemReply({{ProblemCode::busy, "", "The most bakes that may run at once are running.", "", ""}},
-                        requestId, {.retryAfterSeconds = kBakeRetrySeconds});
+    HttpReply refused =
+        problemReply({{ProblemCode::busy, "", "The most bakes that may run at once are running.", "", ""}}, requestId,
+                     {.retryAfterSeconds = kBakeRetrySeconds});
+    refused.refusal = RefusalReason::permits;
+    return refused;
   }
   Task task =
       taskFor(call, OrderKind::bake, id, *std::move(bundle), jsonText(toJson(*spec)), services.evaluationTimeout);

@@ -38,8 +38,11 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   if (!bundle) return problemReply(bundle.problems(), requestId);
   const Permit permit = permitOf(services.evaluations);
   if (!permit) {
-    return problemReply({{ProblemCode::busy, "", "The most evaluations that may run at once are running.", "", ""}},
-                        requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
+    HttpReply refused =
+        problemReply({{ProblemCode::busy, "", "The most evaluations that may run at once are running.", "", ""}},
+                     requestId, {.retryAfterSeconds = kEvaluationRetrySeconds});
+    refused.refusal = RefusalReason::permits;
+    return refused;
   }
   Task task = taskFor(call, OrderKind::evaluation, id, *std::move(bundle), std::move(body), services.evaluationTimeout);
   task.lane = Lane::batch;

@@ -18,17 +18,20 @@ HttpReply eventReply(const RouteCall& call, EventWork work) {
   HttpReply reply;
   reply.contentType = kEventStream;
   reply.headers.emplace_back("X-Accel-Buffering", "no"); // asks proxies to pass events on at once
-  reply.stream = [work = std::move(work), requestId = call.request.id,
+  const auto result = std::make_shared<StreamResult>();
+  reply.streamed = result;
+  reply.stream = [work = std::move(work), result, requestId = call.request.id,
                   clientGone = call.clientGone](const BodySink& sink) {
     constexpr std::chrono::milliseconds kHeartbeat{5'000};
     EventStream events;
     std::atomic<bool> clientLeft = false;
     std::thread working([&] {
       try {
-        work([&] { return clientLeft || clientGone(); }, events);
+        *result = work([&] { return clientLeft || clientGone(); }, events);
       } catch (const std::exception&) {
-        events.put("problem",
-                   problemText({{ProblemCode::internal, "", "An internal error occurred.", "", ""}}, requestId));
+        const Problem problem{ProblemCode::internal, "", "An internal error occurred.", "", ""};
+        result->problem = problem.detail;
+        events.put("problem", problemText({problem}, requestId));
       }
       events.end();
     });

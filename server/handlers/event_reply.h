@@ -8,9 +8,9 @@
 
 namespace gnomon {
 
-/// Work that puts its progress and its result as events. `gone` may be called by any thread; true = nobody listens any
-/// more, and the work should end soon.
-using EventWork = std::function<void(const std::function<bool()>& gone, EventStream& events)>;
+/// Work that puts its progress and its result as events, and returns what became of it. `gone` may be called by any
+/// thread; true = nobody listens any more, and the work should end soon.
+using EventWork = std::function<StreamResult(const std::function<bool()>& gone, EventStream& events)>;
 
 /// A reply of events that are sent while `work` runs, on a thread of its own. An exception becomes an event `problem`.
 HttpReply eventReply(const RouteCall& call, EventWork work);

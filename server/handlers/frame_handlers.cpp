@@ -51,7 +51,11 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   // Settings for a target are found by drawing and measuring many frames.
   const bool hasTarget = frame.spec.quality.has_value();
   if (!hasTarget) {
-    if (auto problem = tooMuchWork(services, estimate)) return problemReply({*std::move(problem)}, call.request.id);
+    if (auto problem = tooMuchWork(services, estimate)) {
+      HttpReply refused = problemReply({*std::move(problem)}, call.request.id);
+      refused.refusal = RefusalReason::cost;
+      return refused;
+    }
   }
   const bool batch = hasTarget || estimate > kLongFrame;
   Task task = taskFor(call, OrderKind::frame, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
@@ -66,7 +70,7 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   };
   if (hasTarget || form.form != ReplyForm::image) return drawn(call.clientGone); // it tells times
   return services.shared.run(etag, task.deadline, call.clientGone, [&](const std::function<bool()>& gone) {
-    if (const auto kept = services.replies.find(etag)) return *kept; // drawn since we looked
+    if (const auto kept = services.replies.findAgain(etag)) return *kept; // drawn since we looked
     HttpReply reply = drawn(gone);
     services.replies.keep(etag, reply);
     return reply;
@@ -102,10 +106,11 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const std::string etag = frameEtag(frame.sceneId, frame.spec, services.workers.info().fingerprint, *form);
 
   HttpReply reply;
+  const bool mayBeKept = request.method != "HEAD" && form->form == ReplyForm::image && !frame.spec.quality;
   const auto known = headerValue(request.headers, "if-none-match");
   if (known && !frame.spec.quality && etagMatches(*known, etag)) {
     reply.status = 304;
-  } else if (const auto kept = request.method == "HEAD" ? nullptr : services.replies.find(etag)) {
+  } else if (const auto kept = mayBeKept ? services.replies.find(etag) : nullptr) {
     reply = *kept;
   } else {
     reply = request.method == "HEAD" ? check(services, call, frame, *form) : draw(services, call, frame, *form, etag);

@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <semaphore>
+#include <string>
 #include <vector>
 
 #include "protocol/spec/limits.h"
@@ -29,7 +31,8 @@ struct Services {
   BakeBook bakeBook{};
   SharedFrames shared{};
   ReplyCache replies{0};
-  std::atomic<bool> draining = false; ///< true from the first signal on; readyz reports it
+  std::function<std::string()> metrics{}; ///< the text of GET /metrics
+  std::atomic<bool> draining = false;     ///< true from the first signal on; readyz reports it
 };
 
 HttpReply postScene(Services& services, RouteCall call);   ///< POST /v1/scenes

@@ -11,6 +11,7 @@
 #include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
+#include "server/metrics/metrics_text.h"
 
 namespace gnomon {
 namespace {
@@ -52,6 +53,27 @@ HttpReply getReadyz(Services& services, RouteCall call) {
     return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
   }
   return probeReply("ready\n");
+}
+
+HttpReply getMetrics(Services& services, RouteCall) {
+  HttpReply reply;
+  reply.contentType = metrics::kTextFormat;
+  reply.body = services.metrics();
+  reply.headers.emplace_back("Cache-Control", "no-store");
+  return reply;
+}
+
+/// A route whose handler sees the services, and takes no body.
+Route plainRoute(Services& services, const char* path, Scope scope, HttpReply (*handler)(Services&, RouteCall)) {
+  return {"GET", path, scope,
+          {},    {},   [&services, handler](RouteCall call) {
+            return handler(services, std::move(call)); }};
+}
+
+Route probeRoute(Services& services, const char* path, HttpReply (*handler)(Services&, RouteCall)) {
+  Route route = plainRoute(services, path, Scope::none, handler);
+  route.probe = true;
+  return route;
 }
 
 /// A handler for one file of the web page.
@@ -119,7 +141,7 @@ std::optional<Problem> refuseContent(const Route& route, const HttpRequest& requ
 
 } // namespace
 
-std::vector<Route> makeRoutes(Services& services) {
+std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
   const BodyRule none;
   const BodyRule json{BodyRule::Framing::length, services.limits.maxSpecBytes};
   constexpr std::size_t kFormFraming = 1 << 20; // boundaries and part headers
@@ -144,19 +166,25 @@ std::vector<Route> makeRoutes(Services& services) {
       {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake)},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
       {"POST", "/v1/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderOnce)},
-      {"GET", "/v1/capabilities", Scope::read, none, {}, bind(getCapabilities)},
-      {"GET", "/openapi.json", Scope::none, none, {}, bind(getOpenApi)},
-      {"GET", "/livez", Scope::none, none, {}, bind(getLivez), true},
-      {"GET", "/readyz", Scope::none, none, {}, bind(getReadyz), true},
+      plainRoute(services, "/v1/capabilities", Scope::read, getCapabilities),
+      plainRoute(services, "/openapi.json", Scope::none, getOpenApi),
+      probeRoute(services, "/livez", getLivez),
+      probeRoute(services, "/readyz", getReadyz),
   };
+  if (addresses == Addresses::one) routes.push_back(plainRoute(services, "/metrics", Scope::admin, getMetrics));
   for (const StaticFile& file : services.page) {
-    routes.push_back({"GET", std::string(file.path), Scope::none, none, {}, pageHandler(file)});
+    routes.push_back({"GET", std::string(file.path), Scope::none, none, {}, pageHandler(file), false, false, "page"});
   }
   return routes;
 }
 
-HttpService makeService(Services& services) {
-  const auto router = std::make_shared<const Router>(makeRoutes(services));
+std::vector<Route> makeAdminRoutes(Services& services) {
+  return {plainRoute(services, "/metrics", Scope::admin, getMetrics), probeRoute(services, "/livez", getLivez),
+          probeRoute(services, "/readyz", getReadyz)};
+}
+
+HttpService makeService(std::vector<Route> routes) {
+  const auto router = std::make_shared<const Router>(std::move(routes));
   return [router](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
     auto found = findRoute(*router, head);
     if (auto* refused = std::get_if<HttpReply>(&found)) {
@@ -164,11 +192,18 @@ HttpService makeService(Services& services) {
     }
     auto& match = std::get<RouteMatch>(found);
     const Route& route = *match.route;
+    const std::string& name = route.name.empty() ? route.pattern : route.name;
     if (auto problem = refuseContent(route, head)) {
-      return problemReply({*std::move(problem)}, head.id);
+      HttpReply refused = problemReply({*std::move(problem)}, head.id);
+      refused.route = name;
+      return refused;
     }
     // The handler keeps the router, whose route it calls.
-    return RequestHandler{route.body, route.scope, route.takesSignature, route.probe,
+    return RequestHandler{route.body,
+                          route.scope,
+                          route.takesSignature,
+                          name,
+                          route.probe,
                           [router, &route, values = std::move(match.values)](HttpRequest request,
                                                                              const std::function<bool()>& clientGone) {
                             return route.handler({std::move(request), values, clientGone});

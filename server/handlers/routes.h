@@ -6,10 +6,19 @@
 
 namespace gnomon {
 
-/// Every route that the server has. `services` outlives them.
-std::vector<Route> makeRoutes(Services& services);
+/// Where a server tells how it is.
+enum class Addresses {
+  one, ///< beside everything else
+  two  ///< at an address of its own; probes are answered at both
+};
+
+/// Every route for clients. `services` outlives them.
+std::vector<Route> makeRoutes(Services& services, Addresses addresses = Addresses::one);
+
+/// The routes of the second address.
+std::vector<Route> makeAdminRoutes(Services& services);
 
 /// What connections call: finds the route, checks the type of the body, and refuses other requests.
-HttpService makeService(Services& services);
+HttpService makeService(std::vector<Route> routes);
 
 } // namespace gnomon

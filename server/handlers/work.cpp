@@ -27,6 +27,12 @@ std::optional<int> preferredWait(const HttpRequest& request) {
   return std::nullopt;
 }
 
+RefusalReason refusalOf(TaskRefusal refusal) {
+  return refusal == TaskRefusal::queue    ? RefusalReason::queue
+         : refusal == TaskRefusal::memory ? RefusalReason::memory
+                                          : RefusalReason::none;
+}
+
 } // namespace
 
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
@@ -91,6 +97,7 @@ HttpReply replyOf(TaskResult result, std::string_view requestId) {
   if (!outcome.problems.empty()) {
     HttpReply reply = problemReply(outcome.problems, requestId, {.retryAfterSeconds = outcome.retryAfterSeconds});
     reply.note = std::move(outcome.note);
+    reply.refusal = refusalOf(result.refusal);
     return reply;
   }
   HttpReply reply;
@@ -109,7 +116,14 @@ HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork
   return eventReply(call, [work = std::move(work), requestId = call.request.id](const std::function<bool()>& gone,
                                                                                 EventStream& events) {
     const TaskResult result = work(gone, [&](const OrderEvent& event) { events.put(event.name, event.data); });
-    if (!result.outcome.problems.empty()) events.put("problem", problemText(result.outcome.problems, requestId));
+    StreamResult told{.stages = result.outcome.stages, .refusal = refusalOf(result.refusal)};
+    if (!result.outcome.problems.empty()) {
+      const Problem& first = result.outcome.problems.front();
+      told.problem = first.detail;
+      if (told.refusal == RefusalReason::none) told.refusal = refusalOfStatus(statusOf(first.code));
+      events.put("problem", problemText(result.outcome.problems, requestId));
+    }
+    return told;
   });
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "server/http/client_watch.h"
-#include "server/http/request_log.h"
 #include "server/http/socket_io.h"
 #include "server/system/log.h"
 
@@ -14,6 +13,18 @@ namespace gnomon {
 namespace {
 
 constexpr int kStatusClientLeft = 499; ///< in the log alone: there is nobody to send it to
+
+/// Counts one more while it lives.
+class Counted {
+ public:
+  explicit Counted(std::atomic<std::size_t>& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::atomic<std::size_t>& count_;
+};
 
 class Connection {
  public:
@@ -44,6 +55,7 @@ class Connection {
 
   /// False after the connection's last reply.
   bool serveOne(std::size_t headBytes) {
+    const Counted counted(context_.inProgress);
     RequestRecord record;
     record.client = connection_.peer.text;
     record.start = connection_.arrived;
@@ -63,15 +75,18 @@ class Connection {
 
     auto found = context_.service(*request);
     if (auto* refused = std::get_if<HttpReply>(&found)) {
+      record.route = refused->route;
       return send(std::move(*refused), record, mayKeep(*head) && !head->hasBody(), bodyless);
     }
     const auto& handler = std::get<RequestHandler>(found);
+    record.route = handler.route;
     HttpReply reply;
     {
       ByteLease lease(context_.bodyBytes);
       if (auto problem = receiveBody(*head, handler.body, *request, lease)) {
-        return send(problemReply({*std::move(problem)}, record.id, {.read = RequestPart::body}), record, false,
-                    bodyless);
+        HttpReply refused = problemReply({*problem}, record.id, {.read = RequestPart::body});
+        if (problem->code == ProblemCode::busy) refused.refusal = RefusalReason::memory; // which other bodies use
+        return send(std::move(refused), record, false, bodyless);
       }
       record.requestBytes = request->body.size();
       watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
@@ -129,7 +144,7 @@ class Connection {
       record.delivered = false;
       reply.status = kStatusClientLeft;
       reply.problem.clear();
-      logRequest(record, reply);
+      context_.ended(record, reply);
       return false;
     }
     constexpr std::size_t kSmall = 64 * 1024; // problems and probes need no room
@@ -140,6 +155,7 @@ class Connection {
                              "Replies that other clients are taking use all the memory for replies.", "", ""}},
                            record.id);
       reply.headers.emplace_back("Retry-After", "1");
+      reply.refusal = RefusalReason::memory;
     }
     return send(std::move(reply), record, keepAlive, bodyless);
   }
@@ -161,7 +177,8 @@ class Connection {
       sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace);
     }
     record.delivered = sent;
-    logRequest(record, reply);
+    record.replyBytes = withBody && sent ? reply.body.size() : 0;
+    context_.ended(record, reply);
     return sent && keepAlive;
   }
 
@@ -170,16 +187,24 @@ class Connection {
     watch_->beginStream();
     const auto sink = [&](std::string_view bytes) {
       record.delivered = record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace);
+      record.replyBytes += record.delivered ? bytes.size() : 0;
       return record.delivered;
     };
-    if (sink(replyHead(reply, record.id, false))) {
+    const bool begun = sink(replyHead(reply, record.id, false));
+    record.replyBytes = 0; // counts the body alone
+    if (begun) {
       try {
         reply.stream(sink);
       } catch (const std::exception& error) {
         reply.note = error.what(); // its status is sent already: the body ends early
       }
     }
-    logRequest(record, reply);
+    if (reply.streamed) {
+      reply.stages = reply.streamed->stages;
+      reply.problem = reply.streamed->problem;
+      reply.refusal = reply.streamed->refusal;
+    }
+    context_.ended(record, reply);
     return false;
   }
 
@@ -190,6 +215,11 @@ class Connection {
 };
 
 } // namespace
+
+void ConnectionContext::ended(const RequestRecord& record, const HttpReply& reply) const noexcept {
+  logRequest(record, reply);
+  if (observer != nullptr) observer->ended(record, reply);
+}
 
 std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context) noexcept {
   try {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <variant>
@@ -8,6 +9,7 @@
 #include "server/http/open_connection.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
+#include "server/http/request_log.h"
 
 namespace gnomon {
 
@@ -16,6 +18,7 @@ struct RequestHandler {
   BodyRule body;
   Scope scope = Scope::none;   ///< what a key must allow, where the server has keys
   bool takesSignature = false; ///< a signed address does instead of a key (signed_target.h)
+  std::string route{};         ///< its name for metrics: one of a fixed few, whatever clients send
   bool isProbe = false;        ///< answered however busy everything else is: it reads a few atomics and returns
 
   /// The reply. `clientGone` may be called at any time, by any thread that the handler waits for.
@@ -38,13 +41,25 @@ struct ConnectionLimits {
   std::size_t maxWaiting = 2'048; ///< connections that have no request to serve
 };
 
+/// Told of each request as it ends, on the thread that served it.
+class RequestObserver {
+ public:
+  virtual ~RequestObserver() = default;
+  virtual void ended(const RequestRecord& record, const HttpReply& reply) noexcept = 0;
+};
+
 /// What all connections of a server share. Outlives them.
 struct ConnectionContext {
   HttpService service;
   ConnectionLimits limits;
-  ByteBudget bodyBytes;  ///< bodies that are read, or that their handlers work on
-  ByteBudget replyBytes; ///< bodies of replies that are being sent; one alone may be larger
-  StopSignal stop;       ///< once raised: no further request is read, the running one is answered
+  ByteBudget bodyBytes;                   ///< bodies that are read, or that their handlers work on
+  ByteBudget replyBytes;                  ///< bodies of replies that are being sent; one alone may be larger
+  StopSignal stop;                        ///< once raised: no further request is read, the running one is answered
+  RequestObserver* observer = nullptr;    ///< outlives the context; nullptr = nobody
+  std::atomic<std::size_t> inProgress{0}; ///< requests that have a thread
+
+  /// A request's end: its line in the log, and the observer's.
+  void ended(const RequestRecord& record, const HttpReply& reply) const noexcept;
 };
 
 /// Answers the requests whose heads have come whole. What comes back waits for the next one, or is ending; nothing

@@ -5,6 +5,11 @@
 
 namespace gnomon {
 
+std::string addressOf(const std::string& bind, int port) {
+  const bool ipv6 = bind.find(':') != std::string::npos;
+  return "http://" + (ipv6 ? "[" + bind + "]" : bind) + ":" + std::to_string(port);
+}
+
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& options, ConnectionContext& context) {
   auto listener = Listener::open(options.bind, options.port);
   if (!listener) {

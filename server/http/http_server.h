@@ -16,6 +16,9 @@ struct HttpServerOptions {
   std::size_t perClient = 96; ///< of these for one client's address; beyond them it gets 429
 };
 
+/// "http://127.0.0.1:8080".
+std::string addressOf(const std::string& bind, int port);
+
 /// Listens, accepts, and hands connections to the lobby.
 class HttpServer {
  public:

@@ -283,8 +283,9 @@ void Lobby::sendLast(Guest& guest, RequestRecord& record, const HttpReply& reply
   record.client = connection.peer.text;
   const std::string text = replyHead(reply, record.id, false) + (bodyless ? "" : reply.body);
   record.delivered = sendNow(connection.socket.get(), text); // it fits the socket's buffer, or the client reads nothing
+  record.replyBytes = record.delivered && !bodyless ? reply.body.size() : 0;
   ::shutdown(connection.socket.get(), SHUT_WR);
-  logRequest(record, reply);
+  context_.ended(record, reply);
   connection.ending = true;
   connection.received = {};
   guest.isReady = false;

@@ -52,18 +52,22 @@ class OriginCheck {
     if (handler != nullptr && handler->isProbe) {
       return found;
     }
+    const auto refuse = [&](Problem problem) {
+      HttpReply reply = problemReply({std::move(problem)}, request.id);
+      reply.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
+      reply.refusal = RefusalReason::origin;
+      return reply;
+    };
     const std::string host = lowerCase(headerValue(request.headers, "host").value_or(""));
     if (!isKnownHost(host)) {
-      return problemReply({{ProblemCode::misdirected, "Host", "This server is not known by this name.",
-                            "an address, localhost, or a name of --allowed-hosts", asciiExcerpt(host)}},
-                          request.id);
+      return refuse({ProblemCode::misdirected, "Host", "This server is not known by this name.",
+                     "an address, localhost, or a name of --allowed-hosts", asciiExcerpt(host)});
     }
     const std::string origin = lowerCase(headerValue(request.headers, "origin").value_or(""));
     const bool isAllowed = !origin.empty() && isListed(rules_.allowedOrigins, origin);
     if (!isAllowed && isCrossSite(request, host, origin)) {
-      return problemReply({{ProblemCode::forbidden, "Origin", "Pages of this origin may not send this request.",
-                            "the server's own page, or an origin of --allowed-origins", asciiExcerpt(origin)}},
-                          request.id);
+      return refuse({ProblemCode::forbidden, "Origin", "Pages of this origin may not send this request.",
+                     "the server's own page, or an origin of --allowed-origins", asciiExcerpt(origin)});
     }
     if (rules_.allowedOrigins.empty()) {
       return found;

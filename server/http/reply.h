@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -12,11 +13,19 @@
 #include "protocol/base/result.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
+#include "server/http/refusal.h"
 
 namespace gnomon {
 
 /// Sends a piece of a body at once; false = the client is gone, and nothing more need be made.
 using BodySink = std::function<bool(std::string_view)>;
+
+/// What became of a stream, for the log and for metrics. Written before the stream ends, and read after it.
+struct StreamResult {
+  std::vector<StageTime> stages{};
+  std::string problem{}; ///< the first problem's detail, where it ended with one
+  RefusalReason refusal = RefusalReason::none;
+};
 
 /// One reply. Content-Length, Connection, X-Request-ID, Date and the safety headers are added when it is sent.
 struct HttpReply {
@@ -25,12 +34,15 @@ struct HttpReply {
   std::string body;
   /// Instead of `body`: makes it while it is sent, on the connection's thread. The end of the connection marks its end.
   std::function<void(const BodySink&)> stream;
+  std::shared_ptr<const StreamResult> streamed; ///< of `stream`; nullptr = nothing is known of it
   std::vector<std::pair<std::string, std::string>> headers;
   bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent
   std::vector<StageTime> stages; ///< for the log
   std::string key;               ///< for the log: the name of the key that the client has
   std::string problem;           ///< for the log: the first problem's detail, as the client reads it
-  std::string note;              ///< for the log alone: an internal cause, which no client may read
+  std::string route;             ///< for metrics: that of RequestHandler, where the reply is a refusal of it
+  RefusalReason refusal = RefusalReason::none; ///< for metrics
+  std::string note;                            ///< for the log alone: an internal cause, which no client may read
 };
 
 /// Status line and headers, with the closing empty line. Safety headers are added unless the reply has its own:

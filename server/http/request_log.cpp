@@ -30,7 +30,7 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
             {"target", readableTarget(record.target)},
             {"status", reply.status},
             {"requestBytes", record.requestBytes},
-            {"replyBytes", reply.body.size()},
+            {"replyBytes", record.replyBytes},
             {"milliseconds", milliseconds}};
   if (!reply.key.empty()) {
     line["key"] = reply.key;

@@ -13,9 +13,11 @@ struct RequestRecord {
   std::string id;
   std::string client; ///< its address
   std::string method;
-  std::string target; ///< as it came; in the log shortened, and without a signature
+  std::string target;  ///< as it came; in the log shortened, and without a signature
+  std::string route{}; ///< RequestHandler::route; empty = none was found
   std::size_t requestBytes = 0;
-  bool delivered = true; ///< false = the client was gone before the whole reply was sent
+  std::size_t replyBytes = 0; ///< of its body, as far as it was sent
+  bool delivered = true;      ///< false = the client was gone before the whole reply was sent
   Clock::time_point start = Clock::now();
 };
 

@@ -33,6 +33,7 @@ struct Route {
   std::function<HttpReply(RouteCall)> handler;
   bool probe = false;          ///< answered however busy everything else is
   bool takesSignature = false; ///< a signed address does instead of a key
+  std::string name{};          ///< for metrics; empty = its pattern
 };
 
 /// The route of a request.

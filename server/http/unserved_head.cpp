@@ -21,6 +21,7 @@ std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::st
   told.bodyless = request->method == "HEAD";
   auto found = service(*request);
   const auto* handler = std::get_if<RequestHandler>(&found);
+  record.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
   if (handler != nullptr && handler->isProbe) {
     told.reply = handler->answer(*std::move(request), [] { return false; });
     return told;
@@ -29,6 +30,7 @@ std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::st
     return std::nullopt;
   }
   told.reply = problemReply({*refusal}, record.id);
+  told.reply.refusal = refusal->code == ProblemCode::busy ? RefusalReason::address : RefusalReason::threads;
   if (told.reply.status != 429) { // which has it already
     told.reply.headers.emplace_back("Retry-After", "1");
   }

@@ -21,7 +21,10 @@
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
+#include "server/metrics/metrics_text.h"
+#include "server/process/admin_address.h"
 #include "server/process/memory_plan.h"
+#include "server/process/snapshot.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/heaps.h"
@@ -98,11 +101,6 @@ void raiseDescriptorLimit() {
   }
 }
 
-std::string addressOf(const std::string& bind, int port) {
-  const bool ipv6 = bind.find(':') != std::string::npos;
-  return "http://" + (ipv6 ? "[" + bind + "]" : bind) + ":" + std::to_string(port);
-}
-
 [[noreturn]] void endNow(const char* why) {
   logEvent("ended", why);
   flushLog(kLogPatience);
@@ -149,7 +147,8 @@ int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer&
 }
 
 /// What all workers may keep together is shared out.
-DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps) {
+DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps,
+                                    metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
   const std::size_t workers = options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memory);
   return {.program = options.workerProgram,
@@ -167,7 +166,8 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                    .maxSceneBytes = options.maxSceneBytes,
                    .memoryBytes = workerBytes(options, workers, memory),
                    .keepsLightMaps = lightMaps != nullptr},
-          .lightMaps = lightMaps};
+          .lightMaps = lightMaps,
+          .waited = [&counted](Lane lane, double seconds) { counted.waited(lane, seconds); }};
 }
 
 } // namespace
@@ -196,7 +196,8 @@ int serve(const ServeOptions& options) {
   if (!store) {
     return failed(store.problems());
   }
-  auto workers = Dispatcher::start(dispatcherOptions(options, lightMaps));
+  metrics::RequestMetrics counted;
+  auto workers = Dispatcher::start(dispatcherOptions(options, lightMaps, counted));
   if (!workers) {
     return failed(workers.problems());
   }
@@ -210,20 +211,28 @@ int serve(const ServeOptions& options) {
                     .replies = ReplyCache(options.replyCacheBytes)};
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
-  HttpService service = makeService(services);
+  HttpService service = makeService(makeRoutes(services, options.adminPort ? Addresses::two : Addresses::one));
   if (keys) service = withAccessCheck(std::move(service), keys);
   ConnectionContext context{
       withOriginCheck(std::move(service), {options.allowedHosts, options.allowedOrigins, options.bind}),
       connections,
       ByteBudget(options.uploadMemoryBytes),
       ByteBudget(options.replyMemoryBytes),
-      {}};
+      {},
+      &counted};
+  services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };
   const std::size_t perClient = options.maxConnectionsPerAddress > 0
                                     ? options.maxConnectionsPerAddress
                                     : std::max<std::size_t>(options.httpThreads * 3 / 4, 1);
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads, perClient}, context);
   if (!server) {
     return failed(server.problems());
+  }
+  std::unique_ptr<AdminAddress> admin;
+  if (options.adminPort) {
+    auto opened = AdminAddress::open({options.adminBind, *options.adminPort, options.allowedHosts}, services, counted);
+    if (!opened) return failed(opened.problems());
+    admin = *std::move(opened);
   }
   const std::string address = addressOf(options.bind, (*server)->port());
   logEvent("listening", address);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,11 @@ struct ServeOptions {
   std::string bind = "127.0.0.1";        ///< address to listen on; "0.0.0.0" = every IPv4 address, "::" = every address
   std::vector<std::string> allowedHosts; ///< names by which clients may reach it (origin_check.h); 421 for others
   std::vector<std::string> allowedOrigins; ///< pages of other servers that may use this one; 403 for others' requests
-  std::string keysFile;       ///< keys of clients (access_key.h), read again on SIGHUP; empty = anyone may do anything
-  int port = 8080;            ///< 0..65535; 0 = any free one, which is printed
-  std::string storeDirectory; ///< where scenes are kept over a restart; created where missing; empty = memory only
+  std::string keysFile; ///< keys of clients (access_key.h), read again on SIGHUP; empty = anyone may do anything
+  int port = 8080;      ///< 0..65535; 0 = any free one, which is printed
+  std::string adminBind = "127.0.0.1"; ///< address of adminPort
+  std::optional<int> adminPort; ///< 0..65535: /metrics is served here alone, and probes; 0 = any free one, in the log
+  std::string storeDirectory;   ///< where scenes are kept over a restart; created where missing; empty = memory only
 
   // Workers and what draws in them
   std::size_t workers = 0;                      ///< processes that draw; 0 = a quarter of the cores, and at least two

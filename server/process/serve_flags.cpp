@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 31);
+static_assert(memberCount<ServeOptions>() == 33);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -21,6 +21,20 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--port", options.port, "Port to listen on; 0 = any free one, which is printed")
       ->envname("GNOMON_LISTEN_PORT")
       ->check(CLI::Range(0, 65535))
+      ->group("Address and storage");
+  auto* adminPort = serve
+                        .add_option("--admin-port", options.adminPort,
+                                    "Port of a second address, which alone serves /metrics, and probes; 0 = any free "
+                                    "one, which the log tells. Without it /metrics is served with all else")
+                        ->envname("GNOMON_ADMIN_LISTEN_PORT")
+                        ->check(CLI::Range(0, 65535))
+                        ->type_name("INT")
+                        ->default_str("")
+                        ->group("Address and storage");
+  serve.add_option("--admin-bind", options.adminBind, "Address of --admin-port, which asks nobody for a key")
+      ->envname("GNOMON_ADMIN_BIND")
+      ->type_name("ADDRESS")
+      ->needs(adminPort)
       ->group("Address and storage");
   const auto addNames = [&serve](const char* flag, const char* variable, std::vector<std::string>& names,
                                  const char* what, const char* says) {

@@ -84,6 +84,18 @@ std::vector<std::string> SceneDirectory::ids() const {
   return found;
 }
 
+StoreUse SceneDirectory::use() const {
+  StoreUse use;
+  for (const std::string& id : ids()) {
+    std::error_code gone; // another process may have removed it
+    const std::uintmax_t bytes = fs::file_size(pathOf(id, kBundle), gone);
+    if (gone) continue;
+    ++use.scenes;
+    use.bytes += bytes;
+  }
+  return use;
+}
+
 bool SceneDirectory::contains(const std::string& id) const {
   return ::access(pathOf(id, kBundle).c_str(), R_OK) == 0;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "server/scenes/store_use.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -17,6 +18,7 @@ class SceneDirectory {
   static Result<SceneDirectory> open(const std::string& path);
 
   std::vector<std::string> ids() const; ///< ascending
+  StoreUse use() const;                 ///< reads the whole directory
   bool contains(const std::string& id) const;
 
   /// Writes the bundle's bytes and its summary through to the disk. Problems: insufficientStorage where it is full,

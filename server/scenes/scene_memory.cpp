@@ -46,6 +46,11 @@ std::vector<std::string> SceneMemory::ids() const {
   return all;
 }
 
+StoreUse SceneMemory::use() const {
+  const std::lock_guard lock(mutex_);
+  return {entries_.size(), bytes_};
+}
+
 bool SceneMemory::remove(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto known = find(id);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/scenes/store_use.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -26,6 +27,7 @@ class SceneMemory {
   BundlePtr bundle(const std::string& id); ///< and marks it as used; nullptr = there is none
   std::optional<std::string> summary(const std::string& id) const;
   std::vector<std::string> ids() const; ///< ascending
+  StoreUse use() const;
   bool remove(const std::string& id);
 
  private:

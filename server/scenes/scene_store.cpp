@@ -54,6 +54,10 @@ std::vector<std::string> SceneStore::ids() {
   return directory_ ? directory_->ids() : memory_.ids();
 }
 
+StoreUse SceneStore::use() const {
+  return directory_ ? directory_->use() : memory_.use();
+}
+
 std::optional<std::string> SceneStore::summary(const std::string& id) const {
   if (!directory_) return memory_.summary(id);
   auto text = directory_->readSummary(id);

@@ -42,6 +42,7 @@ class SceneStore {
 
   bool contains(const std::string& id);
   std::vector<std::string> ids(); ///< ascending
+  StoreUse use() const;
 
   /// What the scene holds, as JSON; nothing where it is missing, damaged, or of another version.
   std::optional<std::string> summary(const std::string& id) const;

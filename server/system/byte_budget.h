@@ -15,6 +15,11 @@ class ByteBudget {
 
   std::size_t total() const { return total_; }
 
+  std::size_t used() const {
+    const std::lock_guard lock(mutex_);
+    return total_ - left_;
+  }
+
   bool take(std::size_t bytes) { return takeBy(bytes, Clock::time_point::min()); }
 
   /// Waits until there are so many; false where the deadline comes first.
@@ -38,7 +43,7 @@ class ByteBudget {
 
  private:
   const std::size_t total_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable freed_;
   std::size_t left_;
 };

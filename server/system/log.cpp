@@ -46,11 +46,17 @@ void LineWriter::put(std::string_view line) {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() + line.size() + 1 > mostBytes_) {
       ++dropped_;
+      ++droppedInAll_;
       return;
     }
     waiting_.append(line).push_back('\n');
   }
   changed_.notify_all();
+}
+
+std::uint64_t LineWriter::dropped() {
+  const std::lock_guard lock(mutex_);
+  return droppedInAll_;
 }
 
 bool LineWriter::flush(Clock::time_point deadline) {
@@ -124,6 +130,10 @@ void logEvent(std::string_view event, std::string_view detail) noexcept {
     standardError().put(eventLine(event, detail));
   } catch (...) {
   }
+}
+
+std::uint64_t logLinesDropped() noexcept {
+  return standardError().dropped();
 }
 
 void flushLog(std::chrono::milliseconds patience) noexcept {

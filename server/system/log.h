@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -27,6 +28,9 @@ class LineWriter {
   /// Takes one line, without its end, or drops it.
   void put(std::string_view line);
 
+  /// Lines that were dropped since the start.
+  std::uint64_t dropped();
+
   /// Waits until everything is written; false where the deadline came first.
   bool flush(Clock::time_point deadline);
 
@@ -39,7 +43,8 @@ class LineWriter {
   StopSignal stop_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::string waiting_;     ///< lines, each with its end
+  std::string waiting_; ///< lines, each with its end
+  std::uint64_t droppedInAll_ = 0;
   std::size_t dropped_ = 0; ///< lines since the last that was taken
   bool writing_ = false;    ///< lines that no longer wait are not written yet
   bool stopping_ = false;
@@ -54,6 +59,9 @@ void logLine(std::string_view line) noexcept;
 
 /// One line about the server itself: {"time": …, "event": …, "detail": …}. Never throws, never waits.
 void logEvent(std::string_view event, std::string_view detail) noexcept;
+
+/// Lines of the log that were dropped, since nobody read it.
+std::uint64_t logLinesDropped() noexcept;
 
 /// Before the process ends: gives the log's reader this long to take what still waits.
 void flushLog(std::chrono::milliseconds patience) noexcept;

@@ -48,13 +48,26 @@ TEST(OpenApi, HasEveryRoute) {
   forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json&) {
     operations.insert(method + " " + path);
   });
-  EXPECT_EQ(operations,
-            (std::set<std::string>{
-                "post /v1/scenes", "get /v1/scenes", "put /v1/scenes/{id}", "get /v1/scenes/{id}",
-                "head /v1/scenes/{id}", "delete /v1/scenes/{id}", "post /v1/scenes/{id}/frames",
-                "get /v1/scenes/{id}/frame", "post /v1/scenes/{id}/plan", "post /v1/scenes/{id}/evaluations",
-                "post /v1/scenes/{id}/bakes", "get /v1/scenes/{id}/bakes/{key}", "delete /v1/scenes/{id}/bakes/{key}",
-                "post /v1/render", "get /v1/capabilities", "get /openapi.json", "get /livez", "get /readyz", "get /"}));
+  EXPECT_EQ(operations, (std::set<std::string>{"post /v1/scenes",
+                                               "get /v1/scenes",
+                                               "put /v1/scenes/{id}",
+                                               "get /v1/scenes/{id}",
+                                               "head /v1/scenes/{id}",
+                                               "delete /v1/scenes/{id}",
+                                               "post /v1/scenes/{id}/frames",
+                                               "get /v1/scenes/{id}/frame",
+                                               "post /v1/scenes/{id}/plan",
+                                               "post /v1/scenes/{id}/evaluations",
+                                               "post /v1/scenes/{id}/bakes",
+                                               "get /v1/scenes/{id}/bakes/{key}",
+                                               "delete /v1/scenes/{id}/bakes/{key}",
+                                               "post /v1/render",
+                                               "get /v1/capabilities",
+                                               "get /openapi.json",
+                                               "get /livez",
+                                               "get /readyz",
+                                               "get /metrics",
+                                               "get /"}));
 }
 
 TEST(OpenApi, EveryOperationHasItsOwnIdASummaryAndAGoodReply) {

@@ -101,6 +101,19 @@ TEST_F(DispatcherTest, ATaskThatDoesNotStopCostsItsWorker) {
   EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
   while (dispatcher->state().ready == 0) std::this_thread::sleep_for(1ms);
   while (dispatcher->processes().at(0) == before) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(dispatcher->state().replacements, (std::array<std::uint64_t, kWorkerEnds>{0, 0, 1, 0}));
+}
+
+TEST_F(DispatcherTest, TellsHowLongEachTaskWaited) {
+  std::atomic<int> told = 0;
+  const auto dispatcher = start(1, {.waited = [&](Lane lane, double seconds) {
+                                  EXPECT_EQ(lane, Lane::interactive);
+                                  EXPECT_GE(seconds, 0);
+                                  ++told;
+                                }});
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+  EXPECT_EQ(told, 3);
+  EXPECT_GT(dispatcher->residentBytes(), 1u << 20);
 }
 
 TEST_F(DispatcherTest, WhoLeavesIsNotWaitedFor) {

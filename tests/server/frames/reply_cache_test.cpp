@@ -34,6 +34,18 @@ TEST(ReplyCache, DropsTheLeastRecentlyUsed) {
   EXPECT_FALSE(cache.find("b"));
 }
 
+TEST(ReplyCache, TellsOfHowMuchUseItIs) {
+  ReplyCache cache(1000);
+  cache.find("a");
+  cache.findAgain("a");
+  cache.keep("a", picture(100));
+  cache.find("a");
+  cache.find("a");
+  EXPECT_EQ(cache.use().bytes, 100u);
+  EXPECT_EQ(cache.use().hits, 2u);
+  EXPECT_EQ(cache.use().misses, 1u) << "who looks again has been counted";
+}
+
 TEST(ReplyCache, KeepsNoProblemsAndNothingLarge) {
   ReplyCache cache(1000);
   cache.keep("large", picture(126));

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <prometheus/metric_family.h>
+#include <vector>
+
+#include "protocol/report/replies.h"
+#include "server/dispatch/dispatcher.h"
+#include "server/frames/reply_cache.h"
+#include "server/metrics/process_use.h"
+#include "server/scenes/store_use.h"
+
+namespace gnomon::metrics {
+
+/// Bytes of a budget.
+struct BudgetUse {
+  std::size_t used = 0;
+  std::size_t limit = 0;
+};
+
+/// What the server is like at one moment.
+struct Snapshot {
+  DispatcherState workers;
+  std::uint64_t workerBytes = 0; ///< memory of all workers
+  std::size_t requestsInProgress = 0;
+  std::size_t threads = 0; ///< requests that may be in progress
+  BudgetUse uploads;
+  BudgetUse replies;
+  CacheUse cache;
+  std::size_t cacheLimit = 0; ///< bytes
+  std::uint64_t framesShared = 0;
+  StoreUse store;
+  std::uint64_t logLinesDropped = 0;
+  bool draining = false;
+  ProcessUse process;
+  std::string version;
+  RendererInfo renderer;
+};
+
+/// Its metrics, by one table.
+std::vector<prometheus::MetricFamily> readingsOf(const Snapshot& snapshot);
+
+} // namespace gnomon::metrics

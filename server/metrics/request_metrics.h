@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <prometheus/metric_family.h>
+#include <vector>
+
+#include "server/dispatch/task.h"
+#include "server/http/connection.h"
+
+namespace gnomon::metrics {
+
+/// What is counted when something happens: requests as they end, tasks as they reach a worker. Any thread.
+class RequestMetrics : public RequestObserver {
+ public:
+  RequestMetrics();
+  ~RequestMetrics() override;
+
+  /// Costs some microseconds.
+  void ended(const RequestRecord& record, const HttpReply& reply) noexcept override;
+
+  /// A task waited so long for its worker.
+  void waited(Lane lane, double seconds) noexcept;
+
+  std::vector<prometheus::MetricFamily> collect() const;
+
+ private:
+  struct Families;
+  std::unique_ptr<Families> families_;
+};
+
+} // namespace gnomon::metrics

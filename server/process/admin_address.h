@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/handlers/handlers.h"
+#include "server/http/http_server.h"
+
+namespace gnomon {
+
+struct AdminAddressOptions {
+  std::string bind;
+  int port = 0;                          ///< 0 = any free one
+  std::vector<std::string> allowedHosts; ///< as in OriginRules
+};
+
+/// The second address of a server, where operators look: metrics and probes, without keys. It has threads of its own,
+/// so that it answers while all others are taken.
+class AdminAddress {
+ public:
+  /// Serves once it returns, until it is destroyed; the log says where. `services` and `observer` outlive it.
+  static Result<std::unique_ptr<AdminAddress>> open(const AdminAddressOptions& options, Services& services,
+                                                    RequestObserver& observer);
+  ~AdminAddress();
+  AdminAddress(const AdminAddress&) = delete;
+  AdminAddress& operator=(const AdminAddress&) = delete;
+
+ private:
+  AdminAddress(const AdminAddressOptions& options, Services& services, RequestObserver& observer);
+
+  ConnectionContext context_;
+  std::unique_ptr<HttpServer> server_;
+  std::thread serving_;
+};
+
+} // namespace gnomon
