@@ -1,6 +1,8 @@
 """What /metrics tells: counters move, hostile requests add no series, and a second address answers under load."""
 
+import json
 import os
+import re
 import signal
 import tempfile
 import threading
@@ -134,6 +136,30 @@ class Counters(ServerTest):
         listed = {name for part in text.split("\n") if part.startswith("| `gnomon_") or part.startswith("| `process_")
                   for name in part.split("`")[1:2]}  # fmt: skip
         self.assertEqual(metrics_of(self.server).names(), listed)
+
+    def test_the_dashboard_asks_for_metrics_and_labels_that_there_are(self):
+        self.server.frame(self.server.upload("box_on_plane"), SMALL)
+        until(lambda: metrics_of(self.server).value("gnomon_http_requests_total", status="200"))
+        labels = {}
+        for sample in metrics_of(self.server).samples:
+            labels.setdefault(sample.name, set()).update(sample.labels)
+        board = json.loads((ROOT / "server/deploy/grafana_dashboard.json").read_text(encoding="utf-8"))
+        asked = [target["expr"] for panel in board["panels"] for target in panel.get("targets", [])]
+        asked += [row["query"]["query"] for row in board["templating"]["list"] if row["type"] == "query"]
+        self.assertGreater(len(asked), 20)
+        for query in asked:
+            names = re.findall(r"\b(?:gnomon|process)_\w+", query)
+            self.assertTrue(names, query)
+            known = {"job", "instance"}
+            for name in names:
+                self.assertIn(name, labels, query)
+                known |= labels[name]
+            grouped = {word.strip() for part in re.findall(r"by \((.*?)\)", query) for word in part.split(",")}
+            matched = {label for part in re.findall(r"\{(.*?)\}(?=[\[)\s]|$)", query)
+                       for label in re.findall(r"(\w+)(?:=~|!~|!=|=)\"", part)}  # fmt: skip
+            self.assertLessEqual(grouped | matched, known, query)
+        told = {name for query in asked for name in re.findall(r"\b(?:gnomon|process)_\w+", query)}
+        self.assertGreater(len(told), 25, "most of what there is has its panel")
 
     def test_no_help_and_no_type_is_missing(self):
         for family in metrics_of(self.server).families:
