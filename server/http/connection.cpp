@@ -7,6 +7,7 @@
 
 #include "server/http/client_watch.h"
 #include "server/http/socket_io.h"
+#include "server/http/trace_context.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -57,10 +58,14 @@ class Connection {
   bool serveOne(std::size_t headBytes) {
     const Counted counted(context_.inProgress);
     RequestRecord record;
-    record.client = connection_.peer.text;
+    record.client = connection_.peer.text; // until the head is read
     record.start = connection_.arrived;
     const auto head = parseRequestHead(reader_.buffered().substr(0, headBytes));
     reader_.consume(headBytes);
+    if (head) {
+      record.client = clientAddress(connection_.peer, head->headers, context_.trustedProxies).text;
+      record.proxy = record.client == connection_.peer.text ? "" : connection_.peer.text;
+    }
     auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
     if (!request) {
       record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
@@ -69,6 +74,7 @@ class Connection {
     request->client = record.client;
     request->arrived = record.start;
     record.id = request->id;
+    record.trace = request->trace;
     record.method = request->method;
     record.target = head->target;
     const bool bodyless = request->method == "HEAD";
@@ -166,6 +172,7 @@ class Connection {
       const auto idle = std::chrono::floor<std::chrono::seconds>(context_.limits.idle).count();
       reply.headers.emplace_back("Keep-Alive", "timeout=" + std::to_string(idle));
     }
+    addTrace(reply, record.trace);
     std::string head = replyHead(reply, record.id, keepAlive);
     const bool withBody = !bodyless && reply.status != 204 && reply.status != 304;
     constexpr std::size_t kOnePacket = 1400; // small replies leave in one piece
@@ -185,6 +192,7 @@ class Connection {
   /// Its end is the connection's.
   bool sendStream(HttpReply reply, RequestRecord& record) {
     watch_->beginStream();
+    addTrace(reply, record.trace);
     const auto sink = [&](std::string_view bytes) {
       record.delivered = record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace);
       record.replyBytes += record.delivered ? bytes.size() : 0;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "protocol/access/access_key.h"
+#include "server/http/client_address.h"
 #include "server/http/open_connection.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
@@ -52,11 +53,12 @@ class RequestObserver {
 struct ConnectionContext {
   HttpService service;
   ConnectionLimits limits;
-  ByteBudget bodyBytes;                   ///< bodies that are read, or that their handlers work on
-  ByteBudget replyBytes;                  ///< bodies of replies that are being sent; one alone may be larger
-  StopSignal stop;                        ///< once raised: no further request is read, the running one is answered
-  RequestObserver* observer = nullptr;    ///< outlives the context; nullptr = nobody
-  std::atomic<std::size_t> inProgress{0}; ///< requests that have a thread
+  ByteBudget bodyBytes;                    ///< bodies that are read, or that their handlers work on
+  ByteBudget replyBytes;                   ///< bodies of replies that are being sent; one alone may be larger
+  StopSignal stop;                         ///< once raised: no further request is read, the running one is answered
+  std::vector<IpNetwork> trustedProxies{}; ///< whose word about their clients counts
+  RequestObserver* observer = nullptr;     ///< outlives the context; nullptr = nobody
+  std::atomic<std::size_t> inProgress{0};  ///< requests that have a thread
 
   /// A request's end: its line in the log, and the observer's.
   void ended(const RequestRecord& record, const HttpReply& reply) const noexcept;

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "server/http/client_address.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -36,21 +37,13 @@ void setUpConnection(int fd) {
   set(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, kGoneMilliseconds);
 }
 
-PeerAddress textOf(int family, const void* bytes, std::size_t networkBytes) {
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  ::inet_ntop(family, bytes, text.data(), text.size());
-  return {text.data(), std::string(static_cast<const char*>(bytes), networkBytes)};
-}
-
 PeerAddress peerOf(const sockaddr_storage& address) {
-  if (address.ss_family == AF_INET) {
-    return textOf(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, 4);
-  }
-  const in6_addr& ipv6 = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
-  if (IN6_IS_ADDR_V4MAPPED(&ipv6)) { // of an IPv4 client, on a socket that takes both
-    return textOf(AF_INET, ipv6.s6_addr + 12, 4);
-  }
-  return textOf(AF_INET6, &ipv6, 8);
+  const bool isIpv6 = address.ss_family == AF_INET6;
+  const void* bytes = isIpv6 ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr)
+                             : &reinterpret_cast<const sockaddr_in&>(address).sin_addr;
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  ::inet_ntop(address.ss_family, bytes, text.data(), text.size());
+  return peerAddress(ipAddress(text.data()).value_or(IpAddress())); // IPv4 on a socket that takes both is IPv4
 }
 
 FileDescriptor listenOn(const addrinfo& address) {

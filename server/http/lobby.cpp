@@ -18,6 +18,7 @@
 
 #include "server/http/reply.h"
 #include "server/http/socket_io.h"
+#include "server/http/trace_context.h"
 #include "server/http/unserved_head.h"
 #include "server/system/log.h"
 
@@ -199,6 +200,13 @@ void Lobby::hear(int fd, bool lost) {
   }
 }
 
+/// Who sent a complete head. It is parsed here only where a proxy may have passed it on.
+PeerAddress Lobby::clientOf(const OpenConnection& connection, std::size_t headBytes) const {
+  if (context_.trustedProxies.empty()) return connection.peer;
+  const auto head = parseRequestHead(std::string_view(connection.received).substr(0, headBytes));
+  return head ? clientAddress(connection.peer, head->headers, context_.trustedProxies) : connection.peer;
+}
+
 /// What has come of a head decides what becomes of its sender.
 void Lobby::weigh(Guests::iterator guest, bool headBegins) {
   const OpenConnection& connection = guest->second.connection;
@@ -208,6 +216,7 @@ void Lobby::weigh(Guests::iterator guest, bool headBegins) {
                            std::to_string(kMaxHeadBytes) + " bytes", ""});
   } else if (length) {
     guest->second.isReady = true;
+    guest->second.client = clientOf(connection, *length);
     listenFor(poll_.get(), EPOLL_CTL_MOD, guest->first, 0);
     expectBy(guest->second, context_.limits.threadWait);
     ready_.push_back(guest->first);
@@ -239,7 +248,7 @@ void Lobby::placeReady() {
 }
 
 Lobby::Place Lobby::place(Guests::iterator guest) {
-  const std::string network = guest->second.connection.peer.network;
+  const std::string network = guest->second.client.network;
   if (!pool_.hasIdle()) {
     return Place::noThread;
   }
@@ -277,10 +286,12 @@ void Lobby::refuse(Guest& guest, Problem problem) {
   sendLast(guest, record, problemReply({std::move(problem)}, record.id, {.read = RequestPart::head}), false);
 }
 
-void Lobby::sendLast(Guest& guest, RequestRecord& record, const HttpReply& reply, bool bodyless) {
+void Lobby::sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool bodyless) {
   OpenConnection& connection = guest.connection;
   record.start = connection.arrived;
-  record.client = connection.peer.text;
+  record.client = guest.isReady ? guest.client.text : connection.peer.text;
+  record.proxy = record.client == connection.peer.text ? "" : connection.peer.text;
+  addTrace(reply, record.trace);
   const std::string text = replyHead(reply, record.id, false) + (bodyless ? "" : reply.body);
   record.delivered = sendNow(connection.socket.get(), text); // it fits the socket's buffer, or the client reads nothing
   record.replyBytes = record.delivered && !bodyless ? reply.body.size() : 0;

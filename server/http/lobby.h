@@ -40,6 +40,7 @@ class Lobby {
     OpenConnection connection;
     Clock::time_point since;
     Clock::time_point deadline;
+    PeerAddress client{};   ///< who sent the head that is complete (client_address.h)
     bool isReady = false;   ///< its head is complete and has no thread yet
     bool isWaiting = false; ///< for a thread, since it is no probe
   };
@@ -52,12 +53,13 @@ class Lobby {
   void waitForBytes();
   void takeAdopted();
   void hear(int fd, bool lost);
+  PeerAddress clientOf(const OpenConnection& connection, std::size_t headBytes) const;
   void weigh(Guests::iterator guest, bool headBegins);
   void placeReady();
   Place place(Guests::iterator guest);
   void answer(Guest& guest, Place why);
   void refuse(Guest& guest, Problem problem);
-  void sendLast(Guest& guest, RequestRecord& record, const HttpReply& reply, bool bodyless);
+  void sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool bodyless);
   void expectBy(Guest& guest, std::chrono::milliseconds patience);
   void dropLate();
   void dropIdle();

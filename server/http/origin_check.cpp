@@ -14,8 +14,9 @@ namespace gnomon {
 namespace {
 
 /// What a page may read of a reply beside its body, and what it may send.
-constexpr const char* kExposed = "ETag, Location, Retry-After, Server-Timing, X-Request-ID";
-constexpr const char* kAccepted = "Accept, Authorization, Content-Type, If-None-Match, X-Request-ID";
+constexpr const char* kExposed = "ETag, Location, Retry-After, Server-Timing, X-Request-ID, traceresponse";
+constexpr const char* kAccepted =
+    "Accept, Authorization, Content-Type, If-None-Match, X-Request-ID, traceparent, tracestate";
 constexpr const char* kPreflightSeconds = "600";
 
 /// The host of "host:port", without the brackets of an IPv6 address.

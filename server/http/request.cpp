@@ -8,6 +8,7 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
+#include "server/http/trace_context.h"
 #include "server/http/url.h"
 
 namespace gnomon {
@@ -219,6 +220,7 @@ Result<HttpRequest> requestFromHead(const RequestHead& head) {
   request.query = std::move(url->query);
   request.headers = head.headers;
   request.hasBody = head.hasBody();
+  request.trace = traceOf(head.headers);
   return request;
 }
 

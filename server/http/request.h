@@ -47,6 +47,14 @@ std::optional<std::size_t> headLength(std::string_view bytes);
 /// chunks are malformed.
 Result<RequestHead> parseRequestHead(std::string_view bytes);
 
+/// Where a request stands in a trace (trace_context.h).
+struct TraceContext {
+  std::string traceId;  ///< 32 lower-case hexadecimal digits; empty = the request has none
+  std::string spanId;   ///< 16 such digits: this request
+  std::string parentId; ///< 16 such digits: who sent it; empty = this request begins the trace
+  bool sampled = false; ///< the sender keeps the trace
+};
+
 /// One request, every byte of it bounded and its syntax checked.
 struct HttpRequest {
   std::string id;                ///< X-Request-ID: the client's where it is well formed, else a new one
@@ -57,7 +65,8 @@ struct HttpRequest {
   Headers headers;
   bool hasBody = false; ///< the head announces a body
   Bytes body;
-  std::string client;                       ///< the address that it came from
+  TraceContext trace;
+  std::string client;                       ///< its address (client_address.h), or the name of its key
   Clock::time_point arrived = Clock::now(); ///< its first byte
 };
 

@@ -32,6 +32,16 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
             {"requestBytes", record.requestBytes},
             {"replyBytes", record.replyBytes},
             {"milliseconds", milliseconds}};
+  if (!record.proxy.empty()) {
+    line["proxy"] = record.proxy;
+  }
+  if (!record.trace.traceId.empty()) {
+    line["traceId"] = record.trace.traceId;
+    line["spanId"] = record.trace.spanId;
+  }
+  if (!record.trace.parentId.empty()) {
+    line["parentId"] = record.trace.parentId;
+  }
   if (!reply.key.empty()) {
     line["key"] = reply.key;
   }

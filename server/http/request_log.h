@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "server/http/reply.h"
+#include "server/http/request.h"
 #include "server/system/clock.h"
 
 namespace gnomon {
@@ -11,7 +12,9 @@ namespace gnomon {
 /// What the log says of a request, apart from its reply.
 struct RequestRecord {
   std::string id;
-  std::string client; ///< its address
+  std::string client;  ///< its address
+  std::string proxy{}; ///< that of the proxy in between; empty = there is none that is trusted
+  TraceContext trace{};
   std::string method;
   std::string target;  ///< as it came; in the log shortened, and without a signature
   std::string route{}; ///< RequestHandler::route; empty = none was found

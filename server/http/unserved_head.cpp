@@ -16,6 +16,7 @@ std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::st
     return told;
   }
   record.id = request->id;
+  record.trace = request->trace;
   record.method = request->method;
   record.target = parsed->target;
   told.bodyless = request->method == "HEAD";

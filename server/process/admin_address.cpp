@@ -20,6 +20,7 @@ AdminAddress::AdminAddress(const AdminAddressOptions& options, Services& service
                ByteBudget(0),
                ByteBudget(kReplyBytes),
                {},
+               {},
                &observer} {}
 
 Result<std::unique_ptr<AdminAddress>> AdminAddress::open(const AdminAddressOptions& options, Services& services,

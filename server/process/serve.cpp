@@ -181,6 +181,8 @@ int serve(const ServeOptions& options) {
     if (!opened) return failed(opened.problems());
     keys = *std::move(opened);
   }
+  auto trusted = ipNetworks(options.trustedProxies);
+  if (!trusted) return failed(trusted.problems());
   raiseDescriptorLimit();
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
@@ -219,6 +221,7 @@ int serve(const ServeOptions& options) {
       ByteBudget(options.uploadMemoryBytes),
       ByteBudget(options.replyMemoryBytes),
       {},
+      *std::move(trusted),
       &counted};
   services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };
   const std::size_t perClient = options.maxConnectionsPerAddress > 0

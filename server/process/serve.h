@@ -17,6 +17,7 @@ struct ServeOptions {
   std::string bind = "127.0.0.1";        ///< address to listen on; "0.0.0.0" = every IPv4 address, "::" = every address
   std::vector<std::string> allowedHosts; ///< names by which clients may reach it (origin_check.h); 421 for others
   std::vector<std::string> allowedOrigins; ///< pages of other servers that may use this one; 403 for others' requests
+  std::vector<std::string> trustedProxies; ///< addresses and networks (client_address.h) that may name their clients
   std::string keysFile; ///< keys of clients (access_key.h), read again on SIGHUP; empty = anyone may do anything
   int port = 8080;      ///< 0..65535; 0 = any free one, which is printed
   std::string adminBind = "127.0.0.1"; ///< address of adminPort

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 33);
+static_assert(memberCount<ServeOptions>() == 34);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -50,6 +50,9 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
            "which is the default with --bind 0.0.0.0 or ::");
   addNames("--allowed-origins", "GNOMON_ALLOWED_ORIGINS", options.allowedOrigins, "ORIGINS",
            "Pages of other servers that may use this one, as https://page.example; comma-separated, * = any");
+  addNames("--trusted-proxies", "GNOMON_TRUSTED_PROXIES", options.trustedProxies, "NETWORKS",
+           "Addresses and networks of proxies, as 10.0.0.0/8, that name their clients in X-Forwarded-For or Forwarded; "
+           "comma-separated");
   serve
       .add_option("--keys", options.keysFile,
                   "File of the keys that clients need, one a line; without it anyone may do anything. SIGHUP reads it "

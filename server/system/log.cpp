@@ -15,9 +15,10 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
 
-std::string eventLine(std::string_view event, std::string_view detail) {
+std::string eventLine(std::string_view event, std::string_view detail, std::string_view traceId = {}) {
   using Line = nlohmann::ordered_json;
-  const Line line{{"time", timeText()}, {"event", event}, {"detail", detail}};
+  Line line{{"time", timeText()}, {"event", event}, {"detail", detail}};
+  if (!traceId.empty()) line["traceId"] = traceId;
   return line.dump(-1, ' ', false, Line::error_handler_t::replace); // a client's text need not be UTF-8
 }
 
@@ -125,9 +126,9 @@ void logLine(std::string_view line) noexcept {
   }
 }
 
-void logEvent(std::string_view event, std::string_view detail) noexcept {
+void logEvent(std::string_view event, std::string_view detail, std::string_view traceId) noexcept {
   try {
-    standardError().put(eventLine(event, detail));
+    standardError().put(eventLine(event, detail, traceId));
   } catch (...) {
   }
 }

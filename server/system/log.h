@@ -57,8 +57,9 @@ std::string timeText();
 /// Writes one line to the log, which is standard error. Never throws, never waits.
 void logLine(std::string_view line) noexcept;
 
-/// One line about the server itself: {"time": …, "event": …, "detail": …}. Never throws, never waits.
-void logEvent(std::string_view event, std::string_view detail) noexcept;
+/// One line about the server itself: {"time": …, "event": …, "detail": …}, and "traceId" where a request caused it.
+/// Never throws, never waits.
+void logEvent(std::string_view event, std::string_view detail, std::string_view traceId = {}) noexcept;
 
 /// Lines of the log that were dropped, since nobody read it.
 std::uint64_t logLinesDropped() noexcept;

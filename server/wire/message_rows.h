@@ -52,7 +52,8 @@ inline constexpr auto kRows<Order> =
          field("queuedMilliseconds", &Order::queuedMilliseconds, {.says = "That it waited.", .unit = "milliseconds"}),
          field("mediaType", &Order::mediaType, {.says = "Of the result."}),
          field("boundary", &Order::boundary, {.says = "Between the parts of a multipart result."}),
-         field("light", &Order::light, {.says = "Index of the light of a bakeFile."}));
+         field("light", &Order::light, {.says = "Index of the light of a bakeFile."}),
+         field("traceId", &Order::traceId, {.says = "Of the request, for the log."}));
 static_assert(kRowsAreComplete<Order>);
 
 template <>

@@ -57,6 +57,7 @@ struct Order {
   std::string mediaType{};       ///< of the result: one that the kind can be sent as
   std::string boundary{};        ///< between the parts of a multipart result
   std::optional<int> light{};    ///< of a bakeFile
+  std::string traceId{};         ///< of the request, for the log
 };
 
 /// Nobody waits for an order any more; its outcome still comes.

@@ -30,9 +30,9 @@ Answer carryOut(WorkContext& context, const OrderCall& call) noexcept {
   } catch (const std::bad_alloc&) {
     return {{{ProblemCode::tooLarge, "", "The request needs more memory than a worker may use.", "", ""}}};
   } catch (const std::exception& error) {
-    logEvent("order", error.what());
+    logEvent("order", error.what(), call.order.traceId);
   } catch (...) {
-    logEvent("order", "An exception of unknown type.");
+    logEvent("order", "An exception of unknown type.", call.order.traceId);
   }
   return {{{ProblemCode::internal, "", "An internal error occurred.", "", ""}}};
 }

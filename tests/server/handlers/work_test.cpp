@@ -28,6 +28,12 @@ TEST(TaskFor, EndsWhenTheServerOrTheClientSays) {
     EXPECT_EQ(allowed(none), 60s);
 }
 
+TEST(TaskFor, TellsTheWorkerWhichTraceItBelongsTo) {
+  RouteCall call;
+  call.request.trace.traceId = "0af7651916cd43dd8448eb211c80319c";
+  EXPECT_EQ(taskFor(call, OrderKind::frame, "id", {}, "{}", 60s).order.traceId, call.request.trace.traceId);
+}
+
 TEST(Permits, AreGivenBack) {
   std::counting_semaphore<> permits(1);
   Permit first = permitOf(permits);

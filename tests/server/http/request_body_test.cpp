@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 using Framing = BodyRule::Framing;
-using Outcome = Result<Bytes>;
+using ReadBody = Result<Bytes>;
 
 struct SocketPair {
   SocketPair() {
@@ -25,7 +25,7 @@ struct SocketPair {
 };
 
 /// What the server makes of `sent`; the client hangs up after it unless `staying`.
-Outcome received(const std::string& sent, RequestHead head, BodyRule rule, bool staying = false, Pace pace = {}) {
+ReadBody received(const std::string& sent, RequestHead head, BodyRule rule, bool staying = false, Pace pace = {}) {
   SocketPair pair;
   std::thread client([&] {
     sendAll(pair.client.get(), sent, Pace{});
@@ -36,7 +36,7 @@ Outcome received(const std::string& sent, RequestHead head, BodyRule rule, bool 
   SocketReader reader(pair.server.get());
   ByteBudget budget(1 << 20);
   ByteLease lease(budget);
-  Outcome outcome = readBody(reader, head, rule, pace, lease);
+  ReadBody outcome = readBody(reader, head, rule, pace, lease);
   pair.server.reset();
   client.join();
   return outcome;
@@ -54,11 +54,11 @@ RequestHead lengthHead(std::uint64_t length) {
   return head;
 }
 
-int statusOf(const Outcome& outcome) {
+int statusOf(const ReadBody& outcome) {
   return outcome ? 200 : statusOf(outcome.problems().front().code, RequestPart::body);
 }
 
-std::string bodyOf(const Outcome& outcome) {
+std::string bodyOf(const ReadBody& outcome) {
   return outcome ? std::string(outcome->begin(), outcome->end()) : "refused";
 }
 
@@ -156,7 +156,7 @@ TEST(RequestBody, AnyChunkingGivesTheSameBody) {
         whole += chunk;
       }
     }
-    const Outcome outcome = received(sent + "0\r\n\r\n", chunkedHead(), {Framing::any, whole.size()});
+    const ReadBody outcome = received(sent + "0\r\n\r\n", chunkedHead(), {Framing::any, whole.size()});
     RC_ASSERT(bodyOf(outcome) == whole);
   }));
 }
