@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "protocol/fields/field_list.h"
+#include "protocol/openapi/openapi_access.h"
 #include "protocol/openapi/openapi_parts.h"
 
 namespace gnomon {
@@ -255,7 +256,7 @@ Json openApi() {
              "right-handed, +Y up, metres. Angles are degrees. What is unknown, repeated, of the wrong "
              "type or out of range is refused with its place, never changed or passed over."},
             {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}}},
-          {"paths", paths()},
+          {"paths", withAccess(paths())},
           {"components", components()}};
 }
 

@@ -8,6 +8,7 @@
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/openapi/openapi_access.h"
 #include "protocol/report/replies.h"
 
 namespace gnomon::openapi {
@@ -21,14 +22,17 @@ struct Refusal {
 /// What a status means wherever it is given.
 constexpr std::array kRefusals{
     Refusal{"400", "The request is malformed, or one of its values is invalid."},
+    Refusal{"401", "No key came with the request, or none that the server knows."},
+    Refusal{"403", "The key or the signature does not allow this request, or a page of another server sent it."},
     Refusal{"404", "No such scene or route exists."},
     Refusal{"406", "The resource has none of the media types that Accept lists."},
     Refusal{"408", "The request arrived too slowly."},
     Refusal{"411", "The request needs a body with a Content-Length."},
     Refusal{"413", "A limit on bytes, pixels, triangles or nodes is exceeded."},
     Refusal{"415", "The route does not accept this Content-Type."},
+    Refusal{"421", "The server is not known by the name in Host."},
     Refusal{"422", "The scene is not valid glTF, needs a feature that Gnomon does not have, or does not match the id."},
-    Refusal{"429", "The server is busy; Retry-After says when to try again."},
+    Refusal{"429", "The server is busy, or the key has used up its share; Retry-After says when to try again."},
     Refusal{"500", "An internal error, or a failure of the graphics context."},
     Refusal{"503", "The server is starting or shutting down."},
     Refusal{"504", "The request's deadline passed before its work was done."},
@@ -45,6 +49,7 @@ Json headers() {
                                    "readback, encode.")},
           {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},
           {"Retry-After", header("Seconds.")},
+          {"WWW-Authenticate", header("Bearer: that a key is asked for.")},
           {"Location", header("Where the scene is.")}};
 }
 
@@ -75,6 +80,9 @@ Json responses() {
         {"description", refusal.description},
         {"headers", {{"X-Request-ID", {{"$ref", "#/components/headers/X-Request-ID"}}}}},
         {"content", {{"application/problem+json", {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+    if (std::string_view(refusal.status) == "401") {
+      response["headers"]["WWW-Authenticate"] = {{"$ref", "#/components/headers/WWW-Authenticate"}};
+    }
     if (std::string_view(refusal.status) == "429") {
       response["headers"]["Retry-After"] = {{"$ref", "#/components/headers/Retry-After"}};
     }
@@ -148,7 +156,11 @@ Json withBody(Json operation, Json body) {
 }
 
 Json components() {
-  return {{"schemas", schemas()}, {"responses", responses()}, {"headers", headers()}, {"parameters", parameters()}};
+  return {{"schemas", schemas()},
+          {"responses", responses()},
+          {"headers", headers()},
+          {"parameters", parameters()},
+          {"securitySchemes", securitySchemes()}};
 }
 
 } // namespace gnomon::openapi

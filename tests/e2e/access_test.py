@@ -78,6 +78,19 @@ class Access(unittest.TestCase):
                     self.assertNotEqual(status, 401)
                     self.assertEqual(status == 403, not needed <= scopes, (name, status))
 
+    def test_each_route_publishes_what_it_needs(self):
+        server = self.start(line("a", "read"))
+        published = {}
+        for path, operations in server.get("/openapi.json").json()["paths"].items():
+            for method, operation in operations.items():
+                keys = [set(each["key"]) for each in operation.get("security", []) if "key" in each]
+                published[method.upper(), path.replace("{id}", MISSING).replace("{key}", "x")] = keys
+        for method, path, needed in ROUTES:
+            self.assertEqual(published.pop((method, path)), [needed], path)
+        for (method, path), keys in published.items():
+            self.assertEqual(keys, [], path)
+            self.assertNotIn(server.ask(method, path).status, (401, 403), path)
+
     def test_probes_and_pages_need_no_key(self):
         server = self.start(line("a", "read"))
         for path in ("/livez", "/readyz", "/", "/openapi.json"):

@@ -36,6 +36,11 @@ TEST(OpenApi, EveryReferenceLeadsSomewhereAndEveryComponentIsUsed) {
     EXPECT_TRUE(document.contains(Json::json_pointer(target.substr(1)))) << target;
     targets.insert(target);
   });
+  forEachOperation(document, [&](const std::string&, const std::string&, const Json& operation) {
+    for (const Json& needed : operation.value("security", Json::array())) {
+      for (const auto& [scheme, scopes] : needed.items()) targets.insert("#/components/securitySchemes/" + scheme);
+    }
+  });
   for (const auto& [kind, components] : document["components"].items()) {
     for (const auto& [name, component] : components.items()) {
       EXPECT_TRUE(targets.contains("#/components/" + kind + "/" + name)) << kind << " " << name;
@@ -87,6 +92,33 @@ TEST(OpenApi, EveryPathParameterIsDeclared) {
       declared |= parameter.value("$ref", "") == "#/components/parameters/sceneId";
     }
     EXPECT_EQ(declared, path.find("{id}") != std::string::npos) << method << " " << path;
+  });
+}
+
+TEST(OpenApi, OperationsSayWhatAKeyMustAllow) {
+  const Json document = openApi();
+  const auto scopesOf = [&](const char* path, const char* method) {
+    const Json security = document["paths"][path][method].value("security", Json::array());
+    return security.empty() ? Json::array() : security.at(1)["key"];
+  };
+  EXPECT_EQ(scopesOf("/v1/scenes", "get"), Json::array({"read"}));
+  EXPECT_EQ(scopesOf("/v1/render", "post"), Json::array({"render", "upload"}));
+  EXPECT_EQ(scopesOf("/metrics", "get"), Json::array({"admin"}));
+  EXPECT_TRUE(scopesOf("/livez", "get").empty());
+  EXPECT_TRUE(document["paths"]["/v1/scenes/{id}/frame"]["get"]["security"].at(2).contains("signature"));
+  EXPECT_EQ(document["components"]["securitySchemes"]["key"]["scheme"], "bearer");
+}
+
+TEST(OpenApi, WhereWhoAsksMattersTheRepliesSaySo) {
+  forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json& operation) {
+    const Json& responses = operation["responses"];
+    for (const char* status : {"401", "403", "429"}) {
+      const bool mayComeAnyway = std::string_view(status) == "429"; // of a full queue
+      if (operation.contains("security") || !mayComeAnyway) {
+        EXPECT_EQ(responses.contains(status), operation.contains("security")) << method << " " << path << " " << status;
+      }
+    }
+    EXPECT_EQ(responses.contains("421"), path != "/livez" && path != "/readyz") << path;
   });
 }
 
