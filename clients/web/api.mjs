@@ -1,6 +1,14 @@
 // The server's routes that the page uses. Addresses are relative, so that a proxy may serve the page below a path.
 
 import { createEventReader } from './event_reader.mjs';
+import { createKeyHolder, tabStorage } from './key.mjs';
+import { askForKey } from './key_dialog.mjs';
+
+const withKey = createKeyHolder(tabStorage(), askForKey);
+
+// fetch, with the key that the server may ask for.
+const call = (address, options = {}) =>
+  withKey((key) => fetch(address, { ...options, headers: { ...options.headers, ...key } }));
 
 // A refusal: every problem of an application/problem+json reply, or one made of whatever came instead.
 export class Refusal extends Error {
@@ -13,12 +21,12 @@ export class Refusal extends Error {
 }
 
 export async function listScenes() {
-  const { scenes } = await json(await fetch('v1/scenes', { headers: { Accept: 'application/json' } }));
+  const { scenes } = await json(await call('v1/scenes', { headers: { Accept: 'application/json' } }));
   return scenes;
 }
 
 export async function capabilities() {
-  return json(await fetch('v1/capabilities', { headers: { Accept: 'application/json' } }));
+  return json(await call('v1/capabilities', { headers: { Accept: 'application/json' } }));
 }
 
 // The frame's report with its pictures as data: {report, images: [{view, contentType, data}]}.
@@ -45,24 +53,28 @@ export async function bakeAhead(sceneId, spec, onStep, signal) {
 
 // What was baked, as a Blob: PNG, EXR or GLB.
 export async function bakeFile(sceneId, key, contentType) {
-  return blob(await fetch(`v1/scenes/${sceneId}/bakes/${key}`, { headers: { Accept: contentType } }));
+  return blob(await call(`v1/scenes/${sceneId}/bakes/${key}`, { headers: { Accept: contentType } }));
 }
 
 // Uploads a scene: one .glb or .gltf, or a .gltf and the files that it names. `onShare` is told 0..1 as it goes.
 // XMLHttpRequest, because fetch tells nothing about a body that is on its way.
-export function uploadScene(files, onShare) {
-  const { body, contentType } = uploadBody(files);
+export async function uploadScene(files, onShare) {
+  const upload = uploadBody(files);
+  const { status, retryAfter, text } = await withKey((key) => sendUpload(upload, key, onShare));
+  if (status === 200 || status === 201) return JSON.parse(text);
+  throw refusalOf(status, retryAfter, text);
+}
+
+function sendUpload({ body, contentType }, key, onShare) {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open('POST', 'v1/scenes');
     if (contentType) request.setRequestHeader('Content-Type', contentType);
+    for (const [name, value] of Object.entries(key)) request.setRequestHeader(name, value);
     request.upload.onprogress = (event) => event.lengthComputable && onShare(event.loaded / event.total);
     request.onerror = () => reject(new Refusal(0, 'The server can’t be reached.', []));
-    request.onload = () => {
-      const done = request.status === 200 || request.status === 201;
-      if (done) resolve(JSON.parse(request.responseText));
-      else reject(refusalOf(request.status, request.getResponseHeader('Retry-After'), request.responseText));
-    };
+    request.onload = () =>
+      resolve({ status: request.status, retryAfter: request.getResponseHeader('Retry-After'), text: request.responseText });
     request.send(body);
   });
 }
@@ -85,7 +97,7 @@ function uploadBody(files) {
 const postFrame = (sceneId, spec, accept, signal) => post(`v1/scenes/${sceneId}/frames`, spec, accept, signal);
 
 function post(address, body, accept, signal) {
-  return fetch(address, {
+  return call(address, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json', Accept: accept },
     body: JSON.stringify(body),

@@ -1,5 +1,6 @@
 """The command line through the shipped binary: exit codes, problems, files, and the same picture here and there."""
 
+import hashlib
 import json
 import os
 import subprocess
@@ -175,6 +176,48 @@ class Render(CommandLine):
         expected = self.output.read_bytes()
         self.render(scene=gltf)
         self.assertEqual(self.output.read_bytes(), expected)
+
+
+class WithKeys(CommandLine):
+    """A server that asks for a key; it is taken from a file or from the environment."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.secret = "a-secret-of-these-tests"
+        digest = hashlib.sha256(cls.secret.encode()).hexdigest()
+        keys = tempfile.NamedTemporaryFile("w")
+        cls.addClassCleanup(keys.close)
+        keys.write(f"name=tests sha256={digest} scopes=read,render,upload\n")
+        keys.flush()
+        cls.server = Server("--device", "cpu", "--workers", "1", "--keys", keys.name)
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.there = ["--server", "http://{}:{}".format(*cls.server.address)]
+
+    def test_it_is_shown(self):
+        key = self.folder / "key"
+        key.write_text(self.secret + "\nwhat follows is no part of it\n")
+        self.render(*self.there, "--key-file", str(key), GNOMON_KEY="the file goes first")
+        self.render(*self.there, GNOMON_KEY=self.secret)
+        self.render(*self.there, "--key-file", "-", stdin=self.secret.encode())
+        lit = ["--set", "shadow.technique=lightMap"]
+        for command in (["plan", BOX], ["bake", BOX, *lit, "-o", str(self.folder / "map.png")],
+                        ["evaluate", BOX, *SMALL, "--variant", '{"shadow": {"filter": {"type": "hard"}}}']):  # fmt: skip
+            self.assert_ends(gnomon(*command, *self.there, GNOMON_KEY=self.secret), OK)
+        self.assertNotIn(self.secret, self.server.log_text())
+
+    def test_without_the_right_one_the_server_refuses(self):
+        arguments = ["render", BOX, "-o", str(self.output), *SMALL, *self.there]
+        self.assert_ends(gnomon(*arguments), PROBLEM, "This server asks for a key.")
+        self.assert_ends(gnomon(*arguments, GNOMON_KEY="wrong"), PROBLEM, "No key has this secret.")
+
+    def test_what_is_no_key_is_not_sent(self):
+        arguments = ["render", BOX, "-o", str(self.output), *SMALL, *self.there]
+        empty = self.folder / "empty"
+        empty.write_text("\n" + self.secret)
+        self.assert_ends(gnomon(*arguments, "--key-file", str(empty)), PROBLEM, "no key")
+        self.assert_ends(gnomon(*arguments, "--key-file", str(self.folder / "missing")), PROBLEM, "missing")
+        self.assert_ends(gnomon(*arguments, GNOMON_KEY="two words\r\nX: y"), PROBLEM, "GNOMON_KEY")
+        self.assert_ends(gnomon(*arguments[:-2], "--key-file", str(empty)), USAGE, "--server")
 
 
 class WithServer(CommandLine):

@@ -39,7 +39,9 @@ Result<Baked> bakeScene(const BakeOptions& options, const FrameSpec& spec, Progr
   if (!bundle) return bundle.problems();
   const BakeOrder order{spec, *kindOf(options.output), options.light};
   if (options.where.server.empty()) return bakeHere(*bundle, order, options.where.backend, progress);
-  return bakeThere(options.where.server, *bundle, order, progress);
+  const auto remote = remoteOf(options.where);
+  if (!remote) return remote.problems();
+  return bakeThere(*remote, *bundle, order, progress);
 }
 
 int runBake(const BakeOptions& options) {

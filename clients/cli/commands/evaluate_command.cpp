@@ -75,8 +75,10 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
   progress.stage("reading " + options.scene);
   const auto bundle = readSceneFile(options.scene, evaluation->spec.volumes);
   if (!bundle) return bundle.problems();
-  if (!options.where.server.empty()) return evaluateThere(options.where.server, *bundle, request, progress);
-  return evaluateHere(*bundle, *evaluation, options.where.backend, progress);
+  if (options.where.server.empty()) return evaluateHere(*bundle, *evaluation, options.where.backend, progress);
+  const auto remote = remoteOf(options.where);
+  if (!remote) return remote.problems();
+  return evaluateThere(*remote, *bundle, request, progress);
 }
 
 Status writeText(const std::string& path, const std::string& text) {

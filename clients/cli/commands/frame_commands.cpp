@@ -27,7 +27,9 @@ Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec
   const auto bundle = readSceneFile(options.scene, spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return renderHere(*bundle, spec, options.where.backend, progress);
-  return renderThere(options.where.server, *bundle, spec, progress);
+  const auto remote = remoteOf(options.where);
+  if (!remote) return remote.problems();
+  return renderThere(*remote, *bundle, spec, progress);
 }
 
 Status writeAll(const RenderOptions& options, const Rendered& rendered, ProgressLine& progress) {
@@ -75,7 +77,9 @@ Result<std::string> planScene(const PlanOptions& options, const FrameSpec& spec,
   const auto bundle = readSceneFile(options.scene, spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return planHere(*bundle, spec, options.where.backend, progress);
-  return planThere(options.where.server, *bundle, spec, progress);
+  const auto remote = remoteOf(options.where);
+  if (!remote) return remote.problems();
+  return planThere(*remote, *bundle, spec, progress);
 }
 
 int runPlan(const PlanOptions& options) {

@@ -19,7 +19,7 @@ int runHealth(const HealthOptions& options) {
   HttpCall call;
   call.path = options.live ? "/livez" : "/readyz";
   call.patience = std::chrono::seconds(options.timeoutSeconds);
-  const auto reply = callServer(options.url, call);
+  const auto reply = callServer({options.url}, call);
   if (!reply) return printProblems(reply.problems());
   if (reply->status == 200) {
     std::cout << (options.live ? "alive\n" : "ready\n");

@@ -1,8 +1,13 @@
 #include "clients/cli/commands/spec_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
+#include <string_view>
 
+#include "clients/cli/files/file_io.h"
+#include "protocol/base/text.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/spec/enum_rows.h"
 
@@ -112,12 +117,40 @@ void addWhereFlags(CLI::App& command, WhereOptions& where) {
   backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");
   auto* gpu = command.add_flag("--require-gpu", where.backend.requireGpu, "Refuse to run if only software could draw")
                   ->group("Where");
-  command.add_option("--server", where.server, "Let this server do the work instead of this process")
-      ->type_name("URL")
-      ->excludes(device)
-      ->excludes(backend)
-      ->excludes(gpu)
+  auto* server = command.add_option("--server", where.server, "Let this server do the work instead of this process")
+                     ->type_name("URL")
+                     ->excludes(device)
+                     ->excludes(backend)
+                     ->excludes(gpu)
+                     ->group("Where");
+  command
+      .add_option("--key-file", where.keyFile,
+                  "File whose first line is the key that the server asks for; - = standard input. Without it the "
+                  "environment's GNOMON_KEY is taken")
+      ->type_name("FILE")
+      ->needs(server)
       ->group("Where");
+}
+
+Result<Remote> remoteOf(const WhereOptions& where) {
+  constexpr std::size_t kLargestFile = 4096;
+  Remote remote{where.server};
+  std::string place = "GNOMON_KEY";
+  if (!where.keyFile.empty()) {
+    const auto text = readText(where.keyFile, kLargestFile);
+    if (!text) return text.problems();
+    place = where.keyFile;
+    remote.key = trimmed(std::string_view(*text).substr(0, text->find_first_of("\r\n")));
+    if (remote.key.empty()) {
+      return Problem{ProblemCode::invalidValue, place, "The first line of this file is no key.", "", ""};
+    }
+  } else if (const char* key = std::getenv("GNOMON_KEY"); key != nullptr) {
+    remote.key = key;
+  }
+  if (std::any_of(remote.key.begin(), remote.key.end(), [](char c) { return c <= ' ' || c >= 0x7f; })) {
+    return Problem{ProblemCode::invalidValue, place, "A key has no spaces and none but ASCII characters.", "", ""};
+  }
+  return remote;
 }
 
 } // namespace gnomon::cli

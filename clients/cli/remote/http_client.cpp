@@ -76,7 +76,8 @@ httplib::Result send(httplib::Client& client, const std::string& path, const Htt
 
 } // namespace
 
-Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
+Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
+  const std::string& server = remote.url;
   const auto address = parseAddress(server);
   if (!address)
     return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
@@ -89,6 +90,7 @@ Result<HttpReply> callServer(const std::string& server, const HttpCall& call) {
     client.set_read_timeout(call.patience);
     client.set_write_timeout(call.patience);
     client.set_tcp_nodelay(true);
+    if (!remote.key.empty()) client.set_default_headers({{"Authorization", "Bearer " + remote.key}});
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
       return Problem{ProblemCode::unavailable, server, "There was no reply: " + httplib::to_string(reply.error()) + ".",

@@ -30,9 +30,15 @@ struct HttpReply {
   int retryAfterSeconds = 0; ///< 0 = the server named none
 };
 
-/// One call to `server` ("http://host:port" or "https://…", with or without a path in front). A reply of any status is
-/// a value; a problem means that there was none: a bad address, nobody there, no answer in time.
-Result<HttpReply> callServer(const std::string& server, const HttpCall& call);
+/// Where to call, and who calls.
+struct Remote {
+  std::string url;   ///< "http://host:port" or "https://…", with or without a path in front
+  std::string key{}; ///< sent as a bearer token; empty = none
+};
+
+/// One call. A reply of any status is a value; a problem means that there was none: a bad address, nobody there, no
+/// answer in time. No redirection is followed, so that the key goes nowhere else.
+Result<HttpReply> callServer(const Remote& remote, const HttpCall& call);
 
 struct ServerEvent {
   std::string name;

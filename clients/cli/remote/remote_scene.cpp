@@ -92,23 +92,23 @@ Problems problemsOf(const std::string& server, const HttpReply& reply) {
   return problems;
 }
 
-Result<HttpReply> callPatiently(const std::string& server, const HttpCall& call, ProgressLine& progress) {
+Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, ProgressLine& progress) {
   for (int waits = 0;; ++waits) {
-    auto reply = callServer(server, call);
+    auto reply = callServer(remote, call);
     if (!reply || reply->status != 429 || waits == kMostWaits) return reply;
     progress.stage("waiting: the server is busy");
     std::this_thread::sleep_for(std::chrono::seconds(std::clamp(reply->retryAfterSeconds, 1, 30)));
   }
 }
 
-Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle, ProgressLine& progress) {
+Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress) {
   if (bundle.files.empty()) {
     progress.stage("asking for the scene");
     const std::string id = modelId(bundle.model);
     HttpCall ask;
     ask.method = "HEAD";
     ask.path = "/v1/scenes/" + id;
-    const auto known = callServer(server, ask);
+    const auto known = callServer(remote, ask);
     if (!known) return known.problems();
     if (known->status == 200) return id;
   }
@@ -120,12 +120,12 @@ Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle
   post.contentType = upload.contentType;
   post.body = upload.bytes;
   post.onSent = [&progress](double share) { progress.share(share); };
-  const auto reply = callPatiently(server, post, progress);
+  const auto reply = callPatiently(remote, post, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200 && reply->status != 201) return problemsOf(server, *reply);
+  if (reply->status != 200 && reply->status != 201) return problemsOf(remote.url, *reply);
   const Json summary = Json::parse(reply->body, nullptr, false);
   const std::string id = summary.is_object() ? textAt(summary, "id") : "";
-  if (id.empty()) return Problem{ProblemCode::internal, server, "The reply to the upload names no scene.", "", ""};
+  if (id.empty()) return Problem{ProblemCode::internal, remote.url, "The reply to the upload names no scene.", "", ""};
   return id;
 }
 

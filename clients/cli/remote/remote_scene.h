@@ -31,9 +31,9 @@ std::string textAt(const Json& json, const char* key);
 Problems problemsOf(const std::string& server, const HttpReply& reply);
 
 /// The same call again while the server says that it is busy, as patiently as it asks for.
-Result<HttpReply> callPatiently(const std::string& server, const HttpCall& call, ProgressLine& progress);
+Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, ProgressLine& progress);
 
 /// The scene's id on the server, where it is uploaded unless it is there.
-Result<std::string> sceneId(const std::string& server, const SceneBundle& bundle, ProgressLine& progress);
+Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress);
 
 } // namespace gnomon::cli

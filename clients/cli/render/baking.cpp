@@ -28,7 +28,7 @@ void showBakeStep(const std::string& data, ProgressLine& progress) {
 }
 
 /// The report of a bake on a server, which tells its progress.
-Result<BakeReport> askForBake(const std::string& server, const std::string& path, const FrameSpec& spec,
+Result<BakeReport> askForBake(const Remote& remote, const std::string& path, const FrameSpec& spec,
                               ProgressLine& progress) {
   const std::string body = toJson(spec).dump();
   EventReader reader;
@@ -45,13 +45,13 @@ Result<BakeReport> askForBake(const std::string& server, const std::string& path
       if (event.name == "result" || event.name == "problem") last = std::move(event);
     }
   };
-  const auto reply = callPatiently(server, call, progress);
+  const auto reply = callPatiently(remote, call, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(server, *reply);
-  if (!last) return Problem{ProblemCode::unavailable, server, "The reply ended before the bake did.", "", ""};
-  if (last->name == "problem") return problemsOf(server, {reply->status, "", last->data, 0});
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
+  if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the bake did.", "", ""};
+  if (last->name == "problem") return problemsOf(remote.url, {reply->status, "", last->data, 0});
   auto report = readBakeReport(last->data);
-  if (!report) return Problem{ProblemCode::internal, server, "The reply is not a bake.", "", ""};
+  if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not a bake.", "", ""};
   return *std::move(report);
 }
 
@@ -74,21 +74,21 @@ Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const 
   return Baked{*std::move(file), reportText(*report)};
 }
 
-Result<Baked> bakeThere(const std::string& server, const SceneBundle& bundle, const BakeOrder& order,
+Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const BakeOrder& order,
                         ProgressLine& progress) {
-  const auto id = sceneId(server, bundle, progress);
+  const auto id = sceneId(remote, bundle, progress);
   if (!id) return id.problems();
   progress.stage("baking on the server");
   const std::string path = "/v1/scenes/" + *id + "/bakes";
-  const auto report = askForBake(server, path, order.spec, progress);
+  const auto report = askForBake(remote, path, order.spec, progress);
   if (!report) return report.problems();
   progress.stage("fetching the file");
   HttpCall fetch;
   fetch.path = path + "/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
   fetch.headers = {{"Accept", std::string(kBakeFileTypes[static_cast<std::size_t>(order.kind)])}};
-  const auto reply = callPatiently(server, fetch, progress);
+  const auto reply = callPatiently(remote, fetch, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(server, *reply);
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
   const auto file = asBytes(reply->body);
   return Baked{Bytes(file.begin(), file.end()), reportText(*report)};
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "clients/cli/remote/http_client.h"
 #include "clients/cli/terminal/messages.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
@@ -27,8 +28,8 @@ struct Baked {
 Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const BackendOptions& backend,
                        ProgressLine& progress);
 
-/// Bakes on `server` ("http://host:port"), listening to its events, and fetches the file.
-Result<Baked> bakeThere(const std::string& server, const SceneBundle& bundle, const BakeOrder& order,
+/// Bakes on the server, listening to its events, and fetches the file.
+Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const BakeOrder& order,
                         ProgressLine& progress);
 
 } // namespace gnomon::cli

@@ -28,9 +28,9 @@ std::optional<Rendered> renderedOf(const std::string& text) {
 }
 
 /// What the server says to a spec sent to `route` of the scene, which is uploaded unless it is there.
-Result<std::string> askAbout(const std::string& server, const SceneBundle& bundle, const std::string& route,
+Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, const std::string& route,
                              const FrameSpec& spec, ProgressLine& progress) {
-  const auto id = sceneId(server, bundle, progress);
+  const auto id = sceneId(remote, bundle, progress);
   if (!id) return id.problems();
 
   progress.stage("working on the server");
@@ -41,29 +41,29 @@ Result<std::string> askAbout(const std::string& server, const SceneBundle& bundl
   call.headers = {{"Accept", "application/json"}};
   call.contentType = "application/json";
   call.body = body;
-  auto reply = callPatiently(server, call, progress);
+  auto reply = callPatiently(remote, call, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(server, *reply);
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
   return std::move(reply->body);
 }
 
 } // namespace
 
-Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+Result<Rendered> renderThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                              ProgressLine& progress) {
-  const auto reply = askAbout(server, bundle, "/frames", spec, progress);
+  const auto reply = askAbout(remote, bundle, "/frames", spec, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
-  if (!rendered) return Problem{ProblemCode::internal, server, "The reply is not a frame.", "", ""};
+  if (!rendered) return Problem{ProblemCode::internal, remote.url, "The reply is not a frame.", "", ""};
   return std::move(*rendered);
 }
 
-Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress) {
-  const auto reply = askAbout(server, bundle, "/plan", spec, progress);
+  const auto reply = askAbout(remote, bundle, "/plan", spec, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
-  if (!plan.is_object()) return Problem{ProblemCode::internal, server, "The reply is not a plan.", "", ""};
+  if (!plan.is_object()) return Problem{ProblemCode::internal, remote.url, "The reply is not a plan.", "", ""};
   return plan.dump(2) + "\n";
 }
 
@@ -78,9 +78,9 @@ void showStep(const std::string& data, ProgressLine& progress) {
 
 } // namespace
 
-Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBundle& bundle,
-                                       const std::string& requestJson, ProgressLine& progress) {
-  const auto id = sceneId(server, bundle, progress);
+Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, const std::string& requestJson,
+                                       ProgressLine& progress) {
+  const auto id = sceneId(remote, bundle, progress);
   if (!id) return id.problems();
   progress.stage("measuring on the server");
   EventReader reader;
@@ -97,13 +97,13 @@ Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBun
       if (event.name == "result" || event.name == "problem") last = std::move(event);
     }
   };
-  const auto reply = callPatiently(server, call, progress);
+  const auto reply = callPatiently(remote, call, progress);
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(server, *reply);
-  if (!last) return Problem{ProblemCode::unavailable, server, "The reply ended before the evaluation did.", "", ""};
-  if (last->name == "problem") return problemsOf(server, {reply->status, "", last->data, 0});
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
+  if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the evaluation did.", "", ""};
+  if (last->name == "problem") return problemsOf(remote.url, {reply->status, "", last->data, 0});
   auto report = readEvaluationReport(last->data);
-  if (!report) return Problem{ProblemCode::internal, server, "The reply is not an evaluation.", "", ""};
+  if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not an evaluation.", "", ""};
   return *std::move(report);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/cli/remote/http_client.h"
 #include "clients/cli/terminal/messages.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
@@ -37,17 +38,17 @@ Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluatio
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                              ProgressLine& progress);
 
-/// Renders on `server` ("http://host:port"): uploads the scene unless it is there, then asks for the frame. What the
+/// Renders on the server: uploads the scene unless it is there, then asks for the frame. What the
 /// server refuses comes back as its own problems.
-Result<Rendered> renderThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+Result<Rendered> renderThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                              ProgressLine& progress);
 
 /// The same for a plan: its JSON.
-Result<std::string> planThere(const std::string& server, const SceneBundle& bundle, const FrameSpec& spec,
+Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress);
 
-/// Measures on `server`, listening to its events; `requestJson`: an EvaluationRequest.
-Result<EvaluationReport> evaluateThere(const std::string& server, const SceneBundle& bundle,
-                                       const std::string& requestJson, ProgressLine& progress);
+/// Measures on the server, listening to its events; `requestJson`: an EvaluationRequest.
+Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, const std::string& requestJson,
+                                       ProgressLine& progress);
 
 } // namespace gnomon::cli
