@@ -183,6 +183,8 @@ def table_faults(tree):
     yield from compare("server/API.md", "stage", first_column(tree, "server/API.md", "Stages"), names)
     colors = found(r"kStageColors = \{(.*?)\n\};", page)
     yield from compare("clients/web/fields.mjs", "stage", re.findall(r"^  (\w+):", colors, re.MULTILINE), names)
+    labels = found(r"kStages\{(.*?)\};", read("server/metrics/labels.h"))
+    yield from compare("server/metrics/labels.h", "stage", re.findall(r"\w+", labels), names)
     says = re.sub(r"\s*///\s*", " ", found(r"Names and order: (.*?)\.", read("protocol/report/frame_report.h")))
     yield from compare("protocol/report/frame_report.h", "stage", says.split(), names)
     says = found(r"&FrameReport::stages,(.*?)\}", read("protocol/report/report_rows.h"))
