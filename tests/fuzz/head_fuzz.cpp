@@ -1,6 +1,7 @@
-// The head of a request, up to its empty line: nothing in it that two servers could read in two ways, and written
-// again it says the same.
-#include "server/http/request.h"
+// The head of a request, up to its empty line, and who it says has sent it through a proxy, in which trace: nothing in
+// it that two servers could read in two ways, and written again it says the same.
+#include "server/http/client_address.h"
+#include "server/http/trace_context.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {
@@ -26,6 +27,23 @@ std::string written(const RequestHead& head) {
   return text + "\r\n";
 }
 
+bool isHex(const std::string& text) {
+  return text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+void requireSoundOrigin(const HttpRequest& request) {
+  const TraceContext& trace = request.trace;
+  fuzz::require(trace.traceId.size() == 32 && isHex(trace.traceId), "a trace has an id");
+  fuzz::require(trace.spanId.size() == 16 && isHex(trace.spanId), "a span has an id");
+  fuzz::require(isHex(trace.parentId), "its sender's is one, or none");
+  static const auto kProxies = ipNetworks({"10.0.0.0/8", "fd00::/8"});
+  static const PeerAddress kProxy = peerAddress(*ipAddress("10.0.0.1"));
+  const PeerAddress client = clientAddress(kProxy, request.headers, *kProxies);
+  const auto address = ipAddress(client.text);
+  fuzz::require(address.has_value(), "a client has an address");
+  fuzz::require(client.network == peerAddress(*address).network, "which is in its network");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -47,6 +65,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     again->expectsContinue == head->expectsContinue,
                 "a head that is written again says the same");
   const auto request = requestFromHead(*head);
-  if (!request) fuzz::requireSound(request.problems());
+  if (request) {
+    requireSoundOrigin(*request);
+  } else {
+    fuzz::requireSound(request.problems());
+  }
   return 0;
 }

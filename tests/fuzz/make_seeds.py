@@ -102,6 +102,17 @@ def requests(folder):
         write(folder / "query", f"good_{number}", f"/v1/scenes/abc/frame?{query}".encode())
 
 
+def heads(folder):
+    trace = "traceparent: 00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"
+    for number, lines in enumerate((
+        ("GET / HTTP/1.1", "Host: a", "X-Forwarded-For: 203.0.113.9, [2001:db8::1]:80, 10.0.0.7", trace),
+        ("POST http://a:1/v1/scenes HTTP/1.1", "Host: b", "Transfer-Encoding: chunked", "Expect: 100-continue"),
+        ("GET /x?y=%20 HTTP/1.0", "Connection: keep-alive", "Content-Length: 3", "X-Request-ID: a-b.c"),
+        ("GET / HTTP/1.1", "Host: a", 'Forwarded: for=192.0.2.1;proto=https, For="[fd00::1]:9";by=_x, for="10.0.0.1"'),
+    )):  # fmt: skip
+        write(folder / "head", f"good_{number}", ("\r\n".join(lines) + "\r\n\r\n").encode())
+
+
 def forms(folder, scenes):
     model = (scenes / "single_triangle.glb").read_bytes()
     for name, parts in {
@@ -123,15 +134,7 @@ def forms(folder, scenes):
     write(folder / "multipart", "stored", stored)
 
 
-def heads_and_bodies(folder):
-    request = b"POST /v1/scenes?a=%20b HTTP/1.1\r\nHost: localhost:8080\r\n"
-    for name, rest in {
-        "length": b"Content-Length: 5\r\nConnection: close\r\nExpect: 100-continue\r\n\r\n",
-        "chunked": b"Transfer-Encoding: chunked\r\nX-Request-ID: a-1\r\nAccept: image/png;q=0.5, */*\r\n\r\n",
-        "both": b"Transfer-Encoding: chunked\r\nContent-Length: 5\r\n\r\n",
-    }.items():
-        write(folder / "head", name, request + rest)
-    write(folder / "head", "absolute", b"GET http://other/a/../b HTTP/1.0\r\nHost: x\r\nConnection: keep-alive\r\n\r\n")
+def bodies(folder):
     chunks = b"5\r\nhello\r\n1 ;ext=\"1\"\r\n,\r\n00A\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\nGET / HTTP/1.1\r\n"
     for first in (0, 6, 2, 9):
         write(folder / "body", f"chunks_{first}", bytes([first]) + chunks)
@@ -185,8 +188,9 @@ def main(folder, scenes, assets=None):
     models(folder, scenes, assets)
     images(folder, assets)
     requests(folder)
+    heads(folder)
     forms(folder, scenes)
-    heads_and_bodies(folder)
+    bodies(folder)
     messages(folder)
     grids(folder)
     choices(folder)
