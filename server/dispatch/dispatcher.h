@@ -114,6 +114,7 @@ class Dispatcher {
   std::optional<Fault> faultOf(const Slot& slot) const;
   void endWorker(Slot& slot, Fault fault);
   void placeWaiting();
+  void refuseOne();
   bool suits(const Slot& slot, bool needsDriver) const;
   void startSlot(Slot& slot);
   void send(const TicketPtr& ticket, std::size_t worker);

@@ -156,6 +156,33 @@ TEST_F(DispatcherTest, TheQueueIsBoundedAndSaysWhenToComeAgain) {
   for (std::thread& each : held) each.join();
 }
 
+TEST_F(DispatcherTest, WhoFillsTheQueueTakesNoPlaceOfOthers) {
+  const auto dispatcher = start(1, {.queueLimit = 4, .stopping = 200ms});
+  std::atomic<bool> leave = false;
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < kPlaces[0]; ++i) {
+    threads.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
+  }
+  while (dispatcher->state().running < kPlaces[0]) std::this_thread::sleep_for(1ms);
+  const auto ask = [&](const std::string& client) {
+    Task task = frame();
+    task.client = client;
+    return problemOf(dispatcher->run(task, kStays));
+  };
+  std::atomic<int> refused = 0;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] { refused += ask("greedy") == "busy" ? 1 : 0; });
+  }
+  while (dispatcher->state().waiting < 4) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(ask("greedy"), "busy");
+  threads.emplace_back([&] { EXPECT_EQ(ask("modest"), ""); });
+  while (refused == 0) std::this_thread::sleep_for(1ms); // one of greedy's gave way
+  EXPECT_EQ(dispatcher->state().waiting, 4u);
+  leave = true;
+  for (std::thread& each : threads) each.join();
+  EXPECT_EQ(refused, 1);
+}
+
 TEST_F(DispatcherTest, ClientsTakeTurns) {
   const auto dispatcher = start(1, {.stopping = 200ms});
   std::atomic<bool> leave = false;

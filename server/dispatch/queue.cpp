@@ -1,0 +1,118 @@
+// The queue: whose turn it is, where each task goes, and who is refused once too many wait. All with the mutex held.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "protocol/base/elapsed.h"
+#include "server/dispatch/dispatcher_parts.h"
+
+namespace gnomon {
+
+bool Dispatcher::suits(const Slot& slot, bool needsDriver) const {
+  const bool apart = info_.device == DeviceChoice::cpu && options_.each.device == DeviceChoice::auto_;
+  return slot.loadsDrivers == (needsDriver && apart);
+}
+
+/// Gives workers what they can take. Those who have to be alone come first, then whoever has the fewest tasks in
+/// progress, then who came first.
+void Dispatcher::placeWaiting() {
+  std::map<std::string, int> inProgress;
+  for (const auto& slot : slots_) {
+    for (const auto& [number, ticket] : slot->running) ++inProgress[ticket->task.client];
+  }
+  // Those for tasks that need no driver, and those for tasks that do.
+  struct Group {
+    std::vector<std::size_t> slots;
+    std::vector<WorkerView> workers;
+  };
+  std::array<Group, 2> groups;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    for (const bool needsDriver : {false, true}) {
+      if (!suits(*slots_[i], needsDriver)) continue;
+      groups[needsDriver].slots.push_back(i);
+      groups[needsDriver].workers.push_back(slots_[i]->view());
+    }
+  }
+  std::vector<TicketPtr> order(waiting_.begin(), waiting_.end());
+  while (!order.empty()) {
+    const auto next = std::min_element(order.begin(), order.end(), [&](const TicketPtr& a, const TicketPtr& b) {
+      if (a->mustBeAlone() != b->mustBeAlone()) return a->mustBeAlone();
+      return inProgress[a->task.client] < inProgress[b->task.client];
+    });
+    const TicketPtr ticket = *next;
+    order.erase(next);
+    auto& [slots, workers] = groups[ticket->task.needsDriver];
+    if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable()) startSlot(*slots_[slots[0]]);
+    std::optional<std::size_t> place;
+    if (ticket->mustBeAlone()) {
+      const auto lone = lonePlaceFor(ticket->task, workers);
+      if (lone) workers[lone->worker].reserved = true;
+      if (lone && lone->free) place = lone->worker;
+    } else {
+      place = placeFor(ticket->task, workers);
+    }
+    if (!place) continue;
+    waiting_.remove(ticket);
+    ++inProgress[ticket->task.client];
+    ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
+    workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
+    send(ticket, slots[*place]);
+  }
+}
+
+void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
+  Slot& slot = *slots_[worker];
+  const double waited = millisecondsSince(ticket->since);
+  if (options_.waited) options_.waited(ticket->task.lane, waited / 1000);
+  ticket->waitedMilliseconds += waited;
+  ticket->since = Clock::now();
+  ticket->state = Ticket::State::running;
+  ticket->slot = worker;
+  Order& order = ticket->task.order;
+  order.number = ++numbers_;
+  order.queuedMilliseconds = ticket->waitedMilliseconds;
+  order.milliseconds = std::chrono::duration<double, std::milli>(ticket->task.deadline - Clock::now()).count();
+  slot.running.emplace(order.number, ticket);
+  const std::array files{ticket->task.bundle->get(), ticket->request->get()};
+  if (!slot.process->channel().send(textOf(ToWorker{.order = order}), files)) {
+    // The task comes back as the worker goes.
+    endWorker(slot, {{ProblemCode::internal, "", "It did not read its messages.", "", ""}, WorkerEnd::silence});
+  }
+}
+
+/// The newest of whoever has the most in the queue, so that a client that fills it takes no other's place.
+void Dispatcher::refuseOne() {
+  std::map<std::string, std::size_t> counts;
+  for (const TicketPtr& ticket : waiting_) ++counts[ticket->task.client];
+  const auto refused = std::max_element(waiting_.begin(), waiting_.end(), [&](const TicketPtr& a, const TicketPtr& b) {
+    if (a->mustBeAlone() != b->mustBeAlone()) return a->mustBeAlone(); // it was taken long ago
+    if (counts[a->task.client] != counts[b->task.client]) return counts[a->task.client] < counts[b->task.client];
+    return a->since < b->since;
+  });
+  const TicketPtr ticket = *refused;
+  waiting_.erase(refused);
+  ticket->result.outcome.problems = {{ProblemCode::busy, "", "The queue before the workers is full.",
+                                      std::to_string(options_.queueLimit) + " requests", ""}};
+  ticket->result.outcome.retryAfterSeconds = retryAfterSeconds();
+  ticket->result.refusal = TaskRefusal::queue;
+  ticket->state = Ticket::State::done;
+  ticket->changed.notify_one();
+}
+
+/// Until there is a place in the queue, from what tasks took lately and how long those in progress have run already:
+/// 1..60.
+int Dispatcher::retryAfterSeconds() const {
+  double each = taskMs_;
+  std::size_t places = 0;
+  for (const auto& slot : slots_) {
+    places += slot->ready ? 1 : 0;
+    for (const auto& [number, ticket] : slot->running) each = std::max(each, millisecondsSince(ticket->since));
+  }
+  const double seconds = std::ceil(each * static_cast<double>(waiting_.size() + 1) /
+                                   (1000.0 * static_cast<double>(std::max<std::size_t>(places, 1))));
+  return static_cast<int>(std::clamp(seconds, 1.0, 60.0));
+}
+
+} // namespace gnomon
