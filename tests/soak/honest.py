@@ -75,14 +75,14 @@ def check(tally, client, status, headers, body, seconds=None):
 class Client(threading.Thread):
     """Repeats `step` until `stop`; a connection that ends within a request is noted as broken."""
 
-    def __init__(self, name, tally, stop, period):
+    def __init__(self, name, tally, stop, period, address="127.0.0.1"):
         super().__init__(name=name, daemon=True)
-        self.tally, self.stop_event, self.period = tally, stop, period
+        self.tally, self.stop_event, self.period, self.address = tally, stop, period, address
         self.connection = None
 
     def connect(self):
         if self.connection is None:
-            self.connection = http.client.HTTPConnection("127.0.0.1", PORT, timeout=40)
+            self.connection = http.client.HTTPConnection("127.0.0.1", PORT, timeout=40, source_address=(self.address, 0))
         return self.connection
 
     def run(self):
@@ -100,8 +100,8 @@ class Client(threading.Thread):
 class Frames(Client):
     """Somebody who drags the sun: a new picture twice a second."""
 
-    def __init__(self, name, tally, stop, scene):
-        super().__init__(name, tally, stop, PERIOD)
+    def __init__(self, number, tally, stop, scene):
+        super().__init__(f"frames {number}", tally, stop, PERIOD, f"127.0.2.{number + 1}")
         self.scene = scene
 
     def step(self):
