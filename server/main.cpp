@@ -1,11 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/web/web_files.h"
+#include "server/process/environment_check.h"
 #include "server/process/memory_plan.h"
 #include "server/process/serve.h"
+#include "server/process/serve_config.h"
 #include "server/process/serve_flags.h"
 #include "server/system/memory_limit.h"
 #include "server/worker/sandbox.h"
@@ -14,12 +19,43 @@
 namespace gnomon {
 namespace {
 
+/// Variables that some command reads, or the process itself.
+std::vector<std::string> knownVariables(const CLI::App& app) {
+  std::vector<std::string> known{"GNOMON_CPU_TARGET", "GNOMON_KEY"};
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (!option->get_envname().empty()) known.push_back(option->get_envname());
+    }
+  }
+  return known;
+}
+
+/// Serves with the options of the command line, the environment and the file that they name.
+int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& config, const ServeOptions& options) {
+  const auto unknown = unknownVariables(ownEnvironment(), knownVariables(app));
+  for (const std::string& fault : unknown) std::fprintf(stderr, "gnomon: %s\n", fault.c_str());
+  if (!unknown.empty()) return cli::kExitUsage;
+  const Status applied = config.file.empty() ? Status(Done{}) : applyConfig(command, config.file);
+  if (!applied) {
+    for (const Problem& problem : applied.problems()) {
+      std::fprintf(stderr, "gnomon: %s: %s\n", problem.pointer.c_str(), problem.detail.c_str());
+    }
+    return cli::kExitUsage;
+  }
+  if (!config.print) return serve(options);
+  std::fputs(configOf(command).c_str(), stdout);
+  return std::fflush(stdout) == 0 ? cli::kExitOk : cli::kExitProblem;
+}
+
 cli::Subcommand addServeCommand(CLI::App& app) {
   auto options = std::make_shared<ServeOptions>(fittedTo(memoryLimit()));
+  auto config = std::make_shared<ConfigChoice>();
   for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
   auto* command = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
   addServeFlags(*command, *options);
-  return {[command] { return command->parsed(); }, [options] { return serve(*options); }};
+  addConfigFlags(*command, *config);
+  return {[command] { return command->parsed(); },
+          [&app, command, options, config] { return serveAsAsked(app, *command, *config, *options); }};
 }
 
 cli::Subcommand addWorkerCommand(CLI::App& app) {

@@ -203,4 +203,20 @@ void addServeFlags(CLI::App& command, ServeOptions& options) {
   addHowLong(command, options);
 }
 
+void addConfigFlags(CLI::App& command, ConfigChoice& choice) {
+  command
+      .add_option("--config", choice.file,
+                  "File with further options, one KEY = VALUE a line; keys are these flags without their dashes. Flags "
+                  "come before variables, variables before the file")
+      ->envname("GNOMON_CONFIG")
+      ->type_name("FILE")
+      ->configurable(false)
+      ->group("Configuration");
+  command
+      .add_flag("--print-config", choice.print,
+                "Print all options, wherever their values are from, as such a file, and exit")
+      ->configurable(false)
+      ->group("Configuration");
+}
+
 } // namespace gnomon

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "server/process/serve.h"
 
 namespace CLI {
@@ -11,5 +13,12 @@ namespace gnomon {
 /// Every choice of ServeOptions as a flag and as an environment variable of the command. `options` must outlive the
 /// parsing; its values are the defaults.
 void addServeFlags(CLI::App& command, ServeOptions& options);
+
+/// Where the options come from, beside flags and variables.
+struct ConfigChoice {
+  std::string file;   ///< empty = none
+  bool print = false; ///< print all options as such a file, and serve nothing
+};
+void addConfigFlags(CLI::App& command, ConfigChoice& choice);
 
 } // namespace gnomon

@@ -8,7 +8,7 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import BINARY, SCENES, TIMEOUT, Server
+from shipped_server import BINARY, SCENES, TIMEOUT, Server, environment
 
 MISSING = "0" * 64
 # A method and path, and the scopes that it needs.
@@ -185,7 +185,7 @@ class Access(unittest.TestCase):
         for text, words in ((line("a", "read") + line("b", "everything"), "line 2"), ("", "no key")):
             self.keys.write_text(text)
             ended = subprocess.run([BINARY, "serve", "--port", "0", "--keys", str(self.keys)],
-                                   capture_output=True, text=True, timeout=TIMEOUT)  # fmt: skip
+                                   capture_output=True, text=True, timeout=TIMEOUT, env=environment())  # fmt: skip
             self.assertEqual(ended.returncode, 1)
             self.assertIn(words, ended.stderr)
 

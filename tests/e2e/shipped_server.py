@@ -17,6 +17,12 @@ SLOW = int(os.environ.get("GNOMON_SLOWNESS", "1"))  # sanitizers: how many times
 TIMEOUT = 60 * SLOW  # seconds
 
 
+def environment(**more):
+    """That of the tests without their own GNOMON_ variables, of which the server would know none, and with further
+    ones."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("GNOMON_")} | more
+
+
 class Reply:
     def __init__(self, status, headers, body):
         self.status = status
@@ -41,7 +47,7 @@ class Server:
             stdout=subprocess.PIPE,
             stderr=self.log,
             text=True,
-            env=os.environ | (variables or {}),
+            env=environment(**(variables or {})),
         )
         line = self.process.stdout.readline()  # printed once requests are taken
         if not line.startswith("listening on http://"):

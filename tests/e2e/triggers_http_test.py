@@ -9,7 +9,7 @@ import threading
 import time
 import unittest
 
-from shipped_server import BINARY, SCENES, SLOW, SMALL, Server, ServerTest, TIMEOUT, receive_all
+from shipped_server import BINARY, SCENES, SLOW, SMALL, TIMEOUT, Server, ServerTest, environment, receive_all
 
 GET = "GET {} HTTP/1.1\r\nHost: localhost\r\n{}\r\n"
 
@@ -53,8 +53,9 @@ class UnreadLog(unittest.TestCase):
     def test_stops_nothing_and_tells_what_it_lost(self):
         reading, writing = os.pipe()
         process = subprocess.Popen(
-            [BINARY, "serve", "--port", "0", "--device", "cpu"], stdout=subprocess.PIPE, stderr=writing, text=True
-        )
+            [BINARY, "serve", "--port", "0", "--device", "cpu"],
+            stdout=subprocess.PIPE, stderr=writing, text=True, env=environment(),
+        )  # fmt: skip
         os.close(writing)
         try:
             port = int(process.stdout.readline().rsplit(":", 1)[1])
@@ -84,8 +85,9 @@ class UnreadLog(unittest.TestCase):
     def test_does_not_hold_up_the_end(self):
         reading, writing = os.pipe()
         process = subprocess.Popen(
-            [BINARY, "serve", "--port", "0", "--device", "cpu"], stdout=subprocess.PIPE, stderr=writing, text=True
-        )
+            [BINARY, "serve", "--port", "0", "--device", "cpu"],
+            stdout=subprocess.PIPE, stderr=writing, text=True, env=environment(),
+        )  # fmt: skip
         try:
             port = int(process.stdout.readline().rsplit(":", 1)[1])
             for _ in range(400):

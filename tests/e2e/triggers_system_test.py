@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from shipped_server import BINARY, SLOW, TIMEOUT, Server
+from shipped_server import BINARY, SLOW, TIMEOUT, Server, environment
 
 CLOSING_PROBE = b"GET /livez HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
 
@@ -53,7 +53,7 @@ class ShortOfEverything(unittest.TestCase):
         process = subprocess.Popen(
             [BINARY, "serve", "--port", "0", "--device", "cpu"],
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64)),
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=environment(),
         )  # fmt: skip
         try:
             port = int(process.stdout.readline().rsplit(":", 1)[1])
@@ -73,7 +73,7 @@ class ShortOfEverything(unittest.TestCase):
         ended = subprocess.run(
             [BINARY, "serve", "--port", "0", "--device", "cpu", "--http-threads", "4096"],
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30)),
-            capture_output=True, text=True, timeout=TIMEOUT,
+            capture_output=True, text=True, timeout=TIMEOUT, env=environment(),
         )  # fmt: skip
         self.assertEqual(ended.returncode, 1, ended.stderr[-500:])
         self.assertIn("so many threads", ended.stderr)

@@ -1,0 +1,177 @@
+#include "server/process/config_text.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "protocol/base/text.h"
+
+namespace gnomon {
+namespace {
+
+bool isKey(std::string_view text) {
+  const auto isAllowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), isAllowed);
+}
+
+/// Reads a file from its first byte to its last.
+class ConfigReader {
+ public:
+  ConfigReader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+
+  Result<std::vector<ConfigEntry>> read() {
+    while (at_ < text_.size() && problems_.size() < kMostProblems) {
+      skipSpaces();
+      if (!atLineEnd()) readEntry();
+      skipLine();
+    }
+    if (!problems_.empty()) return std::move(problems_);
+    return std::move(entries_);
+  }
+
+ private:
+  static constexpr std::size_t kMostProblems = 20;
+
+  bool ends() const { return at_ >= text_.size(); }
+  bool atLineEnd() const { return ends() || text_[at_] == '\n' || text_[at_] == '#'; }
+
+  void skipSpaces() {
+    while (!ends() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\r')) ++at_;
+  }
+
+  void skipLine() {
+    while (!ends() && text_[at_] != '\n') ++at_;
+    if (!ends()) ++at_;
+    ++line_;
+  }
+
+  /// Between the values of a list: line ends and comments, too.
+  void skipBetween() {
+    for (skipSpaces(); !ends() && atLineEnd(); skipSpaces()) skipLine();
+  }
+
+  bool fail(std::string detail) {
+    problems_.push_back(
+        {ProblemCode::invalidValue, std::string(file_) + ":" + std::to_string(line_), std::move(detail), "", ""});
+    return false;
+  }
+
+  bool readEntry() {
+    const std::size_t end = std::min(text_.find_first_of("=\n#", at_), text_.size());
+    const std::string key(trimmed(text_.substr(at_, end - at_)));
+    if (key.starts_with("[")) return fail("There are no sections: keys are the flags of gnomon serve.");
+    if (end == text_.size() || text_[end] != '=') return fail("This is not KEY = VALUE.");
+    if (!isKey(key)) return fail("This is no key: " + asciiExcerpt(key) + ".");
+    at_ = end + 1;
+    ConfigEntry entry{line_, key, {}, false};
+    skipSpaces();
+    if (!ends() && text_[at_] == '[') {
+      entry.isList = true;
+      ++at_;
+      if (!readList(entry)) return false;
+    } else if (auto value = readValue()) {
+      entry.values.push_back(*std::move(value));
+    } else {
+      return false;
+    }
+    skipSpaces();
+    if (!atLineEnd()) return fail("Something follows the value of " + key + ". Texts with spaces need quotes.");
+    const auto known =
+        std::find_if(entries_.begin(), entries_.end(), [&](const ConfigEntry& each) { return each.key == key; });
+    if (known != entries_.end()) return fail(key + " is set twice; first in line " + std::to_string(known->line) + ".");
+    entries_.push_back(std::move(entry));
+    return true;
+  }
+
+  bool readList(ConfigEntry& entry) {
+    for (skipBetween(); !ends() && text_[at_] != ']'; skipBetween()) {
+      auto value = readValue();
+      if (!value) return false;
+      entry.values.push_back(*std::move(value));
+      skipBetween();
+      if (!ends() && text_[at_] == ',') {
+        ++at_;
+      } else if (!ends() && text_[at_] != ']') {
+        return fail("The values of a list need commas between them.");
+      }
+    }
+    if (ends())
+      return fail("The list of " + entry.key + ", which began in line " + std::to_string(entry.line) + ", has no end.");
+    ++at_;
+    return true;
+  }
+
+  std::optional<std::string> readValue() {
+    const char quote = ends() ? '\0' : text_[at_];
+    if (quote == '"' || quote == '\'') return readQuoted(quote);
+    const std::size_t end = std::min(text_.find_first_of(" \t\r\n#,[]\"'=", at_), text_.size());
+    if (end == at_) {
+      fail("Here is no value.");
+      return std::nullopt;
+    }
+    std::string word(text_.substr(at_, end - at_));
+    at_ = end;
+    return word;
+  }
+
+  std::optional<std::string> readQuoted(char quote) {
+    std::string value;
+    for (++at_; !ends() && text_[at_] != '\n' && text_[at_] != quote; ++at_) {
+      if (quote == '\'' || text_[at_] != '\\') {
+        value += text_[at_];
+        continue;
+      }
+      const char escaped = ++at_ < text_.size() ? text_[at_] : '\n';
+      constexpr std::string_view kNames = "\"\\nt", kMeanings = "\"\\\n\t";
+      const std::size_t which = kNames.find(escaped);
+      if (which == std::string_view::npos) {
+        fail(R"(In "..." a backslash begins \", \\, \n or \t; in '...' it is one.)");
+        return std::nullopt;
+      }
+      value += kMeanings[which];
+    }
+    if (ends() || text_[at_] != quote) {
+      fail("The text has no closing quote.");
+      return std::nullopt;
+    }
+    ++at_;
+    return value;
+  }
+
+  std::string_view text_;
+  std::string_view file_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  std::vector<ConfigEntry> entries_;
+  Problems problems_;
+};
+
+} // namespace
+
+Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_view file) {
+  if (!isUtf8(text) || text.find('\0') != std::string_view::npos) {
+    return Problem{ProblemCode::invalidValue, std::string(file), "This is no text in UTF-8.", "", ""};
+  }
+  return ConfigReader(text, file).read();
+}
+
+std::string configValue(std::string_view value) {
+  const bool isNumber = !value.empty() && value.size() < 19 && (value == "0" || value[0] != '0') &&
+                        value.find_first_not_of("0123456789") == std::string_view::npos;
+  if (isNumber || value == "true" || value == "false") return std::string(value);
+  std::string quoted = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string(1, c);
+  }
+  return quoted + '"';
+}
+
+std::string configList(std::span<const std::string> values) {
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : ", ") + configValue(value);
+  return "[" + list + "]";
+}
+
+} // namespace gnomon

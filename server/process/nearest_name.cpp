@@ -1,0 +1,42 @@
+#include "server/process/nearest_name.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+/// Letters to insert, remove or replace (Levenshtein).
+std::size_t editDistance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), 0u);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+} // namespace
+
+std::string nearestName(std::string_view mistyped, std::span<const std::string> names) {
+  constexpr std::size_t kLongest = 256; // whatever is longer resembles no name
+  if (mistyped.size() > kLongest) return {};
+  std::string_view nearest;
+  std::size_t least = mistyped.size() / 3 + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = editDistance(mistyped, name);
+    if (distance < least) {
+      least = distance;
+      nearest = name;
+    }
+  }
+  return std::string(nearest);
+}
+
+} // namespace gnomon

@@ -1,0 +1,78 @@
+#include "server/process/config_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace gnomon {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string placeOfFault(std::string_view text, const char* says) {
+  const auto parsed = parseConfig(text, "a.conf");
+  if (parsed) return "no fault";
+  EXPECT_THAT(parsed.problems().front().detail, HasSubstr(says));
+  return parsed.problems().front().pointer;
+}
+
+TEST(ConfigText, ReadsTextsWordsAndLists) {
+  const auto parsed = parseConfig(
+      "# first\r\nport = 8080 # not the usual\r\n\r\nstore=\"/var/lib/a #1\"\nkeys = 'C:\\x'\nallowed-hosts = [ 'a', # "
+      "one\n"
+      "  \"b\",\n]\nrequire-gpu = true\ngpu-scene-bytes = 512MB",
+      "a.conf");
+  ASSERT_TRUE(parsed);
+  ASSERT_EQ(parsed->size(), 6u);
+  EXPECT_EQ((*parsed)[0].key, "port");
+  EXPECT_EQ((*parsed)[0].line, 2);
+  EXPECT_THAT((*parsed)[0].values, ElementsAre("8080"));
+  EXPECT_THAT((*parsed)[1].values, ElementsAre("/var/lib/a #1"));
+  EXPECT_THAT((*parsed)[2].values, ElementsAre("C:\\x"));
+  EXPECT_THAT((*parsed)[3].values, ElementsAre("a", "b"));
+  EXPECT_TRUE((*parsed)[3].isList);
+  EXPECT_EQ((*parsed)[4].line, 9);
+  EXPECT_THAT((*parsed)[5].values, ElementsAre("512MB"));
+}
+
+TEST(ConfigText, AFaultHasItsLine) {
+  EXPECT_EQ(placeOfFault("\n\nport", "KEY = VALUE"), "a.conf:3");
+  EXPECT_EQ(placeOfFault("[serve]\n", "no sections"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("port = ", "no value"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("store = /a b", "need quotes"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("port = 1\nport = 2", "first in line 1"), "a.conf:2");
+  EXPECT_EQ(placeOfFault("store = \"/a\nb\"", "closing quote"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("store = \"\\x\"", "backslash"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("hosts = ['a' 'b']", "commas"), "a.conf:1");
+  EXPECT_EQ(placeOfFault("hosts = ['a',\n'b'\n", "began in line 1"), "a.conf:3");
+  EXPECT_EQ(placeOfFault("a b = 1", "no key"), "a.conf:1");
+  EXPECT_EQ(placeOfFault(std::string_view("a = \0", 5), "UTF-8"), "a.conf");
+}
+
+TEST(ConfigText, ManyFaultsAreToldTogetherButNotWithoutEnd) {
+  EXPECT_EQ(parseConfig("a\nb\n", "f").problems().size(), 2u);
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "fault\n";
+  EXPECT_EQ(parseConfig(many, "f").problems().size(), 20u);
+}
+
+RC_GTEST_PROP(ConfigText, AnyTextIsReadBackAsItWas, ()) {
+  std::string value = *rc::gen::container<std::string>(
+      rc::gen::oneOf(rc::gen::inRange<char>(' ', '\x7f'), rc::gen::elementOf(std::string("\"'\\#\n\t=,[]"))));
+  const auto one = parseConfig("key = " + configValue(value), "f");
+  RC_ASSERT(bool(one));
+  RC_ASSERT(one->at(0).values == std::vector<std::string>{value});
+  const std::vector<std::string> values{value, "b", value};
+  const auto list = parseConfig("key = " + configList(values) + " # end", "f");
+  RC_ASSERT(bool(list));
+  RC_ASSERT(list->at(0).values == values);
+}
+
+RC_GTEST_PROP(ConfigText, AnyBytesAreReadOrRefused, (const std::string& bytes)) {
+  const auto parsed = parseConfig(bytes, "f");
+  if (!parsed) RC_ASSERT(!parsed.problems().empty());
+}
+
+} // namespace
+} // namespace gnomon
