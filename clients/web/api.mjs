@@ -20,9 +20,14 @@ export class Refusal extends Error {
   }
 }
 
-export async function listScenes() {
-  const { scenes } = await json(await call('v1/scenes', { headers: { Accept: 'application/json' } }));
-  return scenes;
+// The server's scenes, page by page: each a list of summaries, ascending by id.
+export async function* scenePages() {
+  let after = '';
+  do {
+    const { scenes, next } = await json(await call(`v1/scenes?limit=1000${after}`, { headers: { Accept: 'application/json' } }));
+    yield scenes;
+    after = next && `&after=${next}`;
+  } while (after);
 }
 
 export async function capabilities() {

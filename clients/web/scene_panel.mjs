@@ -1,6 +1,6 @@
 // Which scene is shown: a list of those that the server has, an upload by button or by drop, and what the scene holds.
 
-import { Refusal, listScenes, uploadScene } from './api.mjs';
+import { Refusal, scenePages, uploadScene } from './api.mjs';
 import { count, element, short } from './dom.mjs';
 import { chosenFiles, droppedFiles } from './drop_files.mjs';
 import { nameOf, rememberName } from './scene_names.mjs';
@@ -14,7 +14,8 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
 
   async function load(wantedId) {
     try {
-      scenes = await listScenes();
+      scenes = [];
+      for await (const page of scenePages()) scenes.push(...page);
     } catch (error) {
       return fail(error);
     }

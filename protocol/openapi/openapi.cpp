@@ -123,7 +123,20 @@ Json sceneRoute() {
 Json scenesRoute() {
   Json post = operation("postScene", "Upload a scene; its name is the hash of its bytes",
                         sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503", "507"}));
-  Json get = operation("listScenes", "The scenes that there are", jsonReply("All of them.", "SceneList"));
+  const Json content = {{"application/json", schemaContent("SceneList")}};
+  Json get = operation(
+      "listScenes", "The scenes that there are, in pages",
+      replies({{"200", success("A page, ascending by id; it may have fewer than `limit`.", content, {"Link"})}},
+              {"400", "429", "500", "503", "504"}));
+  get["parameters"] =
+      Json::array({{{"name", "limit"},
+                    {"in", "query"},
+                    {"description", "The most scenes on the page."},
+                    {"schema", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}, {"default", 100}}}},
+                   {{"name", "after"},
+                    {"in", "query"},
+                    {"description", "What the page before gave as its `next`; absent = the first page."},
+                    {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}});
   return {{"get", std::move(get)}, {"post", withBody(std::move(post), sceneBody())}};
 }
 

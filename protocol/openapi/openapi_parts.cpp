@@ -50,7 +50,8 @@ Json headers() {
           {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},
           {"Retry-After", header("Seconds.")},
           {"WWW-Authenticate", header("Bearer: that a key is asked for.")},
-          {"Location", header("Where the scene is.")}};
+          {"Location", header("Where the scene is.")},
+          {"Link", header("The next page, where there is one, as rel=next (RFC 8288).")}};
 }
 
 Json parameters() {

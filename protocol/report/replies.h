@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -104,9 +105,10 @@ struct FrameReply {
   std::vector<ImageReply> images{}; ///< a PNG for each view, or one EXR of them all
 };
 
-/// GET /v1/scenes.
+/// GET /v1/scenes: one page.
 struct SceneList {
   std::vector<SceneSummary> scenes{};
+  std::optional<std::string> next{}; ///< what the next page comes after; absent = this is the last
 };
 
 /// GET /v1/capabilities.

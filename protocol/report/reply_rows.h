@@ -171,9 +171,10 @@ inline constexpr auto kRows<FrameReply> =
 static_assert(kRowsAreComplete<FrameReply>);
 
 template <>
-inline constexpr auto kRows<SceneList> = replyRows("SceneList", "The scenes that the server has.",
-                                                   field("scenes", &SceneList::scenes,
-                                                         {.says = "One summary for each scene."}));
+inline constexpr auto kRows<SceneList> = replyRows(
+    "SceneList", "A page of the scenes that the server has, by id.",
+    field("scenes", &SceneList::scenes, {.says = "One summary for each scene."}),
+    field("next", &SceneList::next, {.says = "Where there are more: what `after` asks for the next page with."}));
 static_assert(kRowsAreComplete<SceneList>);
 
 template <>

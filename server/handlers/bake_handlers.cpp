@@ -51,7 +51,7 @@ BakeName nameOf(const RouteCall& call) {
 HttpReply postBake(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
-  if (!services.store.contains(id)) return problemReply({unknownScene(id)}, requestId);
+  if (!services.store.use(id)) return problemReply({unknownScene(id)}, requestId);
   const auto spec = decodeFrameSpec(call.request.body.empty() ? "{}" : asText(call.request.body));
   if (!spec) return problemReply(spec.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");

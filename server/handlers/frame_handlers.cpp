@@ -130,7 +130,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
 /// The frame of a stored scene.
 HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSpec> spec, std::string cacheControl) {
   const std::string& id = call.values.at("id");
-  if (!services.store.contains(id)) {
+  if (!services.store.use(id)) {
     return problemReply({unknownScene(id)}, call.request.id);
   }
   if (!spec) {
@@ -160,7 +160,7 @@ HttpReply getFrame(Services& services, RouteCall call) {
 
 HttpReply postPlan(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
-  if (!services.store.contains(id)) return problemReply({unknownScene(id)}, call.request.id);
+  if (!services.store.use(id)) return problemReply({unknownScene(id)}, call.request.id);
   const std::string_view body = asText(call.request.body);
   const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
   if (!spec) return problemReply(spec.problems(), call.request.id);

@@ -1,4 +1,7 @@
+#include <charconv>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
@@ -38,7 +41,13 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
                         call.request.id);
   }
   bool isNew = false;
-  auto summary = services.store.contains(pack->id) ? services.store.summary(pack->id) : std::nullopt;
+  const bool isKnown = services.store.use(pack->id);
+  auto summary = isKnown ? services.store.summary(pack->id) : std::nullopt;
+  if (!isKnown) {
+    if (const auto room = services.store.checkRoom(pack->bytes); !room) {
+      return problemReply(room.problems(), call.request.id); // before a worker loads it
+    }
+  }
   if (!summary) {
     HttpReply loaded = loadScene(services, call, pack->id, {pack->file});
     if (loaded.status != 200) return loaded;
@@ -64,6 +73,42 @@ HttpReply summaryOf(Services& services, const RouteCall& call, const std::string
   return made;
 }
 
+constexpr std::size_t kPageBytes = 8 << 20; ///< a page with more summaries than that ends early
+
+struct PageQuery {
+  std::size_t limit = 100;
+  std::string after;
+};
+
+Result<PageQuery> pageQuery(const std::vector<std::pair<std::string, std::string>>& query) {
+  constexpr std::size_t kMost = 1000;
+  PageQuery page;
+  std::set<std::string_view> seen;
+  for (const auto& [key, value] : query) {
+    const std::string pointer = "/" + asciiExcerpt(key);
+    if (key != "limit" && key != "after") {
+      return Problem{ProblemCode::invalidValue, pointer, "There is no query key of this name.", "limit, after", ""};
+    }
+    if (!seen.insert(key).second) {
+      return Problem{ProblemCode::invalidValue, pointer, "The query key is repeated.", "", ""};
+    }
+    if (key == "after") {
+      if (!isSceneId(value)) {
+        return Problem{ProblemCode::invalidValue, pointer, "This is not what a page gave as its next.",
+                       "64 lower-case hexadecimal digits", asciiExcerpt(value)};
+      }
+      page.after = value;
+      continue;
+    }
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), page.limit);
+    if (error != std::errc() || end != value.data() + value.size() || page.limit < 1 || page.limit > kMost) {
+      return Problem{ProblemCode::invalidValue, pointer, "This is no number of scenes for a page.",
+                     "1.." + std::to_string(kMost), asciiExcerpt(value)};
+    }
+  }
+  return page;
+}
+
 } // namespace
 
 HttpReply postScene(Services& services, RouteCall call) {
@@ -81,12 +126,31 @@ HttpReply putScene(Services& services, RouteCall call) {
 }
 
 HttpReply listScenes(Services& services, RouteCall call) {
+  const auto query = pageQuery(call.request.query);
+  if (!query) return problemReply(query.problems(), call.request.id);
+  const ScenePage page = services.store.page(query->after, query->limit);
   std::string all;
-  for (const std::string& id : services.store.ids()) {
-    const HttpReply summary = summaryOf(services, call, id);
+  std::string last; // of those that the page has dealt with
+  bool hasMore = page.hasMore;
+  for (const std::string& id : page.ids) {
+    if (all.size() > kPageBytes) {
+      hasMore = true;
+      break;
+    }
+    HttpReply summary = summaryOf(services, call, id);
+    if (summary.status == 429 || summary.status >= 500) { // it had to be loaded: the next page begins with it
+      if (last.empty()) return summary;
+      hasMore = true;
+      break;
+    }
     if (summary.status == 200) all += (all.empty() ? "" : ",") + summary.body;
+    last = id;
   }
-  return summaryReply("{\"scenes\":[" + all + "]}");
+  if (!hasMore) return summaryReply("{\"scenes\":[" + all + "]}");
+  HttpReply reply = summaryReply("{\"scenes\":[" + all + "],\"next\":\"" + last + "\"}");
+  reply.headers.emplace_back(
+      "Link", "</v1/scenes?limit=" + std::to_string(query->limit) + "&after=" + last + ">; rel=\"next\"");
+  return reply;
 }
 
 HttpReply getScene(Services& services, RouteCall call) {

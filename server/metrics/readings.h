@@ -7,7 +7,7 @@
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
 #include "server/metrics/process_use.h"
-#include "server/scenes/store_use.h"
+#include "server/scenes/store_size.h"
 
 namespace gnomon::metrics {
 
@@ -28,7 +28,7 @@ struct Snapshot {
   CacheUse cache;
   std::size_t cacheLimit = 0; ///< bytes
   std::uint64_t framesShared = 0;
-  StoreUse store;
+  StoreSize store;
   std::uint64_t logLinesDropped = 0;
   bool draining = false;
   ProcessUse process;

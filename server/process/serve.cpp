@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -25,6 +26,7 @@
 #include "server/process/admin_address.h"
 #include "server/process/memory_plan.h"
 #include "server/process/snapshot.h"
+#include "server/process/store_keeping.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/heaps.h"
@@ -173,6 +175,12 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
 } // namespace
 
 int serve(const ServeOptions& options) {
+  if (options.storeDirectory.empty() && (options.storeBytes > 0 || options.storeAgeSeconds > 0)) {
+    return failed({{ProblemCode::invalidValue, "",
+                    "--store-bytes and --store-age are about scenes in a directory: "
+                    "--store has to name one.",
+                    "", ""}});
+  }
   std::shared_ptr<KeyRing> keys;
   const std::function<void()> reload = [&keys] { keys->reload(); };
   Signals signals(options.keysFile.empty() ? nullptr : reload);
@@ -194,7 +202,9 @@ int serve(const ServeOptions& options) {
     lightMaps =
         std::make_shared<LightMapDirectory>(options.storeDirectory + "/light-maps", options.storedLightMapBytes);
   }
-  auto store = SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, lightMaps});
+  const std::chrono::seconds storeAge(options.storeAgeSeconds);
+  auto store =
+      SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, options.storeBytes, storeAge, lightMaps});
   if (!store) {
     return failed(store.problems());
   }
@@ -211,6 +221,8 @@ int serve(const ServeOptions& options) {
                     .page = options.page,
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations),
                     .replies = ReplyCache(options.replyCacheBytes)};
+  std::optional<StoreKeeping> keeping;
+  if (!options.storeDirectory.empty()) keeping.emplace(**store, **workers, storeAge);
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
   HttpService service = makeService(makeRoutes(services, options.adminPort ? Addresses::two : Addresses::one));

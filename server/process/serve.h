@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct ServeOptions {
   std::string adminBind = "127.0.0.1"; ///< address of adminPort
   std::optional<int> adminPort; ///< 0..65535: /metrics is served here alone, and probes; 0 = any free one, in the log
   std::string storeDirectory;   ///< where scenes are kept over a restart; created where missing; empty = memory only
+  std::uint64_t storeBytes = 0; ///< of scenes in storeDirectory (507); 0 = as many as its disk takes
+  std::int64_t storeAgeSeconds = 0; ///< scenes in it that nobody has used for so long are removed; 0 = never
 
   // Workers and what draws in them
   std::size_t workers = 0;                      ///< processes that draw; 0 = a quarter of the cores, and at least two

@@ -1,6 +1,8 @@
 #include "server/process/serve_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
+#include <string>
 
 #include "protocol/fields/fields.h"
 
@@ -10,7 +12,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 34);
+static_assert(memberCount<ServeOptions>() == 36);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -65,6 +67,23 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
                   "Directory that keeps scenes over a restart; without it they are kept in memory")
       ->envname("GNOMON_STORE")
       ->type_name("DIR")
+      ->group("Address and storage");
+  serve
+      .add_option("--store-bytes", options.storeBytes,
+                  "Scenes kept in that directory; 507 beyond it. 0 = as many as the disk takes")
+      ->envname("GNOMON_STORE_BYTES")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("BYTES")
+      ->group("Address and storage");
+  const std::map<std::string, std::int64_t> units{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
+  serve
+      .add_option("--store-age", options.storeAgeSeconds,
+                  "Scenes in that directory that nobody has uploaded or drawn for so long are removed: seconds, or as "
+                  "12h, 30d. 0 = never")
+      ->envname("GNOMON_STORE_AGE")
+      ->transform(CLI::AsNumberWithUnit(units).description(""))
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{3'650} * kDay).description(""))
+      ->type_name("SECONDS")
       ->group("Address and storage");
 }
 

@@ -14,7 +14,7 @@ metrics::Snapshot snapshotOf(const ServeOptions& options, Services& services, co
           .cache = services.replies.use(),
           .cacheLimit = options.replyCacheBytes,
           .framesShared = services.shared.shared(),
-          .store = services.store.use(),
+          .store = services.store.size(),
           .logLinesDropped = logLinesDropped(),
           .draining = services.draining,
           .process = metrics::processUse(),

@@ -68,6 +68,10 @@ void LightMapDirectory::removeScene(const std::string& sceneId) {
   }
 }
 
+void LightMapDirectory::cleanUp() {
+  removeUnfinished(path_);
+}
+
 /// Down to the budget.
 void LightMapDirectory::drop() {
   const std::lock_guard lock(dropping_);

@@ -23,6 +23,9 @@ class LightMapDirectory {
   /// Removes the maps of a scene.
   void removeScene(const std::string& sceneId);
 
+  /// Removes what writes of servers that died have left.
+  void cleanUp();
+
  private:
   std::string pathOf(const std::string& key) const { return path_ + "/" + key + ".map"; }
   void drop();

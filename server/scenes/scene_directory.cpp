@@ -4,10 +4,13 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
 #include "protocol/base/bytes.h"
+#include "server/scenes/file_use.h"
+#include "server/scenes/folder_names.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
@@ -20,7 +23,13 @@ namespace fs = std::filesystem;
 constexpr const char* kBundle = ".bundle";
 constexpr const char* kSummary = ".json";
 constexpr const char* kDamaged = ".damaged";
-constexpr std::size_t kMaxSummaryBytes = 16 << 20;
+
+/// The id in "<id><ending>"; empty where the name is another one.
+std::string_view idIn(std::string_view name, std::string_view ending) {
+  if (!name.ends_with(ending)) return {};
+  name.remove_suffix(ending.size());
+  return isSceneId(name) ? name : std::string_view();
+}
 
 /// By errno.
 Problem diskProblem(const char* what) {
@@ -30,18 +39,6 @@ Problem diskProblem(const char* what) {
     return {ProblemCode::insufficientStorage, "", "The disk of the scene store is full.", "", ""};
   }
   return {ProblemCode::unavailable, "", "The scene store can't read or write its disk.", "", ""};
-}
-
-/// Those whose bundle is gone: a server ended between removing the two.
-void removeOrphanSummaries(const std::string& path) {
-  std::error_code error;
-  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
-    const bool isSummary = entry->path().extension() == kSummary && isSceneId(entry->path().stem().string());
-    std::error_code ignored; // another process may be removing it too
-    if (isSummary && !fs::exists(fs::path(entry->path()).replace_extension(kBundle), ignored)) {
-      fs::remove(entry->path(), ignored);
-    }
-  }
 }
 
 /// A file's bytes, piece by piece.
@@ -61,39 +58,47 @@ std::string SceneDirectory::pathOf(const std::string& id, const char* ending) co
   return path_ + "/" + id + ending;
 }
 
-Result<SceneDirectory> SceneDirectory::open(const std::string& path) {
+SceneDirectory::SceneDirectory(std::string path, std::chrono::seconds age) : path_(std::move(path)) {
+  constexpr std::chrono::milliseconds kUsual = std::chrono::minutes(1);
+  constexpr int kShare = 10;
+  resolution_ =
+      age.count() > 0 ? std::min<std::chrono::milliseconds>(kUsual, std::chrono::milliseconds(age) / kShare) : kUsual;
+}
+
+Result<SceneDirectory> SceneDirectory::open(const std::string& path, std::chrono::seconds age) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error) || ::access(path.c_str(), R_OK | W_OK | X_OK) != 0) {
     return Problem{ProblemCode::unavailable, "/store", "The scene store is not a writable directory.", "", path};
   }
-  removeUnfinished(path);
-  removeOrphanSummaries(path);
-  return SceneDirectory(path);
+  SceneDirectory directory(path, age);
+  directory.cleanUp();
+  return directory;
 }
 
-std::vector<std::string> SceneDirectory::ids() const {
-  std::vector<std::string> found;
-  std::error_code error;
-  for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().extension() == kBundle && isSceneId(entry->path().stem().string())) {
-      found.push_back(entry->path().stem().string());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+ScenePage SceneDirectory::page(std::string_view after, std::size_t limit) const {
+  PageFinder finder(after, limit);
+  eachName(path_, [&](std::string_view name) {
+    if (const auto id = idIn(name, kBundle); !id.empty()) finder.see(id);
+  });
+  return std::move(finder).page();
 }
 
-StoreUse SceneDirectory::use() const {
-  StoreUse use;
-  for (const std::string& id : ids()) {
-    std::error_code gone; // another process may have removed it
-    const std::uintmax_t bytes = fs::file_size(pathOf(id, kBundle), gone);
-    if (gone) continue;
-    ++use.scenes;
-    use.bytes += bytes;
-  }
-  return use;
+StoreSize SceneDirectory::size() const {
+  StoreSize size;
+  eachName(path_, [&](std::string_view name) {
+    const bool isScene = !idIn(name, kBundle).empty();
+    struct stat status {};
+    if ((!isScene && idIn(name, kDamaged).empty()) || ::stat((path_ + "/").append(name).c_str(), &status) != 0) return;
+    size.scenes += isScene ? 1 : 0;
+    size.bytes += static_cast<std::uint64_t>(status.st_size);
+  });
+  return size;
+}
+
+std::uint64_t SceneDirectory::bytesOf(const std::string& id) const {
+  struct stat status {};
+  return ::stat(pathOf(id, kBundle).c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
 bool SceneDirectory::contains(const std::string& id) const {
@@ -117,7 +122,7 @@ void SceneDirectory::writeSummary(const std::string& id, const std::string& summ
 }
 
 FileDescriptor SceneDirectory::openBundle(const std::string& id) const {
-  return FileDescriptor(::open(pathOf(id, kBundle).c_str(), O_RDONLY | O_CLOEXEC));
+  return openUsed(pathOf(id, kBundle), resolution_);
 }
 
 void SceneDirectory::setAside(const std::string& id) const {
@@ -140,6 +145,30 @@ bool SceneDirectory::remove(const std::string& id) const {
     diskProblem("A removal may not outlive a power cut.");
   }
   return removed;
+}
+
+void SceneDirectory::cleanUp() const {
+  removeUnfinished(path_);
+  eachName(path_, [&](std::string_view name) { // removals end with the summary, and a server may have ended before
+    const std::string id(idIn(name, kSummary));
+    if (!id.empty() && !contains(id)) ::unlink(pathOf(id, kSummary).c_str());
+  });
+}
+
+void SceneDirectory::removeUnused(std::chrono::seconds age,
+                                  const std::function<void(const std::string& id)>& removed) const {
+  bool any = false;
+  eachName(path_, [&](std::string_view name) {
+    const std::string id(idIn(name, kBundle));
+    const bool isBundle = !id.empty();
+    if (!isBundle && idIn(name, kDamaged).empty()) return;
+    if (!removeIfUnused((path_ + "/").append(name), age)) return;
+    any = true;
+    if (!isBundle) return;
+    ::unlink(pathOf(id, kSummary).c_str());
+    removed(id);
+  });
+  if (any) syncDirectory(path_);
 }
 
 } // namespace gnomon

@@ -38,15 +38,19 @@ std::optional<std::string> SceneMemory::summary(const std::string& id) const {
   return known == entries_.end() ? std::nullopt : std::optional(known->summary);
 }
 
-std::vector<std::string> SceneMemory::ids() const {
+bool SceneMemory::contains(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> all;
-  for (const Entry& entry : entries_) all.push_back(entry.id);
-  std::sort(all.begin(), all.end());
-  return all;
+  return find(id) != entries_.end();
 }
 
-StoreUse SceneMemory::use() const {
+ScenePage SceneMemory::page(std::string_view after, std::size_t limit) const {
+  PageFinder finder(after, limit);
+  const std::lock_guard lock(mutex_);
+  for (const Entry& entry : entries_) finder.see(entry.id);
+  return std::move(finder).page();
+}
+
+StoreSize SceneMemory::size() const {
   const std::lock_guard lock(mutex_);
   return {entries_.size(), bytes_};
 }

@@ -6,9 +6,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
-#include "server/scenes/store_use.h"
+#include "server/scenes/scene_page.h"
+#include "server/scenes/store_size.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -26,8 +27,9 @@ class SceneMemory {
 
   BundlePtr bundle(const std::string& id); ///< and marks it as used; nullptr = there is none
   std::optional<std::string> summary(const std::string& id) const;
-  std::vector<std::string> ids() const; ///< ascending
-  StoreUse use() const;
+  bool contains(const std::string& id) const;
+  ScenePage page(std::string_view after, std::size_t limit) const; ///< see PageFinder
+  StoreSize size() const;
   bool remove(const std::string& id);
 
  private:

@@ -9,12 +9,15 @@
 #include <filesystem>
 #include <random>
 #include <string_view>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
 #include "protocol/base/bytes.h"
+#include "server/scenes/file_use.h"
+#include "server/scenes/folder_names.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -51,6 +54,9 @@ Temporary makeTemporary(const std::filesystem::path& directory) {
     std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random()); });
     std::string path = directory / (std::string(kTemporary) + hexText(bytes));
     FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640));
+    if (file) {
+      ::flock(file.get(), LOCK_EX | LOCK_NB); // until it is closed: its writer lives
+    }
     if (file || errno != EEXIST) {
       return {std::move(path), std::move(file)};
     }
@@ -99,18 +105,10 @@ std::optional<Bytes> readWhole(const std::string& path, std::size_t most) {
 }
 
 void removeUnfinished(const std::string& directory) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    if (!entry->path().filename().string().starts_with(kTemporary)) {
-      continue;
-    }
-    std::error_code gone; // another process may be removing it too
-    const auto written = entry->last_write_time(gone);
-    if (!gone && written < fs::file_time_type::clock::now() - std::chrono::hours(1)) {
-      fs::remove(entry->path(), gone);
-    }
-  }
+  constexpr std::chrono::minutes kAge(1); // between a file's beginning and its lock, and where locks are not known
+  eachName(directory, [&](std::string_view name) {
+    if (name.starts_with(kTemporary)) removeIfUnused((directory + "/").append(name), kAge);
+  });
 }
 
 } // namespace gnomon

@@ -24,8 +24,8 @@ std::optional<Bytes> readWhole(const std::string& path, std::size_t most = std::
 /// Makes it lasting that files of this directory appeared or went. False, with errno, where the disk refuses.
 bool syncDirectory(const std::string& path);
 
-/// Removes what an interrupted placeFile left in a directory, an hour ago or earlier: another process may be writing
-/// what is younger.
+/// Removes what placeFile has left in a directory where its process died: files that nobody has locked, and nobody has
+/// written to for a minute.
 void removeUnfinished(const std::string& directory);
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 #include "server/scenes/scene_store.h"
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -61,7 +63,7 @@ TEST_F(SceneStoreTest, KeepsBundlesInMemoryOrInADirectory) {
     EXPECT_EQ(readFile(*bundle->file, 100), Bytes(10, 1));
     EXPECT_EQ(bundle->isStored, !directory.empty());
     EXPECT_EQ(store->summary(scene(1).id), summaryOf(scene(1)));
-    EXPECT_EQ(store->ids(), std::vector{scene(1).id});
+    EXPECT_EQ(store->page("", 10).ids, std::vector{scene(1).id});
     EXPECT_EQ(store->bundle(scene(2).id).problems()[0].code, ProblemCode::notFound);
   }
 }
@@ -69,7 +71,7 @@ TEST_F(SceneStoreTest, KeepsBundlesInMemoryOrInADirectory) {
 TEST_F(SceneStoreTest, FindsItsScenesAgain) {
   put(*open(directory_), scene(1));
   const auto store = open(directory_);
-  EXPECT_EQ(store->ids(), std::vector{scene(1).id});
+  EXPECT_EQ(store->page("", 10).ids, std::vector{scene(1).id});
   EXPECT_EQ(store->summary(scene(1).id), summaryOf(scene(1)));
   EXPECT_FALSE(put(*store, scene(1)));
 }
@@ -106,7 +108,7 @@ TEST_F(SceneStoreTest, CleansUpAfterAnInterruptedWrite) {
   std::ofstream(directory_ / "not a scene.bundle") << "x";
   const auto store = open(directory_);
   EXPECT_FALSE(fs::exists(directory_ / ".writing-1-1"));
-  EXPECT_TRUE(store->ids().empty());
+  EXPECT_TRUE(store->page("", 10).ids.empty());
   EXPECT_TRUE(fs::exists(directory_ / ".writing-2-1"));
   EXPECT_FALSE(fs::exists(directory_ / (std::string(64, 'a') + ".json")));
 }
@@ -133,6 +135,79 @@ TEST_F(SceneStoreTest, ForgetsTheLeastUsedOfThoseInMemory) {
   EXPECT_TRUE(store->contains(scene(1).id));
   EXPECT_FALSE(store->contains(scene(2).id));
   EXPECT_TRUE(store->contains(scene(3).id));
+}
+
+TEST_F(SceneStoreTest, PagesFollowEachOtherInBothKinds) {
+  std::vector<std::string> all;
+  for (int i = 0; i < 7; ++i) all.push_back(scene(i).id);
+  for (const std::string& directory : {std::string(), directory_.string()}) {
+    const auto store = open(directory);
+    for (int i = 0; i < 7; ++i) put(*store, scene(i));
+    std::sort(all.begin(), all.end());
+    for (const std::size_t limit : {1u, 3u, 6u, 7u, 8u}) {
+      std::vector<std::string> found;
+      ScenePage page{{}, true};
+      while (page.hasMore) {
+        page = store->page(found.empty() ? "" : found.back(), limit);
+        ASSERT_LE(page.ids.size(), limit);
+        ASSERT_TRUE(!page.hasMore || page.ids.size() == limit);
+        found.insert(found.end(), page.ids.begin(), page.ids.end());
+      }
+      EXPECT_EQ(found, all) << limit;
+    }
+    EXPECT_EQ(store->page(all[2] + "0", 2).ids, (std::vector{all[3], all[4]}));
+  }
+}
+
+TEST_F(SceneStoreTest, AQuotaCountsWhatIsThereAndWhatGoes) {
+  auto store = *SceneStore::open({directory_, 0, 25});
+  EXPECT_TRUE(put(*store, scene(1)));
+  EXPECT_TRUE(store->checkRoom(15));
+  EXPECT_FALSE(store->checkRoom(16));
+  EXPECT_TRUE(put(*store, scene(2)));
+  const auto refused = store->put(scene(3).id, scene(3).file, 10, summaryOf(scene(3)));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].code, ProblemCode::insufficientStorage);
+  EXPECT_FALSE(store->contains(scene(3).id));
+  store->setAside(scene(1).id);
+  EXPECT_FALSE(store->checkRoom(6)) << "what is damaged takes its room";
+  EXPECT_TRUE(store->remove(scene(2).id));
+  EXPECT_TRUE(put(*store, scene(3)));
+}
+
+TEST_F(SceneStoreTest, WhatNobodyUsesGoesAndNothingElse) {
+  using std::chrono::hours;
+  auto store = *SceneStore::open({directory_, 0, 0, hours(1)});
+  for (int i = 1; i <= 4; ++i) put(*store, scene(i));
+  const auto makeOld = [&](int number, const char* ending) {
+    fs::last_write_time(path(scene(number).id, ending), fs::file_time_type::clock::now() - hours(2));
+  };
+  for (int i = 1; i <= 3; ++i) makeOld(i, ".bundle");
+  EXPECT_TRUE(store->use(scene(2).id));
+  const auto held = store->bundle(scene(3).id);
+  makeOld(3, ".bundle");
+  store->setAside(scene(4).id);
+  makeOld(4, ".damaged");
+  std::ofstream(directory_ / "notes.bundle") << "not ours";
+  fs::last_write_time(directory_ / "notes.bundle", fs::file_time_type::clock::now() - hours(2));
+  std::vector<std::string> removed;
+  store->keepClean([&](const std::string& id) { removed.push_back(id); });
+  EXPECT_EQ(removed, std::vector{scene(1).id});
+  EXPECT_FALSE(fs::exists(path(scene(1).id, ".json")));
+  EXPECT_TRUE(store->contains(scene(2).id));
+  EXPECT_TRUE(store->contains(scene(3).id)) << "somebody reads it";
+  EXPECT_FALSE(fs::exists(path(scene(4).id, ".damaged")));
+  EXPECT_TRUE(fs::exists(directory_ / "notes.bundle"));
+}
+
+TEST_F(SceneStoreTest, ASummaryThatCouldNotBeReadBackIsRefused) {
+  for (const std::string& directory : {std::string(), directory_.string()}) {
+    const auto store = open(directory);
+    const auto refused = store->put(scene(1).id, scene(1).file, 10, std::string((16 << 20) + 1, ' '));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.problems()[0].code, ProblemCode::tooLarge);
+    EXPECT_FALSE(store->contains(scene(1).id));
+  }
 }
 
 TEST_F(SceneStoreTest, RefusesAPlaceThatIsNoDirectory) {

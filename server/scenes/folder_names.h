@@ -1,0 +1,13 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+/// Calls with the name of each entry of a folder, in no order, `.` and `..` left out. What appears or goes meanwhile
+/// may be told or not. Nothing where the folder can't be read.
+void eachName(const std::string& folder, const std::function<void(std::string_view name)>& tell);
+
+} // namespace gnomon

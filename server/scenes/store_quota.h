@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+
+#include "protocol/base/result.h"
+#include "server/system/clock.h"
+
+namespace gnomon {
+
+/// How many bytes the scenes of a directory may take together, whoever writes them. What is there is counted anew ever
+/// so often, so that what other servers wrote or removed counts, too: as often as counting takes a twentieth of the
+/// time. Any thread.
+class StoreQuota {
+ public:
+  /// `bytes` 0 = no quota. `count` tells how many bytes are there.
+  StoreQuota(std::uint64_t bytes, std::function<std::uint64_t()> count) : bytes_(bytes), count_(std::move(count)) {}
+
+  /// insufficientStorage where so many bytes do not fit now.
+  Status check(std::uint64_t bytes);
+
+  /// Writes a scene of so many bytes with `write`, unless they do not fit.
+  Status write(std::uint64_t bytes, const std::function<Status()>& write);
+
+  /// A scene of so many bytes is gone.
+  void giveBack(std::uint64_t bytes);
+
+ private:
+  Status room(std::uint64_t bytes);
+
+  const std::uint64_t bytes_;
+  const std::function<std::uint64_t()> count_;
+  std::mutex mutex_;
+  std::uint64_t kept_ = 0;    ///< when they were counted, and since
+  std::uint64_t writing_ = 0; ///< not kept yet
+  Clock::time_point countAgain_ = Clock::time_point::min();
+};
+
+} // namespace gnomon
