@@ -111,6 +111,7 @@ KEPT_IN = {
     "embree3/": ["renderer/reference"],
     "hwy/": ["renderer/cpu"],
     "openvdb/": ["renderer/volume/vdb"],
+    "systemd/": ["server/process/service_manager.cpp"],
     "tbb/": ["renderer/core/parallel.cpp"],
 }
 

@@ -1,5 +1,6 @@
 #include "server/http/connection.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <sys/socket.h>
@@ -117,9 +118,9 @@ class Connection {
       return std::nullopt;
     }
     if (head.expectsContinue) {
-      sendAll(connection_.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n", context_.limits.pace);
+      sendAll(connection_.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n", context_.limits.pace, &context_.cutReplies);
     }
-    auto body = readBody(reader_, head, rule, context_.limits.pace, lease);
+    auto body = readBody(reader_, head, rule, context_.limits.pace, lease, &context_.cutBodies);
     if (!body) {
       return body.problems().front();
     }
@@ -143,6 +144,16 @@ class Connection {
     return reply;
   }
 
+  /// For a reply beside those that other clients are taking; no longer than the server goes on.
+  bool awaitRoom(ByteLease& lease, std::size_t bytes) {
+    constexpr std::chrono::milliseconds kPiece{100};
+    const auto deadline = Clock::now() + context_.limits.replyRoom;
+    while (!lease.growBy(bytes, std::min(deadline, Clock::now() + kPiece))) {
+      if (Clock::now() >= deadline || context_.cutBodies.raised()) return false;
+    }
+    return true;
+  }
+
   /// Sends a handler's reply, once there is room for it beside those that other clients are taking.
   bool sendAnswer(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
     watch_->end();
@@ -156,7 +167,7 @@ class Connection {
     constexpr std::size_t kSmall = 64 * 1024; // problems and probes need no room
     ByteLease lease(context_.replyBytes);
     const std::size_t size = std::min(reply.body.size(), context_.replyBytes.total());
-    if (!bodyless && size > kSmall && !lease.growBy(size, Clock::now() + context_.limits.replyRoom)) {
+    if (!bodyless && size > kSmall && !awaitRoom(lease, size)) {
       reply = problemReply({{ProblemCode::unavailable, "",
                              "Replies that other clients are taking use all the memory for replies.", "", ""}},
                            record.id);
@@ -179,9 +190,9 @@ class Connection {
     if (withBody && reply.body.size() <= kOnePacket) {
       head += reply.body;
     }
-    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace);
+    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace, &context_.cutReplies);
     if (sent && withBody && reply.body.size() > kOnePacket) {
-      sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace);
+      sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace, &context_.cutReplies);
     }
     record.delivered = sent;
     record.replyBytes = withBody && sent ? reply.body.size() : 0;
@@ -194,7 +205,8 @@ class Connection {
     watch_->beginStream();
     addTrace(reply, record.trace);
     const auto sink = [&](std::string_view bytes) {
-      record.delivered = record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace);
+      record.delivered =
+          record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace, &context_.cutReplies);
       record.replyBytes += record.delivered ? bytes.size() : 0;
       return record.delivered;
     };

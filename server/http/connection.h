@@ -56,6 +56,8 @@ struct ConnectionContext {
   ByteBudget bodyBytes;                    ///< bodies that are read, or that their handlers work on
   ByteBudget replyBytes;                   ///< bodies of replies that are being sent; one alone may be larger
   StopSignal stop;                         ///< once raised: no further request is read, the running one is answered
+  StopSignal cutBodies{};                  ///< once raised: what is still to come of requests is not waited for: 503
+  StopSignal cutReplies{};                 ///< once raised: no client that takes a reply is waited for
   std::vector<IpNetwork> trustedProxies{}; ///< whose word about their clients counts
   RequestObserver* observer = nullptr;     ///< outlives the context; nullptr = nobody
   std::atomic<std::size_t> inProgress{0};  ///< requests that have a thread

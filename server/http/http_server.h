@@ -34,6 +34,15 @@ class HttpServer {
   /// No further connection is accepted and no further request read. Any thread, any time.
   void stop() { context_.stop.raise(); }
 
+  /// After stop(): requests that have not come whole are waited for no longer, and get 503.
+  void cutBodies() {
+    context_.cutBodies.raise();
+    lobby_.cutOff();
+  }
+
+  /// After cutBodies(): neither are clients that are taking their replies.
+  void cutReplies() { context_.cutReplies.raise(); }
+
  private:
   HttpServer(Listener listener, ConnectionContext& context, const HttpServerOptions& options)
       : context_(context), listener_(std::move(listener)), lobby_(context, options.threads, options.perClient) {}

@@ -133,6 +133,9 @@ bool Lobby::isOver() {
     return false;
   }
   dropIdle();
+  if (context_.cutBodies.raised()) {
+    refuseWaiting();
+  }
   if (!isDrained_ && isSettled()) {
     pool_.shutdown();
     isDrained_ = true;
@@ -338,6 +341,16 @@ void Lobby::dropIdle() {
       guest.deadline = std::min(guest.deadline, Clock::now() + kLastLinger);
       nextDeadline_ = std::min(nextDeadline_, guest.deadline);
     }
+  }
+}
+
+/// The server does not wait for them any longer.
+void Lobby::refuseWaiting() {
+  for (auto& [fd, guest] : guests_) {
+    if (guest.connection.ending) continue;
+    refuse(guest, {ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
+    guest.deadline = std::min(guest.deadline, Clock::now() + kLastLinger);
+    nextDeadline_ = std::min(nextDeadline_, guest.deadline);
   }
 }
 

@@ -32,6 +32,9 @@ class Lobby {
   /// Closes one connection that waits: the system has no further descriptors. Takes effect a little later.
   void makeRoom() noexcept;
 
+  /// The context's cutBodies was raised: heads that are incomplete, or have no thread yet, get 503.
+  void cutOff() noexcept { wake_.raise(); }
+
   /// Closes what is idle, and returns when every request whose head has begun to come is answered. Once.
   void finish();
 
@@ -63,6 +66,7 @@ class Lobby {
   void expectBy(Guest& guest, std::chrono::milliseconds patience);
   void dropLate();
   void dropIdle();
+  void refuseWaiting();
   Guests::iterator leastWanted();
   void dropOne();
 

@@ -34,8 +34,8 @@ std::optional<std::size_t> chunkSize(std::string_view line) {
 /// Takes bytes off the socket as the framing of the body needs them.
 class BodyReader {
  public:
-  BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease)
-      : reader_(reader), rule_(rule), meter_(pace, Clock::now()), lease_(lease) {}
+  BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease, const StopSignal* cut)
+      : reader_(reader), rule_(rule), meter_(pace, Clock::now()), lease_(lease), cut_(cut) {}
 
   /// Appends `count` bytes to the body; false = refused.
   bool append(std::size_t count) {
@@ -128,12 +128,14 @@ class BodyReader {
 
   bool more(std::size_t most) {
     const std::size_t before = reader_.buffered().size();
-    const SocketWait waited = reader_.receive(most, meter_.deadline(Clock::now()));
+    const SocketWait waited = reader_.receive(most, meter_.deadline(Clock::now()), cut_);
     meter_.moved(reader_.buffered().size() - before, Clock::now());
     if (waited == SocketWait::timedOut) {
       refused = {ProblemCode::deadlineExceeded, "", "The body arrived too slowly.", "", ""};
     } else if (waited == SocketWait::closed) {
       refused = {ProblemCode::malformed, "", "The connection ended before the body did.", "", ""};
+    } else if (waited == SocketWait::cutOff) {
+      refused = {ProblemCode::unavailable, "", "The server is shutting down, and the body was not here yet.", "", ""};
     }
     return waited == SocketWait::ready;
   }
@@ -142,6 +144,7 @@ class BodyReader {
   const BodyRule& rule_;
   PaceMeter meter_;
   ByteLease& lease_;
+  const StopSignal* cut_;
 };
 
 } // namespace
@@ -164,8 +167,8 @@ std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule)
 }
 
 Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule, const Pace& pace,
-                       ByteLease& lease) {
-  BodyReader body(reader, rule, pace, lease);
+                       ByteLease& lease, const StopSignal* cut) {
+  BodyReader body(reader, rule, pace, lease, cut);
   const bool whole =
       head.chunked ? body.chunks() : body.append(static_cast<std::size_t>(head.contentLength.value_or(0)));
   if (!whole) {

@@ -25,8 +25,9 @@ struct BodyRule {
 std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule);
 
 /// Reads the body that the head announces; never holds more than the rule allows. Problems: malformed (also where the
-/// client hangs up), tooLarge, deadlineExceeded, and busy where the lease can't grow.
+/// client hangs up), tooLarge, deadlineExceeded, busy where the lease can't grow, and unavailable where `cut` is raised
+/// before the body is there.
 Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule, const Pace& pace,
-                       ByteLease& lease);
+                       ByteLease& lease, const StopSignal* cut = nullptr);
 
 } // namespace gnomon

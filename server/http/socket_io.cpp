@@ -1,6 +1,7 @@
 #include "server/http/socket_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <poll.h>
@@ -20,12 +21,15 @@ bool mayComeLater(int error) {
 
 } // namespace
 
-SocketWait SocketReader::receive(std::size_t most, Clock::time_point deadline) {
+SocketWait SocketReader::receive(std::size_t most, Clock::time_point deadline, const StopSignal* cut) {
   while (true) {
-    pollfd waiting{fd_, POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, millisecondsUntil(deadline));
+    std::array<pollfd, 2> waiting{{{fd_, POLLIN, 0}, {cut ? cut->fd() : -1, POLLIN, 0}}};
+    const int ready = ::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline));
     if (ready < 0 && errno != EINTR) {
       return SocketWait::closed;
+    }
+    if (ready > 0 && waiting[1].revents != 0) {
+      return SocketWait::cutOff;
     }
     if (ready == 0 && Clock::now() >= deadline) {
       return SocketWait::timedOut;
@@ -64,7 +68,7 @@ std::string SocketReader::take() {
   return rest;
 }
 
-bool sendAll(int fd, std::string_view bytes, const Pace& pace) {
+bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut) {
   PaceMeter meter(pace, Clock::now());
   while (!bytes.empty()) {
     const ssize_t count = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -77,8 +81,8 @@ bool sendAll(int fd, std::string_view bytes, const Pace& pace) {
       return false;
     }
     const auto deadline = meter.deadline(Clock::now());
-    pollfd waiting{fd, POLLOUT, 0};
-    if (::poll(&waiting, 1, millisecondsUntil(deadline)) == 0) {
+    std::array<pollfd, 2> waiting{{{fd, POLLOUT, 0}, {cut ? cut->fd() : -1, POLLIN, 0}}};
+    if (::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline)) == 0 || waiting[1].revents != 0) {
       return false;
     }
   }

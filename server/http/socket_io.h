@@ -7,10 +7,11 @@
 
 #include "server/http/pace.h"
 #include "server/system/clock.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 
-enum class SocketWait { ready, closed, timedOut };
+enum class SocketWait { ready, closed, timedOut, cutOff };
 
 /// One client's bytes as they arrive. Waits no longer than a deadline, and buffers no more than it is asked for.
 class SocketReader {
@@ -18,8 +19,8 @@ class SocketReader {
   /// `fd` still belongs to the caller; `received` was read from it before.
   explicit SocketReader(int fd, std::string received = {}) : fd_(fd), buffer_(std::move(received)) {}
 
-  /// Waits for more bytes than are buffered and appends at most `most` of them.
-  SocketWait receive(std::size_t most, Clock::time_point deadline);
+  /// Waits for more bytes than are buffered and appends at most `most` of them. cutOff: `cut` is raised.
+  SocketWait receive(std::size_t most, Clock::time_point deadline, const StopSignal* cut = nullptr);
 
   std::string_view buffered() const { return std::string_view(buffer_).substr(begin_); }
   void consume(std::size_t count);
@@ -33,8 +34,9 @@ class SocketReader {
   std::size_t begin_ = 0; ///< bytes before it are consumed
 };
 
-/// Sends everything. False: the client was gone or slower than the pace.
-bool sendAll(int fd, std::string_view bytes, const Pace& pace);
+/// Sends everything. False: the client was gone or slower than the pace, or would have to be waited for when `cut` is
+/// raised.
+bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut = nullptr);
 
 /// Sends what fits into the socket's buffer at once. False: not everything did, or the client was gone.
 bool sendNow(int fd, std::string_view bytes);

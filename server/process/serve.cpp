@@ -25,6 +25,7 @@
 #include "server/metrics/metrics_text.h"
 #include "server/process/admin_address.h"
 #include "server/process/memory_plan.h"
+#include "server/process/service_manager.h"
 #include "server/process/snapshot.h"
 #include "server/process/store_keeping.h"
 #include "server/scenes/light_map_directory.h"
@@ -82,7 +83,7 @@ Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline)
   }
 }
 
-constexpr std::chrono::milliseconds kLogPatience{1'000};
+constexpr std::chrono::milliseconds kLogPatience{500};
 
 /// Prints one line for each problem.
 int failed(const Problems& problems) {
@@ -109,15 +110,40 @@ void raiseDescriptorLimit() {
   ::_exit(1); // no destructors: threads may be stuck, and nothing on disk is half-written
 }
 
+// From the grace's end to that of the process: replies to what was called off are sent, then taken, then lost.
+constexpr std::chrono::milliseconds kForReplies{500};
+constexpr std::chrono::milliseconds kForEverything{1'250};
+
+/// Finishes the requests in progress as long as the grace lasts. A second signal ends the process.
+void finish(Signals& signals, HttpServer& server, const StopSignal& done, Clock::time_point grace) {
+  const auto waitUntil = [&](Clock::time_point deadline) {
+    const Signals::Event event = signals.wait(done, deadline);
+    if (event == Signals::Event::signal) endNow("A second signal arrived.");
+    return event == Signals::Event::done;
+  };
+  if (waitUntil(grace)) return;
+  server.cutBodies();
+  if (waitUntil(grace + kForReplies)) return;
+  server.cutReplies();
+  if (!waitUntil(grace + kForEverything)) endNow("The grace period is over and work is still running.");
+}
+
 /// Runs the listener until a signal arrives, then finishes the requests in progress. 0, or 1 where accepting failed.
 int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer& server, Services& services) {
+  const int port = server.port();
   StopSignal listenerEnded;
   bool inOrder = false;
   std::thread listening([&] {
     inOrder = server.run();
     listenerEnded.raise();
   });
-  signals.wait(listenerEnded, Clock::time_point::max());
+  {
+    const Watchdog watchdog(
+        [bind = options.bind, port](std::chrono::milliseconds patience) { return answersLivez(bind, port, patience); });
+    signals.wait(listenerEnded, Clock::time_point::max());
+    constexpr auto kAfterwards = std::chrono::ceil<std::chrono::seconds>(kForEverything + kLogPatience);
+    tellStopping(std::chrono::seconds(options.drainSeconds + options.graceSeconds) + kAfterwards);
+  }
   services.draining = true;
   logEvent("draining", "The server is shutting down.");
   if (!listenerEnded.raised() && options.drainSeconds > 0 &&
@@ -133,15 +159,7 @@ int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer&
     listening.join();
     done.raise();
   });
-  constexpr std::chrono::seconds kSlack{5}; // for a frame that began just before the grace ended
-  switch (signals.wait(done, grace + kSlack)) {
-    case Signals::Event::signal:
-      endNow("A second signal arrived.");
-    case Signals::Event::timeout:
-      endNow("The grace period is over and work is still running.");
-    case Signals::Event::done:
-      break;
-  }
+  finish(signals, server, done, grace);
   finishing.join();
   logEvent("ended", inOrder ? "All work was finished." : "Connections could no longer be accepted.");
   flushLog(kLogPatience);
@@ -182,8 +200,13 @@ int serve(const ServeOptions& options) {
                     "", ""}});
   }
   std::shared_ptr<KeyRing> keys;
-  const std::function<void()> reload = [&keys] { keys->reload(); };
-  Signals signals(options.keysFile.empty() ? nullptr : reload);
+  const std::function<void()> reload = [&keys] {
+    tellReloading();
+    if (keys) keys->reload();
+    tellReady("The keys were read again.");
+  };
+  // A terminal that closes ends a server that has nothing to read again; a service manager means it otherwise.
+  Signals signals(options.keysFile.empty() && !hasServiceManager() ? nullptr : reload);
   if (!options.keysFile.empty()) {
     auto opened = KeyRing::open(options.keysFile);
     if (!opened) return failed(opened.problems());
@@ -233,6 +256,8 @@ int serve(const ServeOptions& options) {
       ByteBudget(options.uploadMemoryBytes),
       ByteBudget(options.replyMemoryBytes),
       {},
+      {},
+      {},
       *std::move(trusted),
       &counted};
   services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };
@@ -253,6 +278,7 @@ int serve(const ServeOptions& options) {
   logEvent("listening", address);
   std::printf("listening on %s\n", address.c_str());
   std::fflush(stdout);
+  tellReady("listening on " + address);
   return runUntilSignalled(options, signals, **server, services);
 }
 

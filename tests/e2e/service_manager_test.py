@@ -1,0 +1,146 @@
+"""What systemd is told over a real NOTIFY_SOCKET, and what it says of the unit."""
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from shipped_server import SLOW, TIMEOUT, Server
+
+UNIT = Path(__file__).resolve().parents[2] / "server" / "deploy" / "gnomon.service"
+
+
+class Notifications(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.addCleanup(self.socket.close)
+        self.socket.bind(str(self.folder / "notify"))
+        self.socket.settimeout(TIMEOUT)
+
+    def server(self, *flags, **variables):
+        return Server("--device", "cpu", *flags, variables={"NOTIFY_SOCKET": str(self.folder / "notify")} | variables)
+
+    def await_line(self, wanted):
+        """Waits for a notification that has this line; its lines."""
+        while True:
+            lines = self.socket.recv(4096).decode().splitlines()
+            if wanted in lines:
+                return lines
+
+    def drained(self, seconds):
+        """How many pings come in this time."""
+        end, count = time.monotonic() + seconds, 0
+        while (left := end - time.monotonic()) > 0:
+            self.socket.settimeout(left)
+            try:
+                count += self.socket.recv(4096) == b"WATCHDOG=1"
+            except TimeoutError:
+                break
+        self.socket.settimeout(TIMEOUT)
+        return count
+
+    def test_ready_comes_when_it_serves_and_stopping_when_it_ends(self):
+        with self.server() as server:
+            lines = self.await_line("READY=1")
+            self.assertTrue(any(line.startswith("STATUS=listening on http://127.0.0.1:") for line in lines), lines)
+            self.assertEqual(server.get("/readyz").status, 200)
+            server.process.send_signal(signal.SIGTERM)
+            lines = self.await_line("STOPPING=1")
+            extended = next(line for line in lines if line.startswith("EXTEND_TIMEOUT_USEC="))
+            self.assertEqual(int(extended.split("=")[1]), 10_000_000)
+            self.assertEqual(server.process.wait(TIMEOUT), 0)
+
+    def test_hangup_reloads_with_keys_and_without(self):
+        keys = self.folder / "keys"
+        keys.write_text(f"name=a sha256={'0' * 64} scopes=read\n")
+        for flags in ((), ("--keys", str(keys))):
+            with self.server(*flags) as server:
+                self.await_line("READY=1")
+                server.process.send_signal(signal.SIGHUP)
+                lines = self.await_line("RELOADING=1")
+                at = next(line for line in lines if line.startswith("MONOTONIC_USEC="))
+                self.assertLess(abs(time.monotonic() - int(at.split("=")[1]) / 1e6), 5 * SLOW)
+                self.await_line("READY=1")
+                self.assertEqual(server.get("/livez").status, 200)
+                self.assertEqual(server.end(), 0)
+
+    def test_the_watchdog_hears_of_it_while_it_answers_and_no_longer(self):
+        with self.server(WATCHDOG_USEC="600000") as server:
+            self.await_line("READY=1")
+            self.assertGreaterEqual(self.drained(2 * SLOW), 4)
+            server.process.send_signal(signal.SIGTERM)
+            self.await_line("STOPPING=1")
+            self.assertEqual(server.process.wait(TIMEOUT), 0)
+
+    @unittest.skipIf(SLOW > 1, "sanitizers want to be loaded first")
+    def test_a_server_whose_listener_is_stuck_is_not_well(self):
+        compiler = shutil.which("cc")
+        self.assertIsNotNone(compiler, "a C compiler makes the library that lets accept() hang")
+        source, library, stuck = self.folder / "hang.c", self.folder / "hang.so", self.folder / "stuck"
+        source.write_text("""
+            #define _GNU_SOURCE
+            #include <dlfcn.h>
+            #include <stdlib.h>
+            #include <sys/socket.h>
+            #include <unistd.h>
+            int accept4(int fd, struct sockaddr *address, socklen_t *length, int flags) {
+              int (*real)(int, struct sockaddr *, socklen_t *, int) = dlsym(RTLD_NEXT, "accept4");
+              while (access(getenv("STUCK"), F_OK) == 0) usleep(50000);
+              return real(fd, address, length, flags);
+            }
+            """)
+        subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)
+        with self.server(WATCHDOG_USEC="600000", LD_PRELOAD=str(library), STUCK=str(stuck)) as server:
+            self.await_line("READY=1")
+            self.assertGreaterEqual(self.drained(2), 4)
+            stuck.touch()
+            self.drained(1)  # a ping that was on its way
+            self.assertEqual(self.drained(2), 0)
+            stuck.unlink()
+            self.assertGreaterEqual(self.drained(2), 2)
+            self.assertEqual(server.end(), 0)
+
+    def test_without_a_watchdog_nothing_pings(self):
+        with self.server() as server:
+            self.await_line("READY=1")
+            self.assertEqual(self.drained(1), 0)
+            self.assertEqual(server.end(), 0)
+
+
+class Unit(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("systemd-analyze"), "systemd is not installed")
+    def test_its_exposure_is_low(self):
+        done = subprocess.run(["systemd-analyze", "security", "--offline=true", "--no-pager", "--threshold=25", str(UNIT)],
+                              capture_output=True, text=True, timeout=TIMEOUT)  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stdout[-6000:] + done.stderr)
+        exposure = float(re.search(r"Overall exposure level for .*: ([0-9.]+)", done.stdout)[1])
+        self.assertLess(exposure, 2.5)
+
+    @unittest.skipUnless(shutil.which("systemd-analyze"), "systemd is not installed")
+    def test_systemd_understands_every_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder) / "gnomon.service"
+            binary = os.environ["GNOMON_BINARY"]
+            copy.write_text(UNIT.read_text().replace("/usr/bin/gnomon", binary))
+            done = subprocess.run(["systemd-analyze", "verify", "--man=no", str(copy)], capture_output=True, text=True,
+                                  timeout=TIMEOUT)  # fmt: skip
+            faults = [line for line in done.stderr.splitlines() if "gnomon.service" in line]
+            self.assertEqual(faults, [])
+
+    def test_it_gives_the_server_the_time_that_it_takes_to_stop(self):
+        unit = UNIT.read_text()
+        self.assertIn("Type=notify\n", unit)
+        self.assertGreater(int(re.search(r"^TimeoutStopSec=(\d+)$", unit, re.MULTILINE)[1]), 10)
+
+
+if __name__ == "__main__":
+    unittest.main()
