@@ -112,6 +112,36 @@ class Age(StoreCase):
             self.assertEqual(server.frame(drawn, SMALL).status, 200)
             self.assertTrue(server.log_has(unused) if unused in server.log_text() else other.log_has(unused))
 
+    def test_a_scene_that_was_drawn_goes_once_nobody_draws_it(self):
+        with Server(*self.flags) as server:
+            scene = upload(server, padded(100, "drawn")).json()["id"]
+        with Server(*self.flags, "--store-age", "2s") as server:  # whose workers read the bundle from the disk
+            self.assertEqual(server.frame(scene, SMALL).status, 200)
+            self.assertTrue(until(lambda: scene not in self.ids()))
+            self.assertEqual(server.frame(scene, SMALL).status, 404)
+
+    def test_a_scene_is_there_for_as_long_as_it_is_worked_on(self):
+        with Server(*self.flags) as server:
+            scene = upload(server, padded(100, "worked on")).json()["id"]
+        with Server(*self.flags, "--store-age", "1s") as server:
+            body = json.dumps({"spec": {"width": 960, "height": 540}, "sweep": "sizes", "repeats": 20})
+            replies = []
+            thread = threading.Thread(
+                target=lambda: replies.append(
+                    server.ask("POST", f"/v1/scenes/{scene}/evaluations", body, {"Content-Type": "application/json"})
+                )
+            )
+            begin = time.monotonic()
+            thread.start()
+            while thread.is_alive():
+                there = scene in self.ids()
+                self.assertTrue(there or not thread.is_alive(), time.monotonic() - begin)
+                time.sleep(0.05)
+            thread.join()
+            self.assertGreater(time.monotonic() - begin, 2, "it has to last longer than the age")
+            self.assertEqual(replies[0].status, 200)
+            self.assertTrue(until(lambda: scene not in self.ids()))
+
     def test_a_scene_in_use_is_not_taken_away(self):
         with Server(*self.flags, "--store-age", "1s") as server:
             scene = upload(server, padded(100, "held")).json()["id"]
