@@ -21,6 +21,8 @@ AdminAddress::AdminAddress(const AdminAddressOptions& options, Services& service
                ByteBudget(kReplyBytes),
                {},
                {},
+               {},
+               {},
                &observer} {}
 
 Result<std::unique_ptr<AdminAddress>> AdminAddress::open(const AdminAddressOptions& options, Services& services,

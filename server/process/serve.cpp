@@ -1,17 +1,13 @@
 #include "server/process/serve.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <poll.h>
 #include <sys/resource.h>
-#include <sys/signalfd.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -26,6 +22,7 @@
 #include "server/process/admin_address.h"
 #include "server/process/memory_plan.h"
 #include "server/process/service_manager.h"
+#include "server/process/signals.h"
 #include "server/process/snapshot.h"
 #include "server/process/store_keeping.h"
 #include "server/scenes/light_map_directory.h"
@@ -36,52 +33,6 @@
 
 namespace gnomon {
 namespace {
-
-/// SIGTERM and SIGINT, received by waiting, and SIGHUP while something is to be read again. Blocks them for the calling
-/// thread and those that it starts later.
-class Signals {
- public:
-  /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone.
-  explicit Signals(std::function<void()> onHangup);
-
-  enum class Event { signal, done, timeout };
-
-  /// Waits for SIGTERM or SIGINT, for `done`, or for the deadline.
-  Event wait(const StopSignal& done, Clock::time_point deadline);
-
- private:
-  std::function<void()> onHangup_;
-  FileDescriptor signals_;
-};
-
-Signals::Signals(std::function<void()> onHangup) : onHangup_(std::move(onHangup)) {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, SIGINT);
-  if (onHangup_) sigaddset(&set, SIGHUP);
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  signals_ = FileDescriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
-}
-
-Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline) {
-  while (true) {
-    std::array<pollfd, 2> waiting{{{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}}};
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
-    if (waiting[1].revents != 0) {
-      return Event::done;
-    }
-    signalfd_siginfo info{};
-    if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {
-      if (info.ssi_signo != SIGHUP) return Event::signal;
-      onHangup_();
-    }
-    if (Clock::now() >= deadline) {
-      return Event::timeout;
-    }
-  }
-}
 
 constexpr std::chrono::milliseconds kLogPatience{500};
 

@@ -1,0 +1,43 @@
+#include "server/process/signals.h"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+#include <utility>
+
+namespace gnomon {
+
+Signals::Signals(std::function<void()> onHangup) : onHangup_(std::move(onHangup)) {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  if (onHangup_) sigaddset(&set, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  signals_ = FileDescriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline) {
+  while (true) {
+    std::array<pollfd, 2> waiting{{{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
+    if (waiting[1].revents != 0) {
+      return Event::done;
+    }
+    signalfd_siginfo info{};
+    if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {
+      if (info.ssi_signo != SIGHUP) return Event::signal;
+      onHangup_();
+    }
+    if (Clock::now() >= deadline) {
+      return Event::timeout;
+    }
+  }
+}
+
+} // namespace gnomon
