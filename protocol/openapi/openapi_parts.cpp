@@ -44,14 +44,17 @@ Json header(const char* description) {
 }
 
 Json headers() {
-  return {{"ETag", header("Changes whenever the picture could; If-None-Match with it is answered by 304.")},
-          {"Server-Timing", header("Milliseconds of each stage: queue, load, upload, survey, plan, shadow, shade, "
-                                   "readback, encode.")},
-          {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},
-          {"Retry-After", header("Seconds.")},
-          {"WWW-Authenticate", header("Bearer: that a key is asked for.")},
-          {"Location", header("Where the scene is.")},
-          {"Link", header("The next page, where there is one, as rel=next (RFC 8288).")}};
+  return {
+      {"ETag", header("Changes whenever the picture could; If-None-Match with it is answered by 304.")},
+      {"Server-Timing", header("Milliseconds of each stage: queue, load, upload, survey, plan, shadow, shade, "
+                               "readback, encode.")},
+      {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},
+      {"traceresponse", header("00-TRACE-SPAN-FLAGS: the request's place in the trace of its traceparent, or in a new "
+                               "one.")},
+      {"Retry-After", header("Seconds.")},
+      {"WWW-Authenticate", header("Bearer: that a key is asked for.")},
+      {"Location", header("Where the scene is.")},
+      {"Link", header("The next page, where there is one, as rel=next (RFC 8288).")}};
 }
 
 Json parameters() {
@@ -79,7 +82,8 @@ Json responses() {
   for (const Refusal& refusal : kRefusals) {
     Json response = {
         {"description", refusal.description},
-        {"headers", {{"X-Request-ID", {{"$ref", "#/components/headers/X-Request-ID"}}}}},
+        {"headers",
+         {{"X-Request-ID", reference("headers/X-Request-ID")}, {"traceresponse", reference("headers/traceresponse")}}},
         {"content", {{"application/problem+json", {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
     if (std::string_view(refusal.status) == "401") {
       response["headers"]["WWW-Authenticate"] = {{"$ref", "#/components/headers/WWW-Authenticate"}};
@@ -127,6 +131,7 @@ Json bytesContent() {
 Json success(const char* description, Json content, std::initializer_list<const char*> headers) {
   Json response = {{"description", description}, {"headers", Json::object()}};
   response["headers"]["X-Request-ID"] = reference("headers/X-Request-ID");
+  response["headers"]["traceresponse"] = reference("headers/traceresponse");
   for (const char* header : headers) response["headers"][header] = reference(std::string("headers/") + header);
   if (!content.empty()) response["content"] = std::move(content);
   return response;
