@@ -59,9 +59,10 @@ class BodyReader {
   bool line(std::string& text) {
     constexpr std::size_t kMost = 1024;
     while (true) {
-      const std::size_t end = reader_.buffered().find("\r\n");
+      const std::string_view start = reader_.buffered().substr(0, kMost + 2);
+      const std::size_t end = start.find("\r\n");
       if (end != std::string_view::npos) {
-        text = reader_.buffered().substr(0, end);
+        text = start.substr(0, end);
         reader_.consume(end + 2);
         if (std::any_of(text.begin(), text.end(), isControl)) {
           refused = brokenChunks("A chunk's line has a control character.");
@@ -69,7 +70,7 @@ class BodyReader {
         }
         return true;
       }
-      if (reader_.buffered().size() > kMost) {
+      if (start.size() == kMost + 2) {
         refused = brokenChunks("A chunk's line is too long.");
         return false;
       }

@@ -87,6 +87,14 @@ TEST(RequestBody, RefusesBrokenChunks) {
   EXPECT_EQ(statusOf(received(std::string(3000, '1'), chunkedHead(), {Framing::any, 100})), 400);
 }
 
+TEST(RequestBody, LimitsAChunksLineHoweverItComes) {
+  const auto with = [](std::size_t lineBytes) {
+    return "5;" + std::string(lineBytes - 2, 'x') + "\r\nhello\r\n0\r\n\r\n";
+  };
+  EXPECT_EQ(bodyOf(received(with(1024), chunkedHead(), {Framing::any, 100})), "hello");
+  EXPECT_EQ(statusOf(received(with(1025), chunkedHead(), {Framing::any, 100})), 400);
+}
+
 TEST(RequestBody, RefusesALengthThatLied) {
   EXPECT_EQ(statusOf(received("short", lengthHead(10), {Framing::any, 100})), 400);
 }
