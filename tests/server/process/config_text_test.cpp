@@ -7,8 +7,8 @@
 namespace gnomon {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::string placeOfFault(std::string_view text, const char* says) {
   const auto parsed = parseConfig(text, "a.conf");

@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const std::vector<std::string> kKnown{"GNOMON_STORE", "GNOMON_LISTEN_PORT", "GNOMON_WORKERS"};
 
