@@ -37,7 +37,8 @@ bool takesList(const CLI::Option& option) {
 std::string setOption(CLI::Option& option, const ConfigEntry& entry) {
   if (entry.isList && !takesList(option)) return "It takes one value, not a list.";
   if (isFlag(option) && entry.values[0] != "true" && entry.values[0] != "false") return "It is true or false.";
-  if (entry.values.empty()) return {};
+  const bool isEmpty = entry.values.empty() || (!entry.isList && entry.values[0].empty());
+  if (isEmpty && option.get_default_str().empty()) return {};
   try {
     option.add_result(entry.values);
     option.run_callback();

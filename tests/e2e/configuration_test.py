@@ -14,6 +14,9 @@ USAGE = 2
 OTHER = {
     "bind": '"0.0.0.0"',
     "port": "8123",
+    "admin-port": "9123",
+    "admin-bind": '"0.0.0.0"',
+    "trusted-proxies": '["10.0.0.0/8"]',
     "allowed-hosts": '["a.example", "b.example"]',
     "allowed-origins": '["https://page.example"]',
     "keys": r'"/etc/a \"quoted\" # place\\with everything"',
@@ -82,6 +85,12 @@ class Configuration(unittest.TestCase):
     def test_the_flag_names_the_file_before_the_variable_does(self):
         named = self.write("port = 5\n")
         self.assertEqual(options_in(printed("--config", named, GNOMON_CONFIG="/nowhere"))["port"], "5")
+
+    def test_an_empty_value_is_that_of_an_option_nobody_set_where_it_has_no_other(self):
+        usual = printed()
+        for key in ("admin-port", "keys", "store"):
+            self.assertEqual(printed("--config", self.write(f"{key} = ''\n")), usual, key)
+        self.assert_refused(serve("--print-config", "--config", self.write("port = ''\n")), ":1: port: ")
 
     def test_sizes_have_units_in_the_file_too(self):
         file = self.write("reply-cache-bytes = 2MB\ntile-cache-bytes = '1 GB'\n")

@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from shipped_server import BINARY, SMALL, TIMEOUT, Server, ServerTest
+from shipped_server import BINARY, SMALL, TIMEOUT, Server, ServerTest, environment
 
 TRACE = "0af7651916cd43dd8448eb211c80319c"
 PARENT = "b7ad6b7169203331"
@@ -101,7 +101,7 @@ class Clients(unittest.TestCase):
     def test_a_network_that_is_none_ends_the_start(self):
         for bad in ("10.0.0.1/8", "proxy.example"):
             ended = subprocess.run([BINARY, "serve", "--port", "0", "--trusted-proxies", "127.0.0.1," + bad],
-                                   capture_output=True, text=True, timeout=TIMEOUT)  # fmt: skip
+                                   capture_output=True, text=True, timeout=TIMEOUT, env=environment())  # fmt: skip
             self.assertEqual(ended.returncode, 1)
             self.assertIn(bad, ended.stderr)
 
