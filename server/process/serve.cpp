@@ -7,7 +7,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "server/http/origin_check.h"
 #include "server/metrics/metrics_text.h"
 #include "server/process/admin_address.h"
+#include "server/process/descriptor_plan.h"
 #include "server/process/memory_plan.h"
 #include "server/process/service_manager.h"
 #include "server/process/signals.h"
@@ -44,15 +44,6 @@ int failed(const Problems& problems) {
     std::fprintf(stderr, "gnomon: %s%s\n", problem.detail.c_str(), actual.c_str());
   }
   return 1;
-}
-
-/// Every connection needs a descriptor: asks for as many as the system allows.
-void raiseDescriptorLimit() {
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0) {
-    limit.rlim_cur = limit.rlim_max;
-    ::setrlimit(RLIMIT_NOFILE, &limit);
-  }
 }
 
 [[noreturn]] void endNow(const char* why) {
@@ -117,11 +108,15 @@ int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer&
   return inOrder ? 0 : 1;
 }
 
+std::size_t workersOf(const ServeOptions& options) {
+  return options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memoryLimit());
+}
+
 /// What all workers may keep together is shared out.
 DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps,
                                     metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
-  const std::size_t workers = options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memory);
+  const std::size_t workers = workersOf(options);
   return {.program = options.workerProgram,
           .workers = workers,
           .queueLimit = options.queueLimit,
@@ -165,7 +160,9 @@ int serve(const ServeOptions& options) {
   }
   auto trusted = ipNetworks(options.trustedProxies);
   if (!trusted) return failed(trusted.problems());
-  raiseDescriptorLimit();
+  const auto descriptors =
+      planDescriptors(raiseDescriptorLimit(), options.httpThreads, workersOf(options), options.storeDirectory.empty());
+  if (!descriptors) return failed(descriptors.problems());
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
 
@@ -177,8 +174,8 @@ int serve(const ServeOptions& options) {
         std::make_shared<LightMapDirectory>(options.storeDirectory + "/light-maps", options.storedLightMapBytes);
   }
   const std::chrono::seconds storeAge(options.storeAgeSeconds);
-  auto store =
-      SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, options.storeBytes, storeAge, lightMaps});
+  auto store = SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, descriptors->scenesInMemory,
+                                 options.storeBytes, storeAge, lightMaps});
   if (!store) {
     return failed(store.problems());
   }
@@ -199,6 +196,7 @@ int serve(const ServeOptions& options) {
   if (!options.storeDirectory.empty()) keeping.emplace(**store, **workers, storeAge);
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
+  connections.maxWaiting = descriptors->waitingConnections;
   HttpService service = makeService(makeRoutes(services, options.adminPort ? Addresses::two : Addresses::one));
   if (keys) service = withAccessCheck(std::move(service), keys);
   ConnectionContext context{

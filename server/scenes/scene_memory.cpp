@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace gnomon {
+namespace {
+
+constexpr std::uint64_t kEachBytes = 8'192; ///< of a scene besides its own: the page that it ends in, its file, its entry
+
+} // namespace
 
 /// With the mutex held.
 std::list<SceneMemory::Entry>::const_iterator SceneMemory::find(const std::string& id) const {
@@ -15,9 +20,9 @@ bool SceneMemory::put(const std::string& id, BundlePtr bundle, std::uint64_t byt
     entries_.splice(entries_.begin(), entries_, known);
     return false;
   }
-  entries_.push_front({id, std::move(bundle), bytes + summary.size(), summary});
+  entries_.push_front({id, std::move(bundle), bytes + summary.size() + kEachBytes, summary});
   bytes_ += entries_.front().bytes;
-  while (bytes_ > budget_ && entries_.size() > 1) {
+  while (entries_.size() > 1 && (bytes_ > budget_ || entries_.size() > most_)) {
     bytes_ -= entries_.back().bytes;
     entries_.pop_back();
   }

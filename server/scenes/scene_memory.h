@@ -20,7 +20,8 @@ using BundlePtr = std::shared_ptr<const FileDescriptor>;
 /// first. Any thread.
 class SceneMemory {
  public:
-  explicit SceneMemory(std::size_t budgetBytes) : budget_(budgetBytes) {}
+  /// `most`: scenes at once, >= 1.
+  SceneMemory(std::size_t budgetBytes, std::size_t most) : budget_(budgetBytes), most_(most) {}
 
   /// False where it was there already. The newest stays, whatever its size. `bytes`: of the bundle.
   bool put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);
@@ -36,13 +37,14 @@ class SceneMemory {
   struct Entry {
     std::string id;
     BundlePtr bundle;
-    std::uint64_t bytes = 0; ///< with the summary
+    std::uint64_t bytes = 0; ///< all that the scene takes here
     std::string summary;
   };
   std::list<Entry>::const_iterator find(const std::string& id) const;
 
   mutable std::mutex mutex_;
   std::size_t budget_;
+  std::size_t most_;
   std::uint64_t bytes_ = 0;
   std::list<Entry> entries_; ///< most recently used first
 };

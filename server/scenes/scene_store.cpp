@@ -15,7 +15,7 @@ Problem unknownScene(std::string_view id) {
 
 SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory)
     : age_(options.age),
-      memory_(options.memoryBytes),
+      memory_(options.memoryBytes, options.memoryScenes),
       directory_(std::move(directory)),
       quota_(directory_ ? options.directoryBytes : 0, [this] { return directory_->size().bytes; }),
       lightMaps_(options.lightMaps) {}

@@ -17,8 +17,9 @@
 namespace gnomon {
 
 struct SceneStoreOptions {
-  std::string directory;                ///< empty = scenes are in memory only, and the least recently used are dropped
+  std::string directory{};              ///< empty = scenes are in memory only, and the least recently used are dropped
   std::size_t memoryBytes = 1ull << 30; ///< of their bundles, where there is no directory
+  std::size_t memoryScenes = 4'096;     ///< and as many of them at most: each has a descriptor
   std::uint64_t directoryBytes = 0;     ///< of their bundles, where there is one; 0 = as many as the disk takes
   std::chrono::seconds age{};           ///< scenes of a directory that nobody used for so long go; 0 = never
   std::shared_ptr<LightMapDirectory> lightMaps{}; ///< those of a scene go with it; nullptr = there are none

@@ -38,12 +38,13 @@ class Reply:
 
 class Server:
     """`gnomon serve` with further flags, on any free port unless one is given, with further variables in its
-    environment. Use it in a `with` statement."""
+    environment, and no more than `descriptors` where that is given. Use it in a `with` statement."""
 
-    def __init__(self, *flags, port=0, variables=None):
+    def __init__(self, *flags, port=0, variables=None, descriptors=None):
         self.log = tempfile.TemporaryFile(mode="w+")
+        limited = [] if descriptors is None else ["prlimit", f"--nofile={descriptors}"]
         self.process = subprocess.Popen(
-            [BINARY, "serve", "--port", str(port), *flags],
+            [*limited, BINARY, "serve", "--port", str(port), *flags],
             stdout=subprocess.PIPE,
             stderr=self.log,
             text=True,

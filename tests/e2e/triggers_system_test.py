@@ -49,32 +49,32 @@ class ShortOfEverything(unittest.TestCase):
                     self.assertEqual(server.get("/livez").status, 200)
                 self.assertEqual(server.end(), 0)
 
-    def test_a_server_without_descriptors_serves_on_when_it_has_some(self):
-        process = subprocess.Popen(
-            [BINARY, "serve", "--port", "0", "--device", "cpu"],
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64)),
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=environment(),
-        )  # fmt: skip
-        try:
-            port = int(process.stdout.readline().rsplit(":", 1)[1])
-            silent = [socket.create_connection(("127.0.0.1", port), timeout=TIMEOUT) for _ in range(100)]
-            with socket.create_connection(("127.0.0.1", port), timeout=TIMEOUT) as connection:
-                connection.sendall(CLOSING_PROBE)
-                self.assertEqual(connection.recv(12), b"HTTP/1.1 200")
-            for connection in silent:
-                connection.close()
-            self.assertIsNone(process.poll())
-        finally:
-            process.kill()
-            process.wait(TIMEOUT)
-            process.stdout.close()
-
-    def test_refused_threads_are_told_of(self):
-        ended = subprocess.run(
-            [BINARY, "serve", "--port", "0", "--device", "cpu", "--http-threads", "4096"],
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30)),
+    def start_and_end(self, resource_kind, limit, *flags):
+        return subprocess.run(
+            [BINARY, "serve", "--port", "0", "--device", "cpu", *flags],
+            preexec_fn=lambda: resource.setrlimit(resource_kind, (limit, limit)),
             capture_output=True, text=True, timeout=TIMEOUT, env=environment(),
         )  # fmt: skip
+
+    def test_more_connections_than_descriptors_keep_nobody_out(self):
+        with Server("--device", "cpu", "--http-threads", "8", "--workers", "1", descriptors=256) as server:
+            scene = server.upload("box_on_plane")
+            silent = [socket.create_connection(server.address, timeout=TIMEOUT) for _ in range(300)]
+            for _ in range(20):
+                with socket.create_connection(server.address, timeout=TIMEOUT) as connection:
+                    connection.sendall(CLOSING_PROBE)
+                    self.assertEqual(connection.recv(12), b"HTTP/1.1 200")
+            self.assertEqual(server.get(f"/v1/scenes/{scene}/frame?width=16&height=16").status, 200)
+            for connection in silent:
+                connection.close()
+
+    def test_too_few_descriptors_end_the_start(self):
+        ended = self.start_and_end(resource.RLIMIT_NOFILE, 256)
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stderr, r"too few open files .* at least \d+\. \(256\)")
+
+    def test_refused_threads_are_told_of(self):
+        ended = self.start_and_end(resource.RLIMIT_AS, 4 << 30, "--http-threads", "600")
         self.assertEqual(ended.returncode, 1, ended.stderr[-500:])
         self.assertIn("so many threads", ended.stderr)
 

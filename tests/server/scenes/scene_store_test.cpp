@@ -36,8 +36,8 @@ class SceneStoreTest : public ::testing::Test {
   }
   ~SceneStoreTest() override { fs::remove_all(directory_); }
 
-  std::unique_ptr<SceneStore> open(const std::string& directory, std::size_t memoryBytes = 1 << 20) {
-    auto store = SceneStore::open({directory, memoryBytes});
+  std::unique_ptr<SceneStore> open(const std::string& directory) {
+    auto store = SceneStore::open({directory, 1 << 20});
     EXPECT_TRUE(store);
     return store ? *std::move(store) : nullptr;
   }
@@ -126,15 +126,21 @@ TEST_F(SceneStoreTest, Removes) {
 }
 
 TEST_F(SceneStoreTest, ForgetsTheLeastUsedOfThoseInMemory) {
-  const std::size_t one = 10 + summaryOf(scene(1)).size();
-  const auto store = open("", one * 2 + one / 2);
-  put(*store, scene(1));
-  put(*store, scene(2));
-  ASSERT_TRUE(store->bundle(scene(1).id));
-  put(*store, scene(3));
-  EXPECT_TRUE(store->contains(scene(1).id));
-  EXPECT_FALSE(store->contains(scene(2).id));
-  EXPECT_TRUE(store->contains(scene(3).id));
+  const auto whole = open("");
+  put(*whole, scene(1));
+  const std::size_t one = whole->size().bytes;
+  EXPECT_GE(one, 4'096u) << "the smallest scene takes a page of memory";
+  const auto byBytes = *SceneStore::open({.memoryBytes = one * 2 + one / 2});
+  const auto byNumber = *SceneStore::open({.memoryScenes = 2});
+  for (SceneStore* store : {byBytes.get(), byNumber.get()}) {
+    put(*store, scene(1));
+    put(*store, scene(2));
+    ASSERT_TRUE(store->bundle(scene(1).id));
+    put(*store, scene(3));
+    EXPECT_TRUE(store->contains(scene(1).id));
+    EXPECT_FALSE(store->contains(scene(2).id));
+    EXPECT_TRUE(store->contains(scene(3).id));
+  }
 }
 
 TEST_F(SceneStoreTest, PagesFollowEachOtherInBothKinds) {
@@ -160,7 +166,7 @@ TEST_F(SceneStoreTest, PagesFollowEachOtherInBothKinds) {
 }
 
 TEST_F(SceneStoreTest, AQuotaCountsWhatIsThereAndWhatGoes) {
-  auto store = *SceneStore::open({directory_, 0, 25});
+  auto store = *SceneStore::open({.directory = directory_, .directoryBytes = 25});
   EXPECT_TRUE(put(*store, scene(1)));
   EXPECT_TRUE(store->checkRoom(15));
   EXPECT_FALSE(store->checkRoom(16));
@@ -177,7 +183,7 @@ TEST_F(SceneStoreTest, AQuotaCountsWhatIsThereAndWhatGoes) {
 
 TEST_F(SceneStoreTest, WhatNobodyUsesGoesAndNothingElse) {
   using std::chrono::hours;
-  auto store = *SceneStore::open({directory_, 0, 0, hours(1)});
+  auto store = *SceneStore::open({.directory = directory_, .age = hours(1)});
   for (int i = 1; i <= 4; ++i) put(*store, scene(i));
   const auto makeOld = [&](int number, const char* ending) {
     fs::last_write_time(path(scene(number).id, ending), fs::file_time_type::clock::now() - hours(2));

@@ -1,0 +1,44 @@
+#include "server/process/descriptor_plan.h"
+
+#include <algorithm>
+#include <string>
+#include <sys/resource.h>
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kProcess =
+    96; ///< log, libraries, the store's files, the address for metrics with its connections
+constexpr std::size_t kPerRequest = 5; ///< its connection, the scene, the specification, the reply, a file of the store
+constexpr std::size_t kPerWorker = 8;  ///< its channel and process, and those of the one that takes its place
+constexpr std::size_t kLeastLeft = 64;
+constexpr std::size_t kMostConnections = 2'048;
+constexpr std::size_t kMostScenes = 65'536;
+
+} // namespace
+
+std::size_t raiseDescriptorLimit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+  ::getrlimit(RLIMIT_NOFILE, &limit);
+  return limit.rlim_cur;
+}
+
+Result<DescriptorPlan> planDescriptors(std::size_t descriptors, std::size_t httpThreads, std::size_t workers,
+                                       bool keepsScenesInMemory) {
+  const std::size_t atWork = kProcess + httpThreads * kPerRequest + workers * kPerWorker;
+  if (const std::size_t least = atWork + kLeastLeft; descriptors < least) {
+    return Problem{ProblemCode::unavailable, "",
+                   "The system grants this process too few open files (ulimit -n): these --http-threads and --workers "
+                   "take at least " +
+                       std::to_string(least) + ".",
+                   std::to_string(least), std::to_string(descriptors)};
+  }
+  const std::size_t left = descriptors - atWork;
+  const std::size_t scenes = keepsScenesInMemory ? std::min(left / 2, kMostScenes) : 0;
+  return DescriptorPlan{std::min(left - scenes, kMostConnections), scenes};
+}
+
+} // namespace gnomon

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "protocol/base/result.h"
+
+namespace gnomon {
+
+/// What the descriptors that the system grants a process are for.
+struct DescriptorPlan {
+  std::size_t waitingConnections = 0; ///< those that have no request to serve (ConnectionLimits::maxWaiting)
+  std::size_t scenesInMemory = 0;     ///< each is a file in memory; 0 where a directory keeps them
+};
+
+/// Asks the system for as many descriptors as it allows. How many that are.
+std::size_t raiseDescriptorLimit();
+
+/// Shares `descriptors` out: first what `httpThreads` requests and `workers` can need at once, so that none of them meets
+/// the limit; then scenes and waiting connections get the rest in equal parts. unavailable where too little is left.
+Result<DescriptorPlan> planDescriptors(std::size_t descriptors, std::size_t httpThreads, std::size_t workers,
+                                       bool keepsScenesInMemory);
+
+} // namespace gnomon
