@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -10,8 +11,16 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
-PORT = 18080
 DISK_BYTES = 96 << 20
+DESCRIPTORS = 1024  # of the front: fewer than the connections that hostile clients open
+
+
+def free_port():
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        return taken.getsockname()[1]
+
+
+PORT = free_port()  # the same over a restart, so that clients find the server again
 
 
 def pss_bytes(pid):
@@ -33,7 +42,7 @@ def children(pid):
 
 
 class Service:
-    """`gnomon serve` on a fixed port. `image`: in a container of 1 GiB, with the network of this machine."""
+    """`gnomon serve` on one port. `image`: in a container of 1 GiB, with the network of this machine."""
 
     def __init__(self, binary, image=None):
         self.binary, self.image = binary, image
@@ -57,12 +66,12 @@ class Service:
         if self.image:
             command = ["podman", "run", "-d", "--network", "host", "--read-only", "--tmpfs", "/tmp:rw,size=64m,mode=1777",
                        "--cap-drop=ALL", "--security-opt=no-new-privileges", "--pids-limit", "1024", "--memory", "1g",
-                       "--memory-swap", "1g", "-v", f"{self.store}:/var/lib/gnomon", self.image, "serve",
+                       "--memory-swap", "1g", "--ulimit", f"nofile={DESCRIPTORS}:{DESCRIPTORS}", "-v", f"{self.store}:/var/lib/gnomon", self.image, "serve",
                        "--store", "/var/lib/gnomon", *flags]  # fmt: skip
             self.container = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
             self.pid = int(self.inspected("{{.State.Pid}}"))
         else:
-            command = [self.binary, "serve", "--store", str(self.store), *flags]
+            command = ["prlimit", f"--nofile={DESCRIPTORS}", self.binary, "serve", "--store", str(self.store), *flags]
             self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log)
             self.pid = self.process.pid
         self.await_ready()
