@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string_view>
 
+#include "protocol/bake/bake_file_type.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 
@@ -11,15 +10,6 @@
 namespace gnomon {
 
 struct BakedScene;
-
-enum class BakeFile {
-  png, ///< the share of one light that arrives, 8-bit grey: linear, row by row as the map has it
-  exr, ///< the same in floats; several lights are layers: light0.Y, light1.Y
-  glb  ///< the scene with texture coordinates for the map, and the light that arrives under MOZ_lightmap
-};
-
-/// Their media types, in that order.
-inline constexpr std::array<std::string_view, 3> kBakeFileTypes{"image/png", "image/x-exr", "model/gltf-binary"};
 
 inline constexpr std::size_t kMostExportedBytes = 256u << 20; ///< of a GLB
 

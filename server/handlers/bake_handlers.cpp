@@ -2,6 +2,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "protocol/bake/bake_file_type.h"
 #include "protocol/bake/bake_json.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
@@ -15,7 +16,6 @@ namespace gnomon {
 namespace {
 
 constexpr std::array<std::string_view, 2> kReportForms{"application/json", kEventStream};
-constexpr std::array<std::string_view, 3> kFileForms{"image/png", "image/x-exr", "model/gltf-binary"};
 constexpr int kBakeRetrySeconds = 5; ///< where the most bakes run
 
 /// The index in ?light=; nothing where there is none.
@@ -57,9 +57,7 @@ HttpReply postBake(Services& services, RouteCall call) {
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kReportForms);
   if (!form) {
-    return problemReply({{ProblemCode::notAcceptable, "", "A bake can't be told as any media type that Accept lists.",
-                          "application/json, text/event-stream", asciiExcerpt(accept.value_or(""))}},
-                        requestId);
+    return problemReply({notAcceptable("A bake's progress", accept, kReportForms)}, requestId);
   }
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);
@@ -105,18 +103,16 @@ HttpReply getBake(Services& services, RouteCall call) {
     return problemReply(light.problems(), requestId);
   }
   const auto accept = headerValue(call.request.headers, "accept");
-  const auto form = preferred(accept, kFileForms);
+  const auto form = preferred(accept, kBakeFileTypes);
   if (!form) {
-    return problemReply({{ProblemCode::notAcceptable, "", "A bake can't be sent as any media type that Accept lists.",
-                          "image/png, image/x-exr, model/gltf-binary", asciiExcerpt(accept.value_or(""))}},
-                        requestId);
+    return problemReply({notAcceptable("A bake", accept, kBakeFileTypes)}, requestId);
   }
   auto bundle = services.store.bundle(name.scene);
   if (!bundle) return problemReply(bundle.problems(), requestId);
   Task task = taskFor(call, OrderKind::bakeFile, name.scene, *std::move(bundle), jsonText(toJson(*spec)),
                       services.evaluationTimeout);
   task.lane = Lane::batch;
-  task.order.mediaType = kFileForms[*form];
+  task.order.mediaType = kBakeFileTypes[*form];
   task.order.light = *light;
   HttpReply reply = replyOf(runTask(services, std::move(task), call.clientGone), requestId);
   if (reply.status != 200) return reply;

@@ -29,10 +29,7 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kForms);
   if (!form) {
-    return problemReply(
-        {{ProblemCode::notAcceptable, "", "An evaluation can't be sent as any media type that Accept lists.",
-          "application/json, text/csv, image/svg+xml, text/event-stream", asciiExcerpt(accept.value_or(""))}},
-        requestId);
+    return problemReply({notAcceptable("An evaluation", accept, kForms)}, requestId);
   }
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);

@@ -97,10 +97,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const auto accept = headerValue(request.headers, "accept");
   const auto form = negotiate(accept, frame.spec.output.format);
   if (!form) {
-    return problemReply(
-        {{ProblemCode::notAcceptable, "", "A frame can't be sent as any media type that Accept lists.",
-          "image/png, image/x-exr, multipart/mixed, application/json", asciiExcerpt(accept.value_or(""))}},
-        request.id);
+    return problemReply({notAcceptable("A frame", accept, kFrameTypes)}, request.id);
   }
   frame.spec.output.format = form->format;
   const std::string etag = frameEtag(frame.sceneId, frame.spec, services.workers.info().fingerprint, *form);

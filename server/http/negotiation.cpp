@@ -96,6 +96,16 @@ std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std
   return best;
 }
 
+Problem notAcceptable(std::string_view what, std::optional<std::string_view> accept,
+                      std::span<const std::string_view> offers) {
+  std::string all;
+  for (const std::string_view offer : offers) {
+    all.append(all.empty() ? "" : ", ").append(offer);
+  }
+  return {ProblemCode::notAcceptable, "", std::string(what) + " can't be sent as any media type that Accept lists.",
+          all, asciiExcerpt(accept.value_or(""))};
+}
+
 std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat) {
   const ImageFormat other = specFormat == ImageFormat::png ? ImageFormat::exr : ImageFormat::png;
   const std::array<FrameForm, 4> forms{{{ReplyForm::image, specFormat},

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "protocol/base/result.h"
 #include "server/wire/frame_form.h"
 
 namespace gnomon {
@@ -11,6 +13,14 @@ namespace gnomon {
 /// The index of the media type that an Accept header prefers among `offers`: of equals the first, which is also the
 /// choice without such a header. Nothing: it accepts none of them.
 std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers);
+
+/// The refusal of an Accept that lists none of `offers`. `what`: is asked for, as "A frame".
+Problem notAcceptable(std::string_view what, std::optional<std::string_view> accept,
+                      std::span<const std::string_view> offers);
+
+/// The media types that negotiate() chooses from.
+inline constexpr std::array<std::string_view, 4> kFrameTypes{"image/png", "image/x-exr", "multipart/mixed",
+                                                             "application/json"};
 
 /// The form that Accept (RFC 9110, q-values included) prefers. An image type in Accept overrides the spec's format;
 /// where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format is used. Nothing: no form is

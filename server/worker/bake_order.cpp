@@ -29,11 +29,6 @@ class BakeEvents {
   int light_ = -1;
 };
 
-BakeFile fileOf(std::string_view mediaType) {
-  const auto found = std::find(kBakeFileTypes.begin(), kBakeFileTypes.end(), mediaType);
-  return static_cast<BakeFile>(found - kBakeFileTypes.begin());
-}
-
 } // namespace
 
 Answer bakeOrder(WorkContext& context, const OrderCall& call) {
@@ -74,9 +69,10 @@ Answer bakeFileOrder(WorkContext& context, const OrderCall& call) {
   if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/shadow/lightMap", call); !taken) {
     return {.problems = taken.problems()};
   }
-  const auto file =
-      context.renderer.baker().file(std::get<LoadedScene>(loaded).scene, *spec, fileOf(call.order.mediaType),
-                                    call.order.light, [&](const BakeStep&) { return call.goOn(); });
+  const auto kind = bakeFileOf(call.order.mediaType);
+  if (!kind) return {.problems = {{ProblemCode::internal, "", "A bake has no such file.", "", call.order.mediaType}}};
+  const auto file = context.renderer.baker().file(std::get<LoadedScene>(loaded).scene, *spec, *kind, call.order.light,
+                                                  [&](const BakeStep&) { return call.goOn(); });
   if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the file", call)}};
   return {.contentType = call.order.mediaType, .body = std::string(asText(*file))};
 }
