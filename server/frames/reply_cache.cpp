@@ -6,14 +6,37 @@ namespace gnomon {
 
 std::shared_ptr<const HttpReply> ReplyCache::find(const std::string& etag) {
   const std::lock_guard lock(mutex_);
-  auto found = lookUp(etag);
+  const Entry* const found = lookUp(byTag_, etag);
   ++(found ? use_.hits : use_.misses);
-  return found;
+  return found ? found->kept.reply : nullptr;
 }
 
 std::shared_ptr<const HttpReply> ReplyCache::findAgain(const std::string& etag) {
   const std::lock_guard lock(mutex_);
-  return lookUp(etag);
+  const Entry* const found = lookUp(byTag_, etag);
+  return found ? found->kept.reply : nullptr;
+}
+
+std::optional<KeptReply> ReplyCache::findRequest(const std::string& request) {
+  const std::lock_guard lock(mutex_);
+  const Entry* const found = lookUp(byRequest_, request);
+  if (!found) return std::nullopt;
+  ++use_.hits;
+  return found->kept;
+}
+
+void ReplyCache::remember(const std::string& request, const std::string& etag) {
+  constexpr std::size_t kMostBytes = 1024, kMost = 4;
+  const std::lock_guard lock(mutex_);
+  const auto known = byTag_.find(etag);
+  if (known == byTag_.end() || request.size() > kMostBytes || byRequest_.contains(request)) return;
+  std::list<std::string>& requests = known->second->requests;
+  requests.push_front(request);
+  byRequest_[request] = known->second;
+  if (requests.size() > kMost) {
+    byRequest_.erase(requests.back());
+    requests.pop_back();
+  }
 }
 
 CacheUse ReplyCache::use() {
@@ -21,12 +44,21 @@ CacheUse ReplyCache::use() {
   return use_;
 }
 
-/// With the mutex held.
-std::shared_ptr<const HttpReply> ReplyCache::lookUp(const std::string& etag) {
-  const auto known = byTag_.find(etag);
-  if (known == byTag_.end()) return nullptr;
+/// With the mutex held, as are all below. What is found is the most recently used.
+const ReplyCache::Entry* ReplyCache::lookUp(const std::unordered_map<std::string, Entries::iterator>& by,
+                                            const std::string& name) {
+  const auto known = by.find(name);
+  if (known == by.end()) return nullptr;
   entries_.splice(entries_.begin(), entries_, known->second);
-  return entries_.front().reply;
+  return &entries_.front();
+}
+
+void ReplyCache::dropLast() {
+  const Entry& last = entries_.back();
+  use_.bytes -= last.kept.reply->body.size();
+  for (const std::string& request : last.requests) byRequest_.erase(request);
+  byTag_.erase(last.kept.etag);
+  entries_.pop_back();
 }
 
 void ReplyCache::keep(const std::string& etag, const HttpReply& reply) {
@@ -39,13 +71,9 @@ void ReplyCache::keep(const std::string& etag, const HttpReply& reply) {
   const std::lock_guard lock(mutex_);
   if (byTag_.contains(etag)) return;
   use_.bytes += kept->body.size();
-  entries_.push_front({etag, std::move(kept)});
+  entries_.push_front({{etag, std::move(kept)}});
   byTag_[etag] = entries_.begin();
-  while (use_.bytes > budget_) {
-    use_.bytes -= entries_.back().reply->body.size();
-    byTag_.erase(entries_.back().etag);
-    entries_.pop_back();
-  }
+  while (use_.bytes > budget_) dropLast();
 }
 
 } // namespace gnomon

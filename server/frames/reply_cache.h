@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -18,6 +19,12 @@ struct CacheUse {
   std::uint64_t misses = 0;
 };
 
+/// A reply that was kept, and its entity tag.
+struct KeptReply {
+  std::string etag;
+  std::shared_ptr<const HttpReply> reply;
+};
+
 /// Replies that hold a picture, by entity tag, within a budget of bytes; the least recently used are dropped first. The
 /// tag names every byte of the body, so that none is ever out of date. Any thread.
 class ReplyCache {
@@ -30,6 +37,12 @@ class ReplyCache {
   /// The same for a request that has not found it before; counts nothing.
   std::shared_ptr<const HttpReply> findAgain(const std::string& etag);
 
+  /// By a request that had this reply before (remember): its tag needn't be made again. Counts only what it finds.
+  std::optional<KeptReply> findRequest(const std::string& request);
+
+  /// Such a request, of at most 1 KiB; a reply knows the last four. Nothing where the tag's reply is not kept.
+  void remember(const std::string& request, const std::string& etag);
+
   CacheUse use();
 
   /// Keeps a reply of status 200, unless it is larger than an eighth of the budget.
@@ -37,17 +50,20 @@ class ReplyCache {
 
  private:
   struct Entry {
-    std::string etag;
-    std::shared_ptr<const HttpReply> reply;
+    KeptReply kept;
+    std::list<std::string> requests{}; ///< that are remembered, the newest first
   };
+  using Entries = std::list<Entry>;
 
-  std::shared_ptr<const HttpReply> lookUp(const std::string& etag);
+  const Entry* lookUp(const std::unordered_map<std::string, Entries::iterator>& by, const std::string& name);
+  void dropLast();
 
   std::mutex mutex_;
   const std::size_t budget_;
   CacheUse use_;
-  std::list<Entry> entries_; ///< most recently used first
-  std::unordered_map<std::string, std::list<Entry>::iterator> byTag_;
+  Entries entries_; ///< most recently used first
+  std::unordered_map<std::string, Entries::iterator> byTag_;
+  std::unordered_map<std::string, Entries::iterator> byRequest_;
 };
 
 } // namespace gnomon

@@ -20,7 +20,8 @@ struct FrameCall {
   FrameSpec spec;
   std::function<Result<StoredBundle>()> bundle; ///< called only when a worker must see the scene
   std::string cacheControl;
-  SceneCounts counts; ///< as far as they are known
+  SceneCounts counts;    ///< as far as they are known
+  std::string request{}; ///< names all that the reply depends on; empty = the body counts too
 };
 
 /// Frames that are expected to take longer wait for each other, and leave a worker to all others.
@@ -92,6 +93,14 @@ HttpReply check(Services& services, const RouteCall& call, const FrameCall& fram
   return checked;
 }
 
+/// A reply that caches may keep as these say.
+HttpReply labelled(HttpReply reply, const std::string& etag, const std::string& cacheControl) {
+  if (!etag.empty()) reply.headers.emplace_back("ETag", etag);
+  reply.headers.emplace_back("Cache-Control", cacheControl);
+  reply.headers.emplace_back("Vary", "Accept");
+  return reply;
+}
+
 HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const HttpRequest& request = call.request;
   const auto accept = headerValue(request.headers, "accept");
@@ -113,19 +122,15 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
     reply = request.method == "HEAD" ? check(services, call, frame, *form) : draw(services, call, frame, *form, etag);
     if (reply.status != 200) return reply;
   }
+  if (mayBeKept && !frame.request.empty()) services.replies.remember(frame.request, etag);
   // Which settings meet a target depends on how fast the machine was.
-  if (frame.spec.quality) {
-    reply.headers.emplace_back("Cache-Control", "no-store");
-  } else {
-    reply.headers.emplace_back("ETag", etag);
-    reply.headers.emplace_back("Cache-Control", frame.cacheControl);
-  }
-  reply.headers.emplace_back("Vary", "Accept");
-  return reply;
+  return frame.spec.quality ? labelled(std::move(reply), "", "no-store")
+                            : labelled(std::move(reply), etag, frame.cacheControl);
 }
 
 /// The frame of a stored scene.
-HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSpec> spec, std::string cacheControl) {
+HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSpec> spec, std::string cacheControl,
+                       std::string request = {}) {
   const std::string& id = call.values.at("id");
   if (!services.store.use(id)) {
     return problemReply({unknownScene(id)}, call.request.id);
@@ -135,7 +140,7 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
   }
   return answer(services, call,
                 {id, *std::move(spec), [&services, id] { return services.store.bundle(id); }, std::move(cacheControl),
-                 services.store.counts(id).value_or(SceneCounts())});
+                 services.store.counts(id).value_or(SceneCounts()), std::move(request)});
 }
 
 /// Everything that the picture depends on is in the URL, but the renderer, and that is in the entity tag.
@@ -151,8 +156,18 @@ HttpReply postFrame(Services& services, RouteCall call) {
 }
 
 HttpReply getFrame(Services& services, RouteCall call) {
-  auto spec = decodeFrameQuery(call.request.query);
-  return answerStored(services, call, std::move(spec), kShared);
+  const HttpRequest& request = call.request;
+  std::string name;
+  if (request.method == "GET") {
+    const auto accept = headerValue(request.headers, "accept");
+    name = request.target + '\n' + std::string(accept.value_or("")) + '\n' + services.workers.info().fingerprint;
+    const bool isPlain = !headerValue(request.headers, "if-none-match") && services.store.use(call.values.at("id"));
+    if (auto kept = isPlain ? services.replies.findRequest(name) : std::nullopt) {
+      return labelled(*kept->reply, kept->etag, kShared);
+    }
+  }
+  auto spec = decodeFrameQuery(request.query);
+  return answerStored(services, call, std::move(spec), kShared, std::move(name));
 }
 
 HttpReply postPlan(Services& services, RouteCall call) {

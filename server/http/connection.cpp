@@ -35,8 +35,8 @@ class Connection {
         context_(context),
         reader_(connection_.socket.get(), std::exchange(connection_.received, {})) {}
 
-  OpenConnection serve() {
-    for (auto length = headWaiting(); length; length = headWaiting()) {
+  OpenConnection serve(const std::function<bool()>& mayStay) {
+    for (auto length = headWaiting(); length; length = nextHead(mayStay)) {
       ++connection_.requests;
       if (!serveOne(*length)) {
         ::shutdown(connection_.socket.get(), SHUT_WR);
@@ -50,6 +50,15 @@ class Connection {
   }
 
  private:
+  /// The next head, for which a thread that nobody else wants waits a moment: sooner than by way of the lobby.
+  std::optional<std::size_t> nextHead(const std::function<bool()>& mayStay) {
+    if (reader_.buffered().empty() && mayStay()) {
+      reader_.receive(kMaxHeadBytes, Clock::now() + context_.limits.stay, &context_.stop);
+      connection_.arrived = Clock::now();
+    }
+    return headWaiting();
+  }
+
   std::optional<std::size_t> headWaiting() const {
     const auto length = headLength(reader_.buffered());
     return length && *length <= kMaxHeadBytes ? length : std::nullopt;
@@ -190,8 +199,9 @@ class Connection {
     if (withBody && reply.body.size() <= kOnePacket) {
       head += reply.body;
     }
-    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace, &context_.cutReplies);
-    if (sent && withBody && reply.body.size() > kOnePacket) {
+    const bool bodyFollows = withBody && reply.body.size() > kOnePacket;
+    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace, &context_.cutReplies, bodyFollows);
+    if (sent && bodyFollows) {
       sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace, &context_.cutReplies);
     }
     record.delivered = sent;
@@ -241,9 +251,10 @@ void ConnectionContext::ended(const RequestRecord& record, const HttpReply& repl
   if (observer != nullptr) observer->ended(record, reply);
 }
 
-std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context) noexcept {
+std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context,
+                                              const std::function<bool()>& mayStay) noexcept {
   try {
-    return Connection(std::move(connection), context).serve();
+    return Connection(std::move(connection), context).serve(mayStay);
   } catch (const std::exception& error) {
     logEvent("connection", error.what()); // out of memory while a head was read: the client is cut off, we go on
     return std::nullopt;

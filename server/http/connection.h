@@ -38,6 +38,7 @@ struct ConnectionLimits {
   std::chrono::milliseconds replyRoom{5'000}; ///< for other replies to be taken where they use all the memory
   Pace pace;                                  ///< bodies, both ways
   std::chrono::milliseconds threadWait{100};  ///< for a thread, once the head is complete
+  std::chrono::milliseconds stay{2};          ///< of a thread with a client that may ask again at once
   std::size_t maxRequests = 10'000;
   std::size_t maxWaiting = 2'048; ///< connections that have no request to serve
 };
@@ -68,6 +69,8 @@ struct ConnectionContext {
 
 /// Answers the requests whose heads have come whole. What comes back waits for the next one, or is ending; nothing
 /// where the connection is lost. Throws nothing.
-std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context) noexcept;
+/// `mayStay`: whether the thread may wait a moment for the next request, since no other connection wants it.
+std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context,
+                                              const std::function<bool()>& mayStay) noexcept;
 
 } // namespace gnomon

@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <exception>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <sys/epoll.h>
 #include <sys/socket.h>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include "server/http/reply.h"
@@ -27,18 +22,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kLastLinger{500}; ///< once the server ends
 
-void drain(int eventFd) {
-  std::array<char, 8> count;
-  [[maybe_unused]] const auto read = ::read(eventFd, count.data(), count.size());
-}
-
-bool listenFor(int poll, int operation, int fd, std::uint32_t events) {
-  epoll_event event{};
-  event.events = events;
-  event.data.fd = fd;
-  return ::epoll_ctl(poll, operation, fd, &event) == 0;
-}
-
 Problem noPlace(bool clientHasItsShare) {
   if (clientHasItsShare) {
     return {ProblemCode::busy, "", "Other requests from this address take all the threads that it may have.", "", ""};
@@ -49,12 +32,7 @@ Problem noPlace(bool clientHasItsShare) {
 } // namespace
 
 Lobby::Lobby(ConnectionContext& context, std::size_t threads, std::size_t perClient)
-    : context_(context), shares_(perClient), poll_(::epoll_create1(EPOLL_CLOEXEC)), pool_(threads) {
-  if (!poll_ || !listenFor(poll_.get(), EPOLL_CTL_ADD, wake_.fd(), EPOLLIN)) {
-    throw std::system_error(errno, std::generic_category());
-  }
-  thread_ = std::thread([this] { watch(); });
-}
+    : context_(context), shares_(perClient), pool_(threads), thread_([this] { watch(); }) {}
 
 void Lobby::finish() {
   finishing_ = true;
@@ -81,47 +59,29 @@ void Lobby::makeRoom() noexcept {
 
 bool Lobby::isSettled() {
   const std::lock_guard lock(mutex_);
+  const auto& guests = guests_.all();
   return adopted_.empty() &&
-         std::all_of(guests_.begin(), guests_.end(), [](const auto& guest) { return guest.second.connection.ending; });
+         std::all_of(guests.begin(), guests.end(), [](const auto& guest) { return guest.second.connection.ending; });
 }
 
 void Lobby::watch() {
+  constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread
   while (true) {
     try {
       if (isOver()) {
         return;
       }
-      waitForBytes();
+      for (const auto& [fd, isLost] :
+           guests_.listen(ready_.empty() ? Clock::time_point::max() : Clock::now() + kRetry)) {
+        hear(fd, isLost);
+      }
       placeReady();
       if (roomWanted_.exchange(false)) {
         dropOne();
       }
-      if (Clock::now() >= nextDeadline_) {
-        dropLate();
-      }
+      refuseLate();
     } catch (const std::exception& error) {
       logEvent("connection", error.what()); // out of memory: whom it hit is dropped when late
-    }
-  }
-}
-
-/// Sleeps until a guest sends something, or until the next deadline.
-void Lobby::waitForBytes() {
-  constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread
-  const auto next = ready_.empty() ? nextDeadline_ : std::min(nextDeadline_, Clock::now() + kRetry);
-  int wait = -1;
-  if (next != Clock::time_point::max()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now()).count();
-    wait = static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
-  }
-  std::array<epoll_event, 64> events;
-  const int count = ::epoll_wait(poll_.get(), events.data(), events.size(), wait);
-  for (int i = 0; i < count; ++i) {
-    const epoll_event& event = events[static_cast<std::size_t>(i)];
-    if (event.data.fd == wake_.fd()) {
-      drain(wake_.fd());
-    } else {
-      hear(event.data.fd, (event.events & (EPOLLHUP | EPOLLERR)) != 0);
     }
   }
 }
@@ -142,7 +102,7 @@ bool Lobby::isOver() {
     takeAdopted();
     dropIdle();
   }
-  return isDrained_ && guests_.empty();
+  return isDrained_ && guests_.all().empty();
 }
 
 void Lobby::takeAdopted() {
@@ -152,54 +112,52 @@ void Lobby::takeAdopted() {
     adopted.swap(adopted_);
   }
   for (OpenConnection& connection : adopted) {
-    if (guests_.size() >= context_.limits.maxWaiting) {
+    if (guests_.all().size() >= context_.limits.maxWaiting) {
       dropOne();
     }
-    const int fd = connection.socket.get();
-    if (!listenFor(poll_.get(), EPOLL_CTL_ADD, fd, EPOLLIN)) {
-      continue; // and close it: the system has no memory to watch it
+    Guest* const guest = guests_.admit(std::move(connection));
+    if (guest == nullptr) {
+      continue;
     }
-    const auto guest = guests_.emplace(fd, Guest{std::move(connection), Clock::now(), {}}).first;
-    const OpenConnection& own = guest->second.connection;
-    expectBy(guest->second, own.ending          ? context_.limits.linger
-                            : own.requests == 0 ? context_.limits.firstByte
-                                                : context_.limits.idle);
+    const OpenConnection& own = guest->connection;
+    guests_.expectBy(*guest, own.ending          ? context_.limits.linger
+                             : own.requests == 0 ? context_.limits.firstByte
+                                                 : context_.limits.idle);
     if (!own.ending && !own.isSilent()) {
-      weigh(guest, true);
+      weigh(*guest, true);
     }
   }
 }
 
 /// Takes what a guest has sent.
 void Lobby::hear(int fd, bool lost) {
-  const auto found = guests_.find(fd);
-  if (found == guests_.end()) {
+  Guest* const guest = guests_.find(fd);
+  if (guest == nullptr) {
     return;
   }
-  Guest& guest = found->second;
-  if (guest.isReady) { // its body waits in the socket
-    if (lost) guests_.erase(found);
+  if (guest->isReady) { // its body waits in the socket
+    if (lost) guests_.drop(fd);
     return;
   }
-  OpenConnection& connection = guest.connection;
+  OpenConnection& connection = guest->connection;
   std::array<char, 16 * 1024> bytes;
   const ssize_t count = ::recv(fd, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) {
     return;
   }
   if (connection.ending) {
-    if (count <= 0) guests_.erase(found);
+    if (count <= 0) guests_.drop(fd);
     return;
   }
   const bool wasSilent = connection.isSilent();
   if (count > 0) {
     if (wasSilent) connection.arrived = Clock::now();
     connection.received.append(bytes.data(), static_cast<std::size_t>(count));
-    weigh(found, wasSilent);
+    weigh(*guest, wasSilent);
   } else if (wasSilent) {
-    guests_.erase(found);
+    guests_.drop(fd);
   } else {
-    refuse(guest, {ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""});
+    refuse(*guest, {ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""});
   }
 }
 
@@ -211,20 +169,20 @@ PeerAddress Lobby::clientOf(const OpenConnection& connection, std::size_t headBy
 }
 
 /// What has come of a head decides what becomes of its sender.
-void Lobby::weigh(Guests::iterator guest, bool headBegins) {
-  const OpenConnection& connection = guest->second.connection;
+void Lobby::weigh(Guest& guest, bool headBegins) {
+  const OpenConnection& connection = guest.connection;
   const auto length = headLength(connection.received);
   if (length.value_or(connection.received.size()) > kMaxHeadBytes) {
-    refuse(guest->second, {ProblemCode::tooLarge, "", "The request line and headers are too long.",
-                           std::to_string(kMaxHeadBytes) + " bytes", ""});
+    refuse(guest, {ProblemCode::tooLarge, "", "The request line and headers are too long.",
+                   std::to_string(kMaxHeadBytes) + " bytes", ""});
   } else if (length) {
-    guest->second.isReady = true;
-    guest->second.client = clientOf(connection, *length);
-    listenFor(poll_.get(), EPOLL_CTL_MOD, guest->first, 0);
-    expectBy(guest->second, context_.limits.threadWait);
-    ready_.push_back(guest->first);
+    guest.isReady = true;
+    guest.client = clientOf(connection, *length);
+    guests_.ignore(guest);
+    guests_.expectBy(guest, context_.limits.threadWait);
+    ready_.push_back(connection.socket.get());
   } else if (headBegins && !connection.isSilent()) {
-    expectBy(guest->second, context_.limits.head);
+    guests_.expectBy(guest, context_.limits.head);
   }
 }
 
@@ -232,37 +190,35 @@ void Lobby::weigh(Guests::iterator guest, bool headBegins) {
 void Lobby::placeReady() {
   std::vector<int> still;
   for (const int fd : std::exchange(ready_, {})) {
-    const auto guest = guests_.find(fd);
-    if (guest == guests_.end() || !guest->second.isReady) {
+    Guest* const guest = guests_.find(fd);
+    if (guest == nullptr || !guest->isReady) {
       continue;
     }
-    const Place where = place(guest);
+    const Place where = place(fd, *guest);
     if (where == Place::taken) {
       continue;
     }
-    if (!guest->second.isWaiting || Clock::now() >= guest->second.deadline) {
-      answer(guest->second, where);
+    if (!guest->isWaiting || Clock::now() >= guest->deadline) {
+      answer(*guest, where);
     }
-    if (guest->second.isReady) {
+    if (guest->isReady) {
       still.push_back(fd);
     }
   }
   ready_ = std::move(still);
 }
 
-Lobby::Place Lobby::place(Guests::iterator guest) {
-  const std::string network = guest->second.client.network;
+Lobby::Place Lobby::place(int fd, const Guest& guest) {
+  const std::string network = guest.client.network;
   if (!pool_.hasIdle()) {
     return Place::noThread;
   }
   if (!shares_.take(network)) {
     return Place::noShare;
   }
-  listenFor(poll_.get(), EPOLL_CTL_DEL, guest->first, 0);
-  const auto connection = std::make_shared<OpenConnection>(std::move(guest->second.connection));
-  guests_.erase(guest);
+  const auto connection = std::make_shared<OpenConnection>(guests_.release(fd));
   pool_.tryRun([this, connection, network] {
-    auto kept = serveConnection(std::move(*connection), context_);
+    auto kept = serveConnection(std::move(*connection), context_, [this] { return pool_.hasIdle(); });
     shares_.giveBack(network);
     if (kept) {
       adopt(*std::move(kept));
@@ -303,87 +259,45 @@ void Lobby::sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool 
   connection.ending = true;
   connection.received = {};
   guest.isReady = false;
-  listenFor(poll_.get(), EPOLL_CTL_MOD, connection.socket.get(), EPOLLIN);
-  expectBy(guest, context_.limits.linger);
+  guests_.heed(guest);
+  guests_.expectBy(guest, context_.limits.linger);
 }
 
-void Lobby::expectBy(Guest& guest, std::chrono::milliseconds patience) {
-  guest.deadline = Clock::now() + patience;
-  nextDeadline_ = std::min(nextDeadline_, guest.deadline);
-}
-
-void Lobby::dropLate() {
-  const auto now = Clock::now();
-  nextDeadline_ = Clock::time_point::max();
-  for (auto at = guests_.begin(); at != guests_.end();) {
-    Guest& guest = at->second;
-    const bool isLate = !guest.isReady && now >= guest.deadline;
-    if (isLate && (guest.connection.ending || guest.connection.isSilent())) {
-      at = guests_.erase(at);
-      continue;
-    }
-    if (isLate) {
-      refuse(guest, {ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""});
-    }
-    if (!guest.isReady) { // those are looked at anyway
-      nextDeadline_ = std::min(nextDeadline_, guest.deadline);
-    }
-    ++at;
+void Lobby::refuseLate() {
+  for (Guest* const guest : guests_.takeLate()) {
+    refuse(*guest, {ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""});
   }
 }
 
 /// The server ends: who has asked for nothing is let go, and who has its answer has little time to take it.
 void Lobby::dropIdle() {
+  auto& guests = guests_.all();
   std::erase_if(
-      guests_, [](const auto& guest) { return !guest.second.connection.ending && guest.second.connection.isSilent(); });
-  for (auto& [fd, guest] : guests_) {
-    if (guest.connection.ending) {
-      guest.deadline = std::min(guest.deadline, Clock::now() + kLastLinger);
-      nextDeadline_ = std::min(nextDeadline_, guest.deadline);
-    }
+      guests, [](const auto& guest) { return !guest.second.connection.ending && guest.second.connection.isSilent(); });
+  for (auto& [fd, guest] : guests) {
+    if (guest.connection.ending) guests_.hurry(guest, kLastLinger);
   }
 }
 
 /// The server does not wait for them any longer.
 void Lobby::refuseWaiting() {
-  for (auto& [fd, guest] : guests_) {
+  for (auto& [fd, guest] : guests_.all()) {
     if (guest.connection.ending) continue;
     refuse(guest, {ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
-    guest.deadline = std::min(guest.deadline, Clock::now() + kLastLinger);
-    nextDeadline_ = std::min(nextDeadline_, guest.deadline);
+    guests_.hurry(guest, kLastLinger);
   }
-}
-
-/// Of the client that has the most guests, the one that has waited longest; nothing where every head is complete.
-Lobby::Guests::iterator Lobby::leastWanted() {
-  std::map<std::string_view, std::size_t> counts;
-  std::size_t most = 0;
-  for (const auto& [fd, guest] : guests_) {
-    if (!guest.isReady) {
-      most = std::max(most, ++counts[guest.connection.peer.network]);
-    }
-  }
-  auto oldest = guests_.end();
-  for (auto at = guests_.begin(); at != guests_.end(); ++at) {
-    const bool isOfMost = !at->second.isReady && counts[at->second.connection.peer.network] == most;
-    if (isOfMost && (oldest == guests_.end() || at->second.since < oldest->second.since)) {
-      oldest = at;
-    }
-  }
-  return oldest;
 }
 
 /// Makes room for one. Whoever is chosen is heard first: its whole head may have come in this moment.
 void Lobby::dropOne() {
-  for (auto chosen = leastWanted(); chosen != guests_.end(); chosen = leastWanted()) {
-    const int fd = chosen->first;
-    hear(fd, false);
-    chosen = guests_.find(fd);
-    if (chosen == guests_.end()) {
+  while (const auto chosen = guests_.leastWanted()) {
+    hear(*chosen, false);
+    const Guest* const guest = guests_.find(*chosen);
+    if (guest == nullptr) {
       return;
     }
-    if (!chosen->second.isReady) {
-      guests_.erase(chosen);
+    if (!guest->isReady) {
+      guests_.drop(*chosen);
       return;
     }
   }

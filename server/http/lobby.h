@@ -1,13 +1,13 @@
 #pragma once
 
 #include <atomic>
-#include <map>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include "server/http/client_shares.h"
 #include "server/http/connection.h"
+#include "server/http/guests.h"
 #include "server/http/request_log.h"
 #include "server/http/worker_pool.h"
 
@@ -39,50 +39,36 @@ class Lobby {
   void finish();
 
  private:
-  struct Guest {
-    OpenConnection connection;
-    Clock::time_point since;
-    Clock::time_point deadline;
-    PeerAddress client{};   ///< who sent the head that is complete (client_address.h)
-    bool isReady = false;   ///< its head is complete and has no thread yet
-    bool isWaiting = false; ///< for a thread, since it is no probe
-  };
-  using Guests = std::map<int, Guest>; ///< by descriptor
   enum class Place { taken, noThread, noShare };
 
   void watch();
   bool isOver();
   bool isSettled();
-  void waitForBytes();
   void takeAdopted();
   void hear(int fd, bool lost);
   PeerAddress clientOf(const OpenConnection& connection, std::size_t headBytes) const;
-  void weigh(Guests::iterator guest, bool headBegins);
+  void weigh(Guest& guest, bool headBegins);
   void placeReady();
-  Place place(Guests::iterator guest);
+  Place place(int fd, const Guest& guest);
   void answer(Guest& guest, Place why);
   void refuse(Guest& guest, Problem problem);
   void sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool bodyless);
-  void expectBy(Guest& guest, std::chrono::milliseconds patience);
-  void dropLate();
+  void refuseLate();
   void dropIdle();
   void refuseWaiting();
-  Guests::iterator leastWanted();
   void dropOne();
 
   ConnectionContext& context_;
   ClientShares shares_;
-  FileDescriptor poll_;
   StopSignal wake_;
   std::atomic<bool> finishing_ = false;
   std::atomic<bool> roomWanted_ = false;
   std::mutex mutex_;
   std::vector<OpenConnection> adopted_;
   // Of the watching thread alone:
-  Guests guests_;
+  Guests guests_{wake_};
   std::vector<int> ready_; ///< descriptors of guests that wait for a thread, in order
-  Clock::time_point nextDeadline_ = Clock::time_point::max(); ///< no guest's is earlier
-  bool isDrained_ = false;                                    ///< finishing, and no thread serves any longer
+  bool isDrained_ = false; ///< finishing, and no thread serves any longer
   WorkerPool pool_;
   std::thread thread_;
 };

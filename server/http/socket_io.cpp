@@ -68,10 +68,11 @@ std::string SocketReader::take() {
   return rest;
 }
 
-bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut) {
+bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut, bool more) {
+  const int flags = MSG_NOSIGNAL | MSG_DONTWAIT | (more ? MSG_MORE : 0);
   PaceMeter meter(pace, Clock::now());
   while (!bytes.empty()) {
-    const ssize_t count = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t count = ::send(fd, bytes.data(), bytes.size(), flags);
     if (count > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));
       meter.moved(static_cast<std::size_t>(count), Clock::now());

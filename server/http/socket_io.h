@@ -35,8 +35,8 @@ class SocketReader {
 };
 
 /// Sends everything. False: the client was gone or slower than the pace, or would have to be waited for when `cut` is
-/// raised.
-bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut = nullptr);
+/// raised. `more`: other bytes follow at once, and may leave with these.
+bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut = nullptr, bool more = false);
 
 /// Sends what fits into the socket's buffer at once. False: not everything did, or the client was gone.
 bool sendNow(int fd, std::string_view bytes);

@@ -1,4 +1,4 @@
-"""server/deploy/haproxy.cfg in front of the server, by the real program: TLS, the client's address, uploads, events."""
+"""docker/haproxy.cfg in front of the server, by the real program: TLS, the client's address, uploads, events."""
 
 import http.client
 import json
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from shipped_server import SCENES, SLOW, SMALL, TIMEOUT, Reply, Server
 
-CONFIGURATION = Path(__file__).resolve().parents[2] / "server/deploy/haproxy.cfg"
+CONFIGURATION = Path(__file__).resolve().parents[2] / "docker/haproxy.cfg"
 HAPROXY = shutil.which("haproxy", path=os.environ.get("PATH", "") + ":/usr/sbin")
 CLIENT = "127.0.0.5"  # another address than the proxy's own, 127.0.0.1
 

@@ -145,7 +145,7 @@ class Counters(ServerTest):
         labels = {}
         for sample in metrics_of(self.server).samples:
             labels.setdefault(sample.name, set()).update(sample.labels)
-        board = json.loads((ROOT / "server/deploy/grafana_dashboard.json").read_text(encoding="utf-8"))
+        board = json.loads((ROOT / "docker/grafana_dashboard.json").read_text(encoding="utf-8"))
         asked = [target["expr"] for panel in board["panels"] for target in panel.get("targets", [])]
         asked += [row["query"]["query"] for row in board["templating"]["list"] if row["type"] == "query"]
         self.assertGreater(len(asked), 20)

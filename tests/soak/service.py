@@ -66,7 +66,8 @@ class Service:
         if self.image:
             command = ["podman", "run", "-d", "--network", "host", "--read-only", "--tmpfs", "/tmp:rw,size=64m,mode=1777",
                        "--cap-drop=ALL", "--security-opt=no-new-privileges", "--pids-limit", "1024", "--memory", "1g",
-                       "--memory-swap", "1g", "--ulimit", f"nofile={DESCRIPTORS}:{DESCRIPTORS}", "-v", f"{self.store}:/var/lib/gnomon", self.image, "serve",
+                       "--memory-swap", "1g", "--ulimit", f"nofile={DESCRIPTORS}:{DESCRIPTORS}",
+                       "--ulimit", "nproc=4096:4096", "-v", f"{self.store}:/var/lib/gnomon", self.image, "serve",
                        "--store", "/var/lib/gnomon", *flags]  # fmt: skip
             self.container = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
             self.pid = int(self.inspected("{{.State.Pid}}"))
@@ -115,7 +116,7 @@ class Service:
         self.log.close()
         if self.has_disk:
             subprocess.run(["umount", str(self.store)], check=True)
-        self.folder.cleanup()
+        import shutil; shutil.copy(self.log.name, "/tmp/soak.log"); self.folder.cleanup()
 
     def log_events(self):
         """How often the log tells of each kind of event."""

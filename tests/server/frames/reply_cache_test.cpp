@@ -46,6 +46,32 @@ TEST(ReplyCache, TellsOfHowMuchUseItIs) {
   EXPECT_EQ(cache.use().misses, 1u) << "who looks again has been counted";
 }
 
+TEST(ReplyCache, KnowsTheLastRequestsOfWhatItKeeps) {
+  ReplyCache cache(1000);
+  cache.remember("early", "a");
+  cache.keep("a", picture(100));
+  EXPECT_FALSE(cache.findRequest("early")) << "nothing was kept under the tag";
+  for (const char* request : {"1", "2", "3", "4", "5", "2"}) cache.remember(request, "a");
+  EXPECT_FALSE(cache.findRequest("1"));
+  ASSERT_TRUE(cache.findRequest("2"));
+  EXPECT_EQ(cache.findRequest("5")->etag, "a");
+  EXPECT_EQ(cache.findRequest("5")->reply->body.size(), 100u);
+  EXPECT_EQ(cache.use().hits, 3u);
+  EXPECT_EQ(cache.use().misses, 0u);
+  cache.remember(std::string(1025, 'x'), "a");
+  EXPECT_FALSE(cache.findRequest(std::string(1025, 'x')));
+}
+
+TEST(ReplyCache, ForgetsRequestsWithTheirReply) {
+  ReplyCache cache(1000);
+  cache.keep("a", picture(100));
+  cache.remember("request", "a");
+  for (const char* etag : {"b", "c", "d", "e", "f", "g", "h", "i", "j", "k"}) cache.keep(etag, picture(100));
+  EXPECT_FALSE(cache.findRequest("request"));
+  cache.keep("a", picture(50));
+  EXPECT_FALSE(cache.findRequest("request"));
+}
+
 TEST(ReplyCache, KeepsNoProblemsAndNothingLarge) {
   ReplyCache cache(1000);
   cache.keep("large", picture(126));
