@@ -14,6 +14,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::chrono::milliseconds kGather{5}; ///< lines of so long are written at once
 
 std::string eventLine(std::string_view event, std::string_view detail, std::string_view traceId = {}) {
   using Line = nlohmann::ordered_json;
@@ -43,8 +44,10 @@ LineWriter::~LineWriter() {
 }
 
 void LineWriter::put(std::string_view line) {
+  bool isFirst = false;
   {
     const std::lock_guard lock(mutex_);
+    isFirst = waiting_.empty();
     if (waiting_.size() + line.size() + 1 > mostBytes_) {
       ++dropped_;
       ++droppedInAll_;
@@ -52,7 +55,7 @@ void LineWriter::put(std::string_view line) {
     }
     waiting_.append(line).push_back('\n');
   }
-  changed_.notify_all();
+  if (isFirst) changed_.notify_all();
 }
 
 std::uint64_t LineWriter::dropped() {
@@ -62,13 +65,19 @@ std::uint64_t LineWriter::dropped() {
 
 bool LineWriter::flush(Clock::time_point deadline) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_until(lock, deadline, [this] { return waiting_.empty() && dropped_ == 0 && !writing_; });
+  ++flushing_;
+  changed_.notify_all();
+  const bool done =
+      changed_.wait_until(lock, deadline, [this] { return waiting_.empty() && dropped_ == 0 && !writing_; });
+  --flushing_;
+  return done;
 }
 
 void LineWriter::write() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || !waiting_.empty() || dropped_ > 0; });
+    changed_.wait_for(lock, kGather, [this] { return stopping_ || flushing_ > 0; });
     if (stopping_) {
       return;
     }

@@ -46,6 +46,7 @@ class LineWriter {
   std::string waiting_; ///< lines, each with its end
   std::uint64_t droppedInAll_ = 0;
   std::size_t dropped_ = 0; ///< lines since the last that was taken
+  int flushing_ = 0;        ///< threads that wait for all to be written
   bool writing_ = false;    ///< lines that no longer wait are not written yet
   bool stopping_ = false;
   std::thread thread_;
