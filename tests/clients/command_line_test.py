@@ -204,7 +204,7 @@ class WithKeys(CommandLine):
         for command in (["plan", BOX], ["bake", BOX, *lit, "-o", str(self.folder / "map.png")],
                         ["evaluate", BOX, *SMALL, "--variant", '{"shadow": {"filter": {"type": "hard"}}}']):  # fmt: skip
             self.assert_ends(gnomon(*command, *self.there, GNOMON_KEY=self.secret), OK)
-        self.assertNotIn(self.secret, self.server.log_text())
+        self.assertNotIn(self.secret, self.server.settled_log())
 
     def test_without_the_right_one_the_server_refuses(self):
         arguments = ["render", BOX, "-o", str(self.output), *SMALL, *self.there]
@@ -260,6 +260,7 @@ class WithServer(CommandLine):
     def test_a_known_scene_is_not_uploaded_again(self):
         self.render("--server", self.url)
         self.render("--server", self.url)
+        self.server.settled_log()
         uploads = [line for line in self.server.log_lines() if line.get("method") == "POST" and line.get("target") == "/v1/scenes"]
         heads = [line for line in self.server.log_lines() if line.get("method") == "HEAD" and line.get("status") == 200]
         self.assertTrue(heads)

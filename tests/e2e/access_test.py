@@ -108,7 +108,7 @@ class Access(unittest.TestCase):
         logged = server.request_line(frame.headers["X-Request-ID"])
         self.assertEqual(logged["key"], "studio")
         self.assertEqual(logged["client"], "127.0.0.1")
-        self.assertNotIn("secret of", server.log_text())
+        self.assertNotIn("secret of", server.settled_log())
 
     def test_a_key_beyond_its_rate_is_told_when_to_come_again(self):
         server = self.start(line("slow", "read", "requestsPerSecond=0.5", "burst=3"), line("other", "read"))
@@ -144,7 +144,7 @@ class Access(unittest.TestCase):
         self.assertEqual(picture.status, 200)
         self.assertEqual(picture.body, server.ask("GET", path, headers=bearer("shop")).body)
         self.assertEqual(server.ask("HEAD", signed).status, 200)
-        self.assertNotIn("signature=", server.log_text())
+        self.assertNotIn("signature=", server.settled_log())
         self.assertEqual(server.get(signed.replace("width=64", "width=65")).status, 403)
         self.assertEqual(server.get(signed[:-1] + ("1" if signed[-1] == "0" else "0")).status, 403)
 

@@ -93,7 +93,7 @@ class HaProxy(unittest.TestCase):
         self.assertTrue(frame.headers["Strict-Transport-Security"])
         logged = self.server.request_line("over-tls")
         self.assertEqual((logged["client"], logged["proxy"]), (CLIENT, "127.0.0.1"))
-        self.assertNotIn("203.0.113.9", self.server.log_text())
+        self.assertNotIn("203.0.113.9", self.server.settled_log())
 
     def test_pages_of_this_address_may_send_and_others_may_not(self):
         host = f"localhost:{self.proxy.port}"

@@ -87,6 +87,13 @@ class Server:
             time.sleep(0.01)
         return True
 
+    def settled_log(self):
+        """The log once it holds all that came before: lines are gathered for a moment."""
+        marker = f"settled-{time.monotonic_ns()}"
+        self.get("/livez", X_Request_ID=marker)
+        self.request_line(marker)
+        return self.log_text()
+
     def log_lines(self):
         return [json.loads(line) for line in self.log_text().splitlines() if line.startswith("{")]
 

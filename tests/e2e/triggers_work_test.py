@@ -113,7 +113,7 @@ class SlowFrames(unittest.TestCase):
                 self.assertLess(time.monotonic() - begun, 2 * SLOW)
             self.assertIn(long.join().status, (413, 504))
             self.assertEqual(server.frame(scene, SMALL | {"exposure": 9}).status, 200)
-            self.assertNotIn("did not stop", server.log_text(), "the frame stopped, its worker lives")
+            self.assertNotIn("did not stop", server.settled_log(), "the frame stopped, its worker lives")
 
     def test_what_can_never_be_done_in_time_is_told_with_the_numbers(self):  # T1
         with Server("--request-timeout", "1") as server:

@@ -113,7 +113,7 @@ class KilledWorkers(unittest.TestCase):
                 os.kill(pid, signal.SIGINT)
                 os.kill(pid, signal.SIGTERM)
             self.assertEqual(server.frame(scene, SMALL).status, 200)
-            self.assertNotIn("ended with", server.log_text())
+            self.assertNotIn("ended with", server.settled_log())
 
 
 class SealedWorkers(unittest.TestCase):
