@@ -95,6 +95,11 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     refusal_ = std::move(message->refusal->problems);
     changed_.notify_all();
   }
+  if (message->began) {
+    const auto found = slot.running.find(message->began->number);
+    if (found == slot.running.end()) return false;
+    found->second->isBegun = true;
+  }
   if (message->event) {
     const auto found = slot.running.find(message->event->number);
     if (found == slot.running.end()) return false;
@@ -159,7 +164,9 @@ void Dispatcher::replaceWorker(Slot& slot) {
   slot.process.reset();
   for (const auto& [number, ticket] : std::exchange(slot.running, {})) {
     if (ticket->calledOff) continue;
-    if (++ticket->tries < 2 && !ticket->hasEvents) {
+    ++ticket->tries;
+    ticket->begun += ticket->isBegun ? 1 : 0;
+    if (ticket->mayBeTriedAgain()) {
       ticket->state = Ticket::State::waiting;
       ticket->since = Clock::now();
       waiting_.push_front(ticket);
