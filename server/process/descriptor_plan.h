@@ -15,8 +15,9 @@ struct DescriptorPlan {
 /// Asks the system for as many descriptors as it allows. How many that are.
 std::size_t raiseDescriptorLimit();
 
-/// Shares `descriptors` out: first what `httpThreads` requests and `workers` can need at once, so that none of them meets
-/// the limit; then scenes and waiting connections get the rest in equal parts. unavailable where too little is left.
+/// Shares `descriptors` out: first what `httpThreads` requests and `workers` can need at once, so that none of them
+/// meets the limit; then scenes and waiting connections get the rest in equal parts. unavailable where too little is
+/// left.
 Result<DescriptorPlan> planDescriptors(std::size_t descriptors, std::size_t httpThreads, std::size_t workers,
                                        bool keepsScenesInMemory);
 

@@ -5,7 +5,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::uint64_t kEachBytes = 8'192; ///< of a scene besides its own: the page that it ends in, its file, its entry
+constexpr std::uint64_t kEachBytes =
+    8'192; ///< of a scene besides its own: the page that it ends in, its file, its entry
 
 } // namespace
 

@@ -79,15 +79,40 @@ TEST_F(DispatcherTest, WhatEndsItsWorkerTwiceIsAProblemAndHarmsNobodyElse) {
 }
 
 TEST_F(DispatcherTest, AKilledWorkersTasksAreTriedAgain) {
+  constexpr auto kReads = 300ms; // longer than a worker takes to read an order: before that, its end doesn't count
   const auto dispatcher = start(1);
-  const pid_t victim = dispatcher->processes().at(0);
   std::thread asking([&] { EXPECT_EQ(problemOf(dispatcher->run(frame("fault-loop"), kStays)), "internal"); });
-  while (dispatcher->state().running == 0) std::this_thread::sleep_for(1ms);
-  ::kill(victim, SIGKILL);
-  while (dispatcher->state().running == 0 || dispatcher->processes().at(0) == victim) std::this_thread::sleep_for(1ms);
-  ::kill(dispatcher->processes().at(0), SIGKILL); // a second time, and alone: now it is its own doing
+  pid_t victim = 0;
+  for (int ends = 0; ends < 2; ++ends) { // the second time it is alone: now it is its own doing
+    while (dispatcher->state().running == 0 || dispatcher->processes().at(0) == victim)
+      std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(kReads);
+    victim = dispatcher->processes().at(0);
+    ::kill(victim, SIGKILL);
+  }
   asking.join();
   EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+TEST_F(DispatcherTest, TasksOutliveAllWorkersThatAreKilledAtOnce) {
+  const auto dispatcher = start(2);
+  std::atomic<bool> done = false;
+  std::vector<std::thread> asking;
+  for (int i = 0; i < 4; ++i) {
+    asking.emplace_back([&] {
+      while (!done) EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+    });
+  }
+  for (int i = 0; i < 5; ++i) {
+    while (dispatcher->state().ready < 2) std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(300ms);
+    for (const pid_t worker : dispatcher->processes()) {
+      if (worker > 0) ::kill(worker, SIGKILL);
+    }
+    while (dispatcher->state().ready == 2) std::this_thread::sleep_for(1ms);
+  }
+  done = true;
+  for (std::thread& thread : asking) thread.join();
 }
 
 TEST_F(DispatcherTest, ATaskThatDoesNotStopCostsItsWorker) {
