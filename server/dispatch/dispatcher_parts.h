@@ -17,9 +17,8 @@ struct Dispatcher::Ticket {
   State state = State::waiting;
   Clock::time_point since = Clock::now(); ///< that it waits, or runs
   double waitedMilliseconds = 0;
-  int tries = 0;                              ///< workers that ended while they had it
-  int begun = 0;                              ///< of them, those that had read it
-  bool isBegun = false;                       ///< the worker that has it has read it
+  int ends = 0;                               ///< of workers that had it
+  int kills = 0;                              ///< of them, those that somebody else killed
   std::size_t slot = 0;                       ///< where it runs
   std::optional<Clock::time_point> calledOff; ///< nobody waits for it any more
   std::deque<OrderEvent> events;              ///< not told yet
@@ -27,12 +26,12 @@ struct Dispatcher::Ticket {
   TaskResult result;
   std::condition_variable changed;
 
-  /// Until two workers ended that had read it. Those that ended before, as when all are killed at once, hardly ended
-  /// over it; they count less.
-  bool mayBeTriedAgain() const { return begun < 2 && tries < 5 && !hasEvents; }
-
   /// Its worker ended: it is tried once more, with no other task beside it.
-  bool mustBeAlone() const { return tries > 0; }
+  bool mustBeAlone() const { return ends > 0; }
+
+  /// Not once two workers ended over it. It is hardly why a worker is killed from outside; but the system kills who
+  /// takes too much memory, so that there is an end to that, too.
+  bool mayBeTriedAgain() const { return ends - kills < 2 && ends < 5 && !hasEvents; }
 };
 
 /// One of the places for workers, and the one that is there.

@@ -70,7 +70,6 @@ void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   ticket->since = Clock::now();
   ticket->state = Ticket::State::running;
   ticket->slot = worker;
-  ticket->isBegun = false;
   Order& order = ticket->task.order;
   order.number = ++numbers_;
   order.queuedMilliseconds = ticket->waitedMilliseconds;

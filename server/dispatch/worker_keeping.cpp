@@ -14,9 +14,9 @@ constexpr std::chrono::seconds kStartPatience{60}; ///< drivers compile
 constexpr std::chrono::milliseconds kWatchPause{50};
 constexpr std::size_t kMostEvents = 64; ///< that wait for one client before progress is told less often
 
-Problem endedTwice(const Problem& fault) {
+Problem endedAgain(int times, const Problem& fault) {
   Problem problem = fault;
-  problem.detail = "Two workers ended over this request. " + fault.detail;
+  problem.detail = (times == 2 ? "Two" : std::to_string(times)) + " workers ended over this request. " + fault.detail;
   return problem;
 }
 
@@ -95,11 +95,6 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     refusal_ = std::move(message->refusal->problems);
     changed_.notify_all();
   }
-  if (message->began) {
-    const auto found = slot.running.find(message->began->number);
-    if (found == slot.running.end()) return false;
-    found->second->isBegun = true;
-  }
   if (message->event) {
     const auto found = slot.running.find(message->event->number);
     if (found == slot.running.end()) return false;
@@ -148,31 +143,32 @@ void Dispatcher::replaceWorker(Slot& slot) {
     return;
   }
   slot.process->kill(); // whoever closed the channel is of no use
-  const std::string how = slot.process->end();
+  const WorkerProcess::Ending ending = slot.process->end();
   const Lock lock(mutex_);
+  const bool isForeign = ending.isKilled && slot.fault.problem.detail.empty(); // we did not kill it
   if (!ending_) {
     ++replacements_[static_cast<std::size_t>(slot.fault.end)];
-    logEvent("worker",
-             "Worker " + std::to_string(slot.process->pid()) + " ended with " + how + ". " + slot.fault.problem.detail);
+    logEvent("worker", "Worker " + std::to_string(slot.process->pid()) + " ended with " + ending.how + ". " +
+                           slot.fault.problem.detail);
   }
   if (!slot.ready) ++slot.failures;
   if (!slot.ready && !refusal_) {
-    refusal_ = Problems{{ProblemCode::backend, "", "A worker ended before it could draw.", "", how}};
+    refusal_ = Problems{{ProblemCode::backend, "", "A worker ended before it could draw.", "", ending.how}};
     changed_.notify_all();
   }
   slot.ready = false;
   slot.process.reset();
   for (const auto& [number, ticket] : std::exchange(slot.running, {})) {
     if (ticket->calledOff) continue;
-    ++ticket->tries;
-    ticket->begun += ticket->isBegun ? 1 : 0;
+    ++ticket->ends;
+    ticket->kills += isForeign ? 1 : 0;
     if (ticket->mayBeTriedAgain()) {
       ticket->state = Ticket::State::waiting;
       ticket->since = Clock::now();
       waiting_.push_front(ticket);
     } else {
       TaskResult result;
-      result.outcome.problems = {endedTwice(slot.fault.problem)};
+      result.outcome.problems = {endedAgain(ticket->ends, slot.fault.problem)};
       if (slot.fault.end == WorkerEnd::memory) result.refusal = TaskRefusal::memory;
       finish(ticket, std::move(result));
     }

@@ -75,7 +75,7 @@ void WorkerProcess::kill() noexcept {
   if (!ended_) ::kill(pid_, SIGKILL);
 }
 
-std::string WorkerProcess::end() {
+WorkerProcess::Ending WorkerProcess::end() {
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
@@ -83,8 +83,8 @@ std::string WorkerProcess::end() {
   int status = 0;
   ::waitpid(pid_, &status, 0);
   ended_ = true;
-  return WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
-                             : "exit status " + std::to_string(WEXITSTATUS(status));
+  if (!WIFSIGNALED(status)) return {"exit status " + std::to_string(WEXITSTATUS(status))};
+  return {"signal " + std::to_string(WTERMSIG(status)), WTERMSIG(status) == SIGKILL};
 }
 
 std::uint64_t WorkerProcess::residentBytes() const {

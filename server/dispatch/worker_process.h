@@ -28,8 +28,13 @@ class WorkerProcess {
   /// Any thread, any time.
   void kill() noexcept;
 
-  /// Waits until it has ended, and tells how: "exit status 0", "signal 9". Once, by one thread.
-  std::string end();
+  struct Ending {
+    std::string how;       ///< "exit status 0", "signal 9"
+    bool isKilled = false; ///< by SIGKILL, whoever sent it
+  };
+
+  /// Waits until it has ended. Once, by one thread.
+  Ending end();
 
   /// Bytes of memory that it has now; 0 where the system doesn't tell.
   std::uint64_t residentBytes() const;

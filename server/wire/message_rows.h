@@ -79,11 +79,6 @@ inline constexpr auto kRows<ToWorker> = rows("ToWorker", "A message to a worker.
 static_assert(kRowsAreComplete<ToWorker>);
 
 template <>
-inline constexpr auto kRows<Began> = rows("Began", "The worker has read an order.",
-                                          field("number", &Began::number, {.says = "The order."}));
-static_assert(kRowsAreComplete<Began>);
-
-template <>
 inline constexpr auto kRows<Outcome> =
     rows("Outcome", "The result of an order.", field("number", &Outcome::number, {.says = "The order."}),
          field("problems", &Outcome::problems, {.says = "Why there is no result."}),
@@ -127,7 +122,6 @@ template <>
 inline constexpr auto kRows<ToFront> = rows("ToFront", "A message to the front.",
                                             field("ready", &ToFront::ready, {.says = "What draws."}),
                                             field("refusal", &ToFront::refusal, {.says = "Why nothing draws."}),
-                                            field("began", &ToFront::began, {.says = "An order that is read."}),
                                             field("outcome", &ToFront::outcome, {.says = "The result of an order."}),
                                             field("event", &ToFront::event, {.says = "An order's progress."}),
                                             field("beat", &ToFront::beat, {.says = "A sign of life."}),

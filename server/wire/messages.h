@@ -83,11 +83,6 @@ struct ToWorker {
   std::optional<LightMapFound> lightMap{};
 };
 
-/// The worker has read an order: should it end now, the order may be why.
-struct Began {
-  std::uint64_t number = 0;
-};
-
 /// The result of an order. Its bytes go along, unless there are problems or it was told as events.
 struct Outcome {
   std::uint64_t number = 0;
@@ -132,7 +127,6 @@ struct LightMapMade {
 struct ToFront {
   std::optional<RendererInfo> ready{}; ///< the first frame is drawn
   std::optional<Refusal> refusal{};
-  std::optional<Began> began{};
   std::optional<Outcome> outcome{};
   std::optional<OrderEvent> event{};
   std::optional<Beat> beat{};

@@ -135,7 +135,6 @@ class Worker {
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                              std::chrono::duration<double, std::milli>(order.milliseconds));
     const auto cancelled = orders_.begin(order.number);
-    say({.began = Began{order.number}});
     std::thread([this, order = std::move(order), files = std::move(files), deadline, cancelled]() mutable {
       const std::uint64_t number = order.number;
       carry({std::move(order), std::move(files[0]),

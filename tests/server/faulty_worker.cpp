@@ -47,7 +47,6 @@ bool happened(const Packet& packet, Channel& front) {
   const Bytes request = readFile(packet.files[1], kLimits.maxSpecBytes).value_or(Bytes());
   for (const auto& [name, fault] : kFaults) {
     if (asText(request).find(name) == std::string_view::npos) continue;
-    front.send(textOf(ToFront{.began = Began{message->order->number}}));
     fault(front);
     return true;
   }
