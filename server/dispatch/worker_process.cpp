@@ -80,9 +80,12 @@ WorkerProcess::Ending WorkerProcess::end() {
   while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
   const std::lock_guard lock(ending_); // its id is free for others from here on
+  ::kill(-pid_, SIGKILL);              // the processes that it has started are of its group
   int status = 0;
   ::waitpid(pid_, &status, 0);
   ended_ = true;
+  while (::waitpid(-pid_, nullptr, 0) > 0 || errno == EINTR) { // ours, where this process is the first of a container
+  }
   if (!WIFSIGNALED(status)) return {"exit status " + std::to_string(WEXITSTATUS(status))};
   return {"signal " + std::to_string(WTERMSIG(status)), WTERMSIG(status) == SIGKILL};
 }

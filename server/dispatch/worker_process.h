@@ -33,7 +33,7 @@ class WorkerProcess {
     bool isKilled = false; ///< by SIGKILL, whoever sent it
   };
 
-  /// Waits until it has ended. Once, by one thread.
+  /// Waits until it has ended, and ends what it has started. Once, by one thread.
   Ending end();
 
   /// Bytes of memory that it has now; 0 where the system doesn't tell.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <sys/epoll.h>
 #include <system_error>
@@ -88,21 +89,30 @@ std::vector<Guest*> Guests::takeLate() {
 }
 
 std::optional<int> Guests::leastWanted() const {
+  return ofWhoHasMost(false, std::less<>());
+}
+
+std::optional<int> Guests::lastToAsk() const {
+  return ofWhoHasMost(true, std::greater<>());
+}
+
+std::optional<int> Guests::ofWhoHasMost(
+    bool ready, const std::function<bool(Clock::time_point, Clock::time_point)>& isBefore) const {
+  const auto clientOf = [](const Guest& guest) -> std::string_view {
+    return guest.isReady ? guest.client.network : guest.connection.peer.network;
+  };
   std::map<std::string_view, std::size_t> counts;
   std::size_t most = 0;
   for (const auto& [fd, guest] : all_) {
-    if (!guest.isReady) {
-      most = std::max(most, ++counts[guest.connection.peer.network]);
-    }
+    if (guest.isReady == ready) most = std::max(most, ++counts[clientOf(guest)]);
   }
-  auto oldest = all_.end();
+  auto first = all_.end();
   for (auto at = all_.begin(); at != all_.end(); ++at) {
-    const bool isOfMost = !at->second.isReady && counts[at->second.connection.peer.network] == most;
-    if (isOfMost && (oldest == all_.end() || at->second.since < oldest->second.since)) {
-      oldest = at;
-    }
+    const Guest& guest = at->second;
+    const bool isOfMost = guest.isReady == ready && counts[clientOf(guest)] == most;
+    if (isOfMost && (first == all_.end() || isBefore(guest.since, first->second.since))) first = at;
   }
-  return oldest == all_.end() ? std::nullopt : std::optional(oldest->first);
+  return first == all_.end() ? std::nullopt : std::optional(first->first);
 }
 
 std::vector<Guests::Heard> Guests::listen(Clock::time_point until) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -48,6 +49,9 @@ class Guests {
   /// Of the client that has the most guests, the one that has waited longest; nothing where every head is complete.
   std::optional<int> leastWanted() const;
 
+  /// Of the client that has the most complete heads, the newest; nothing where there are none.
+  std::optional<int> lastToAsk() const;
+
   struct Heard {
     int fd = -1;
     bool isLost = false; ///< nothing can be sent to it any more
@@ -57,6 +61,10 @@ class Guests {
   std::vector<Heard> listen(Clock::time_point until);
 
  private:
+  /// Among those that are ready, or those that are not, and of the client with most of them: who comes first.
+  std::optional<int> ofWhoHasMost(bool ready,
+                                  const std::function<bool(Clock::time_point, Clock::time_point)>& isBefore) const;
+
   StopSignal& wake_;
   FileDescriptor poll_;
   std::map<int, Guest> all_;

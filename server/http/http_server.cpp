@@ -27,7 +27,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& 
 
 bool HttpServer::run() {
   const bool inOrder = listener_.run(
-      context_.stop, [this](OpenConnection connection) { lobby_.adopt(std::move(connection)); },
+      context_.stop, [this](OpenConnection connection) { lobby_.admit(std::move(connection)); },
       [this] { lobby_.makeRoom(); });
   lobby_.finish();
   return inOrder;

@@ -21,6 +21,8 @@ namespace gnomon {
 namespace {
 
 constexpr std::chrono::milliseconds kLastLinger{500}; ///< once the server ends
+constexpr std::chrono::seconds kLongestUnseen{1};     ///< for the case that it fails at something
+constexpr std::size_t kMostUnseen = 32;               ///< connections that the watching thread has not seen yet
 
 Problem noPlace(bool clientHasItsShare) {
   if (clientHasItsShare) {
@@ -36,6 +38,7 @@ Lobby::Lobby(ConnectionContext& context, std::size_t threads, std::size_t perCli
 
 void Lobby::finish() {
   finishing_ = true;
+  taken_.notify_all();
   wake_.raise();
   if (thread_.joinable()) {
     thread_.join();
@@ -50,6 +53,12 @@ void Lobby::adopt(OpenConnection connection) noexcept {
     logEvent("connection", error.what());
   }
   wake_.raise();
+}
+
+void Lobby::admit(OpenConnection connection) noexcept {
+  adopt(std::move(connection));
+  std::unique_lock lock(mutex_);
+  taken_.wait_for(lock, kLongestUnseen, [this] { return adopted_.size() < kMostUnseen || finishing_; });
 }
 
 void Lobby::makeRoom() noexcept {
@@ -111,6 +120,7 @@ void Lobby::takeAdopted() {
     const std::lock_guard lock(mutex_);
     adopted.swap(adopted_);
   }
+  taken_.notify_all();
   for (OpenConnection& connection : adopted) {
     if (guests_.all().size() >= context_.limits.maxWaiting) {
       dropOne();
@@ -300,6 +310,12 @@ void Lobby::dropOne() {
       guests_.drop(*chosen);
       return;
     }
+  }
+  if (const auto chosen = guests_.lastToAsk()) {
+    Guest& guest = *guests_.find(*chosen);
+    guest.deadline = Clock::now();
+    answer(guest, Place::noThread);
+    guests_.drop(*chosen);
   }
 }
 

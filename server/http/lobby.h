@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -26,8 +27,13 @@ class Lobby {
   Lobby(const Lobby&) = delete;
   Lobby& operator=(const Lobby&) = delete;
 
-  /// Takes the connection over. Where too many wait, the client that has the most of them loses its oldest.
+  /// Takes the connection over. Where too many wait, the client that has the most of them loses its oldest that has
+  /// not asked for anything yet; if all have, its newest is refused.
   void adopt(OpenConnection connection) noexcept;
+
+  /// The same for a new connection, and returns once the lobby keeps up: until then others wait in the system's queue,
+  /// where they take no descriptors.
+  void admit(OpenConnection connection) noexcept;
 
   /// Closes one connection that waits: the system has no further descriptors. Takes effect a little later.
   void makeRoom() noexcept;
@@ -65,6 +71,7 @@ class Lobby {
   std::atomic<bool> roomWanted_ = false;
   std::mutex mutex_;
   std::vector<OpenConnection> adopted_;
+  std::condition_variable taken_; ///< adopted_ was emptied, or the lobby finishes
   // Of the watching thread alone:
   Guests guests_{wake_};
   std::vector<int> ready_; ///< descriptors of guests that wait for a thread, in order

@@ -8,7 +8,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::size_t kProcess =
-    96; ///< log, libraries, the store's files, the address for metrics with its connections
+    96; ///< log, libraries, the store's files, connections just accepted, the address for metrics with its own
 constexpr std::size_t kPerRequest = 5; ///< its connection, the scene, the specification, the reply, a file of the store
 constexpr std::size_t kPerWorker = 8;  ///< its channel and process, and those of the one that takes its place
 constexpr std::size_t kLeastLeft = 64;

@@ -4,15 +4,10 @@
 #include <future>
 
 #include "protocol/base/elapsed.h"
-#include "server/system/log.h"
 #include "server/worker/first_frame.h"
 
 namespace gnomon {
 namespace {
-
-Problem renderFailure() {
-  return {ProblemCode::internal, "", "An internal error occurred while rendering.", "", ""};
-}
 
 Problem stopped() {
   return {ProblemCode::unavailable, "", "The frame was stopped before it was drawn.", "", ""};
@@ -53,9 +48,8 @@ Result<T> RenderThread::ask(const std::function<Result<T>()>& work) {
     waiting_.push_back([&] {
       try {
         answer.set_value(work());
-      } catch (const std::exception& error) {
-        logEvent("renderer", error.what());
-        answer.set_value(renderFailure());
+      } catch (const std::exception&) {
+        answer.set_exception(std::current_exception());
       }
     });
   }
@@ -65,15 +59,19 @@ Result<T> RenderThread::ask(const std::function<Result<T>()>& work) {
 
 Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions& options) {
   std::unique_ptr<RenderThread> thread(new RenderThread());
-  const auto started = thread->ask<Done>([&]() -> Status {
-    auto renderer = Renderer::create(options);
-    if (!renderer) return std::move(renderer).problems();
-    thread->renderer_ = *std::move(renderer);
-    thread->info_ = thread->renderer_->info();
-    thread->baker_ = thread->renderer_->baker();
-    return drawFirstFrame(*thread->renderer_);
-  });
-  if (!started) return started.problems();
+  try {
+    const auto started = thread->ask<Done>([&]() -> Status {
+      auto renderer = Renderer::create(options);
+      if (!renderer) return std::move(renderer).problems();
+      thread->renderer_ = *std::move(renderer);
+      thread->info_ = thread->renderer_->info();
+      thread->baker_ = thread->renderer_->baker();
+      return drawFirstFrame(*thread->renderer_);
+    });
+    if (!started) return started.problems();
+  } catch (const std::exception& error) {
+    return Problem{ProblemCode::internal, "", "The first frame failed.", "", error.what()};
+  }
   return thread;
 }
 

@@ -34,7 +34,8 @@ class RenderThread {
   /// Bakes for the frames of this thread, without waiting for it.
   const Baker& baker() const { return *baker_; }
 
-  /// Renderer::render; a problem of code unavailable where it was asked to stop before or while it drew.
+  /// Renderer::render; a problem of code unavailable where it was asked to stop before or while it drew. Throws what
+  /// that throws: std::bad_alloc where the worker may use no more memory.
   Result<DrawnFrame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn);
 
   /// Renderer::shimmer as flips in 1,000 points and a frame.

@@ -11,7 +11,10 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
+from memory_group import MemoryGroup, killed
+
 DISK_BYTES = 96 << 20
+MEMORY_BYTES = 1 << 30  # of the front and its workers together
 DESCRIPTORS = 1024  # of the front: fewer than the connections that hostile clients open
 
 
@@ -34,11 +37,24 @@ def pss_bytes(pid):
     return 0
 
 
-def children(pid):
+def memory_group():
+    """None, and a line, where this system lets us limit no memory."""
     try:
-        return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    except OSError:
-        return []
+        return MemoryGroup("gnomon-soak", MEMORY_BYTES)
+    except OSError as error:
+        print(f"the server's memory is not limited: {error}")
+        return None
+
+
+def children(pid):
+    """Those of all its threads."""
+    found = []
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        try:
+            found += [int(child) for child in task.read_text().split()]
+        except OSError:
+            pass  # the thread has ended
+    return found
 
 
 class Service:
@@ -55,7 +71,9 @@ class Service:
         self.log = open(Path(self.folder.name) / "log", "ab")
         self.container = None
         self.pid = 0
-        self.ended = []  # how containers ended: whether the kernel killed for memory
+        self.starved = 0  # processes that the kernel killed for want of memory
+        self.group = None if image else memory_group()
+        self.is_limited = image is not None or self.group is not None
 
     def mount(self):
         done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={DISK_BYTES}", "none", str(self.store)], check=False)
@@ -65,15 +83,16 @@ class Service:
         flags = ["--port", str(PORT), "--workers", "2", "--request-timeout", "20", "--reply-cache-bytes", "32MB"]
         if self.image:
             command = ["podman", "run", "-d", "--network", "host", "--read-only", "--tmpfs", "/tmp:rw,size=64m,mode=1777",
-                       "--cap-drop=ALL", "--security-opt=no-new-privileges", "--pids-limit", "1024", "--memory", "1g",
-                       "--memory-swap", "1g", "--ulimit", f"nofile={DESCRIPTORS}:{DESCRIPTORS}",
+                       "--cap-drop=ALL", "--security-opt=no-new-privileges", "--pids-limit", "1024", "--memory", str(MEMORY_BYTES),
+                       "--memory-swap", str(MEMORY_BYTES), "--ulimit", f"nofile={DESCRIPTORS}:{DESCRIPTORS}",
                        "--ulimit", "nproc=4096:4096", "-v", f"{self.store}:/var/lib/gnomon", self.image, "serve",
                        "--store", "/var/lib/gnomon", *flags]  # fmt: skip
             self.container = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
             self.pid = int(self.inspected("{{.State.Pid}}"))
         else:
             command = ["prlimit", f"--nofile={DESCRIPTORS}", self.binary, "serve", "--store", str(self.store), *flags]
-            self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log)
+            self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log,
+                                            preexec_fn=self.group and self.group.enter)  # fmt: skip
             self.pid = self.process.pid
         self.await_ready()
 
@@ -94,19 +113,23 @@ class Service:
         return sum(pss_bytes(pid) for pid in [self.pid, *children(self.pid)])
 
     def kill_workers(self):
-        for pid in children(self.pid):
+        """How many were killed."""
+        workers = children(self.pid)
+        for pid in workers:
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
+        return len(workers)
 
     def end(self, number):
         """The exit status of the front after a signal; what it left is gone, too."""
+        if self.is_limited:
+            self.starved += killed(self.pid)
         os.kill(self.pid, number)
         if not self.image:
             return self.process.wait(30)
         subprocess.run(["podman", "wait", self.container], check=True, capture_output=True)
-        self.ended.append(self.inspected("{{.State.OOMKilled}}") == "true")
         status = int(self.inspected("{{.State.ExitCode}}"))
         self.log.write(subprocess.run(["podman", "logs", self.container], check=False, capture_output=True).stderr)
         subprocess.run(["podman", "rm", "-f", self.container], check=True, capture_output=True)
@@ -114,6 +137,8 @@ class Service:
 
     def close(self):
         self.log.close()
+        if self.group:
+            self.group.close()
         if self.has_disk:
             subprocess.run(["umount", str(self.store)], check=True)
         self.folder.cleanup()

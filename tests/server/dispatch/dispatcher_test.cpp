@@ -1,10 +1,13 @@
 #include "server/dispatch/dispatcher.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <thread>
 
 #include "protocol/json/json_codec.h"
@@ -95,6 +98,22 @@ TEST_F(DispatcherTest, AKilledWorkersTasksAreTriedAgainButNotForEver) {
   asking.join();
   EXPECT_EQ(victims.size(), 5u);
   EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+}
+
+/// As the first process of a container it inherits what its workers had started.
+TEST_F(DispatcherTest, NothingIsLeftOfAKilledWorker) {
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0), 0);
+  {
+    const auto dispatcher = start(1);
+    const pid_t victim = dispatcher->processes().at(0);
+    ::kill(victim, SIGKILL);
+    while (dispatcher->processes().at(0) == victim || dispatcher->state().ready == 0) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+    EXPECT_EQ(::waitpid(-victim, nullptr, WNOHANG), -1);
+  }
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0);
 }
 
 TEST_F(DispatcherTest, TasksOutliveAllWorkersThatAreKilledAtOnce) {

@@ -1,10 +1,12 @@
 #include "server/http/lobby.h"
 
+#include <array>
 #include <atomic>
 #include <future>
 #include <gtest/gtest.h>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <sys/socket.h>
 #include <thread>
 #include <vector>
@@ -109,6 +111,24 @@ TEST_F(FullLobbyTest, AClientWithItsShareIsTurnedAway) {
   EXPECT_TRUE(received.starts_with("HTTP/1.1 429 "));
   EXPECT_TRUE(has(received, "Retry-After: 1\r\n"));
   EXPECT_TRUE(has(received, "Connection: close\r\n"));
+}
+
+TEST_F(FullLobbyTest, WhoAsksMostIsRefusedWhereAllAsk) {
+  context_.limits.maxWaiting = 4;
+  context_.limits.threadWait = std::chrono::seconds(30);
+  std::vector<FileDescriptor> many;
+  for (int i = 0; i < 40; ++i) {
+    int fds[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
+    many.emplace_back(fds[0]);
+    ASSERT_TRUE(sendAll(fds[0], "GET /a HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
+    lobby_->admit({FileDescriptor(fds[1]), {"holder", "holder"}});
+  }
+  EXPECT_TRUE(ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "other").starts_with("HTTP/1.1 200 OK"));
+  std::array<char, 12> status{};
+  ASSERT_EQ(::recv(many.back().get(), status.data(), status.size(), MSG_WAITALL), 12);
+  EXPECT_EQ(std::string_view(status.data(), status.size()), "HTTP/1.1 503");
+  EXPECT_LT(::recv(many.front().get(), status.data(), status.size(), MSG_DONTWAIT), 0) << "it waits still";
 }
 
 TEST_F(FullLobbyTest, AnotherClientIsServed) {
