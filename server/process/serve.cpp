@@ -158,6 +158,10 @@ int serve(const ServeOptions& options) {
     if (!opened) return failed(opened.problems());
     keys = *std::move(opened);
   }
+  if (!options.adminPort && options.adminBind != ServeOptions{}.adminBind) {
+    return failed({{ProblemCode::invalidValue, "admin-bind",
+                    "--admin-bind is an address of --admin-port, which is not set.", "", options.adminBind}});
+  }
   auto trusted = ipNetworks(options.trustedProxies);
   if (!trusted) return failed(trusted.problems());
   const auto descriptors =

@@ -109,6 +109,12 @@ class Configuration(unittest.TestCase):
     def test_a_wrong_value_is_refused_where_a_flag_comes_before_it_too(self):
         self.assert_refused(serve("--port", "0", "--config", self.write("port = no\n")), f"{self.file}:1: port: ")
 
+    def test_an_address_without_its_port_is_refused(self):
+        done = serve("--config", self.write("admin-bind = '0.0.0.0'\n"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--admin-bind is an address of --admin-port", done.stderr)
+        self.assert_refused(serve(GNOMON_ADMIN_BIND="0.0.0.0"), "--admin-port")
+
     def test_a_file_that_is_not_there_is_refused(self):
         self.assert_refused(serve("--config", str(self.file)), str(self.file), "No such file")
         self.assert_refused(serve("--config", str(self.file.parent)), str(self.file.parent), "can't be read")
