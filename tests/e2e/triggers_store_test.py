@@ -106,8 +106,10 @@ class Store(unittest.TestCase):
     def test_a_full_disk_is_said_to_be_full_and_keeps_nothing(self):
         if "GNOMON_IN_NAMESPACE" not in os.environ:  # mounting needs a namespace of one's own
             name = f"{type(self).__name__}.{self._testMethodName}"
-            command = ["unshare", "--mount", *(["--map-root-user"] if os.getuid() else [])]
-            command += [sys.executable, "-B", __file__, name]
+            namespace = ["unshare", "--mount", *(["--map-root-user"] if os.getuid() else [])]
+            if subprocess.run([*namespace, "true"], capture_output=True).returncode != 0:
+                self.skipTest("the system lets us mount nothing, as in a container")
+            command = [*namespace, sys.executable, "-B", __file__, name]
             inside = os.environ | {"GNOMON_IN_NAMESPACE": "1"}
             done = subprocess.run(command, env=inside, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr[-3000:])
