@@ -26,7 +26,7 @@ struct Dispatcher::Ticket {
   TaskResult result;
   std::condition_variable changed;
 
-  /// Its worker ended: it is tried once more, with no other task beside it.
+  /// Its worker ended: it is tried again, with no other task beside it.
   bool mustBeAlone() const { return ends > 0; }
 
   /// Not once two workers ended over it. It is hardly why a worker is killed from outside; but the system kills who

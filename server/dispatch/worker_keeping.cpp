@@ -14,9 +14,10 @@ constexpr std::chrono::seconds kStartPatience{60}; ///< drivers compile
 constexpr std::chrono::milliseconds kWatchPause{50};
 constexpr std::size_t kMostEvents = 64; ///< that wait for one client before progress is told less often
 
-Problem endedAgain(int times, const Problem& fault) {
+Problem endedOver(int times, const Problem& fault) {
   Problem problem = fault;
-  problem.detail = (times == 2 ? "Two" : std::to_string(times)) + " workers ended over this request. " + fault.detail;
+  const std::string who = times == 1 ? "A worker" : times == 2 ? "Two workers" : std::to_string(times) + " workers";
+  problem.detail = who + " ended over this request. " + fault.detail;
   return problem;
 }
 
@@ -168,7 +169,7 @@ void Dispatcher::replaceWorker(Slot& slot) {
       waiting_.push_front(ticket);
     } else {
       TaskResult result;
-      result.outcome.problems = {endedAgain(ticket->ends, slot.fault.problem)};
+      result.outcome.problems = {endedOver(ticket->ends, slot.fault.problem)};
       if (slot.fault.end == WorkerEnd::memory) result.refusal = TaskRefusal::memory;
       finish(ticket, std::move(result));
     }

@@ -21,8 +21,8 @@ namespace gnomon {
 namespace {
 
 constexpr std::chrono::milliseconds kLastLinger{500}; ///< once the server ends
-constexpr std::chrono::seconds kLongestUnseen{1};     ///< for the case that it fails at something
 constexpr std::size_t kMostUnseen = 32;               ///< connections that the watching thread has not seen yet
+constexpr std::chrono::seconds kLongestUnseen{1};     ///< that a new one waits for it, whatever keeps it
 
 Problem noPlace(bool clientHasItsShare) {
   if (clientHasItsShare) {
@@ -38,7 +38,6 @@ Lobby::Lobby(ConnectionContext& context, std::size_t threads, std::size_t perCli
 
 void Lobby::finish() {
   finishing_ = true;
-  taken_.notify_all();
   wake_.raise();
   if (thread_.joinable()) {
     thread_.join();
@@ -58,7 +57,7 @@ void Lobby::adopt(OpenConnection connection) noexcept {
 void Lobby::admit(OpenConnection connection) noexcept {
   adopt(std::move(connection));
   std::unique_lock lock(mutex_);
-  taken_.wait_for(lock, kLongestUnseen, [this] { return adopted_.size() < kMostUnseen || finishing_; });
+  taken_.wait_for(lock, kLongestUnseen, [this] { return adopted_.size() < kMostUnseen; });
 }
 
 void Lobby::makeRoom() noexcept {

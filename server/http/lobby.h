@@ -71,7 +71,7 @@ class Lobby {
   std::atomic<bool> roomWanted_ = false;
   std::mutex mutex_;
   std::vector<OpenConnection> adopted_;
-  std::condition_variable taken_; ///< adopted_ was emptied, or the lobby finishes
+  std::condition_variable taken_; ///< adopted_ was emptied
   // Of the watching thread alone:
   Guests guests_{wake_};
   std::vector<int> ready_; ///< descriptors of guests that wait for a thread, in order

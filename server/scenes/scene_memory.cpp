@@ -5,8 +5,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::uint64_t kEachBytes =
-    8'192; ///< of a scene besides its own: the page that it ends in, its file, its entry
+constexpr std::uint64_t kEachBytes = 8'192; ///< of each besides its own: its last page, its file, its entry
 
 } // namespace
 
