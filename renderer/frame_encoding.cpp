@@ -1,5 +1,6 @@
 #include "protocol/spec/enum_rows.h"
 #include "protocol/spec/output_options.h"
+#include "protocol/spec/traits.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/image/png_encode.h"
 #include "renderer/render.h"
@@ -20,7 +21,8 @@ Result<Bytes> encodePng(const Frame& frame, std::size_t index) {
 
 Result<Bytes> encodeExr(const Frame& frame) {
   std::vector<ImageLayer> layers;
-  for (const ViewImage& view : frame.images) layers.push_back({layerName(view.view), &view.image});
+  for (const ViewImage& view : frame.images)
+    layers.push_back({layerName(view.view), &view.image, traitsOf(view.view).wide});
   const Output& output = frame.report.spec.output;
   return encodeExr(layers, output.exrCompression, output.exrPixelType);
 }

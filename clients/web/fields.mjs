@@ -138,6 +138,11 @@ export const kViews = [
   ['shadow', 'Shadow', 'Share of the light that arrives, white = all'],
   ['depth', 'Depth', 'Distance along the view axis'],
   ['normal', 'Normal', 'World-space shading normal'],
+  ['ids', 'Nodes', 'A colour for each node'],
+  ['materials', 'Materials', 'A colour for each material'],
+  ['instances', 'Instances', 'A colour for each copy of a mesh'],
+  ['albedo', 'Albedo', 'Base colour, without light'],
+  ['position', 'Position', 'Place in the scene’s bounds, as a colour'],
   ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
 ];
 

@@ -172,6 +172,8 @@ void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights,
     cost[FramePart::shade] += shaded * (kShadedPixel + static_cast<double>(lights.size()) * kLitPixel + taps * kTap);
   } else if (traits.source == ViewSource::data) {
     cost[FramePart::shade] += shaded * (kLitPixel + (traits.shadowed ? kTap * 25 : 0.0));
+  } else if (traits.source == ViewSource::geometry) {
+    cost[FramePart::readback] += pixels * kReadPixel * 4;
   } else if (traits.source == ViewSource::atlas) {
     cost[FramePart::shade] += static_cast<double>(spec.atlas.size) * spec.atlas.size * kReadPixel;
   }

@@ -136,6 +136,15 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::edgeDistance, "edgeDistance",
              "pixels from each edge of the shadow of `debug.light` to the nearest exact one: a heat map (0 to 16), or "
              "numbers; -1 = no edge"),
+    spelling(View::ids, "ids", "the node that is seen: a color for each, or its index; black, or -1, where none is"),
+    spelling(View::instances, "instances",
+             "the copy of that node's mesh (EXT_mesh_gpu_instancing), 0 where there is but one; as `ids`"),
+    spelling(View::materials, "materials",
+             "the material that is seen, as `ids`; -1 also where a surface has none in the file"),
+    spelling(View::albedo, "albedo", "the base color of what is seen, unlit; black where nothing is"),
+    spelling(View::position, "position",
+             "the point that is seen, in the world: metres, infinity where none is; or its place in the scene's bounds "
+             "as a color"),
 };
 static_assert(spellsAll<View>());
 

@@ -21,7 +21,12 @@ enum class View {
   lightContribution, ///< the shaded scene in nothing but debug.light, not even the background
   reference,         ///< share of debug.light that is really seen, traced; 1 where nothing receives its shadow
   error,             ///< false shadow red, false light blue; or shadow less reference (EXR), 0 where no receiver
-  edgeDistance       ///< pixels from an edge of debug.light's shadow to the nearest true one (EXR: -1 = no edge)
+  edgeDistance,      ///< pixels from an edge of debug.light's shadow to the nearest true one (EXR: -1 = no edge)
+  ids,               ///< node that is seen: a color for each, or its index (EXR), -1 = none
+  instances,         ///< copy of that node's mesh that is seen, as ids; 0 where there is but one
+  materials,         ///< material that is seen, as ids; -1 = none, or a surface without one
+  albedo,            ///< base color, without light: sRGB, or linear (EXR); black where nothing is
+  position ///< world-space point: a color by its place in the scene's bounds, or metres (EXR), infinity = none
 };
 
 enum class ImageFormat { png, exr };

@@ -12,7 +12,8 @@ enum class ViewSource {
   picture, ///< the lit surfaces, antialiased as the spec asks; alpha where the background is not opaque
   data,    ///< the surface at the pixel's centre: never averaged
   atlas,   ///< the shadow atlas, at a size of its own
-  rays     ///< a traced reference that the shadow of debug.light is compared with
+  rays,    ///< a traced reference that the shadow of debug.light is compared with
+  geometry ///< the triangle at the pixel's centre: numbers that no device makes, so that all give the same
 };
 
 /// Names of up to three channels; the rest is empty.
@@ -26,6 +27,8 @@ struct ViewTraits {
   bool oneLight;    ///< shows debug.light alone
   bool tiles;       ///< looks into the tiles of a shadow map, whatever decides the light's shadow
   bool backdrop;    ///< painted over the color view
+  bool srgb;        ///< PNG: light, as sRGB has it; else bytes are numbers
+  bool wide;        ///< EXR: always floats, as halfs can't hold its numbers
   ChannelNames png; ///< 8 bits a channel
   ChannelNames exr; ///< numbers
 };
@@ -40,23 +43,28 @@ inline constexpr ChannelNames kId{"id"};
 
 // clang-format off
 inline constexpr std::array kViewTraits{
-    //          view                     source               shadowed light  tiles  backdrop PNG               EXR
-    ViewTraits{View::color,             ViewSource::picture, true,  false, false, false, channels::kRgb,   channels::kRgb},
-    ViewTraits{View::depth,             ViewSource::data,    false, false, false, false, channels::kValue, channels::kDepth},
-    ViewTraits{View::normal,            ViewSource::data,    false, false, false, false, channels::kRgb,   channels::kXyz},
-    ViewTraits{View::cascades,          ViewSource::picture, true,  true,  true,  false, channels::kRgb,   channels::kRgb},
-    ViewTraits{View::shadow,            ViewSource::data,    true,  true,  false, false, channels::kValue, channels::kValue},
-    ViewTraits{View::atlas,             ViewSource::atlas,   false, false, true,  false, channels::kRgb,   channels::kDepth},
-    ViewTraits{View::tile,              ViewSource::atlas,   false, true,  true,  false, channels::kValue, channels::kDepth},
-    ViewTraits{View::texelGrid,         ViewSource::picture, true,  true,  true,  false, channels::kRgb,   channels::kRgb},
-    ViewTraits{View::texelDensity,      ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kValue},
-    ViewTraits{View::blendWeight,       ViewSource::data,    false, true,  true,  false, channels::kValue, channels::kValue},
-    ViewTraits{View::bias,              ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kValue},
-    ViewTraits{View::casterIds,         ViewSource::data,    false, true,  true,  false, channels::kRgb,   channels::kId},
-    ViewTraits{View::lightContribution, ViewSource::picture, true,  true,  false, false, channels::kRgb,   channels::kRgb},
-    ViewTraits{View::reference,         ViewSource::rays,    false, true,  false, false, channels::kValue, channels::kValue},
-    ViewTraits{View::error,             ViewSource::rays,    false, true,  false, true,  channels::kRgb,   channels::kValue},
-    ViewTraits{View::edgeDistance,      ViewSource::rays,    false, true,  false, true,  channels::kRgb,   channels::kValue},
+    //               view               source                shadowed light  tiles  backdrop srgb   wide   PNG              EXR
+    ViewTraits{View::color,             ViewSource::picture,  true,    false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::depth,             ViewSource::data,     false,   false, false, false,   false, true,  channels::kValue,channels::kDepth},
+    ViewTraits{View::normal,            ViewSource::data,     false,   false, false, false,   false, false, channels::kRgb,  channels::kXyz},
+    ViewTraits{View::cascades,          ViewSource::picture,  true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::shadow,            ViewSource::data,     true,    true,  false, false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::atlas,             ViewSource::atlas,    false,   false, true,  false,   false, true,  channels::kRgb,  channels::kDepth},
+    ViewTraits{View::tile,              ViewSource::atlas,    false,   true,  true,  false,   false, true,  channels::kValue,channels::kDepth},
+    ViewTraits{View::texelGrid,         ViewSource::picture,  true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::texelDensity,      ViewSource::data,     false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::blendWeight,       ViewSource::data,     false,   true,  true,  false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::bias,              ViewSource::data,     false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::casterIds,         ViewSource::data,     false,   true,  true,  false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::lightContribution, ViewSource::picture,  true,    true,  false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::reference,         ViewSource::rays,     false,   true,  false, false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::error,             ViewSource::rays,     false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::edgeDistance,      ViewSource::rays,     false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::ids,               ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::instances,         ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::materials,         ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::albedo,            ViewSource::data,     false,   false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::position,          ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kXyz},
 };
 // clang-format on
 static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));

@@ -5,6 +5,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
+#include "renderer/core/parallel.h"
 #include "renderer/cpu/atlas_picture.h"
 #include "renderer/cpu/shadow/map_queries.h"
 #include "renderer/cpu/shadow/probe.h"
@@ -257,6 +258,20 @@ Status CpuFrame::show(const ShowInput& input) {
     if (const Status shown = showOne(input, request); !shown) return shown.problems();
   }
   return Done{};
+}
+
+Result<std::vector<PlacedTriangle>> CpuFrame::shownTriangles() {
+  const DepthBuffer& shown = surfaces(1);
+  const TriangleNumbers numbers(geometry_);
+  const auto width = static_cast<std::size_t>(shown.width);
+  std::vector<PlacedTriangle> triangles(width * static_cast<std::size_t>(shown.height));
+  forEach(static_cast<std::size_t>(shown.height), [&](std::size_t row) {
+    const int y = shown.height - 1 - static_cast<int>(row);
+    std::vector<std::uint32_t> line(width);
+    for (int x = 0; x < shown.width; ++x) line[static_cast<std::size_t>(x)] = shown.triangles[shown.at(x, y)];
+    numbers.of(line, std::span(triangles).subspan(row * width, width));
+  });
+  return triangles;
 }
 
 Result<std::vector<MapFootprint>> CpuFrame::footprints(const ShowInput& input) {

@@ -34,7 +34,8 @@ struct FrameWork {
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
 enum class TileUse { kept, drawnAnew };
 
-/// A picture that a frame shows. Views of source `rays` are made from others, and are not asked of a device.
+/// A picture that a frame shows. Views of source `rays` and `geometry` are made from what else a device tells, and are
+/// not asked of it.
 struct ViewRequest {
   View view = View::color;
   bool encoded = true;       ///< 8 bits a channel, tone mapped; else linear numbers
@@ -83,6 +84,8 @@ class FrameDrawing {
   virtual Status cast(const ShowInput& input, TileUse tiles) = 0;
   /// Lights the surfaces and makes every view of `input`, which is that of cast.
   virtual Status show(const ShowInput& input) = 0;
+  /// The triangle that each pixel's centre shows; first row on top. After show.
+  virtual Result<std::vector<PlacedTriangle>> shownTriangles() = 0;
   /// What the map of `input.debugLight`, which has one, does at each pixel; first row on top. After show.
   virtual Result<std::vector<MapFootprint>> footprints(const ShowInput& input) = 0;
   /// The share of `input.debugLight` that each point gets by the plan's tiles, 0..1: what view `shadow` shows where a

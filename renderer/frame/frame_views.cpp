@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "protocol/spec/traits.h"
+#include "renderer/device/view_image.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
 #include "renderer/shaders/shared/functions.h"
@@ -59,10 +60,6 @@ std::vector<float> distancesOf(const MeasuredShadow& measured) {
                                        : edgeDistances(measured.truth, 0, measured.shown);
 }
 
-std::uint8_t byteOf(float share) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
-}
-
 /// What is seen in the picture, as grey from `darkest` to `lightest`, so that no color is lost on it.
 std::vector<std::uint8_t> dimmed(const Image& color, float darkest, float lightest) {
   const auto& from = std::get<std::vector<std::uint8_t>>(color.pixels);
@@ -71,7 +68,7 @@ std::vector<std::uint8_t> dimmed(const Image& color, float darkest, float lighte
   grey.reserve(from.size() / step * 3);
   for (std::size_t i = 0; i < from.size(); i += step) {
     const float luma = (0.2126f * from[i] + 0.7152f * from[i + 1] + 0.0722f * from[i + 2]) / 255.0f;
-    grey.insert(grey.end(), 3, byteOf(darkest + (lightest - darkest) * luma));
+    grey.insert(grey.end(), 3, unormByte(darkest + (lightest - darkest) * luma));
   }
   return grey;
 }
@@ -95,7 +92,7 @@ void paintDistances(const MeasuredShadow& measured, std::vector<std::uint8_t>& p
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (distances[i] < 0) continue;
     const glm::vec3 color = shared::heat(distances[i] / kFarthest);
-    paint(pixels, i, {byteOf(color.r), byteOf(color.g), byteOf(color.b)});
+    paint(pixels, i, {unormByte(color.r), unormByte(color.g), unormByte(color.b)});
   }
 }
 
@@ -113,7 +110,7 @@ Image referencePicture(const MeasuredShadow& measured) {
   Image image = imageOf(measured, {"Y"});
   const std::vector<float> visibility = visibilityOf(measured);
   std::vector<std::uint8_t> grey(visibility.size());
-  std::transform(visibility.begin(), visibility.end(), grey.begin(), byteOf);
+  std::transform(visibility.begin(), visibility.end(), grey.begin(), unormByte);
   image.pixels = std::move(grey);
   return image;
 }
@@ -134,13 +131,21 @@ bool comparesWithRays(View view) {
   return traitsOf(view).source == ViewSource::rays;
 }
 
+bool tellsOfTriangles(View view) {
+  return traitsOf(view).source == ViewSource::geometry;
+}
+
+bool isDrawn(View view) {
+  return !comparesWithRays(view) && !tellsOfTriangles(view);
+}
+
 } // namespace
 
 FrameViews::FrameViews(const FrameSpec& spec) : spec_(spec) {
   const bool encoded = spec.output.format == ImageFormat::png;
   for (const View view : spec.views) {
     requestOf_.push_back(requests_.size());
-    if (comparesWithRays(view)) continue;
+    if (!isDrawn(view)) continue;
     if (view == View::color) backdrop_ = requests_.size();
     requests_.push_back({view, encoded, spec.background.alpha >= 1});
   }
@@ -157,6 +162,10 @@ bool FrameViews::needReference() const {
   return std::any_of(spec_.views.begin(), spec_.views.end(), comparesWithRays);
 }
 
+bool FrameViews::needGeometry() const {
+  return std::any_of(spec_.views.begin(), spec_.views.end(), tellsOfTriangles);
+}
+
 std::vector<float> FrameViews::fullShadow(FrameDrawing& drawing) const {
   return std::get<std::vector<float>>(drawing.picture(*fullShadow_).pixels);
 }
@@ -167,14 +176,18 @@ Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredSha
                                  : referencePicture(measured);
 }
 
-std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured) const {
+std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured,
+                                          const ShownGeometry* geometry) const {
+  const bool encoded = spec_.output.format == ImageFormat::png;
   std::vector<ViewImage> images;
   for (const View view : spec_.views) {
-    images.push_back({view, comparesWithRays(view) ? errorImage(drawing, view, *measured) : Image{}});
+    images.push_back({view, comparesWithRays(view)   ? errorImage(drawing, view, *measured)
+                            : tellsOfTriangles(view) ? geometryView(*geometry, view, encoded)
+                                                     : Image{}});
   }
   // After the errors, which are painted over one of them.
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (!comparesWithRays(images[i].view)) images[i].image = drawing.takePicture(requestOf_[i]);
+    if (isDrawn(images[i].view)) images[i].image = drawing.takePicture(requestOf_[i]);
   }
   return images;
 }

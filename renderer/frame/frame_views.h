@@ -8,6 +8,7 @@
 #include "protocol/spec/output_options.h"
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/geometry_views.h"
 #include "renderer/image/image.h"
 #include "renderer/reference/reference.h"
 #include "renderer/resolve/resolve_frame.h"
@@ -49,19 +50,23 @@ class FrameViews {
   const std::vector<ViewRequest>& requests() const { return requests_; }
   /// Some view compares a shadow with rays.
   bool needReference() const;
+  /// Some view tells of the triangles that are seen.
+  bool needGeometry() const;
 
   /// The debug light's shadow at full strength, a value a pixel, first row on top. REQUIRES: needReference, or
   /// debug.predictEdges.
   std::vector<float> fullShadow(FrameDrawing& drawing) const;
-  /// The pictures of the spec's views, in their order. `measured`: null where no view compares a shadow with rays.
-  std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured) const;
+  /// The pictures of the spec's views, in their order. `measured`: null where no view compares a shadow with rays;
+  /// `geometry`: null where none tells of triangles.
+  std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured,
+                                const ShownGeometry* geometry) const;
 
  private:
   Image errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const;
 
   const FrameSpec& spec_;
   std::vector<ViewRequest> requests_;
-  std::vector<std::size_t> requestOf_;    ///< one a view of the spec; of no meaning for views of source rays
+  std::vector<std::size_t> requestOf_; ///< one a view of the spec; of no meaning for views of source rays and geometry
   std::optional<std::size_t> fullShadow_; ///< index of its request
   std::optional<std::size_t> backdrop_;
 };

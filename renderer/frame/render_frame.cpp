@@ -99,7 +99,16 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
     drawing.endStage("reference");
   }
 
-  auto images = views.images(drawing, measured ? &*measured : nullptr);
+  std::optional<ShownGeometry> geometry;
+  if (views.needGeometry()) {
+    auto triangles = drawing.shownTriangles();
+    if (!triangles) return triangles.problems();
+    geometry.emplace(
+        ShownGeometry{*scene, view, resolved->view, effective.width, effective.height, *std::move(triangles)});
+    drawing.endStage("geometry");
+  }
+
+  auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr);
   drawing.endStage("readback");
   auto facts = drawing.finish();
   if (!facts) return facts.problems();

@@ -53,7 +53,7 @@ ExrPart makePart(const std::vector<const ImageLayer*>& layers, ExrPixelType pixe
   for (const ImageLayer* layer : layers) {
     for (const std::string& channel : layer->image->channels) {
       part.channels.push_back(layer->name.empty() ? channel : layer->name + "." + channel);
-      part.half.push_back(pixelType == ExrPixelType::half && channel != "Z" && channel != "id");
+      part.half.push_back(pixelType == ExrPixelType::half && !layer->wide);
     }
   }
   part.pixels.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height) *

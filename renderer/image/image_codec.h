@@ -16,6 +16,7 @@ namespace gnomon {
 struct ImageLayer {
   std::string name;
   const Image* image = nullptr;
+  bool wide = false; ///< always floats
 };
 
 /// The size of an encoded image, read from its header alone.

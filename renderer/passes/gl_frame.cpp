@@ -1,11 +1,14 @@
 #include "renderer/passes/gl_frame.h"
 
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/read_back.h"
+#include "renderer/passes/views/shown_triangles.h"
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
@@ -97,6 +100,28 @@ Status GlFrame::show(const ShowInput& input) {
   drawn_ = std::move(*drawn);
   draws_ = true;
   return Done{};
+}
+
+Result<std::vector<PlacedTriangle>> GlFrame::shownTriangles() {
+  const auto drawn = drawn_.surfaces.find(1);
+  const bool numbered = drawn != drawn_.surfaces.end() && drawn->second.triangleNumbers.id() != 0;
+  std::optional<Surfaces> own;
+  if (!numbered) {
+    auto surfaces = drawSurfaces(inputs_, survey_, 1, {.numbered = true});
+    if (!surfaces) return surfaces.problems();
+    own = std::move(*surfaces);
+  }
+  const Surfaces& surfaces = numbered ? drawn->second : *own;
+  const auto numbers = gnomon::shownTriangles(inputs_, surfaces);
+  if (!numbers) return numbers.problems();
+  const auto width = static_cast<std::size_t>(inputs_.width);
+  const auto height = static_cast<std::size_t>(inputs_.height);
+  std::vector<PlacedTriangle> triangles(numbers->size());
+  for (std::size_t row = 0; row < height; ++row) {
+    surfaces.numbers.of(std::span(*numbers).subspan((height - 1 - row) * width, width),
+                        std::span(triangles).subspan(row * width, width));
+  }
+  return triangles;
 }
 
 Result<std::vector<MapFootprint>> GlFrame::footprints(const ShowInput& input) {

@@ -27,6 +27,7 @@ class GlFrame : public FrameDrawing {
   Result<ReceiverDepths> survey() override;
   Status cast(const ShowInput& input, TileUse tiles) override;
   Status show(const ShowInput& input) override;
+  Result<std::vector<PlacedTriangle>> shownTriangles() override;
   Result<std::vector<MapFootprint>> footprints(const ShowInput& input) override;
   Result<std::vector<float>> probe(const ShowInput& input, std::span<const ProbePoint> points) override;
   Image picture(std::size_t index) override;

@@ -123,6 +123,7 @@ struct Instance {
   int node = 0;      ///< index into Scene::nodes
   int primitive = 0; ///< index into Scene::primitives
   int material = -1; ///< index into Scene::materials; -1 = the primitive's
+  int copy = 0;      ///< which of those that EXT_mesh_gpu_instancing makes of the node's mesh
   glm::dmat4 worldFromLocal{1};
   Aabb bounds; ///< in the world
 };

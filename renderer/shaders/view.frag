@@ -156,6 +156,9 @@ vec4 data(Sample seen) {
   n = n * 0.5 + 0.5;
 #endif
   return vec4(n, 1.0);
+#elif defined(VIEW_ALBEDO)
+  vec4 glow = emissionAt(seen.index); // what is unlit emits its color
+  return vec4(glow.w == 1.0 ? glow.rgb : unpackedSurface(seen.bits).baseColor, 1.0);
 #else
   Receiver receiver = receiverOf(seen, unpackedSurface(seen.bits).face, 1u);
 #if defined(VIEW_SHADOW)

@@ -12,6 +12,10 @@ bool needsReference(View view) {
   return traitsOf(view).source == ViewSource::rays;
 }
 
+bool tellsOfTriangles(View view) {
+  return traitsOf(view).source == ViewSource::geometry;
+}
+
 std::size_t longerSide(const Shadow& shadow) {
   if (!traitsOf(shadow.technique).baked) {
     return 0;
@@ -23,6 +27,7 @@ std::size_t longerSide(const Shadow& shadow) {
 } // namespace
 
 std::size_t frameBytes(const FrameSpec& spec) {
+  constexpr std::size_t kTriangleBytes = 12; ///< a number, and what it stands for
   const std::size_t bytesPerPixel = spec.output.format == ImageFormat::exr ? 16 : 4;
   const auto ofFrame = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   std::size_t pixels = 0;
@@ -31,7 +36,8 @@ std::size_t frameBytes(const FrameSpec& spec) {
     pixels += traitsOf(view).source == ViewSource::atlas ? side * side : ofFrame;
   }
   const bool traced = std::any_of(spec.views.begin(), spec.views.end(), needsReference);
-  return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0);
+  const bool triangles = std::any_of(spec.views.begin(), spec.views.end(), tellsOfTriangles);
+  return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0) + (triangles ? ofFrame * kTriangleBytes : 0);
 }
 
 std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights) {

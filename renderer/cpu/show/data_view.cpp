@@ -29,12 +29,19 @@ HWY_INLINE DebugValue shadowValue(const ShowJob& job, const Receiver& receiver) 
   return number(shadowVisibility(job.maps, job.debugLight, receiver, toLight, receiver.shown));
 }
 
+/// What is unlit emits its color.
+HWY_INLINE DebugValue albedoValue(const Surface& surface) {
+  return {select(surface.unlit, surface.emission, surface.baseColor), 1.0f};
+}
+
 HWY_INLINE DebugValue valueOf(const ShowJob& job, const Surface& surface) {
   switch (job.view) {
     case View::depth:
       return depthValue(job, surface.receiver);
     case View::normal:
       return {job.encoded ? surface.normal * 0.5f + Float3(0.5f) : surface.normal, 1.0f};
+    case View::albedo:
+      return albedoValue(surface);
     case View::shadow:
       return shadowValue(job, surface.receiver);
     default:

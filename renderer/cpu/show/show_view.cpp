@@ -13,10 +13,6 @@
 namespace gnomon::cpu {
 namespace {
 
-std::uint8_t unormByte(float value) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-}
-
 /// Turns each value of a square's pixels into the picture's.
 template <class T, class Convert>
 void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vector<T>& pixels, const Convert& convert) {
@@ -99,7 +95,7 @@ Image showView(const ShowJob& job, bool opaque) {
     fill<float>(job, image, [&](const TileColors& colors, int x, int y, std::vector<float>& pixels) {
       writeSquare(colors, x, y, image, pixels, [](float value) { return value; });
     });
-  } else if (traitsOf(job.view).source == ViewSource::picture) {
+  } else if (traitsOf(job.view).srgb) {
     fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
       TileBytes bytes;
       srgbBytes(colors, bytes);

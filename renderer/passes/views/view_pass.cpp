@@ -14,7 +14,7 @@ namespace {
 
 GLenum formatOf(View view, bool encoded) {
   if (!encoded) return GL_RGBA32F;
-  return traitsOf(view).source == ViewSource::picture ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  return traitsOf(view).srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
 /// A variant that holds no more than these lights and surfaces need.

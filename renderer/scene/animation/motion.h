@@ -49,7 +49,8 @@ struct Placement {
   int node = 0;
   int primitive = 0;          ///< index into Scene::primitives
   int skin = -1;              ///< that it follows instead of its node
-  glm::dmat4 nodeFromCopy{1}; ///< of an instance that EXT_mesh_gpu_instancing makes
+  int copy = 0;               ///< which of those that EXT_mesh_gpu_instancing makes of the node's mesh
+  glm::dmat4 nodeFromCopy{1}; ///< of that
 };
 
 /// What one of the file's scenes holds, to be placed by a pose.

@@ -131,6 +131,7 @@ bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Sce
     Instance instance;
     instance.node = placement.node;
     instance.primitive = placement.primitive;
+    instance.copy = placement.copy;
     instance.worldFromLocal = worldFromLocal;
     instance.bounds = transformed(worldFromLocal, primitive.bounds);
     if (!finite(instance.bounds)) return false;

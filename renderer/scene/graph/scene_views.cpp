@@ -83,10 +83,11 @@ class Flattening {
                    " has a degenerate transform and is left out.");
   }
 
-  void addPlacements(std::size_t node, int skin, const glm::dmat4& nodeFromCopy, const std::vector<int>& primitives) {
+  void addPlacements(std::size_t node, int skin, int copy, const glm::dmat4& nodeFromCopy,
+                     const std::vector<int>& primitives) {
     if (!moves_) return;
     for (const int primitive : primitives) {
-      scenes_.moving.back().placements.push_back({static_cast<int>(node), primitive, skin, nodeFromCopy});
+      scenes_.moving.back().placements.push_back({static_cast<int>(node), primitive, skin, copy, nodeFromCopy});
     }
   }
 
@@ -101,16 +102,16 @@ class Flattening {
         findings_.warn("The mesh at node " + std::to_string(node) + " is skinned; its instances are not drawn.");
       }
       if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
-      addPlacements(node, nodes_[node].skin, glm::dmat4(1), posed_[node].followingSkin);
-      placeCopy(node, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
+      addPlacements(node, nodes_[node].skin, 0, glm::dmat4(1), posed_[node].followingSkin);
+      placeCopy(node, 0, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
     }
     const std::uint64_t copies = instancing ? instancing->count : 1;
     if (findings_.refused() || !count(primitives.size(), copies, pointer)) return;
     for (std::uint64_t copy = 0; copy < copies && !findings_.refused(); ++copy) {
       const auto nodeFromCopy = instancing ? instancing->nodeFromCopy(copy) : glm::dmat4(1);
       if (nodeFromCopy) {
-        addPlacements(node, -1, *nodeFromCopy, primitives);
-        placeCopy(node, tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
+        addPlacements(node, -1, static_cast<int>(copy), *nodeFromCopy, primitives);
+        placeCopy(node, static_cast<int>(copy), tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
       } else {
         findings_.invalid(pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes",
                           "An instance has a rotation of length 0 or a number that is not finite.", {},
@@ -119,7 +120,7 @@ class Flattening {
     }
   }
 
-  void placeCopy(std::size_t node, const glm::dmat4& worldFromLocal, const std::vector<int>& primitives,
+  void placeCopy(std::size_t node, int copy, const glm::dmat4& worldFromLocal, const std::vector<int>& primitives,
                  SceneView& view, const std::string& pointer) {
     if (primitives.empty()) return;
     const bool flat = isFlat(worldFromLocal);
@@ -141,6 +142,7 @@ class Flattening {
       Instance instance;
       instance.node = static_cast<int>(node);
       instance.primitive = index;
+      instance.copy = copy;
       instance.worldFromLocal = worldFromLocal;
       instance.bounds = transformed(worldFromLocal, primitive.bounds);
       if (!finite(instance.bounds)) {

@@ -12,7 +12,7 @@ Image floats(int width, int height, std::vector<std::string> channels, std::vect
 TEST(ExrLayout, PutsLayersOfOneSizeSideBySide) {
   const Image color = floats(2, 1, {"R", "G", "B"}, {1, 2, 3, 4, 5, 6});
   const Image depth = floats(2, 1, {"Z"}, {7, 8});
-  const std::vector<ImageLayer> layers{{"", &color}, {"depth", &depth}};
+  const std::vector<ImageLayer> layers{{"", &color}, {"depth", &depth, true}};
   const auto parts = exrParts(layers, ExrPixelType::half);
   ASSERT_TRUE(parts);
   ASSERT_EQ(parts->size(), 1u);
@@ -25,7 +25,7 @@ TEST(ExrLayout, PutsLayersOfOneSizeSideBySide) {
 
 TEST(ExrLayout, IndicesStayExact) {
   const Image ids = floats(1, 1, {"id"}, {99999});
-  const std::vector<ImageLayer> layers{{"casterIds", &ids}};
+  const std::vector<ImageLayer> layers{{"casterIds", &ids, true}};
   EXPECT_EQ(exrParts(layers, ExrPixelType::half)->front().half, std::vector<bool>{false});
 }
 

@@ -52,7 +52,7 @@ TEST(EncodeExr, NamesItsLayersAndParts) {
   const Image color = ramp(4, 2, {"R", "G", "B"});
   const Image depth = ramp(4, 2, {"Z"});
   const Image atlas = ramp(3, 5, {"Z"});
-  const std::vector<ImageLayer> layers{{"", &color}, {"depth", &depth}, {"atlas", &atlas}};
+  const std::vector<ImageLayer> layers{{"", &color}, {"depth", &depth, true}, {"atlas", &atlas, true}};
   const auto exr = encodeExr(layers, ExrCompression::zip, ExrPixelType::half);
   ASSERT_TRUE(exr) << exr.problems().front().detail;
   const auto parts = readExr(*exr);
@@ -88,7 +88,7 @@ TEST(EncodeExr, WritesAllPixelTypesAndCompressions) {
 TEST(EncodeExr, KeepsDepthExactBesideHalfColour) {
   const Image color = ramp(1, 1, {"R", "G", "B"});
   const Image depth{1, 1, {"Z"}, std::vector<float>{123.456789f}};
-  const std::vector<ImageLayer> layers{{"", &color}, {"", &depth}};
+  const std::vector<ImageLayer> layers{{"", &color}, {"", &depth, true}};
   const auto exr = encodeExr(layers, ExrCompression::piz, ExrPixelType::half);
   ASSERT_TRUE(exr) << exr.problems().front().detail;
   const auto parts = readExr(*exr);
