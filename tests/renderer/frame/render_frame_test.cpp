@@ -44,6 +44,7 @@ class FakeDrawing : public FrameDrawing {
     return Done{};
   }
 
+  Result<std::vector<PlacedTriangle>> shownTriangles() override { return std::vector<PlacedTriangle>{}; }
   Result<std::vector<MapFootprint>> footprints(const ShowInput&) override { return std::vector<MapFootprint>{}; }
   Result<std::vector<float>> probe(const ShowInput&, std::span<const ProbePoint> points) override {
     return std::vector<float>(points.size(), 1.0f);
