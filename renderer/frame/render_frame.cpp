@@ -105,7 +105,6 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
     if (!triangles) return triangles.problems();
     geometry.emplace(
         ShownGeometry{*scene, view, resolved->view, effective.width, effective.height, *std::move(triangles)});
-    drawing.endStage("geometry");
   }
 
   auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr);
