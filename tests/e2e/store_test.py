@@ -1,7 +1,10 @@
 """A store with a quota, an age, and more scenes than one list should hold."""
 
+import contextlib
 import fcntl
 import hashlib
+import http.client
+import itertools
 import json
 import os
 import shutil
@@ -188,13 +191,27 @@ class Orphans(StoreCase):
                 file.close()
 
     def test_what_a_killed_server_was_writing_goes(self):
-        with Server(*self.flags) as server:
-            thread = threading.Thread(target=lambda: self.assertRaises(Exception, upload, server, padded(64 * MEGABYTE, "x")))
-            thread.start()
-            self.assertTrue(until(lambda: list(self.store.glob(".writing-*"))))
-            server.process.kill()
-            thread.join()
-        left = list(self.store.glob(".writing-*"))
+        # How long a file is half written depends on the disk: one after another is sent until one is caught at it.
+        def send(server):
+            with contextlib.suppress(OSError, http.client.HTTPException):
+                for number in itertools.count():
+                    upload(server, padded(32 * MEGABYTE, str(number)))
+                    for path in self.store.glob("*.bundle"):
+                        path.unlink()
+
+        def caught():
+            with Server(*self.flags) as server:
+                thread = threading.Thread(target=send, args=(server,))
+                thread.start()
+                end = time.monotonic() + TIMEOUT
+                while not list(self.store.glob(".writing-*")) and time.monotonic() < end:
+                    time.sleep(0.001)
+                server.process.kill()
+                thread.join()
+            return list(self.store.glob(".writing-*"))
+
+        left = next(filter(None, (caught() for _ in range(5))), [])
+        self.assertTrue(left, "no server was caught while it wrote")
         for path in left:
             os.utime(path, (time.time() - 100,) * 2)
         with Server(*self.flags):
