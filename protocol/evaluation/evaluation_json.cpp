@@ -63,14 +63,10 @@ void checkPath(const CameraPath& path, ProblemList& problems) {
                   .pointer = "/path/frames",
                   .detail = "frames counts steps; a list of cameras has its own length."});
   }
-  constexpr std::size_t kCameraPlace = std::string_view("/camera").size();
   for (std::size_t i = 0; path.cameras && i < path.cameras->size(); ++i) {
     std::vector<BrokenRule> broken;
-    appendCameraRules((*path.cameras)[i], broken);
-    for (BrokenRule& rule : broken) {
-      rule.problem.pointer.replace(0, kCameraPlace, "/path/cameras/" + std::to_string(i));
-      problems.add(std::move(rule.problem));
-    }
+    appendCameraRules((*path.cameras)[i], "/path/cameras/" + std::to_string(i), broken);
+    for (BrokenRule& rule : broken) problems.add(std::move(rule.problem));
   }
 }
 

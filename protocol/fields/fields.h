@@ -81,7 +81,7 @@ constexpr Field<Owner, Member> inlined(std::string_view name, Member Owner::*mem
 }
 
 /// Optional fields of which at most one may be given; unused places are empty.
-using Alternatives = std::array<std::string_view, 4>;
+using Alternatives = std::array<std::string_view, 5>;
 
 template <class Owner, class... Members>
 struct Rows {

@@ -145,15 +145,37 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::position, "position",
              "the point that is seen, in the world: metres, infinity where none is; or its place in the scene's bounds "
              "as a color"),
+    spelling(View::motion, "motion",
+             "pixels that what is seen has moved in the picture since `motionFrom`: x to the right, y down, infinity "
+             "where nothing is or was not before the camera then; or the direction as a hue, the stronger the farther"),
 };
 static_assert(spellsAll<View>());
 
 template <>
 inline constexpr std::array kSpellings<ImageFormat>{
-    spelling(ImageFormat::png, "png", "8 bits a channel, sRGB"),
+    spelling(ImageFormat::png, "png", "8 bits a channel, sRGB; 16 bits by `pngBits`"),
     spelling(ImageFormat::exr, "exr", "linear light, every view a named layer"),
+    spelling(ImageFormat::npy, "npy", "an array for NumPy: rows, columns and, of several, channels"),
+    spelling(ImageFormat::npz, "npz", "every view as an array for NumPy, and the report, in one ZIP"),
+    spelling(ImageFormat::tiff, "tiff", "the numbers of an EXR, 32 bits a channel, of one view"),
+    spelling(ImageFormat::jpeg, "jpeg", "small, for previews: neither exact nor transparent"),
+    spelling(ImageFormat::webp, "webp", "smaller still, for previews: not exact"),
 };
 static_assert(spellsAll<ImageFormat>());
+
+template <>
+inline constexpr std::array kSpellings<ArrayColors>{
+    spelling(ArrayColors::srgb, "srgb", "bytes as in a PNG, exposed and tone mapped"),
+    spelling(ArrayColors::linear, "linear", "32-bit floats as in an EXR, linear and not tone mapped"),
+};
+static_assert(spellsAll<ArrayColors>());
+
+template <>
+inline constexpr std::array kSpellings<CameraAxes>{
+    spelling(CameraAxes::opengl, "opengl", "x right, y up, the camera looks along -z: OpenGL, glTF, Blender"),
+    spelling(CameraAxes::opencv, "opencv", "x right, y down, the camera looks along z: OpenCV, ROS, COLMAP"),
+};
+static_assert(spellsAll<CameraAxes>());
 
 template <>
 inline constexpr std::array kSpellings<ExrCompression>{

@@ -43,7 +43,19 @@ inline constexpr auto kRows<Output> = rows(
     field("exrCompression", &Output::exrCompression, {.says = "Compression of an EXR; all kinds are lossless."}),
     field(
         "exrPixelType", &Output::exrPixelType,
-        {.says = "Bits of a number in an EXR: `half` has 11 bits of precision, `float` 24 and about twice the size."}));
+        {.says = "Bits of a number in an EXR: `half` has 11 bits of precision, `float` 24 and about twice the size."}),
+    field("pngBits", &Output::pngBits,
+          {.says = "Bits of a channel in a PNG. With 16, views of numbers hold them: `depth` in millimetres, rounded, "
+                   "`ids`, `instances`, `materials` and `casterIds` as they are, 65535 where there is nothing or more "
+                   "than fits; all others the same as with 8, but finer.",
+           .range = {8, 16},
+           .choices = choices(8, 16)}),
+    field("arrayColors", &Output::arrayColors, {.says = "What colors are in `npy` and `npz`."}),
+    field("jpegQuality", &Output::jpegQuality,
+          {.says = "1 = smallest file, 100 = closest to the picture and about ten times as large.", .range = {1, 100}}),
+    field("webpQuality", &Output::webpQuality,
+          {.says = "0 = smallest file, 100 = closest to the picture and about ten times as large.",
+           .range = {0, 100}}));
 static_assert(kRowsAreComplete<Output>);
 
 template <>
@@ -74,6 +86,17 @@ inline constexpr auto kRows<AnimationMoment> =
                 .range = {-1e9, 1e9}}))
         .withAlternatives({"index", "name"});
 static_assert(kRowsAreComplete<AnimationMoment>);
+
+template <>
+inline constexpr auto kRows<MotionFrom> = rows(
+    "MotionFrom", "What the view `motion` compares with; what is absent is as in the frame itself.",
+    field("camera", &MotionFrom::camera, {.says = "The camera then."}),
+    field("animation", &MotionFrom::animation, {.says = "The animation and its time then."}),
+    field("nodes", &MotionFrom::nodes,
+          {.says = "Places of nodes then, instead of the frame's `nodes`: of each entry only `matrix`, `translation`, "
+                   "`rotation` and `scale`.",
+           .maxCount = kLimits.maxNodeOptions}));
+static_assert(kRowsAreComplete<MotionFrom>);
 
 template <>
 inline constexpr auto kRows<Debug> = rows(
@@ -107,7 +130,7 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field("shadowLightPolicy", &FrameSpec::shadowLightPolicy, {.says = "Which lights cast shadows."}),
     field("atlas", &FrameSpec::atlas, {.says = "The depth texture that holds every shadow tile."}),
     field("nodes", &FrameSpec::nodes,
-          {.says = "Switches of single nodes; of two entries for one node, the later one applies.",
+          {.says = "Switches and places of single nodes; of two entries for one node, the later one applies.",
            .maxCount = kLimits.maxNodeOptions}),
     field("volumes", &FrameSpec::volumes,
           {.says = "Clouds, smoke and fog, in view `color`; they shade what the first directional light shines on that "
@@ -140,6 +163,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
            .minCount = 1,
            .maxCount = kSpellings<View>.size(),
            .distinct = true}),
+    field("motionFrom", &FrameSpec::motionFrom,
+          {.says = "An earlier moment that the view `motion` compares with; required by that view."}),
     field("debug", &FrameSpec::debug, {.says = "What the debug views show."}),
     field("quality", &FrameSpec::quality,
           {.says = "A target for the shadows instead of settings: technique, filter, cascades and sizes are then "

@@ -36,6 +36,15 @@ struct AnimationMoment {
   bool operator==(const AnimationMoment&) const = default;
 };
 
+/// What view `motion` compares with. What is absent is as in the frame itself.
+struct MotionFrom {
+  std::optional<Camera> camera{};
+  std::optional<AnimationMoment> animation{};
+  std::optional<std::vector<NodeOptions>> nodes{}; ///< places alone
+
+  bool operator==(const MotionFrom&) const = default;
+};
+
 /// What the debug views show.
 struct Debug {
   std::optional<int> light{}; ///< index into the lights; absent = the first that casts in this frame, or else the first
@@ -73,6 +82,7 @@ struct FrameSpec {
   ToneMapping toneMapping = ToneMapping::aces;
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color}; ///< at least one, each once
+  std::optional<MotionFrom> motionFrom; ///< needed by view `motion` alone
   Debug debug;
   std::optional<Quality> quality;            ///< technique, cascades, sizes and filters are chosen so that it holds
   DeviceChoice device = DeviceChoice::auto_; ///< effective: what drew

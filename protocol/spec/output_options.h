@@ -26,12 +26,18 @@ enum class View {
   instances,         ///< copy of that node's mesh that is seen, as ids; 0 where there is but one
   materials,         ///< material that is seen, as ids; -1 = none, or a surface without one
   albedo,            ///< base color, without light: sRGB, or linear (EXR); black where nothing is
-  position ///< world-space point: a color by its place in the scene's bounds, or metres (EXR), infinity = none
+  position, ///< world-space point: a color by its place in the scene's bounds, or metres (EXR), infinity = none
+  motion    ///< how far it has moved in the picture since motionFrom: x right, y down, pixels (EXR); infinity = none
 };
 
-enum class ImageFormat { png, exr };
+enum class ImageFormat { png, exr, npy, npz, tiff, jpeg, webp };
+
 enum class ExrCompression { none, rle, zip, piz };
 enum class ExrPixelType { half, float_ };
+
+/// What the colors of an array are.
+enum class ArrayColors { srgb, linear };
+
 enum class ToneMapping { aces, none };
 
 /// What draws: a processor, or OpenGL.
@@ -43,6 +49,10 @@ struct Output {
   int pngCompression = 2; ///< 0 fastest .. 9 smallest; up to 2 by ISA-L, from 3 on by libdeflate
   ExrCompression exrCompression = ExrCompression::piz;
   ExrPixelType exrPixelType = ExrPixelType::half; ///< JSON: "half" | "float"
+  int pngBits = 8;                                ///< of a channel: 8 or 16
+  ArrayColors arrayColors = ArrayColors::srgb;    ///< of npy and npz
+  int jpegQuality = 90;                           ///< 1 smallest .. 100 best
+  int webpQuality = 85;                           ///< 0 smallest .. 100 best; lossy at any
 
   bool operator==(const Output&) const = default;
 };

@@ -15,10 +15,13 @@ namespace gnomon {
 // view_rules.cpp
 
 /// One of index and name, and a time only with them.
-void appendAnimationRules(const AnimationMoment& moment, std::vector<BrokenRule>& broken);
+void appendAnimationRules(const AnimationMoment& moment, const std::string& pointer, std::vector<BrokenRule>& broken);
 
-/// At "/camera".
-void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken);
+/// Of one camera that stands at `pointer`.
+void appendCameraRules(const Camera& camera, const std::string& pointer, std::vector<BrokenRule>& broken);
+
+/// Where an entry of `nodes` puts its node.
+void appendPlaceRules(const NodeOptions& node, const std::string& pointer, std::vector<BrokenRule>& broken);
 
 /// At "/lights/<index>", without the rules of its shadow.
 void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenRule>& broken);

@@ -40,12 +40,40 @@ struct Perspective {
   bool operator==(const Perspective&) const = default;
 };
 
+/// A lens with perspective as calibration gives it. The centre of the upper left pixel is 0 0, so that the middle of a
+/// picture is at (width - 1) / 2, (height - 1) / 2, as in OpenCV.
+struct Intrinsics {
+  double fx = 1000;             ///< focal lengths, pixels
+  double fy = 1000;             ///< pixels
+  std::optional<double> cx{};   ///< principal point, pixels from the left; absent = the middle
+  std::optional<double> cy{};   ///< pixels from the top; absent = the middle
+  std::optional<double> near{}; ///< metres; absent = from the scene's bounds
+  std::optional<double> far{};  ///< metres; absent = infinite
+
+  bool operator==(const Intrinsics&) const = default;
+};
+
 struct Orthographic {
   double height = 10; ///< metres from the lower to the upper edge of the picture
   double near = 0;    ///< metres; may be negative
   double far = 1000;  ///< metres, > near
 
   bool operator==(const Orthographic&) const = default;
+};
+
+/// Which way the axes of a camera point.
+enum class CameraAxes { opengl, opencv };
+
+/// A matrix by rows.
+using Rows4 = std::array<std::array<double, 4>, 4>;
+
+/// Placement by a matrix.
+struct CameraPose {
+  /// Takes points of the camera's space into the world: a rotation and a translation in metres, by rows.
+  Rows4 worldFromCamera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+  CameraAxes axes = CameraAxes::opengl;
+
+  bool operator==(const CameraPose&) const = default;
 };
 
 /// Exactly one placement and at most one lens. With nothing given: an orbit that shows the whole scene.
@@ -55,7 +83,9 @@ struct Camera {
   std::optional<std::variant<int, std::string>>
       node{};                ///< a glTF camera: index into the file's nodes, or the name of one
   std::optional<bool> fit{}; ///< true = frame the whole scene from the default direction
+  std::optional<CameraPose> pose{};
   std::optional<Perspective> perspective{};
+  std::optional<Intrinsics> intrinsics{};
   std::optional<Orthographic> orthographic{};
 
   bool operator==(const Camera&) const = default;
@@ -64,13 +94,18 @@ struct Camera {
 /// Layers are bits: 1 is the first, 2 the second, 4 the third. This is all of them.
 inline constexpr int kAllLayers = (1 << kLimits.maxLayers) - 1;
 
-/// Switches of a node of the scene and of all below it, as far as no entry for a node further down says otherwise.
+/// Switches of a node of the scene and of all below it, as far as no entry for a node further down says otherwise; and
+/// where it stands, instead of where the file and its animation put it. Only one of `matrix` and the three others.
 struct NodeOptions {
   std::optional<std::variant<int, std::string>> node{}; ///< index into the file's nodes, or the name of some; needed
   std::optional<bool> visible{};                        ///< false = the camera doesn't see it
   std::optional<bool> castShadow{};                     ///< absent = as visible: what isn't seen throws no shadow
   std::optional<bool> receiveShadow{};                  ///< false = it is lit as if nothing threw a shadow on it
   std::optional<int> layers{};                          ///< one bit a layer, at least one; absent = the first, 1
+  std::optional<std::array<double, 16>> matrix{};       ///< into the space of its parent, affine, column by column
+  std::optional<Vec3> translation{};                    ///< metres, in the space of its parent
+  std::optional<std::array<double, 4>> rotation{};      ///< quaternion x y z w, of any length but zero
+  std::optional<Vec3> scale{};                          ///< along its own axes
 
   bool operator==(const NodeOptions&) const = default;
 };

@@ -62,6 +62,38 @@ inline constexpr auto kRows<Perspective> =
 static_assert(kRowsAreComplete<Perspective>);
 
 template <>
+inline constexpr auto kRows<Intrinsics> = rows(
+    "Intrinsics",
+    "A lens with perspective as calibration gives it. The centre of the upper left pixel is 0 0, as in OpenCV: the "
+    "middle of the picture is at (width - 1) / 2, (height - 1) / 2.",
+    field("fx", &Intrinsics::fx, {.says = "Focal length across.", .unit = "pixels", .range = kFocalRange}),
+    field("fy", &Intrinsics::fy, {.says = "Focal length downwards.", .unit = "pixels", .range = kFocalRange}),
+    field("cx", &Intrinsics::cx,
+          {.says = "Principal point, from the left; absent = the middle.", .unit = "pixels", .range = kPrincipalRange}),
+    field("cy", &Intrinsics::cy,
+          {.says = "Principal point, from the top; absent = the middle.", .unit = "pixels", .range = kPrincipalRange}),
+    field("near", &Intrinsics::near,
+          {.says = "Nearest depth that is drawn; absent = chosen from the scene's bounds.",
+           .unit = "metres",
+           .range = kLengthRange}),
+    field("far", &Intrinsics::far,
+          {.says = "Farthest depth that is drawn, more than `near`; absent = no limit.",
+           .unit = "metres",
+           .range = kLengthRange}));
+static_assert(kRowsAreComplete<Intrinsics>);
+
+template <>
+inline constexpr auto kRows<CameraPose> =
+    rows("CameraPose", "Where a camera stands and how it is turned, as a matrix.",
+         field("worldFromCamera", &CameraPose::worldFromCamera,
+               {.says = "The matrix, row by row, that takes points of the camera's space into the world: a rotation "
+                        "without mirroring or scale, a translation, and 0 0 0 1 as the last row.",
+                .unit = "metres",
+                .range = kPositionRange}),
+         field("axes", &CameraPose::axes, {.says = "Which way the camera's axes point."}));
+static_assert(kRowsAreComplete<CameraPose>);
+
+template <>
 inline constexpr auto kRows<Orthographic> =
     rows("Orthographic", "A lens without perspective.",
          field("height", &Orthographic::height,
@@ -90,11 +122,14 @@ inline constexpr auto kRows<Camera> =
          field("fit", &Camera::fit,
                {.says = "True = show the whole scene from the default direction; false is not accepted.",
                 .onlyTrue = true}),
+         field("pose", &Camera::pose, {.says = "Placement by a matrix."}),
          field("perspective", &Camera::perspective,
                {.says = "A lens with perspective; absent = the lens of the camera node, or 45 degrees."}),
+         field("intrinsics", &Camera::intrinsics,
+               {.says = "A lens with perspective by focal lengths and principal point, instead of `perspective`."}),
          field("orthographic", &Camera::orthographic,
                {.says = "A lens without perspective, instead of one with perspective."}))
-        .withAlternatives({"lookAt", "orbit", "node", "fit"}, {"perspective", "orthographic"});
+        .withAlternatives({"lookAt", "orbit", "node", "fit", "pose"}, {"perspective", "intrinsics", "orthographic"});
 static_assert(kRowsAreComplete<Camera>);
 
 template <>
@@ -174,7 +209,10 @@ static_assert(kRowsAreComplete<Light>);
 
 template <>
 inline constexpr auto kRows<NodeOptions> = rows(
-    "NodeOptions", "Switches of a node and everything below it; an entry for a node further down takes precedence.",
+    "NodeOptions",
+    "Switches of a node and everything below it, where an entry for a node further down takes precedence; and the "
+    "place "
+    "of the node itself, which what is below it follows.",
     field("node", &NodeOptions::node,
           {.says = "The node's index, or its name (all nodes of that name); required.",
            .range = kNodeRange,
@@ -186,7 +224,26 @@ inline constexpr auto kRows<NodeOptions> = rows(
     field("receiveShadow", &NodeOptions::receiveShadow, {.says = "False = no shadow falls on it; absent = true."}),
     field("layers", &NodeOptions::layers,
           {.says = "Bit mask of its layers, matched with the lights' `cullingMask`; absent = 1, the first layer.",
-           .range = {1, double(kAllLayers)}}));
+           .range = {1, double(kAllLayers)}}),
+    field("matrix", &NodeOptions::matrix,
+          {.says = "Where it stands in the space of its parent, instead of where the file or an animation puts it: an "
+                   "affine matrix, column by column, as in glTF.",
+           .range = kPositionRange}),
+    field(
+        "translation", &NodeOptions::translation,
+        {.says = "Its place in the space of its parent; absent = as the file or the animation has it, 0 0 0 for a node "
+                 "with a matrix there.",
+         .unit = "metres",
+         .range = kPositionRange}),
+    field("rotation", &NodeOptions::rotation,
+          {.says = "Its rotation, a quaternion x y z w of any length but zero; absent = as the file or the animation "
+                   "has it, none for a node with a matrix there.",
+           .range = kPositionRange}),
+    field(
+        "scale", &NodeOptions::scale,
+        {.says = "Its scale along its own axes; absent = as the file or the animation has it, 1 1 1 for a node with a "
+                 "matrix there.",
+         .range = kPositionRange}));
 static_assert(kRowsAreComplete<NodeOptions>);
 
 } // namespace gnomon

@@ -36,6 +36,7 @@ struct ViewTraits {
 namespace channels {
 inline constexpr ChannelNames kRgb{"R", "G", "B"};
 inline constexpr ChannelNames kXyz{"X", "Y", "Z"};
+inline constexpr ChannelNames kXy{"X", "Y"};
 inline constexpr ChannelNames kValue{"Y"};
 inline constexpr ChannelNames kDepth{"Z"};
 inline constexpr ChannelNames kId{"id"};
@@ -65,6 +66,7 @@ inline constexpr std::array kViewTraits{
     ViewTraits{View::materials,         ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
     ViewTraits{View::albedo,            ViewSource::data,     false,   false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
     ViewTraits{View::position,          ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kXyz},
+    ViewTraits{View::motion,            ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kXy},
 };
 // clang-format on
 static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));

@@ -20,14 +20,43 @@ void appendPixelRule(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
                     {"/width", "/height"}});
 }
 
-void appendNodeRules(const std::vector<NodeOptions>& nodes, std::vector<BrokenRule>& broken) {
+void appendNodeRules(const std::vector<NodeOptions>& nodes, const std::string& list, std::vector<BrokenRule>& broken) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::string pointer = list + "/" + std::to_string(i);
+    appendPlaceRules(nodes[i], pointer, broken);
     if (nodes[i].node) continue;
-    const std::string pointer = "/nodes/" + std::to_string(i) + "/node";
     broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer,
+                       .pointer = pointer + "/node",
                        .detail = "A node's index or name is needed.",
                        .actual = "absent"},
+                      {pointer + "/node"}});
+  }
+}
+
+void appendMotionRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  const bool shown = std::find(spec.views.begin(), spec.views.end(), View::motion) != spec.views.end();
+  if (shown && !spec.motionFrom) {
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = "/motionFrom",
+                       .detail = "The view motion needs an earlier moment.",
+                       .limit = "camera, animation or nodes",
+                       .actual = "absent"},
+                      {"/views", "/motionFrom"}});
+  }
+  if (!spec.motionFrom) return;
+  const MotionFrom& from = *spec.motionFrom;
+  if (from.camera) appendCameraRules(*from.camera, "/motionFrom/camera", broken);
+  if (from.animation) appendAnimationRules(*from.animation, "/motionFrom/animation", broken);
+  if (!from.nodes) return;
+  appendNodeRules(*from.nodes, "/motionFrom/nodes", broken);
+  for (std::size_t i = 0; i < from.nodes->size(); ++i) {
+    const NodeOptions& node = (*from.nodes)[i];
+    if (!node.visible && !node.castShadow && !node.receiveShadow && !node.layers) continue;
+    const std::string pointer = "/motionFrom/nodes/" + std::to_string(i);
+    broken.push_back({{.code = ProblemCode::invalidValue,
+                       .pointer = pointer,
+                       .detail = "An earlier moment has places of nodes, and no switches.",
+                       .limit = "matrix | translation, rotation, scale"},
                       {pointer}});
   }
 }
@@ -59,8 +88,8 @@ void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken)
 std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   std::vector<BrokenRule> broken;
   appendPixelRule(spec, broken);
-  appendCameraRules(spec.camera, broken);
-  if (spec.animation) appendAnimationRules(*spec.animation, broken);
+  appendCameraRules(spec.camera, "/camera", broken);
+  if (spec.animation) appendAnimationRules(*spec.animation, "/animation", broken);
   if (spec.lights) {
     for (std::size_t i = 0; i < spec.lights->size(); ++i) {
       const Light& light = (*spec.lights)[i];
@@ -72,7 +101,8 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   }
   appendShadowRules(spec.shadow, spec.atlas, "/shadow", broken);
   appendAtlasRules(spec.atlas, broken);
-  appendNodeRules(spec.nodes, broken);
+  appendNodeRules(spec.nodes, "/nodes", broken);
+  appendMotionRules(spec, broken);
   for (std::size_t i = 0; i < spec.volumes.size(); ++i) {
     appendVolumeRules(spec.volumes[i], "/volumes/" + std::to_string(i), broken);
   }

@@ -57,22 +57,57 @@ void appendAlternatives(const T& value, const std::string& pointer, std::vector<
   }
 }
 
-void appendLookAtRules(const EyeTarget& lookAt, std::vector<BrokenRule>& broken) {
+void appendLookAtRules(const EyeTarget& lookAt, const std::string& camera, std::vector<BrokenRule>& broken) {
   const Vec3 view = minus(lookAt.target, lookAt.eye);
   if (length(view) < kShortest) {
-    broken.push_back({invalid("/camera/target", "The target is where the eye is, so there is no direction to look in.",
-                              "any place but the eye", vecText(lookAt.target)),
-                      {"/camera/eye", "/camera/target"}});
+    broken.push_back(
+        {invalid(camera + "/target", "The target is where the eye is, so there is no direction to look in.",
+                 "any place but the eye", vecText(lookAt.target)),
+         {camera + "/eye", camera + "/target"}});
     return;
   }
   if (length(lookAt.up) < kShortest) {
     broken.push_back(
-        {invalid("/camera/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
-         {"/camera/up"}});
+        {invalid(camera + "/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
+         {camera + "/up"}});
   } else if (length(cross(unit(view), unit(lookAt.up))) < kParallel) {
-    broken.push_back({invalid("/camera/up", "The direction up is parallel to the direction of view.",
+    broken.push_back({invalid(camera + "/up", "The direction up is parallel to the direction of view.",
                               "any direction but the view's", vecText(lookAt.up)),
-                      {"/camera/eye", "/camera/target", "/camera/up"}});
+                      {camera + "/eye", camera + "/target", camera + "/up"}});
+  }
+}
+
+/// The rotation of a pose: its axes have length 1, stand on each other and are not mirrored, within what numbers of a
+/// calibration are rounded to.
+bool isRotation(const Rows4& rows) {
+  constexpr double kRounding = 1e-3;
+  const auto axis = [&](std::size_t i) { return Vec3{rows[0][i], rows[1][i], rows[2][i]}; };
+  const auto dot = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      if (!(std::abs(dot(axis(i), axis(j)) - (i == j ? 1 : 0)) <= kRounding)) return false;
+    }
+  }
+  return dot(cross(axis(0), axis(1)), axis(2)) > 0;
+}
+
+void appendPoseRules(const CameraPose& pose, const std::string& camera, std::vector<BrokenRule>& broken) {
+  const std::string matrix = camera + "/pose/worldFromCamera";
+  const Rows4& rows = pose.worldFromCamera;
+  if (rows[3] != std::array<double, 4>{0, 0, 0, 1}) {
+    broken.push_back(
+        {invalid(matrix + "/3", "The last row of a pose is 0 0 0 1. A matrix that lists columns has to be transposed.",
+                 "0 0 0 1",
+                 numberText(rows[3][0]) + " " + numberText(rows[3][1]) + " " + numberText(rows[3][2]) + " " +
+                     numberText(rows[3][3])),
+         {matrix}});
+  }
+  if (!isRotation(rows)) {
+    broken.push_back({invalid(matrix,
+                              "The upper left of a pose is a rotation: axes of length 1 that stand on each "
+                              "other, not mirrored.",
+                              "a rotation within 0.001", "no rotation"),
+                      {matrix}});
   }
 }
 
@@ -85,22 +120,50 @@ void appendNearFar(double near, double far, const std::string& lens, std::vector
 
 } // namespace
 
-void appendAnimationRules(const AnimationMoment& moment, std::vector<BrokenRule>& broken) {
-  appendAlternatives(moment, "/animation", broken);
+void appendAnimationRules(const AnimationMoment& moment, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  appendAlternatives(moment, pointer, broken);
   if (moment.index || moment.name || moment.timeSeconds == 0) return;
-  broken.push_back(
-      {invalid("/animation", "A time needs the index or the name of an animation.", "index | name", "neither"),
-       {"/animation/index", "/animation/name"}});
+  broken.push_back({invalid(pointer, "A time needs the index or the name of an animation.", "index | name", "neither"),
+                    {pointer + "/index", pointer + "/name"}});
 }
 
-void appendCameraRules(const Camera& camera, std::vector<BrokenRule>& broken) {
-  appendAlternatives(camera, "/camera", broken);
-  if (camera.lookAt) appendLookAtRules(*camera.lookAt, broken);
+void appendPlaceRules(const NodeOptions& node, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  if (node.matrix) {
+    if (node.translation || node.rotation || node.scale) {
+      broken.push_back({invalid(pointer + "/matrix", "A node has a matrix, or a translation, rotation and scale.",
+                                "matrix | translation, rotation, scale", "both"),
+                        {pointer + "/matrix", pointer + "/translation", pointer + "/rotation", pointer + "/scale"}});
+    }
+    const auto& m = *node.matrix;
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+      broken.push_back(
+          {invalid(pointer + "/matrix", "The matrix is not affine: its last row, every fourth number, is 0 0 0 1.",
+                   "0 0 0 1",
+                   numberText(m[3]) + " " + numberText(m[7]) + " " + numberText(m[11]) + " " + numberText(m[15])),
+           {pointer + "/matrix"}});
+    }
+  }
+  if (node.rotation) {
+    const auto& q = *node.rotation;
+    if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < kShortest) {
+      broken.push_back({invalid(pointer + "/rotation", "This quaternion is zero.", "any length but zero", "0 0 0 0"),
+                        {pointer + "/rotation"}});
+    }
+  }
+}
+
+void appendCameraRules(const Camera& camera, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  appendAlternatives(camera, pointer, broken);
+  if (camera.lookAt) appendLookAtRules(*camera.lookAt, pointer, broken);
+  if (camera.pose) appendPoseRules(*camera.pose, pointer, broken);
   if (camera.perspective && camera.perspective->near && camera.perspective->far) {
-    appendNearFar(*camera.perspective->near, *camera.perspective->far, "/camera/perspective", broken);
+    appendNearFar(*camera.perspective->near, *camera.perspective->far, pointer + "/perspective", broken);
+  }
+  if (camera.intrinsics && camera.intrinsics->near && camera.intrinsics->far) {
+    appendNearFar(*camera.intrinsics->near, *camera.intrinsics->far, pointer + "/intrinsics", broken);
   }
   if (camera.orthographic) {
-    appendNearFar(camera.orthographic->near, camera.orthographic->far, "/camera/orthographic", broken);
+    appendNearFar(camera.orthographic->near, camera.orthographic->far, pointer + "/orthographic", broken);
   }
 }
 

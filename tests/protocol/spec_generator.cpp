@@ -72,12 +72,12 @@ struct Any<std::variant<int, std::string>> {
     return any<std::string>(notes);
   }
 };
-template <std::size_t kSize>
-struct Any<std::array<double, kSize>> {
-  static std::array<double, kSize> make(const Notes& notes) {
-    std::array<double, kSize> numbers;
-    for (double& number : numbers) number = pickIn(notes.range);
-    return numbers;
+template <class T, std::size_t kSize>
+struct Any<std::array<T, kSize>> {
+  static std::array<T, kSize> make(const Notes& notes) {
+    std::array<T, kSize> elements;
+    for (T& element : elements) element = any<T>(notes);
+    return elements;
   }
 };
 template <class T>
@@ -120,8 +120,13 @@ void order(double& lower, double& higher) {
 }
 
 void mend(Camera& camera) {
-  keepOnly(pick(0, 4), camera.lookAt, camera.orbit, camera.node, camera.fit);
-  keepOnly(pick(0, 2), camera.perspective, camera.orthographic);
+  keepOnly(pick(0, 5), camera.lookAt, camera.orbit, camera.node, camera.fit, camera.pose);
+  keepOnly(pick(0, 3), camera.perspective, camera.intrinsics, camera.orthographic);
+  if (camera.pose) {
+    Rows4 rows{{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    for (std::size_t i = 0; i < 3; ++i) rows[i][3] = camera.pose->worldFromCamera[i][3];
+    camera.pose->worldFromCamera = rows;
+  }
   if (camera.lookAt) {
     EyeTarget& look = *camera.lookAt;
     look.target = {look.eye[0] + (look.eye[0] > 0 ? -7.5 : 7.5), look.eye[1], look.eye[2]};
@@ -131,7 +136,41 @@ void mend(Camera& camera) {
   if (camera.perspective && camera.perspective->near && camera.perspective->far) {
     order(*camera.perspective->near, *camera.perspective->far);
   }
+  if (camera.intrinsics && camera.intrinsics->near && camera.intrinsics->far) {
+    order(*camera.intrinsics->near, *camera.intrinsics->far);
+  }
   if (camera.orthographic) order(camera.orthographic->near, camera.orthographic->far);
+}
+
+void mend(NodeOptions& node) {
+  node.node = node.node.value_or(7);
+  if (node.matrix) {
+    auto& m = *node.matrix;
+    m[3] = m[7] = m[11] = 0;
+    m[15] = 1;
+    node.translation.reset();
+    node.rotation.reset();
+    node.scale.reset();
+  }
+  if (node.rotation) (*node.rotation)[3] = 1;
+}
+
+void mend(AnimationMoment& moment) {
+  keepOnly(pick(0, 2), moment.index, moment.name);
+  if (!moment.index && !moment.name) moment.timeSeconds = 0;
+}
+
+void mend(MotionFrom& from) {
+  if (from.camera) mend(*from.camera);
+  if (from.animation) mend(*from.animation);
+  if (!from.nodes) return;
+  for (NodeOptions& node : *from.nodes) {
+    node.visible.reset();
+    node.castShadow.reset();
+    node.receiveShadow.reset();
+    node.layers.reset();
+    mend(node);
+  }
 }
 
 void mend(VolumeOptions& volume) {
@@ -200,15 +239,15 @@ rc::Gen<FrameSpec> anySpec() {
     if (std::int64_t{spec.width} * spec.height > kLimits.maxFramePixels) spec.height /= 8;
     spec.height = std::max(spec.height, 1);
     spec.atlas.baseSize = std::min(spec.atlas.baseSize, spec.atlas.size);
-    for (NodeOptions& node : spec.nodes) node.node = node.node.value_or(7);
+    for (NodeOptions& node : spec.nodes) mend(node);
     if (spec.quality) {
       keepOnly(pick(0, 1), spec.quality->maxError, spec.quality->maxMilliseconds);
       if (!spec.quality->maxError && !spec.quality->maxMilliseconds) spec.quality->maxError = 0.25;
     }
-    if (spec.animation) {
-      keepOnly(pick(0, 2), spec.animation->index, spec.animation->name);
-      if (!spec.animation->index && !spec.animation->name) spec.animation->timeSeconds = 0;
-    }
+    if (spec.animation) mend(*spec.animation);
+    if (spec.motionFrom) mend(*spec.motionFrom);
+    std::erase_if(spec.views, [&](View view) { return view == View::motion && !spec.motionFrom; });
+    if (spec.views.empty()) spec.views = {View::color};
     for (VolumeOptions& volume : spec.volumes) mend(volume);
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
