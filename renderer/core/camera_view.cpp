@@ -25,6 +25,9 @@ glm::dmat4 clipFromView(const CameraView& view) {
     matrix[3][3] = 1.0;
     return matrix;
   }
+  // The middle comes to lie at 0: depth is -z of view space, and w.
+  matrix[2][0] = view.center.x / view.halfSize.x;
+  matrix[2][1] = view.center.y / view.halfSize.y;
   matrix[2][3] = -1.0;
   if (std::isinf(view.far)) {
     matrix[3][2] = view.near; // z / w = near / depth
@@ -45,17 +48,17 @@ double viewDepthOf(const CameraView& view, double depth) {
 }
 
 Frustum frustumOf(const CameraView& view) {
-  // A side plane of a perspective view holds the eye: right . p + halfSize.x * depth(p) >= 0. An orthographic one does
-  // not: right . p + halfSize.x >= 0.
+  // A side plane of a perspective view holds the eye: right . p + (halfSize.x - center.x) * depth(p) >= 0. An
+  // orthographic one does not: right . p + halfSize.x >= 0.
   const glm::dvec3 widen = view.perspective ? view.forward : glm::dvec3(0.0);
   const double offset = view.perspective ? 0.0 : 1.0;
   const auto side = [&](const glm::dvec3& axis, double half) { return glm::dvec4(axis + widen * half, offset * half); };
 
   Frustum frustum;
-  frustum.planes[0] = side(view.right, view.halfSize.x);
-  frustum.planes[1] = side(-view.right, view.halfSize.x);
-  frustum.planes[2] = side(view.up, view.halfSize.y);
-  frustum.planes[3] = side(-view.up, view.halfSize.y);
+  frustum.planes[0] = side(view.right, view.halfSize.x - view.center.x);
+  frustum.planes[1] = side(-view.right, view.halfSize.x + view.center.x);
+  frustum.planes[2] = side(view.up, view.halfSize.y - view.center.y);
+  frustum.planes[3] = side(-view.up, view.halfSize.y + view.center.y);
   frustum.planes[4] = glm::dvec4(view.forward, -view.near);
   frustum.planes[5] = std::isinf(view.far) ? glm::dvec4(0, 0, 0, 1) : glm::dvec4(-view.forward, view.far);
   return frustum;
@@ -88,16 +91,15 @@ std::vector<BlockStrip> blockStrips(int count, int blockSize, int pixels, const 
   return strips;
 }
 
-Aabb blockPiece(bool perspective, const glm::dvec3& forward, const BlockStrip& column, const BlockStrip& row,
+Aabb blockPiece(bool perspective, const glm::dvec3& middle, const BlockStrip& column, const BlockStrip& row,
                 double from, double to) {
   const glm::dvec3 low = column.low + row.low;
   const glm::dvec3 high = column.high + row.high;
   // A coordinate is linear in the depth, so its extremes are at the ends.
   if (!perspective) {
-    return {low + glm::min(forward * from, forward * to), high + glm::max(forward * from, forward * to)};
+    return {low + glm::min(middle * from, middle * to), high + glm::max(middle * from, middle * to)};
   }
-  return {glm::min((forward + low) * from, (forward + low) * to),
-          glm::max((forward + high) * from, (forward + high) * to)};
+  return {glm::min((middle + low) * from, (middle + low) * to), glm::max((middle + high) * from, (middle + high) * to)};
 }
 
 } // namespace gnomon

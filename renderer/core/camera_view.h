@@ -17,17 +17,32 @@ struct CameraView {
   glm::dvec3 up{0, 1, 0};
   glm::dvec3 forward{0, 0, -1};
   bool perspective = true;
-  /// Perspective: tangents of the half angles. Orthographic: half width and half height in metres.
+  /// Half the width and the height of the picture: as tangents, at a depth of one metre (perspective), or in metres.
   glm::dvec2 halfSize{1, 1};
+  /// The middle of the picture, to the right of the view axis and above it, as tangents; any size, so that the picture
+  /// may lie wholly beside the axis. REQUIRES: 0 for an orthographic view.
+  glm::dvec2 center{0, 0};
   double near = 0.1;                                    ///< view depth, metres; > 0 for perspective
   double far = std::numeric_limits<double>::infinity(); ///< view depth; infinite only for perspective
 };
 
+/// The way through the middle of the picture, world axes: one metre of view depth long.
+inline glm::dvec3 wayToMiddle(const CameraView& view) {
+  return view.forward + view.right * view.center.x + view.up * view.center.y;
+}
+
 /// A point relative to the eye (world axes), given its position on the picture (-1..1, y up) and its view depth.
 inline glm::dvec3 pointAt(const CameraView& view, glm::dvec2 ndc, double depth) {
   const double scale = view.perspective ? depth : 1.0;
-  return view.forward * depth + view.right * (ndc.x * view.halfSize.x * scale) +
+  return wayToMiddle(view) * depth + view.right * (ndc.x * view.halfSize.x * scale) +
          view.up * (ndc.y * view.halfSize.y * scale);
+}
+
+/// Where the picture shows a point relative to the eye (world axes): -1..1, y up. REQUIRES: perspective has it ahead.
+inline glm::dvec2 ndcOf(const CameraView& view, const glm::dvec3& point) {
+  const double scale = view.perspective ? 1.0 / glm::dot(point, view.forward) : 1.0;
+  const glm::dvec2 across(glm::dot(point, view.right), glm::dot(point, view.up));
+  return (across * scale - view.center) / view.halfSize;
 }
 
 /// View space (right, up, -forward) from eye-relative world space: a rotation.
@@ -62,9 +77,9 @@ struct BlockStrip {
 /// (perspective) or at any depth (orthographic).
 std::vector<BlockStrip> blockStrips(int count, int blockSize, int pixels, const glm::dvec3& axis);
 
-/// The box around the piece of view behind one block, from depth `from` to depth `to`. `forward` is the view axis in
-/// the coordinates of the strips.
-Aabb blockPiece(bool perspective, const glm::dvec3& forward, const BlockStrip& column, const BlockStrip& row,
+/// The box around the piece of view behind one block, from depth `from` to depth `to`. `middle` is wayToMiddle in the
+/// coordinates of the strips.
+Aabb blockPiece(bool perspective, const glm::dvec3& middle, const BlockStrip& column, const BlockStrip& row,
                 double from, double to);
 
 } // namespace gnomon

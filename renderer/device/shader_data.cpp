@@ -22,7 +22,7 @@ static_assert(GNOMON_STEEPEST == kSteepest);
 // driver's by a test (shared_structs_gl_test.cpp).
 static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
-static_assert(sizeof(shared::FrameData) == 11 * 16 && offsetof(shared::FrameData, depthRange) == 10 * 16);
+static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData, depthRange) == 11 * 16);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
@@ -167,6 +167,7 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   const glm::dmat4 clip = clipFromView(view);
   const Background& background = frame.spec.background;
   data.forward = glm::vec4(view.forward, view.perspective ? 1.0 : 0.0);
+  data.middle = glm::vec4(wayToMiddle(view), 0.0);
   data.right = glm::vec4(view.right * view.halfSize.x, 0.0);
   data.up = glm::vec4(view.up * view.halfSize.y, 2.0 * view.halfSize.y / frame.spec.height);
   data.lens = glm::vec4(clip[2][2], clip[3][2], 2.0 / frame.spec.width, 2.0 / frame.spec.height);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/vec3.h"
+
 namespace gnomon {
 
 namespace {
@@ -17,9 +19,21 @@ glm::dvec2 placeOf(const TraceInput& input, const SurfacePoint& point) {
   const glm::dvec3 relative = fromEye(input, point);
   const double depth = glm::dot(relative, camera.forward);
   if (!(depth > camera.near && depth < camera.far)) return glm::dvec2(-1.0);
-  const glm::dvec2 across = glm::dvec2(glm::dot(relative, camera.right), glm::dot(relative, camera.up)) /
-                            (camera.halfSize * (camera.perspective ? depth : 1.0));
-  return {0.5 * (1.0 + across.x) * input.width, 0.5 * (1.0 - across.y) * input.height};
+  const glm::dvec2 ndc = ndcOf(camera, relative);
+  return {0.5 * (1.0 + ndc.x) * input.width, 0.5 * (1.0 - ndc.y) * input.height};
+}
+
+/// REQUIRES: the camera is settled on a scene, as resolveCamera leaves it.
+void move(Camera& camera, const glm::dvec3& by) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double metres = by[static_cast<int>(axis)];
+    if (camera.pose) {
+      camera.pose->worldFromCamera[axis][3] += metres;
+    } else {
+      camera.lookAt->eye[axis] += metres;
+      camera.lookAt->target[axis] += metres;
+    }
+  }
 }
 
 bool isInside(const TraceInput& input, const glm::dvec2& place) {
@@ -75,12 +89,8 @@ std::vector<Camera> camerasAlong(const CameraPath& path, const Camera& start) {
   constexpr int kUsualFrames = 16;
   std::vector<Camera> cameras(static_cast<std::size_t>(path.frames.value_or(kUsualFrames)), start);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    EyeTarget& place = *cameras[i].lookAt;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double moved = static_cast<double>(i) * (*path.step)[axis]; // not summed up: every step is the same
-      place.eye[axis] += moved;
-      place.target[axis] += moved;
-    }
+    // Not summed up: every step is the same.
+    move(cameras[i], toVector(*path.step) * static_cast<double>(i));
   }
   return cameras;
 }

@@ -27,21 +27,21 @@ struct Depths {
 };
 
 /// The depths at which a block's piece of the view may meet the box. Each coordinate by itself: at depth d it runs from
-/// d * low to d * high (perspective), or from d * forward + low to d * forward + high.
+/// d * low to d * high (perspective), or from d * middle + low to d * middle + high.
 Depths depthsIn(const CameraView& view, const Aabb& box, const BlockStrip& column, const BlockStrip& row) {
   const glm::dvec3 low = column.low + row.low;
   const glm::dvec3 high = column.high + row.high;
   const double center = glm::dot(box.center(), view.forward);
   const double half = glm::dot(box.halfExtent(), glm::abs(view.forward));
   Depths depths{std::max(view.near, center - half), std::min(view.far, center + half)};
+  const glm::dvec3 middle = wayToMiddle(view);
   for (int axis = 0; axis < 3; ++axis) {
-    const double forward = view.forward[axis];
     if (view.perspective) {
-      depths.require(forward + high[axis], box.min[axis]);
-      depths.require(-(forward + low[axis]), -box.max[axis]);
+      depths.require(middle[axis] + high[axis], box.min[axis]);
+      depths.require(-(middle[axis] + low[axis]), -box.max[axis]);
     } else {
-      depths.require(forward, box.min[axis] - high[axis]);
-      depths.require(-forward, low[axis] - box.max[axis]);
+      depths.require(middle[axis], box.min[axis] - high[axis]);
+      depths.require(-middle[axis], low[axis] - box.max[axis]);
     }
   }
   return depths;
@@ -104,8 +104,7 @@ std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepth
     const double depth = glm::dot(p, view.forward);
     nearest = std::min(nearest, depth);
     if (depth < view.near || (view.perspective && depth <= 0)) return std::nullopt;
-    const double scale = view.perspective ? 1 / depth : 1.0;
-    const glm::dvec2 ndc = glm::dvec2(glm::dot(p, view.right), glm::dot(p, view.up)) * scale / view.halfSize;
+    const glm::dvec2 ndc = ndcOf(view, p);
     low = glm::min(low, ndc);
     high = glm::max(high, ndc);
   }

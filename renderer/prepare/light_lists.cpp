@@ -23,7 +23,7 @@ std::vector<Aabb> blockBoxes(const CameraView& view, const ReceiverDepths& recei
     for (const BlockStrip& column : columns) {
       const DepthSpan& span = receivers.blocks[boxes.size()];
       boxes.push_back(span.empty() ? Aabb{}
-                                   : blockPiece(view.perspective, view.forward, column, row,
+                                   : blockPiece(view.perspective, wayToMiddle(view), column, row,
                                                 span.nearest - depthSlack(view, span.nearest),
                                                 span.farthest + depthSlack(view, span.farthest)));
     }

@@ -37,7 +37,7 @@ Sight sightOf(const TraceInput& input) {
   const CameraView& view = input.camera;
   const glm::dvec2 none(0);
   return {view.eye - input.traced.tree().anchor,
-          view.forward,
+          wayToMiddle(view),
           view.right,
           view.up,
           {input.width, input.height},
@@ -50,7 +50,7 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void setLines(const Sight& sight, const Places& 
     const double x = 2 * double{places.x[i]} / sight.size.x - 1;
     const double y = 1 - 2 * double{places.y[i]} / sight.size.y;
     const glm::dvec3 origin = sight.origin + (sight.right * (x * sight.spread.x) + sight.up * (y * sight.spread.y));
-    const glm::dvec3 direction = sight.forward + sight.right * (x * sight.slope.x) + sight.up * (y * sight.slope.y);
+    const glm::dvec3 direction = sight.middle + sight.right * (x * sight.slope.x) + sight.up * (y * sight.slope.y);
     lines.origin[0][i] = origin.x;
     lines.origin[1][i] = origin.y;
     lines.origin[2][i] = origin.z;

@@ -14,11 +14,11 @@
 namespace gnomon {
 
 /// The camera for many rays: the line through a place of the picture begins at origin + ndc * spread and leads along
-/// forward + ndc * slope, a step of one metre of view depth.
+/// middle + ndc * slope, a step of one metre of view depth.
 struct Sight {
   glm::dvec3 origin{0};
-  glm::dvec3 forward{0}, right{0}, up{0};
-  glm::dvec2 size{1}; ///< of the picture, pixels
+  glm::dvec3 middle{0}, right{0}, up{0}; ///< middle: wayToMiddle
+  glm::dvec2 size{1};                    ///< of the picture, pixels
   glm::dvec2 spread{0}, slope{0};
 };
 

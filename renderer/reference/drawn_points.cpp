@@ -47,7 +47,7 @@ DrawnView drawnView(const Sight& sight, double scale) {
   DrawnView view;
   view.eyeHigh = glm::vec3(eye);
   view.eyeLow = glm::vec3(eye - glm::dvec3(view.eyeHigh));
-  view.forward = glm::vec3(sight.forward);
+  view.middle = glm::vec3(sight.middle);
   view.right = glm::vec3(sight.right);
   view.up = glm::vec3(sight.up);
   view.size = glm::vec2(sight.size);
@@ -97,7 +97,7 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findPoints(DrawnView view, const DrawnPlace
   for (unsigned i = 0; i < kLanes; ++i) {
     const float x = 2 * places.x[i] / view.size.x - 1;
     const float y = 1 - 2 * places.y[i] / view.size.y;
-    const glm::vec3 way = view.forward + (view.right * (x * view.slope.x) + view.up * (y * view.slope.y));
+    const glm::vec3 way = view.middle + (view.right * (x * view.slope.x) + view.up * (y * view.slope.y));
     const glm::vec3 origin = view.right * (x * view.spread.x) + view.up * (y * view.spread.y);
     const glm::vec3 a = lane(points.a, i);
     const glm::vec3 ab = lane(points.b, i) - a;

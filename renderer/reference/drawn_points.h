@@ -16,7 +16,7 @@ namespace gnomon {
 /// A camera as floats see it: relative to the eye, in the tree's units.
 struct DrawnView {
   glm::vec3 eyeHigh{0}, eyeLow{0}; ///< their sum is the eye
-  glm::vec3 forward{0}, right{0}, up{0};
+  glm::vec3 middle{0}, right{0}, up{0};
   glm::vec2 size{1};             ///< of the picture, pixels
   glm::vec2 spread{0}, slope{0}; ///< as Sight
 };

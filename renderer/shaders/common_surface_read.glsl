@@ -36,7 +36,7 @@ Sample sampleOf(ivec2 pixel, int index) {
   bool perspective = frame.forward.w > 0.0;
   s.viewDepth = perspective ? frame.lens.y / (depth + frame.lens.x) : (frame.lens.y - depth) / frame.lens.x;
   vec3 across = frame.right.xyz * ndc.x + frame.up.xyz * ndc.y;
-  s.relative = frame.forward.xyz * s.viewDepth + across * (perspective ? s.viewDepth : 1.0);
+  s.relative = frame.middle.xyz * s.viewDepth + across * (perspective ? s.viewDepth : 1.0);
   return s;
 }
 

@@ -50,21 +50,29 @@ double offsetWithRoom(const glm::dvec2& extent, double reach, int inner, double 
 } // namespace
 
 double sliceReach(const CameraView& view, const DepthInterval& depths) {
-  const double halfDiagonal = std::hypot(view.halfSize.x, view.halfSize.y);
-  if (view.perspective) return depths.far * std::hypot(1.0, halfDiagonal);
-  return std::hypot(std::max(std::abs(depths.near), std::abs(depths.far)), halfDiagonal);
+  const glm::dvec2 farthest = glm::abs(view.center) + view.halfSize;
+  const double fromAxis = std::hypot(farthest.x, farthest.y);
+  if (view.perspective) return depths.far * std::hypot(1.0, fromAxis);
+  return std::hypot(std::max(std::abs(depths.near), std::abs(depths.far)), fromAxis);
 }
 
-// A sphere through the near and the far corners of a perspective slice has its centre on the axis at
-// (n + f)(1 + t^2) / 2, t being the tangent to a corner; where that lies beyond the far plane, the far corners alone
-// decide and the centre is in their plane.
+// The centre lies on the way m through the picture's middle, at depth c. With a corner's way m + k the squares of the
+// distances to the farthest near and far corners are, where n <= c <= f,
+//   (c - n)^2 mm + 2 (c - n) n p + n^2 kk   and   (f - c)^2 mm + 2 (f - c) f p + f^2 kk,
+// p being the greatest |mk|: 0 where the picture is centred. They are the same at the c below; where that lies beyond
+// the far plane, the far corners alone decide and the centre is in their plane, and so it is in a slice of no length,
+// whose c is not a number.
 Sphere sliceSphere(const CameraView& view, const DepthInterval& depths) {
+  const auto [near, far] = depths;
   const double t = std::hypot(view.halfSize.x, view.halfSize.y);
-  if (!view.perspective) {
-    return {view.forward * (0.5 * (depths.near + depths.far)), std::hypot(0.5 * (depths.far - depths.near), t)};
-  }
-  const double center = std::min(depths.far, 0.5 * (depths.near + depths.far) * (1.0 + t * t));
-  return {view.forward * center, std::hypot(depths.far - center, depths.far * t)};
+  if (!view.perspective) return {view.forward * (0.5 * (near + far)), std::hypot(0.5 * (far - near), t)};
+  const double mm = 1.0 + glm::dot(view.center, view.center);
+  const double pOverLength = glm::dot(glm::abs(view.center), view.halfSize) / (far - near);
+  const double meeting =
+      (0.5 * (near + far) * (mm + t * t) + pOverLength * (near * near + far * far)) / (mm + pOverLength * (near + far));
+  const double center = std::min(far, meeting);
+  const glm::dvec2 aside = glm::abs(view.center) * (far - center) + view.halfSize * far;
+  return {wayToMiddle(view) * center, std::hypot(far - center, std::hypot(aside.x, aside.y))};
 }
 
 Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {

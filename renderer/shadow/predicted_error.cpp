@@ -11,7 +11,8 @@ namespace {
 glm::dvec2 pixelsOf(const CameraView& view, const SeenBlocks& seen, const glm::dvec2& ndc, double depth,
                     const glm::dvec3& step) {
   const glm::dvec2 across = glm::dvec2(glm::dot(step, view.right), glm::dot(step, view.up)) / view.halfSize;
-  const glm::dvec2 moved = view.perspective ? (across - ndc * glm::dot(step, view.forward)) / depth : across;
+  const glm::dvec2 fromAxis = ndc + view.center / view.halfSize;
+  const glm::dvec2 moved = view.perspective ? (across - fromAxis * glm::dot(step, view.forward)) / depth : across;
   return moved * seen.pixels * 0.5;
 }
 

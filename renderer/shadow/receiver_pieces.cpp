@@ -108,7 +108,7 @@ std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& r
                                  const CascadeInterval& cascade) {
   std::vector<Aabb> pieces;
   const glm::dmat3 lightFromWorld = basis.lightFromWorld();
-  const glm::dvec3 forward = lightFromWorld * view.forward;
+  const glm::dvec3 middle = lightFromWorld * wayToMiddle(view);
   const glm::dvec3 right = lightFromWorld * view.right * view.halfSize.x;
   const glm::dvec3 down = lightFromWorld * view.up * -view.halfSize.y; // rows count from the top of the picture
   const auto columns = blockStrips(receivers.columns, receivers.blockSize, receivers.width, right);
@@ -128,7 +128,7 @@ std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& r
       for (int step = 0; step < steps; ++step) {
         const double from = step == 0 ? near : near * std::pow(far / near, static_cast<double>(step) / steps);
         const double to = step + 1 == steps ? far : near * std::pow(far / near, (step + 1.0) / steps);
-        pieces.push_back(blockPiece(view.perspective, forward, column, row, from, to));
+        pieces.push_back(blockPiece(view.perspective, middle, column, row, from, to));
       }
     }
   }

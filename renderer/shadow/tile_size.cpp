@@ -25,8 +25,8 @@ bool isInView(const CameraView& view, const Sphere& sphere) {
 }
 
 /// Diameter of the circle around a sphere's picture, in lengths of the picture plane 1 m ahead; infinite where the
-/// sphere reaches the plane of the eye. The picture is an ellipse along the way from the picture's middle, from the
-/// tangent of one rim's angle to that of the other's.
+/// sphere reaches the plane of the eye. The picture is an ellipse along the way from the view axis, from the tangent of
+/// one rim's angle to that of the other's.
 double projectedDiameter(const CameraView& view, const Sphere& sphere) {
   const double distance = glm::length(sphere.center);
   const double offAxis = std::acos(std::clamp(glm::dot(sphere.center, view.forward) / distance, -1.0, 1.0));
@@ -66,7 +66,8 @@ int lightSize(const ShadowCaster& light, const CameraView& view, int frameWidth,
   if (!isInView(view, sphere)) return 0;
   if (view.perspective && glm::length(sphere.center) <= sphere.radius) return longest;
   const double across = view.perspective ? projectedDiameter(view, sphere) : 2.0 * sphere.radius;
-  const double pixels = across * frameHeight / (2.0 * view.halfSize.y);
+  // Along the finer side of pixels that are no squares.
+  const double pixels = across * std::max(frameWidth / (2.0 * view.halfSize.x), frameHeight / (2.0 * view.halfSize.y));
   return static_cast<int>(std::ceil(std::min<double>(pixels, longest)));
 }
 

@@ -23,13 +23,13 @@ struct Sight {
 /// `depth` along it is view depth.
 HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& place) {
   Sight sight;
-  const glm::vec3 right(frame.right), up(frame.up), forward(frame.forward);
+  const glm::vec3 right(frame.right), up(frame.up), middle(frame.middle);
   sight.spreads = frame.forward.w > 0.0f;
   sight.stepX = right * frame.lens.z;
   sight.stepY = up * frame.lens.w;
   const Float3 across = Float3(right) * (place.x * frame.lens.z - 1.0f) + Float3(up) * (place.y * frame.lens.w - 1.0f);
   sight.origin = sight.spreads ? Float3(0.0f) : across;
-  sight.way = sight.spreads ? Float3(forward) + across : Float3(forward);
+  sight.way = sight.spreads ? Float3(middle) + across : Float3(middle);
   return sight;
 }
 

@@ -119,6 +119,7 @@ using glm::vec4;
 struct FrameData {
   mat4 clipFromRelative;
   vec4 forward;    // xyz: the view axis; w: 1 perspective, 0 orthographic
+  vec4 middle;     // xyz: the way through the picture's middle, one metre of view depth long
   vec4 right;      // xyz: from the picture's middle to its right edge, at 1 m (perspective) or at any depth
   vec4 up;         // xyz: the same to its upper edge; w: a pixel's height there, metres
   vec4 lens;       // xy: terms 2 2 and 3 2 of the projection; zw: 2 / width, 2 / height

@@ -21,7 +21,7 @@ CameraView perspectiveView(double fovYDegrees, double near, double far) {
   return view;
 }
 
-glm::dvec3 ndcOf(const CameraView& view, const glm::dvec3& point) {
+glm::dvec3 projected(const CameraView& view, const glm::dvec3& point) {
   const glm::dvec4 clip = clipFromView(view) * viewFromRelative(view) * glm::dvec4(point, 1.0);
   return glm::dvec3(clip) / clip.w;
 }
@@ -32,12 +32,12 @@ class ReversedDepth : public testing::TestWithParam<FovAndFar> {};
 TEST_P(ReversedDepth, G5_IsOneAtNearAndZeroAtFar) {
   const auto [fov, far] = GetParam();
   const CameraView view = perspectiveView(fov, 0.25, far);
-  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {0.3, -0.8}, 0.25)).z, 1.0);
+  EXPECT_DOUBLE_EQ(projected(view, pointAt(view, {0.3, -0.8}, 0.25)).z, 1.0);
   if (std::isinf(far)) {
     EXPECT_EQ((clipFromView(view) * glm::dvec4(0, 0, -1, 0)).z, 0.0); // a direction is a point at infinity
-    EXPECT_NEAR(ndcOf(view, pointAt(view, {0.3, -0.8}, 1e12)).z, 0.0, 1e-12);
+    EXPECT_NEAR(projected(view, pointAt(view, {0.3, -0.8}, 1e12)).z, 0.0, 1e-12);
   } else {
-    EXPECT_NEAR(ndcOf(view, pointAt(view, {0.3, -0.8}, far)).z, 0.0, 1e-15);
+    EXPECT_NEAR(projected(view, pointAt(view, {0.3, -0.8}, far)).z, 0.0, 1e-15);
   }
 }
 
@@ -51,9 +51,9 @@ TEST(CameraView, G5_OrthographicNearMayBeNegative) {
   view.halfSize = {8, 4.5};
   view.near = -20;
   view.far = 30;
-  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {1, 1}, -20)).z, 1.0);
-  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {-1, 1}, 30)).z, 0.0);
-  EXPECT_DOUBLE_EQ(ndcOf(view, pointAt(view, {0, 0}, 5)).z, 0.5);
+  EXPECT_DOUBLE_EQ(projected(view, pointAt(view, {1, 1}, -20)).z, 1.0);
+  EXPECT_DOUBLE_EQ(projected(view, pointAt(view, {-1, 1}, 30)).z, 0.0);
+  EXPECT_DOUBLE_EQ(projected(view, pointAt(view, {0, 0}, 5)).z, 0.5);
   EXPECT_EQ(pointAt(view, {1, -1}, -20), glm::dvec3(8, -4.5, 20));
 }
 
@@ -63,10 +63,61 @@ TEST(CameraView, PointAtIsTheInverseOfTheMatrices) {
     const double far = std::min(view.far, view.near + 1000.0);
     const double depth = view.near + d.value * (far - view.near);
     const glm::dvec2 ndc(2 * x.value - 1, 2 * y.value - 1);
-    const glm::dvec3 found = ndcOf(view, pointAt(view, ndc, depth));
+    const glm::dvec3 found = projected(view, pointAt(view, ndc, depth));
     RC_ASSERT(std::abs(found.x - ndc.x) < 1e-9);
     RC_ASSERT(std::abs(found.y - ndc.y) < 1e-9);
     RC_ASSERT(found.z > -1e-9 && found.z < 1 + 1e-9);
+  }));
+}
+
+TEST(CameraView, NdcOfIsTheInverseOfPointAt) {
+  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y, const RandomUnit& d) {
+    const CameraView& view = random.view;
+    const double far = std::min(view.far, view.near + 1000.0);
+    const glm::dvec2 ndc(4 * x.value - 2, 4 * y.value - 2); // beside the picture, too
+    const glm::dvec2 found = ndcOf(view, pointAt(view, ndc, view.near + d.value * (far - view.near)));
+    RC_ASSERT(std::abs(found.x - ndc.x) < 1e-9);
+    RC_ASSERT(std::abs(found.y - ndc.y) < 1e-9);
+  }));
+}
+
+TEST(CameraView, AnOffCentreViewIsTheCropOfACentredOne) {
+  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y) {
+    CameraView whole = random.view;
+    whole.perspective = true;
+    whole.center = {0, 0};
+    whole.near = 1;
+    whole.far = 100;
+    CameraView quarter = whole; // the upper left one
+    quarter.halfSize = 0.5 * whole.halfSize;
+    quarter.center = glm::dvec2(-0.5, 0.5) * whole.halfSize;
+    const glm::dvec2 ndc(2 * x.value - 1, 2 * y.value - 1);
+    const glm::dvec3 same = pointAt(whole, 0.5 * ndc + glm::dvec2(-0.5, 0.5), 7) - pointAt(quarter, ndc, 7);
+    RC_ASSERT(glm::length(same) < 1e-12 * (1 + glm::length(whole.halfSize)));
+  }));
+}
+
+/// True where the point lies on the inner side of each plane. `margin` is in metres.
+bool isInside(const Frustum& frustum, const glm::dvec3& point, double margin) {
+  return std::all_of(frustum.planes.begin(), frustum.planes.end(), [&](const glm::dvec4& plane) {
+    const glm::dvec3 normal(plane);
+    return glm::dot(normal, point) + plane.w >= -margin * glm::length(normal);
+  });
+}
+
+TEST(Frustum, APointIsInsideWhereThePictureShowsIt) {
+  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y, const RandomUnit& d) {
+    const CameraView& view = random.view;
+    const double far = std::min(view.far, view.near + 1000.0);
+    const glm::dvec2 ndc(4 * x.value - 2, 4 * y.value - 2);
+    const glm::dvec3 point = pointAt(view, ndc, view.near + (1.5 * d.value - 0.25) * (far - view.near));
+    const glm::dvec3 clip = projected(view, point);
+    const bool shown = glm::dot(point, view.forward) > 0 || !view.perspective
+                           ? std::abs(clip.x) <= 1 && std::abs(clip.y) <= 1 && clip.z >= 0 && clip.z <= 1
+                           : false;
+    const double margin = 1e-9 * (1 + glm::length(point));
+    const bool inside = isInside(frustumOf(view), point, shown ? margin : -margin);
+    RC_ASSERT(inside == shown);
   }));
 }
 
@@ -74,7 +125,8 @@ TEST(CameraView, DepthFallsAsTheSurfaceRecedes) {
   EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& d) {
     const CameraView& view = random.view;
     const double depth = view.near + d.value * 100.0;
-    RC_ASSERT(ndcOf(view, pointAt(view, {0, 0}, depth)).z > ndcOf(view, pointAt(view, {0, 0}, depth * 1.01 + 100)).z);
+    RC_ASSERT(projected(view, pointAt(view, {0, 0}, depth)).z >
+              projected(view, pointAt(view, {0, 0}, depth * 1.01 + 100)).z);
   }));
 }
 

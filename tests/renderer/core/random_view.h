@@ -14,7 +14,8 @@ struct RandomUnit {
   double value = 0;
 };
 
-/// A camera: any orientation, fov 1 to 170 degrees, orthographic too, finite and infinite far.
+/// A camera: any orientation, fov 1 to 170 degrees, orthographic too, finite and infinite far. Of those with
+/// perspective half are off centre, many wholly beside their axis.
 struct RandomView {
   CameraView view;
 };
@@ -26,8 +27,9 @@ inline std::ostream& operator<<(std::ostream& out, const RandomUnit& unit) {
 inline std::ostream& operator<<(std::ostream& out, const RandomView& random) {
   const CameraView& v = random.view;
   return out << (v.perspective ? "perspective" : "orthographic") << " half " << v.halfSize.x << ' ' << v.halfSize.y
-             << " near " << v.near << " far " << v.far << " forward " << v.forward.x << ' ' << v.forward.y << ' '
-             << v.forward.z << " eye " << v.eye.x << ' ' << v.eye.y << ' ' << v.eye.z;
+             << " center " << v.center.x << ' ' << v.center.y << " near " << v.near << " far " << v.far << " forward "
+             << v.forward.x << ' ' << v.forward.y << ' ' << v.forward.z << " eye " << v.eye.x << ' ' << v.eye.y << ' '
+             << v.eye.z;
 }
 
 /// Turned by `yaw` and then `pitch`, radians.
@@ -62,6 +64,7 @@ struct Arbitrary<gnomon::RandomView> {
       if (view.perspective) {
         const double tangent = std::tan(between(1, 170) / 2 * 3.141592653589793 / 180);
         view.halfSize = {tangent * between(0.3, 3), tangent};
+        if (*gen::inRange(0, 2) == 0) view.center = {between(-8, 8), between(-8, 8)};
         view.near = between(0.01, 2);
         view.far = *gen::inRange(0, 2) == 0 ? std::numeric_limits<double>::infinity() : view.near + between(1, 5000);
       } else {

@@ -108,6 +108,22 @@ TEST(CameraPaths, StepsMoveTheEyeAndWhatItLooksAtAlikeAndAreNotSummedUp) {
   EXPECT_EQ(camerasAlong(path, Camera{}), *path.cameras);
 }
 
+TEST(CameraPaths, StepsMoveAPose) {
+  Camera start;
+  start.pose = CameraPose{{{{1, 0, 0, 1e6}, {0, -1, 0, 2}, {0, 0, -1, 3}, {0, 0, 0, 1}}}, CameraAxes::opencv};
+  start.intrinsics = Intrinsics{500, 500, 10, 20, 0.1, {}};
+  CameraPath path;
+  path.step = Vec3{0.1, 0, -0.2};
+  path.frames = 5;
+  Camera last = start;
+  last.pose->worldFromCamera[0][3] = 1e6 + 4 * 0.1;
+  last.pose->worldFromCamera[2][3] = 3 - 4 * 0.2;
+  const auto cameras = camerasAlong(path, start);
+  ASSERT_EQ(cameras.size(), 5u);
+  EXPECT_EQ(cameras[0], start);
+  EXPECT_EQ(cameras[4], last);
+}
+
 /// A frame of one stage for each variant: its index + 1 milliseconds.
 struct Clockwork {
   std::vector<int> drawn; ///< widths, which tell the variants apart

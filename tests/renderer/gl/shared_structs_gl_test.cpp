@@ -23,6 +23,7 @@ struct Member {
 const std::vector<Member> kFrame{
     MEMBER(FrameData, clipFromRelative),
     MEMBER(FrameData, forward),
+    MEMBER(FrameData, middle),
     MEMBER(FrameData, right),
     MEMBER(FrameData, up),
     MEMBER(FrameData, lens),
