@@ -9,11 +9,16 @@ namespace gnomon {
 
 /// A camera with nothing left open, and the same as the renderer uses it.
 struct ResolvedCamera {
-  Camera camera; ///< lookAt and one lens, all set: asking for it again gives the same view, bit for bit
+  /// A pose, as it was asked for, or else lookAt; and one lens. All set: asking for it again gives the same view, bit
+  /// for bit.
+  Camera camera;
   CameraView view;
 };
 
-/// Settles a camera on a scene. `aspect` = width / height. A node that has no camera is a problem at /camera/node.
-Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, double aspect);
+/// Settles a camera on a scene and a picture of `size` pixels. A pose whose axes are off within what a rotation may be
+/// (protocol/spec/view_rules.cpp) keeps its view axis; the others are bent to stand on it.
+/// Problems: a node without a camera at /camera/node; at /camera/orbit/distance an orbit without one whose lens shows
+/// the whole scene from no distance, as where the principal point lies beside the picture.
+Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, const glm::ivec2& size);
 
 } // namespace gnomon

@@ -65,7 +65,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
     frame.scene = indexOf(scene, {frame.scene, *variant});
   }
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
-  auto camera = resolveCamera(spec.camera, view, static_cast<double>(spec.width) / spec.height);
+  auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height});
   if (!camera) return camera.problems();
   frame.spec.camera = camera->camera;
   frame.view = camera->view;

@@ -21,8 +21,8 @@ double reachOf(const CameraView& view, const Aabb& bounds) {
     const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - view.eye;
     const double depth = glm::dot(p, view.forward);
     if (depth <= 0) return HUGE_VAL;
-    reach = std::max({reach, std::abs(glm::dot(p, view.right)) / (depth * view.halfSize.x),
-                      std::abs(glm::dot(p, view.up)) / (depth * view.halfSize.y)});
+    const glm::dvec2 ndc = glm::abs(ndcOf(view, p));
+    reach = std::max({reach, ndc.x, ndc.y});
   }
   return reach;
 }
@@ -37,7 +37,7 @@ TEST(ResolveCamera, AnOrbitWithoutADistanceFramesTheWholeScene) {
     camera.orbit->azimuthDegrees = value(-36000, 36000);
     camera.orbit->elevationDegrees = value(-9000, 9001);
     camera.perspective = Perspective{value(500, 15000), {}, {}};
-    const auto resolved = resolveCamera(camera, scene, value(20, 500));
+    const auto resolved = resolveCamera(camera, scene, {*rc::gen::inRange(200, 5001), 1000});
     RC_ASSERT(static_cast<bool>(resolved));
     const double reach = reachOf(resolved->view, scene.bounds);
     RC_ASSERT(reach <= 1.0);
@@ -50,7 +50,7 @@ TEST(ResolveCamera, AxesAreOrthonormalEvenStraightAboveAndBelow) {
     Camera camera;
     camera.orbit = Orbit{};
     camera.orbit->elevationDegrees = elevation;
-    const CameraView view = resolveCamera(camera, boxScene({1, 2, 3}, {1, 1, 1}), 1.5)->view;
+    const CameraView view = resolveCamera(camera, boxScene({1, 2, 3}, {1, 1, 1}), {96, 64})->view;
     const glm::dmat3 axes(view.right, view.up, view.forward);
     const glm::dmat3 unit = glm::transpose(axes) * axes;
     for (int i = 0; i < 3; ++i) {
@@ -62,10 +62,10 @@ TEST(ResolveCamera, AxesAreOrthonormalEvenStraightAboveAndBelow) {
 TEST(ResolveCamera, AzimuthIsClockwiseFromNorth) {
   Camera camera;
   camera.orbit = Orbit{Vec3{0, 0, 0}, 90, 0, 5};
-  const CameraView east = resolveCamera(camera, {}, 1)->view;
+  const CameraView east = resolveCamera(camera, {}, {64, 64})->view;
   EXPECT_LT(glm::length(east.eye - glm::dvec3(5, 0, 0)), 1e-12);
   camera.orbit->azimuthDegrees = 0;
-  const CameraView north = resolveCamera(camera, {}, 1)->view;
+  const CameraView north = resolveCamera(camera, {}, {64, 64})->view;
   EXPECT_LT(glm::length(north.eye - glm::dvec3(0, 0, -5)), 1e-12);
 }
 
@@ -78,8 +78,8 @@ TEST(ResolveCamera, ResolvingTwiceChangesNothing) {
   Camera byName;
   byName.node = "tower";
   for (const Camera& camera : {Camera{}, byName}) {
-    const auto once = resolveCamera(camera, scene, 1.5);
-    const auto twice = resolveCamera(once->camera, scene, 1.5);
+    const auto once = resolveCamera(camera, scene, {96, 64});
+    const auto twice = resolveCamera(once->camera, scene, {96, 64});
     EXPECT_TRUE(once->camera == twice->camera);
     EXPECT_EQ(once->view.forward, twice->view.forward);
     EXPECT_EQ(once->view.right, twice->view.right);
@@ -90,7 +90,7 @@ TEST(ResolveCamera, ResolvingTwiceChangesNothing) {
 TEST(ResolveCamera, G5_OrthographicCamerasKeepTheirBoxWhateverTheAspect) {
   Camera camera;
   camera.orthographic = Orthographic{6, -10, 50};
-  const CameraView view = resolveCamera(camera, boxScene({0, 0, 0}, {1, 1, 1}), 2)->view;
+  const CameraView view = resolveCamera(camera, boxScene({0, 0, 0}, {1, 1, 1}), {128, 64})->view;
   EXPECT_FALSE(view.perspective);
   EXPECT_EQ(view.halfSize, glm::dvec2(6, 3));
   EXPECT_EQ(view.near, -10);
@@ -102,7 +102,7 @@ TEST(ResolveCamera, AnUnknownNodeIsToldWithThoseThereAre) {
   scene.cameras.push_back({3, "a", {}, {0, 0, -1}, {0, 1, 0}, Perspective{}, {}});
   Camera camera;
   camera.node = 4;
-  const auto refused = resolveCamera(camera, scene, 1);
+  const auto refused = resolveCamera(camera, scene, {64, 64});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.problems()[0].limit, "one of 3 (a)");
   EXPECT_EQ(refused.problems()[0].actual, "4");
