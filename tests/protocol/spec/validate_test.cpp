@@ -103,7 +103,31 @@ TEST(Validate, ACameraLooksSomewhere) {
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{{0, 5, 0}, {0, 0, 0}, {0, 1, 0.001}}}), IsEmpty());
 }
 
+TEST(Validate, APoseIsARotationAndATranslation) {
+  const auto wrong = [](const Rows4& rows) { return wrongIn(Camera{.pose = CameraPose{rows, CameraAxes::opencv}}); };
+  const double c = std::cos(0.4), s = std::sin(0.4), nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string matrix = "/camera/pose/worldFromCamera";
+  EXPECT_THAT(wrong({{{c, -s, 0, 7}, {s, c, 0, -8e8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), IsEmpty());
+  EXPECT_THAT(wrong({{{0.921, -0.389, 0, 7}, {0.389, 0.921, 0, 8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), IsEmpty()) << "rounded";
+  EXPECT_THAT(wrong({{{c, s, 0, 0}, {-s, c, 0, 0}, {0, 0, 1, 0}, {7, 8, 9, 1}}}), ElementsAre(matrix + "/3"))
+      << "transposed";
+  EXPECT_THAT(wrong({{{c, -s, 0, 7}, {s, c, 0, 8}, {0, 0, -1, 9}, {0, 0, 0, 1}}}), ElementsAre(matrix)) << "mirrored";
+  EXPECT_THAT(wrong({{{2, 0, 0, 7}, {0, 2, 0, 8}, {0, 0, 2, 9}, {0, 0, 0, 1}}}), ElementsAre(matrix)) << "scaled";
+  EXPECT_THAT(wrong({{{1, 0.01, 0, 7}, {0, 1, 0, 8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), ElementsAre(matrix)) << "sheared";
+  EXPECT_THAT(wrong(Rows4{{{}, {}, {}, {0, 0, 0, 1}}}), ElementsAre(matrix)) << "zero";
+  EXPECT_THAT(wrong({{{nan, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}), ElementsAre(matrix + "/0/0"));
+  EXPECT_THAT(wrong({{{1, 0, 0, 0}, {0, 1, 0, 2e9}, {0, 0, 1, 0}, {0, 0, 0, 1}}}), ElementsAre(matrix + "/1/3"));
+}
+
+TEST(Validate, ACameraHasOnePlacementAndOneLens) {
+  EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{}, .pose = CameraPose{}}), ElementsAre("/camera/pose"));
+  EXPECT_THAT(wrongIn(Camera{.perspective = Perspective{}, .intrinsics = Intrinsics{}}),
+              ElementsAre("/camera/intrinsics"));
+  EXPECT_THAT(wrongIn(Camera{.pose = CameraPose{}, .intrinsics = Intrinsics{}}), IsEmpty());
+}
+
 TEST(Validate, NearLiesBeforeFar) {
+  EXPECT_THAT(wrongIn(Camera{.intrinsics = Intrinsics{.near = 5, .far = 5}}), ElementsAre("/camera/intrinsics/far"));
   EXPECT_THAT(wrongIn(Camera{.perspective = Perspective{45, 5, 5}}), ElementsAre("/camera/perspective/far"));
   EXPECT_THAT(wrongIn(Camera{.perspective = Perspective{45, 5, std::nullopt}}), IsEmpty());
   EXPECT_THAT(wrongIn(Camera{.orthographic = Orthographic{10, 5, -5}}), ElementsAre("/camera/orthographic/far"));
