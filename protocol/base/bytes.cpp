@@ -147,11 +147,16 @@ void Sha256::add(std::string_view text) {
   EVP_DigestUpdate(context_.get(), text.data(), text.size());
 }
 
-std::string Sha256::hex() {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+Bytes Sha256::bytes() {
+  Bytes digest(EVP_MAX_MD_SIZE);
   unsigned int length = 0;
   EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
-  return hexText(std::span(digest).first(length));
+  digest.resize(length);
+  return digest;
+}
+
+std::string Sha256::hex() {
+  return hexText(bytes());
 }
 
 } // namespace gnomon

@@ -62,6 +62,7 @@ class Sha256 {
   Sha256();
   void add(std::span<const std::uint8_t> bytes);
   void add(std::string_view text);
+  Bytes bytes();     ///< 32 of them; once, as the last call
   std::string hex(); ///< 64 lower-case digits; once, as the last call
 
  private:

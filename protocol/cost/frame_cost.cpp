@@ -1,6 +1,7 @@
 #include "protocol/cost/frame_cost.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -40,7 +41,24 @@ constexpr double kPredictedPixel = 80;
 constexpr double kReadPixel = 3;
 constexpr double kPngPixel = 2.5;    ///< by ISA-L
 constexpr double kSmallPngPixel = 8; ///< by libdeflate, for each level
-constexpr double kExrPixel = 40;     ///< of a view, compressed
+constexpr double kFinerPng = 2.7;    ///< times as much with 16 bits
+
+/// Of a pixel of a view.
+struct EncodingCost {
+  ImageFormat format;
+  double pixel;
+};
+
+constexpr std::array kEncodingCosts{
+    EncodingCost{ImageFormat::png, kPngPixel}, //
+    EncodingCost{ImageFormat::exr, 40},        //
+    EncodingCost{ImageFormat::npy, 1},         //
+    EncodingCost{ImageFormat::npz, 10},        //
+    EncodingCost{ImageFormat::tiff, 9},        //
+    EncodingCost{ImageFormat::jpeg, 3},        //
+    EncodingCost{ImageFormat::webp, 20},
+};
+static_assert(rowsAreComplete(kEncodingCosts, &EncodingCost::format));
 
 double pixelsOf(const FrameSpec& spec) {
   return static_cast<double>(spec.width) * spec.height;
@@ -159,8 +177,9 @@ double filterTaps(const std::vector<Light>& lights, bool tilesShown) {
 }
 
 double encodedPixel(const Output& output) {
-  if (output.format == ImageFormat::exr) return kExrPixel;
-  return output.pngCompression <= 2 ? kPngPixel : kSmallPngPixel * output.pngCompression;
+  if (output.format != ImageFormat::png) return kEncodingCosts[static_cast<std::size_t>(output.format)].pixel;
+  const double finer = output.pngBits == 16 ? kFinerPng : 1;
+  return finer * (output.pngCompression <= 2 ? kPngPixel : kSmallPngPixel * output.pngCompression);
 }
 
 void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights, double taps, FrameCost& cost) {

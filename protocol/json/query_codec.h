@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// A FrameSpec from a decoded query string, as strictly as decodeFrameSpec: keys are dotted paths
 /// ("camera.orbit.azimuthDegrees"), values are JSON or bare words; short forms: sun=AZIMUTH,ELEVATION; view=NAME;
-/// format=png|exr. Pointers name the query key.
+/// format=png. Pointers name the query key.
 Result<FrameSpec> decodeFrameQuery(const std::vector<std::pair<std::string, std::string>>& query);
 
 } // namespace gnomon

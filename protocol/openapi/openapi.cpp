@@ -7,6 +7,7 @@
 #include "protocol/fields/field_list.h"
 #include "protocol/openapi/openapi_access.h"
 #include "protocol/openapi/openapi_parts.h"
+#include "protocol/spec/format_traits.h"
 
 namespace gnomon {
 namespace {
@@ -60,14 +61,13 @@ Json renderBody() {
 
 /// A frame in the form that Accept asks for.
 Json frameReplies(std::initializer_list<const char*> statuses) {
-  const Json content = {{"image/png", bytesContent()},
-                        {"image/x-exr", bytesContent()},
-                        {"multipart/mixed", bytesContent()},
-                        {"application/json", schemaContent("FrameReply")}};
+  Json content = {{"multipart/mixed", bytesContent()}, {"application/json", schemaContent("FrameReply")}};
+  for (const FormatTraits& format : kFormatTraits) content[std::string(format.mediaType)] = bytesContent();
   const char* description =
-      "The frame: image/png = the first view; image/x-exr = every view as named layers; multipart/mixed = every "
-      "picture and the report; application/json = the report with the pictures in base64.";
-  return replies({{"200", success(description, content, {"ETag", "Server-Timing"})}}, statuses);
+      "The frame: image/png, image/jpeg, image/webp, image/tiff and application/x-npy = the first view; image/x-exr = "
+      "every view as named layers; application/zip = every view as an array for NumPy, and the report; multipart/mixed "
+      "= every picture and the report; application/json = the report with the pictures in base64.";
+  return replies({{"200", success(description, content, {"ETag", "Repr-Digest", "Server-Timing"})}}, statuses);
 }
 
 Json sceneReplies(std::initializer_list<const char*> statuses) {

@@ -46,6 +46,7 @@ Json header(const char* description) {
 Json headers() {
   return {
       {"ETag", header("Changes whenever the picture could; If-None-Match with it is answered by 304.")},
+      {"Repr-Digest", header("sha-256=:BASE64: of the body (RFC 9530).")},
       {"Server-Timing", header("Milliseconds of each stage: queue, load, upload, survey, plan, shadow, shade, "
                                "readback, encode.")},
       {"X-Request-ID", header("The client's, if it sent a well-formed one, or a new one.")},

@@ -95,7 +95,7 @@ struct SceneSummary {
 /// A picture within a JSON reply.
 struct ImageReply {
   std::string view{};        ///< of an EXR, which holds every view, the first
-  std::string contentType{}; ///< "image/png" | "image/x-exr"
+  std::string contentType{}; ///< of the format
   std::string data{};        ///< the file in base64
 };
 

@@ -159,7 +159,7 @@ template <>
 inline constexpr auto kRows<ImageReply> = replyRows(
     "ImageReply", "A picture within a JSON reply.",
     field("view", &ImageReply::view, {.says = "What it shows; for an EXR, which holds every view, the first."}),
-    field("contentType", &ImageReply::contentType, {.says = "image/png or image/x-exr."}),
+    field("contentType", &ImageReply::contentType, {.says = "Media type of the picture's format, as image/png."}),
     field("data", &ImageReply::data, {.says = "The file in base64 (RFC 4648 section 4)."}));
 static_assert(kRowsAreComplete<ImageReply>);
 

@@ -20,6 +20,22 @@ void appendPixelRule(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
                     {"/width", "/height"}});
 }
 
+void appendFormatRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  constexpr int kMaxWebpSide = 16383; ///< of the format
+  if (spec.output.format != ImageFormat::webp) return;
+  const auto check = [&](int side, const char* pointer) {
+    if (side <= kMaxWebpSide) return;
+    broken.push_back({{.code = ProblemCode::tooLarge,
+                       .pointer = pointer,
+                       .detail = "A WebP can't be as wide or as high.",
+                       .limit = std::to_string(kMaxWebpSide) + " pixels a side",
+                       .actual = std::to_string(side) + " pixels"},
+                      {pointer, "/output/format"}});
+  };
+  check(spec.width, "/width");
+  check(spec.height, "/height");
+}
+
 void appendNodeRules(const std::vector<NodeOptions>& nodes, const std::string& list, std::vector<BrokenRule>& broken) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::string pointer = list + "/" + std::to_string(i);
@@ -88,6 +104,7 @@ void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken)
 std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   std::vector<BrokenRule> broken;
   appendPixelRule(spec, broken);
+  appendFormatRules(spec, broken);
   appendCameraRules(spec.camera, "/camera", broken);
   if (spec.animation) appendAnimationRules(*spec.animation, "/animation", broken);
   if (spec.lights) {

@@ -54,6 +54,17 @@ TEST(FrameCost, GrowsWithAllThatAFrameIsAskedFor) {
   EXPECT_GT(whole(FrameSpec{}, {1'000'000, kScene.lights}), usual);
 }
 
+TEST(FrameCost, EveryFormatHasItsCost) {
+  for (const auto& spelled : kSpellings<ImageFormat>) {
+    FrameSpec spec;
+    spec.output.format = static_cast<ImageFormat>(spelled.value);
+    EXPECT_GT(partOf(spec, FramePart::encode), 0) << spelled.name;
+  }
+  FrameSpec fine;
+  fine.output.pngBits = 16;
+  EXPECT_GT(partOf(fine, FramePart::encode), partOf(FrameSpec{}, FramePart::encode));
+}
+
 TEST(FrameCost, RaysAreCountedByPixelsSamplesAndLights) {
   EXPECT_GT(partOf(traced(256), FramePart::visibility), 6 * partOf(traced(16), FramePart::visibility));
   FrameSpec two = traced(16);

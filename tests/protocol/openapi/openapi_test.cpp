@@ -7,6 +7,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "protocol/json/query_codec.h"
+#include "protocol/spec/format_traits.h"
 
 namespace gnomon {
 namespace {
@@ -122,14 +123,16 @@ TEST(OpenApi, WhereWhoAsksMattersTheRepliesSaySo) {
   });
 }
 
-TEST(OpenApi, AFrameIsGivenInFourForms) {
+TEST(OpenApi, AFrameIsGivenInEveryForm) {
   const Json document = openApi();
+  std::set<std::string> all{"multipart/mixed", "application/json"};
+  for (const FormatTraits& format : kFormatTraits) all.emplace(format.mediaType);
   for (const char* route : {"/v1/scenes/{id}/frames", "/v1/render"}) {
+    const Json& reply = document["paths"][route]["post"]["responses"]["200"];
     std::set<std::string> forms;
-    for (const auto& [form, schema] : document["paths"][route]["post"]["responses"]["200"]["content"].items()) {
-      forms.insert(form);
-    }
-    EXPECT_EQ(forms, (std::set<std::string>{"image/png", "image/x-exr", "multipart/mixed", "application/json"}));
+    for (const auto& [form, schema] : reply["content"].items()) forms.insert(form);
+    EXPECT_EQ(forms, all);
+    EXPECT_TRUE(reply["headers"].contains("Repr-Digest"));
   }
 }
 

@@ -36,6 +36,17 @@ std::vector<std::string> wrongIn(const Shadow& shadow) {
   return wrongIn(spec);
 }
 
+TEST(Validate, AWebpHasShorterSides) {
+  FrameSpec spec;
+  spec.width = 16384;
+  spec.height = 16;
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+  spec.output.format = ImageFormat::webp;
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/width"));
+  spec.width = 16383;
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+}
+
 TEST(Validate, TheDefaultsAreGood) {
   EXPECT_THAT(wrongIn(FrameSpec{}), IsEmpty());
 }
