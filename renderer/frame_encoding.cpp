@@ -1,8 +1,17 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/bytes.h"
+#include "protocol/json/json_codec.h"
 #include "protocol/spec/enum_rows.h"
-#include "protocol/spec/output_options.h"
-#include "protocol/spec/traits.h"
+#include "protocol/spec/format_traits.h"
 #include "renderer/image/image_codec.h"
+#include "renderer/image/jpeg_encode.h"
+#include "renderer/image/npy_encode.h"
 #include "renderer/image/png_encode.h"
+#include "renderer/image/tiff_encode.h"
+#include "renderer/image/webp_encode.h"
+#include "renderer/image/zip_encode.h"
 #include "renderer/render.h"
 
 namespace gnomon {
@@ -29,12 +38,51 @@ Result<Bytes> encodeExr(const Frame& frame) {
 
 namespace {
 
+Result<Bytes> encodeArray(const ViewImage& view) {
+  return encodeNpy(view.image, holdsIndices(view.view) ? ArrayNumbers::int32 : ArrayNumbers::float32);
+}
+
+/// Every view's array, and the report.
+Result<Bytes> encodeNpz(const Frame& frame) {
+  ZipWriter zip;
+  for (const ViewImage& view : frame.images) {
+    const auto array = encodeArray(view);
+    if (!array) return array.problems();
+    if (auto added = zip.add(std::string(spell(view.view)) + ".npy", *array); !added) return added.problems();
+  }
+  if (auto added = zip.add("report.json", asBytes(jsonText(toJson(frame.report)))); !added) return added.problems();
+  return std::move(zip).finish();
+}
+
+/// In the format of its spec: of view `index`, or of all.
+Result<Bytes> encodeFile(const Frame& frame, std::size_t index) {
+  const Output& output = frame.report.spec.output;
+  const ViewImage& view = frame.images[index];
+  switch (output.format) {
+    case ImageFormat::png:
+      return encodePng(frame, index);
+    case ImageFormat::exr:
+      return encodeExr(frame);
+    case ImageFormat::npy:
+      return encodeArray(view);
+    case ImageFormat::npz:
+      return encodeNpz(frame);
+    case ImageFormat::tiff:
+      return encodeTiff(view.image);
+    case ImageFormat::jpeg:
+      return encodeJpeg(view.image, output.jpegQuality);
+    case ImageFormat::webp:
+      return encodeWebp(view.image, output.webpQuality);
+  }
+  return Problem{ProblemCode::internal, "", "This format has no encoder.", "", ""};
+}
+
 Result<std::vector<EncodedPicture>> allEncoded(const Frame& frame, std::size_t most) {
-  const bool layered = frame.report.spec.output.format == ImageFormat::exr;
-  const std::size_t count = std::min(frame.images.size(), layered ? std::size_t{1} : most);
+  const bool allViews = traitsOf(frame.report.spec.output.format).allViews;
+  const std::size_t count = std::min(frame.images.size(), allViews ? std::size_t{1} : most);
   std::vector<EncodedPicture> pictures;
   for (std::size_t i = 0; i < count; ++i) {
-    auto file = layered ? encodeExr(frame) : encodePng(frame, i);
+    auto file = encodeFile(frame, i);
     if (!file) return std::move(file).problems();
     pictures.push_back({std::string(spell(frame.images[i].view)), *std::move(file)});
   }

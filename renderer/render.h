@@ -104,17 +104,18 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread.
+/// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread. REQUIRES: that the
+/// frame's spec asks for that format.
 Result<Bytes> encodePng(const Frame& frame, std::size_t index);
 Result<Bytes> encodeExr(const Frame& frame);
 
 /// A file of a frame's pictures.
 struct EncodedPicture {
-  std::string view; ///< its name; of an EXR, which holds every view, the first one's
-  Bytes file;       ///< PNG or EXR
+  std::string view; ///< its name; of a file that holds every view, the first one's
+  Bytes file;       ///< of the format that the frame's spec asks for
 };
 
-/// The frame's files in the format of its spec: a PNG of each of the first `most` views, or one EXR of all. Any thread.
+/// The frame's files in the format of its spec: one of each of the first `most` views, or one of all. Any thread.
 /// `goOn`: false ends the encoding with a problem of code unavailable.
 Result<std::vector<EncodedPicture>> encodePictures(const Frame& frame, std::size_t most, const GoOn& goOn = {});
 

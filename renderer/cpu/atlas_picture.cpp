@@ -21,21 +21,22 @@ void addDepths(const ShadowTile& tile, const DepthBuffer& depths, const Rect& of
   }
 }
 
-Image depthsIn(const ShadowPlan& plan, const CastTiles& cast, const Rect& rect, const ShadowTile* only, bool encoded) {
+Image depthsIn(const ShadowPlan& plan, const CastTiles& cast, const Rect& rect, const ShadowTile* only,
+               const ViewRequest& request) {
   std::vector<float> depths(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height), 1.0f);
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     const ShadowTile& tile = plan.tiles[i];
     if (cast.tiles[i] && (only == nullptr || only == &tile)) addDepths(tile, cast.tiles[i]->depths, rect, depths);
   }
-  return depthImage(rect.width, rect.height, depths, encoded);
+  return depthImage(rect.width, rect.height, depths, request.encoded, request.fine);
 }
 
 } // namespace
 
 Image atlasPicture(const ShowInput& input, const ViewRequest& request, const CastTiles& cast) {
-  if (request.view == View::tile) return depthsIn(input.plan, cast, input.tile->rect, input.tile, request.encoded);
+  if (request.view == View::tile) return depthsIn(input.plan, cast, input.tile->rect, input.tile, request);
   const Rect whole{0, 0, input.plan.atlasWidth, input.plan.atlasHeight};
-  Image image = depthsIn(input.plan, cast, whole, nullptr, request.encoded);
+  Image image = depthsIn(input.plan, cast, whole, nullptr, request);
   return request.encoded ? namedTiles(image, input.plan) : image;
 }
 

@@ -218,6 +218,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   ShowJob job = jobOf(input, shown, maps);
   job.view = request.view;
   job.encoded = request.encoded;
+  job.fine = request.fine;
   if (volumes != nullptr && request.view == View::color) job.volumes = volumes->picture;
   ShownCasters casters;
   if (request.view == View::casterIds) casters = shownCasters(input);

@@ -38,10 +38,11 @@ enum class TileUse { kept, drawnAnew };
 /// not asked of it.
 struct ViewRequest {
   View view = View::color;
-  bool encoded = true;       ///< 8 bits a channel, tone mapped; else linear numbers
+  bool encoded = true;       ///< 8 or 16 bits a channel, tone mapped; else linear numbers
   bool opaque = true;        ///< a picture has no alpha channel
   bool antialiased = true;   ///< pictures: as the spec asks; false = one sample a pixel
   bool fullStrength = false; ///< lights as in atFullStrength
+  bool fine = false;         ///< encoded: 16 bits a channel instead of 8
 };
 
 struct ShowInput {

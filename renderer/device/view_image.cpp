@@ -16,7 +16,7 @@ std::vector<std::string> channelsOf(View view, bool encoded, bool opaque) {
   return channels;
 }
 
-Image depthImage(int width, int height, const std::vector<float>& depths, bool encoded) {
+Image depthImage(int width, int height, const std::vector<float>& depths, bool encoded, bool fine) {
   Image image{width, height, {encoded ? "Y" : "Z"}, {}};
   const auto across = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
@@ -28,10 +28,12 @@ Image depthImage(int width, int height, const std::vector<float>& depths, bool e
     image.pixels = std::move(turned);
     return image;
   }
-  std::vector<std::uint8_t> grey(turned.size());
-  std::transform(turned.begin(), turned.end(), grey.begin(),
-                 [](float depth) { return static_cast<std::uint8_t>(std::lround(depth * 255.0f)); });
-  image.pixels = std::move(grey);
+  const auto grey = [&]<class Number>(Number) {
+    std::vector<Number> numbers(turned.size());
+    std::transform(turned.begin(), turned.end(), numbers.begin(), unorm<Number>);
+    image.pixels = std::move(numbers);
+  };
+  fine ? grey(std::uint16_t()) : grey(std::uint8_t());
   return image;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renderer/bake/mapped_mesh.h"
+#include "renderer/core/srgb.h"
 #include "renderer/export/glb_materials.h"
 #include "renderer/image/png_encode.h"
 
@@ -21,8 +22,7 @@ std::span<const std::uint8_t> bytesOfAll(const std::vector<T>& values) {
 
 std::uint8_t encodedSrgb(float linear) {
   const float value = std::clamp(linear, 0.0f, 1.0f);
-  const float encoded = value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255));
+  return static_cast<std::uint8_t>(std::lround(srgbOf(value) * 255));
 }
 
 float highestOf(const IrradianceMap& map) {

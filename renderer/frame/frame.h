@@ -12,7 +12,7 @@ namespace gnomon {
 struct Scene;
 using ScenePtr = std::shared_ptr<const Scene>;
 
-/// One picture: 8-bit sRGB for PNG, linear float for EXR, as the frame's output asks.
+/// One picture: its pixels are of the type that the frame's output asks for (pixelTypeOf).
 struct ViewImage {
   View view = View::color;
   Image image;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "protocol/spec/traits.h"
+#include "protocol/spec/format_traits.h"
 #include "renderer/device/view_image.h"
+#include "renderer/frame/view_words.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
 #include "renderer/shaders/shared/functions.h"
@@ -61,23 +63,27 @@ std::vector<float> distancesOf(const MeasuredShadow& measured) {
 }
 
 /// What is seen in the picture, as grey from `darkest` to `lightest`, so that no color is lost on it.
-std::vector<std::uint8_t> dimmed(const Image& color, float darkest, float lightest) {
-  const auto& from = std::get<std::vector<std::uint8_t>>(color.pixels);
-  const std::size_t step = color.channels.size();
-  std::vector<std::uint8_t> grey;
-  grey.reserve(from.size() / step * 3);
-  for (std::size_t i = 0; i < from.size(); i += step) {
-    const float luma = (0.2126f * from[i] + 0.7152f * from[i + 1] + 0.0722f * from[i + 2]) / 255.0f;
-    grey.insert(grey.end(), 3, unormByte(darkest + (lightest - darkest) * luma));
+template <class Number>
+std::vector<Number> dimmed(const std::vector<Number>& color, std::size_t step, float darkest, float lightest) {
+  constexpr float kHighest = std::numeric_limits<Number>::max();
+  std::vector<Number> grey;
+  grey.reserve(color.size() / step * 3);
+  for (std::size_t i = 0; i < color.size(); i += step) {
+    const float luma = (0.2126f * color[i] + 0.7152f * color[i + 1] + 0.0722f * color[i + 2]) / kHighest;
+    grey.insert(grey.end(), 3, unorm<Number>(darkest + (lightest - darkest) * luma));
   }
   return grey;
 }
 
-void paint(std::vector<std::uint8_t>& pixels, std::size_t at, const Rgb& color) {
-  std::copy(color.begin(), color.end(), pixels.begin() + static_cast<std::ptrdiff_t>(at * 3));
+/// `color`: of 8 bits.
+template <class Number>
+void paint(std::vector<Number>& pixels, std::size_t at, const Rgb& color) {
+  constexpr int kScale = std::numeric_limits<Number>::max() / 255;
+  for (std::size_t c = 0; c < 3; ++c) pixels[at * 3 + c] = static_cast<Number>(color[c] * kScale);
 }
 
-void paintErrors(const MeasuredShadow& measured, std::vector<std::uint8_t>& pixels) {
+template <class Number>
+void paintErrors(const MeasuredShadow& measured, std::vector<Number>& pixels) {
   if (measured.truth.lights.empty()) return;
   const LightReference& light = measured.truth.lights[0];
   for (std::size_t i = 0; i < measured.shown.size(); ++i) {
@@ -87,13 +93,31 @@ void paintErrors(const MeasuredShadow& measured, std::vector<std::uint8_t>& pixe
   }
 }
 
-void paintDistances(const MeasuredShadow& measured, std::vector<std::uint8_t>& pixels) {
+template <class Number>
+void paintDistances(const MeasuredShadow& measured, std::vector<Number>& pixels) {
   const std::vector<float> distances = distancesOf(measured);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (distances[i] < 0) continue;
     const glm::vec3 color = shared::heat(distances[i] / kFarthest);
-    paint(pixels, i, {unormByte(color.r), unormByte(color.g), unormByte(color.b)});
+    for (int c = 0; c < 3; ++c) pixels[i * 3 + static_cast<std::size_t>(c)] = unorm<Number>(color[c]);
   }
+}
+
+/// Edges in the right place are black, and shall be seen.
+template <class Number>
+std::vector<Number> paintedOver(const std::vector<Number>& color, std::size_t step, const MeasuredShadow& measured,
+                                View view) {
+  const bool errors = view == View::error;
+  auto pixels = errors ? dimmed(color, step, 0.1f, 0.55f) : dimmed(color, step, 0.25f, 0.7f);
+  errors ? paintErrors(measured, pixels) : paintDistances(measured, pixels);
+  return pixels;
+}
+
+template <class Number>
+std::vector<Number> greyOf(const std::vector<float>& shares) {
+  std::vector<Number> grey(shares.size());
+  std::transform(shares.begin(), shares.end(), grey.begin(), unorm<Number>);
+  return grey;
 }
 
 } // namespace
@@ -106,22 +130,24 @@ Image errorNumbers(const MeasuredShadow& measured, View view) {
   return image;
 }
 
-Image referencePicture(const MeasuredShadow& measured) {
+Image referencePicture(const MeasuredShadow& measured, bool fine) {
   Image image = imageOf(measured, {"Y"});
-  const std::vector<float> visibility = visibilityOf(measured);
-  std::vector<std::uint8_t> grey(visibility.size());
-  std::transform(visibility.begin(), visibility.end(), grey.begin(), unormByte);
-  image.pixels = std::move(grey);
+  if (fine) {
+    image.pixels = greyOf<std::uint16_t>(visibilityOf(measured));
+  } else {
+    image.pixels = greyOf<std::uint8_t>(visibilityOf(measured));
+  }
   return image;
 }
 
 Image errorPicture(const MeasuredShadow& measured, View view, const Image& color) {
   Image image = imageOf(measured, {"R", "G", "B"});
-  const bool errors = view == View::error;
-  // Edges in the right place are black, and shall be seen.
-  std::vector<std::uint8_t> pixels = errors ? dimmed(color, 0.1f, 0.55f) : dimmed(color, 0.25f, 0.7f);
-  errors ? paintErrors(measured, pixels) : paintDistances(measured, pixels);
-  image.pixels = std::move(pixels);
+  const std::size_t step = color.channels.size();
+  if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&color.pixels)) {
+    image.pixels = paintedOver(*words, step, measured, view);
+  } else {
+    image.pixels = paintedOver(std::get<std::vector<std::uint8_t>>(color.pixels), step, measured, view);
+  }
   return image;
 }
 
@@ -142,20 +168,30 @@ bool isDrawn(View view) {
 } // namespace
 
 FrameViews::FrameViews(const FrameSpec& spec) : spec_(spec) {
-  const bool encoded = spec.output.format == ImageFormat::png;
   for (const View view : spec.views) {
     requestOf_.push_back(requests_.size());
     if (!isDrawn(view)) continue;
     if (view == View::color) backdrop_ = requests_.size();
-    requests_.push_back({view, encoded, spec.background.alpha >= 1});
+    const PixelType pixels = madePixels(view);
+    requests_.push_back({.view = view,
+                         .encoded = pixels != PixelType::numbers,
+                         .opaque = spec.background.alpha >= 1,
+                         .fine = pixels == PixelType::words});
   }
   if (!needReference() && !spec.debug.predictEdges) return;
   fullShadow_ = requests_.size();
   requests_.push_back({.view = View::shadow, .encoded = false, .fullStrength = true});
-  const auto isPainted = [](View view) { return traitsOf(view).backdrop; };
-  if (backdrop_ || !encoded || std::none_of(spec.views.begin(), spec.views.end(), isPainted)) return;
+  const auto isPainted = [this](View view) {
+    return traitsOf(view).backdrop && madePixels(view) != PixelType::numbers;
+  };
+  if (backdrop_ || std::none_of(spec.views.begin(), spec.views.end(), isPainted)) return;
   backdrop_ = requests_.size();
-  requests_.push_back({.view = View::color, .antialiased = false});
+  requests_.push_back({.view = View::color, .antialiased = false, .fine = madePixels(View::color) == PixelType::words});
+}
+
+PixelType FrameViews::madePixels(View view) const {
+  const PixelType pixels = pixelTypeOf(view, spec_.output);
+  return pixels == PixelType::words && wordsAreNumbers(view) ? PixelType::numbers : pixels;
 }
 
 bool FrameViews::needReference() const {
@@ -171,23 +207,26 @@ std::vector<float> FrameViews::fullShadow(FrameDrawing& drawing) const {
 }
 
 Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const {
-  if (spec_.output.format == ImageFormat::exr) return errorNumbers(measured, view);
+  const PixelType pixels = madePixels(view);
+  if (pixels == PixelType::numbers) return errorNumbers(measured, view);
   return traitsOf(view).backdrop ? errorPicture(measured, view, drawing.picture(*backdrop_))
-                                 : referencePicture(measured);
+                                 : referencePicture(measured, pixels == PixelType::words);
 }
 
 std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured,
                                           const ShownGeometry* geometry) const {
-  const bool encoded = spec_.output.format == ImageFormat::png;
   std::vector<ViewImage> images;
   for (const View view : spec_.views) {
     images.push_back({view, comparesWithRays(view)   ? errorImage(drawing, view, *measured)
-                            : tellsOfTriangles(view) ? geometryView(*geometry, view, encoded)
+                            : tellsOfTriangles(view) ? geometryView(*geometry, view, madePixels(view))
                                                      : Image{}});
   }
   // After the errors, which are painted over one of them.
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (isDrawn(images[i].view)) images[i].image = drawing.takePicture(requestOf_[i]);
+    if (pixelTypeOf(images[i].view, spec_.output) != madePixels(images[i].view)) {
+      images[i].image = wordsOf(images[i].image, images[i].view);
+    }
   }
   return images;
 }

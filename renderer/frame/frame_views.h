@@ -5,7 +5,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/report/error_metrics.h"
-#include "protocol/spec/output_options.h"
+#include "protocol/spec/format_traits.h"
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/geometry_views.h"
@@ -33,11 +33,11 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
 /// reference: V. error: S - V, 0 where no receiver. edgeDistance: pixels, -1 = no edge, infinity where V has none.
 Image errorNumbers(const MeasuredShadow& measured, View view);
 
-/// V as grey, 0 black.
-Image referencePicture(const MeasuredShadow& measured);
+/// V as grey, 0 black; of 16 bits where it is `fine`, else of 8.
+Image referencePicture(const MeasuredShadow& measured, bool fine);
 
 /// error: false shadow red, false light blue. edgeDistance: the edge pixels of S by their distance, a heat map from 0
-/// to 16 pixels. Over `color`, a picture of the same size, in dim grey.
+/// to 16 pixels. Over `color`, a picture of the same size, in dim grey, and of as many bits.
 Image errorPicture(const MeasuredShadow& measured, View view, const Image& color);
 
 /// The pictures that a frame's views take: one for each view that a device can show, and, where a view compares a
@@ -62,6 +62,8 @@ class FrameViews {
                                 const ShownGeometry* geometry) const;
 
  private:
+  /// What the view is made as; words that are numbers come from numbers.
+  PixelType madePixels(View view) const;
   Image errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const;
 
   const FrameSpec& spec_;

@@ -90,6 +90,15 @@ std::vector<Number> pixelsOf(const ShownGeometry& shown, std::size_t channels, c
   return pixels;
 }
 
+template <class Number>
+std::vector<Number> colorsOf(const ShownGeometry& shown, View view) {
+  return pixelsOf<Number>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, Number* out) {
+    const glm::vec3 color = view == View::position ? placeIn(shown.view.bounds, seenPoint(shown, triangle, place))
+                                                   : colorOf(idOf(shown, view, triangle));
+    for (int i = 0; i < 3; ++i) out[i] = unorm<Number>(color[i]);
+  });
+}
+
 } // namespace
 
 glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
@@ -106,17 +115,13 @@ glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle,
                                                                          : shown.camera.eye + a;
 }
 
-Image geometryView(const ShownGeometry& shown, View view, bool encoded) {
-  Image image{shown.width, shown.height, channelsOf(view, encoded, true), {}};
-  const bool position = view == View::position;
-  if (encoded) {
-    image.pixels =
-        pixelsOf<std::uint8_t>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, std::uint8_t* out) {
-          const glm::vec3 color = position ? placeIn(shown.view.bounds, seenPoint(shown, triangle, place))
-                                           : colorOf(idOf(shown, view, triangle));
-          for (int i = 0; i < 3; ++i) out[i] = unormByte(color[i]);
-        });
-  } else if (position) {
+Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {
+  Image image{shown.width, shown.height, channelsOf(view, pixels != PixelType::numbers, true), {}};
+  if (pixels == PixelType::bytes) {
+    image.pixels = colorsOf<std::uint8_t>(shown, view);
+  } else if (pixels == PixelType::words) {
+    image.pixels = colorsOf<std::uint16_t>(shown, view);
+  } else if (view == View::position) {
     image.pixels = pixelsOf<float>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, float* out) {
       const glm::dvec3 point = seenPoint(shown, triangle, place);
       for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(point[i]);

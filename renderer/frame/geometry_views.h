@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "protocol/spec/output_options.h"
+#include "protocol/spec/format_traits.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/scene.h"
@@ -21,8 +21,8 @@ struct ShownGeometry {
   std::vector<PlacedTriangle> triangles{};
 };
 
-/// A view of source `geometry`. `encoded`: 8 bits a channel; else numbers, as View says.
-Image geometryView(const ShownGeometry& shown, View view, bool encoded);
+/// A view of source `geometry`, as View says: numbers, or what they are seen as.
+Image geometryView(const ShownGeometry& shown, View view, PixelType pixels);
 
 /// Where the ray through a place on the picture (pixels, from the upper left corner) meets the plane of a triangle, in
 /// the world. Infinite where it does not.

@@ -36,6 +36,19 @@ bool isInk(char character, int column, int row) {
   return ((bits >> (kDigitWidth - 1 - column)) & 1) != 0;
 }
 
+void setPixel(Image& picture, std::size_t pixel, const Rgb& color) {
+  constexpr int kWordsAByte = 65535 / 255;
+  auto* const words = std::get_if<std::vector<std::uint16_t>>(&picture.pixels);
+  for (std::size_t c = 0; c < color.size(); ++c) {
+    const std::size_t at = pixel * color.size() + c;
+    if (words != nullptr) {
+      (*words)[at] = static_cast<std::uint16_t>(color[c] * kWordsAByte);
+    } else {
+      std::get<std::vector<std::uint8_t>>(picture.pixels)[at] = color[c];
+    }
+  }
+}
+
 } // namespace
 
 int digitsWidth(std::string_view text, int scale) {
@@ -45,14 +58,13 @@ int digitsWidth(std::string_view text, int scale) {
 }
 
 void fillRect(Image& picture, int x, int y, int width, int height, const Rgb& color) {
-  auto& bytes = std::get<std::vector<std::uint8_t>>(picture.pixels);
   const int right = std::min(picture.width, x + width);
   const int bottom = std::min(picture.height, y + height);
   for (int row = std::max(0, y); row < bottom; ++row) {
     for (int column = std::max(0, x); column < right; ++column) {
       const auto pixel =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(column);
-      std::copy(color.begin(), color.end(), bytes.begin() + static_cast<std::ptrdiff_t>(pixel * color.size()));
+      setPixel(picture, pixel, color);
     }
   }
 }

@@ -2,28 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <csetjmp>
 #include <cstddef>
-#include <cstdio>
-#include <jpeglib.h>
 
 #include "renderer/core/stop.h"
+#include "renderer/image/jpeg_errors.h"
 
 namespace gnomon {
 namespace {
-
-/// libjpeg reports errors by leaving its functions, which C++ must not see: only plain data lives between.
-struct JpegErrors {
-  jpeg_error_mgr base;
-  std::jmp_buf leave;
-  std::array<char, JMSG_LENGTH_MAX> message;
-};
-
-[[noreturn]] void leaveWithMessage(j_common_ptr codec) {
-  auto* errors = reinterpret_cast<JpegErrors*>(codec->err);
-  codec->err->format_message(codec, errors->message.data());
-  std::longjmp(errors->leave, 1);
-}
 
 void leaveAtWarning(j_common_ptr codec, int level) {
   if (level < 0) leaveWithMessage(codec);
@@ -33,7 +18,7 @@ struct Codec : jpeg_decompress_struct {
   ~Codec() { jpeg_destroy_decompress(this); }
 };
 
-constexpr JDIMENSION kRowsAtOnce = 16; ///< read at a time
+constexpr JDIMENSION kScanlinesAtOnce = 16; ///< read at a time
 
 /// False with a message in `errors`.
 bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes essential, const ImageSize& size,
@@ -52,9 +37,10 @@ bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes es
   jpeg_start_decompress(&codec);
   while (codec.output_scanline < height) {
     stopIfAsked();
-    std::array<JSAMPROW, kRowsAtOnce> rows{};
-    for (JDIMENSION i = 0; i < kRowsAtOnce; ++i) rows[i] = rgba + std::size_t{4} * width * (codec.output_scanline + i);
-    jpeg_read_scanlines(&codec, rows.data(), std::min(kRowsAtOnce, height - codec.output_scanline));
+    std::array<JSAMPROW, kScanlinesAtOnce> rows{};
+    for (JDIMENSION i = 0; i < kScanlinesAtOnce; ++i)
+      rows[i] = rgba + std::size_t{4} * width * (codec.output_scanline + i);
+    jpeg_read_scanlines(&codec, rows.data(), std::min(kScanlinesAtOnce, height - codec.output_scanline));
   }
   jpeg_finish_decompress(&codec);
   return true;

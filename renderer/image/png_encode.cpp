@@ -68,25 +68,26 @@ void subtract(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, s
   for (std::size_t i = 0; i < count; ++i) differences[i] = static_cast<std::uint8_t>(a[i] - b[i]);
 }
 
-/// The row's filter type and its filtered samples. `above`: the row above within the stripe, or null.
+/// The row's filter type and its filtered samples. `above`: the row above within the stripe, or null. `pixel`: bytes of
+/// one.
 /// Of Sub and Up the one with the smaller sum of absolute differences: the other types of filter gain nothing here.
-void filterRow(Row row, const std::uint8_t* above, std::size_t channels, bool filtering, std::uint8_t* filtered) {
+void filterRow(Row row, const std::uint8_t* above, std::size_t pixel, bool filtering, std::uint8_t* filtered) {
   const std::uint8_t* samples = row.data();
-  const std::size_t rest = row.size() - channels;
+  const std::size_t rest = row.size() - pixel;
   if (!filtering) {
     filtered[0] = kNone;
     std::copy(row.begin(), row.end(), filtered + 1);
     return;
   }
-  const auto bySub = [&] { return distance(samples + channels, samples, rest); };
-  if (above && distance(samples + channels, above + channels, rest) <= bySub()) {
+  const auto bySub = [&] { return distance(samples + pixel, samples, rest); };
+  if (above && distance(samples + pixel, above + pixel, rest) <= bySub()) {
     filtered[0] = kUp;
     subtract(samples, above, row.size(), filtered + 1);
     return;
   }
   filtered[0] = kSub;
-  std::copy_n(samples, channels, filtered + 1);
-  subtract(samples + channels, samples, rest, filtered + 1 + channels);
+  std::copy_n(samples, pixel, filtered + 1);
+  subtract(samples + pixel, samples, rest, filtered + 1 + pixel);
 }
 
 Bytes filteredRows(const PngFormat& format, Row rows) {
@@ -95,8 +96,8 @@ Bytes filteredRows(const PngFormat& format, Row rows) {
   Bytes filtered(count * (rowBytes + 1));
   for (std::size_t y = 0; y < count; ++y) {
     const Row row = rows.subspan(y * rowBytes, rowBytes);
-    filterRow(row, y == 0 ? nullptr : row.data() - rowBytes, static_cast<std::size_t>(format.channelCount),
-              format.level > 0, filtered.data() + y * (rowBytes + 1));
+    filterRow(row, y == 0 ? nullptr : row.data() - rowBytes, format.pixelBytes(), format.level > 0,
+              filtered.data() + y * (rowBytes + 1));
   }
   return filtered;
 }
@@ -107,7 +108,7 @@ Bytes headerOf(const PngFormat& format) {
   append(header, bigEndianBytes(static_cast<std::uint32_t>(format.width)));
   append(header, bigEndianBytes(static_cast<std::uint32_t>(format.height)));
   const std::uint8_t colorType = format.channelCount == 1 ? kGrey : format.channelCount == 3 ? kRgb : kRgba;
-  append(header, std::array<std::uint8_t, 5>{8, colorType, 0, 0, 0});
+  append(header, std::array<std::uint8_t, 5>{static_cast<std::uint8_t>(format.bits), colorType, 0, 0, 0});
   return header;
 }
 
@@ -155,28 +156,57 @@ Bytes assemblePng(const PngFormat& format, std::span<const PngStripe> stripes) {
   return file;
 }
 
-Result<Bytes> encodePng(const Image& image, int level) {
+namespace {
+
+/// The stripe of the pixels first..last.
+PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint8_t>& pixels, std::size_t first,
+                   std::size_t last) {
+  return pngStripe(format, Row(pixels).subspan(first, last - first));
+}
+
+PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint16_t>& pixels, std::size_t first,
+                   std::size_t last) {
+  Bytes rows;
+  rows.reserve(2 * (last - first));
+  for (std::size_t i = first; i < last; ++i) {
+    rows.push_back(static_cast<std::uint8_t>(pixels[i] >> 8));
+    rows.push_back(static_cast<std::uint8_t>(pixels[i]));
+  }
+  return pngStripe(format, rows);
+}
+
+template <class Number>
+Result<Bytes> encodePixels(const PngFormat& format, const std::vector<Number>& pixels) {
   const auto failure = [](const char* what) { return Problem{ProblemCode::internal, "", what, "", ""}; };
-  const auto* pixels = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
+  if (format.rowBytes() * format.stripeRows() > kMaxStripeBytes) return failure("The image is too wide for a PNG.");
+  const std::size_t row = format.rowBytes() / sizeof(Number);
+  if (pixels.size() != row * static_cast<std::size_t>(format.height)) {
+    return failure("A PNG needs as many samples as its size says.");
+  }
+  const std::size_t stripe = row * format.stripeRows();
+  std::vector<PngStripe> stripes(format.stripeCount());
+  forEachPiece(pixels.size(), stripe, [&](std::size_t first, std::size_t last) {
+    stripes[first / stripe] = stripeOf(format, pixels, first, last);
+  });
+  return assemblePng(format, stripes);
+}
+
+} // namespace
+
+Result<Bytes> encodePng(const Image& image, int level) {
+  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
+  const auto* words = std::get_if<std::vector<std::uint16_t>>(&image.pixels);
   const std::size_t channels = image.channels.size();
-  if (!pixels || image.width <= 0 || image.height <= 0 || (channels != 1 && channels != 3 && channels != 4)) {
-    return failure("A PNG needs an 8-bit image of 1, 3 or 4 channels.");
+  if ((!bytes && !words) || image.width <= 0 || image.height <= 0 ||
+      (channels != 1 && channels != 3 && channels != 4)) {
+    return Problem{ProblemCode::internal, "", "A PNG needs an image of 8 or 16 bits and 1, 3 or 4 channels.", "", ""};
   }
   if (level < 0 || level > 9) {
     return Problem{ProblemCode::invalidValue, "", "The PNG compression level is out of range.", "0..9",
                    std::to_string(level)};
   }
-  const PngFormat format{image.width, image.height, static_cast<int>(channels), level};
-  const std::size_t stripeBytes = format.rowBytes() * format.stripeRows();
-  if (stripeBytes > kMaxStripeBytes) return failure("The image is too wide for a PNG.");
-  if (pixels->size() != format.rowBytes() * static_cast<std::size_t>(format.height)) {
-    return failure("A PNG needs as many samples as its size says.");
-  }
-  std::vector<PngStripe> stripes(format.stripeCount());
-  forEachPiece(pixels->size(), stripeBytes, [&](std::size_t first, std::size_t last) {
-    stripes[first / stripeBytes] = pngStripe(format, Row(*pixels).subspan(first, last - first));
-  });
-  return assemblePng(format, stripes);
+  const PngFormat format{image.width, image.height, static_cast<int>(channels), level, words ? 16 : 8};
+  return words ? encodePixels(format, *words) : encodePixels(format, *bytes);
 }
 
 } // namespace gnomon

@@ -15,10 +15,12 @@ namespace gnomon {
 struct PngFormat {
   int width = 1;
   int height = 1;
-  int channelCount = 3; ///< 1 grey, 3 RGB, 4 RGB and straight alpha; 8 bits each
+  int channelCount = 3; ///< 1 grey, 3 RGB, 4 RGB and straight alpha
   int level = 2;        ///< 0 fastest .. 9 smallest
+  int bits = 8;         ///< of a channel: 8 or 16
 
-  std::size_t rowBytes() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(channelCount); }
+  std::size_t pixelBytes() const { return static_cast<std::size_t>(channelCount * bits / 8); }
+  std::size_t rowBytes() const { return static_cast<std::size_t>(width) * pixelBytes(); }
   std::size_t stripeRows() const; ///< of every stripe but the last, which has what is left
   std::size_t stripeCount() const;
 };
@@ -30,13 +32,13 @@ struct PngStripe {
   std::size_t filteredBytes = 0;
 };
 
-/// `rows`: those of this stripe, interleaved, first row on top.
+/// `rows`: those of this stripe, interleaved, first row on top; of 16 bits the higher byte first.
 PngStripe pngStripe(const PngFormat& format, std::span<const std::uint8_t> rows);
 
 /// The file. REQUIRES: all stripes of the picture, from the top down.
 Bytes assemblePng(const PngFormat& format, std::span<const PngStripe> stripes);
 
-/// An 8-bit PNG (1, 3 or 4 channels), by all cores. level 0..9.
+/// A PNG of an image of 8 or 16 bits and 1, 3 or 4 channels, by all cores. level 0..9.
 Result<Bytes> encodePng(const Image& image, int level);
 
 } // namespace gnomon

@@ -137,9 +137,9 @@ Result<std::vector<float>> GlFrame::probe(const ShowInput& input, std::span<cons
 Image GlFrame::picture(std::size_t index) {
   const ViewRequest& request = shown_->views[index];
   const gl::Texture& depths = drawn_.flatAtlas.id() != 0 ? drawn_.flatAtlas : atlas_.textures->depth;
-  if (request.view == View::atlas) return readAtlas(depths, shown_->plan, request.encoded);
-  if (request.view == View::tile) return readTile(depths, *shown_->tile, request.encoded);
-  return readView(drawn_.views[index], request.view, request.encoded, request.opaque);
+  if (request.view == View::atlas) return readAtlas(depths, shown_->plan, request);
+  if (request.view == View::tile) return readTile(depths, *shown_->tile, request);
+  return readView(drawn_.views[index], request);
 }
 
 void GlFrame::endStage(std::string name) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/srgb.h"
 #include "renderer/image/digits.h"
 #include "renderer/shaders/shared/frame_types.h"
 
@@ -12,10 +13,8 @@ namespace {
 using glm::vec3;
 constexpr std::array kTints{GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
 
-/// IEC 61966-2-1.
 std::uint8_t srgb(float linear) {
-  const float encoded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
+  return static_cast<std::uint8_t>(std::lround(srgbOf(linear) * 255.0f));
 }
 
 Rgb tintOf(int tile) {
@@ -24,10 +23,15 @@ Rgb tintOf(int tile) {
 }
 
 Image asRgb(const Image& grey) {
-  const auto& from = std::get<std::vector<std::uint8_t>>(grey.pixels);
-  std::vector<std::uint8_t> to(from.size() * 3);
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i / 3];
-  return {grey.width, grey.height, {"R", "G", "B"}, std::move(to)};
+  Image picture{grey.width, grey.height, {"R", "G", "B"}, {}};
+  std::visit(
+      [&](const auto& from) {
+        std::remove_cvref_t<decltype(from)> to(from.size() * 3);
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i / 3];
+        picture.pixels = std::move(to);
+      },
+      grey.pixels);
+  return picture;
 }
 
 /// `rect` counts rows from the picture's lower edge.

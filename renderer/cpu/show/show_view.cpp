@@ -13,7 +13,7 @@
 namespace gnomon::cpu {
 namespace {
 
-/// Turns each value of a square's pixels into the picture's.
+/// Turns each value of a square's pixels, of a channel, into the picture's.
 template <class T, class Convert>
 void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vector<T>& pixels, const Convert& convert) {
   const std::size_t channels = image.channels.size();
@@ -22,7 +22,7 @@ void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vect
     T* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
     for (int column = 0; column < std::min(kTileSide, image.width - x); ++column) {
       const auto pixel = static_cast<std::size_t>((row & 12) << 4 | (column & 12) << 2 | (row & 3) << 2 | (column & 3));
-      for (std::size_t c = 0; c < channels; ++c) *out++ = convert(colors.channels[c][pixel]);
+      for (std::size_t c = 0; c < channels; ++c) *out++ = convert(c, colors.channels[c][pixel]);
     }
   }
 }
@@ -93,7 +93,12 @@ Image showView(const ShowJob& job, bool opaque) {
   Image image{job.scene.width, job.scene.height, channelsOf(job.view, job.encoded, opaque), {}};
   if (!job.encoded) {
     fill<float>(job, image, [&](const TileColors& colors, int x, int y, std::vector<float>& pixels) {
-      writeSquare(colors, x, y, image, pixels, [](float value) { return value; });
+      writeSquare(colors, x, y, image, pixels, [](std::size_t, float value) { return value; });
+    });
+  } else if (job.fine) {
+    fill<std::uint16_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint16_t>& pixels) {
+      writeSquare(colors, x, y, image, pixels,
+                  [&](std::size_t c, float value) { return fineWord(traitsOf(job.view), c, value); });
     });
   } else if (traitsOf(job.view).srgb) {
     fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
@@ -103,7 +108,7 @@ Image showView(const ShowJob& job, bool opaque) {
     });
   } else {
     fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
-      writeSquare(colors, x, y, image, pixels, unormByte);
+      writeSquare(colors, x, y, image, pixels, [](std::size_t, float value) { return unormByte(value); });
     });
   }
   return image;

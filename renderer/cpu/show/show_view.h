@@ -24,6 +24,7 @@ struct ShowJob {
   std::span<const std::uint32_t> lightLists; ///< prepare/light_lists.h; empty = every light may reach every pixel
   View view = View::color;
   bool encoded = true; ///< as in ViewRequest
+  bool fine = false;   ///< as in ViewRequest
   ToneMapping toneMapping = ToneMapping::aces;
   int debugLight = -1;                          ///< what views of one light show; -1 = there is none
   std::span<const TileMap> casters = {};        ///< view casterIds: parallel to the maps', numbered, a sample a texel

@@ -31,8 +31,7 @@ class ViewDrawing {
       drawn_.casters = std::move(*casters);
     }
     const bool surveyed = request.view == View::depth && shading_.survey.samples == 1;
-    auto view = surveyed ? drawView(inputs_, shading_, {depthOnly(), VisibilityLayers{}, drawn_.casters}, request.view,
-                                    request.encoded)
+    auto view = surveyed ? drawView(inputs_, shading_, {depthOnly(), VisibilityLayers{}, drawn_.casters}, request)
                          : shade(request, traits);
     if (!view) return view.problems();
     drawn_.views.push_back(std::move(*view));
@@ -69,13 +68,13 @@ class ViewDrawing {
       sources.volumes = &drawn_.volumes.at(samples);
       sources.volumeLight = work_.volumes->light;
     }
-    if (!request.fullStrength) return drawView(inputs_, shading_, sources, request.view, request.encoded);
+    if (!request.fullStrength) return drawView(inputs_, shading_, sources, request);
 
     const std::vector<LitLight> lights = atFullStrength({shading_.lights.begin(), shading_.lights.end()});
     const LightBuffers buffers = uploadLights(lights, show_.plan, show_.lightLists);
     const Shading full{shading_.spec, shading_.survey,     shading_.atlas,      lights,
                        buffers,       shading_.lightLists, shading_.debugLight, shading_.baked};
-    return drawView(inputs_, full, sources, request.view, request.encoded);
+    return drawView(inputs_, full, sources, request);
   }
 
   /// The lights whose visibility layers are filled once the surfaces are there.

@@ -1,5 +1,6 @@
 #include "renderer/passes/views/read_back.h"
 
+#include "renderer/core/parallel.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
 
@@ -32,32 +33,48 @@ std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t chann
 }
 
 /// A rectangle of the atlas, first row on top: grey when encoded, else the depths as they are.
-Image depthsIn(const gl::Texture& atlas, const Rect& rect, bool encoded) {
+Image depthsIn(const gl::Texture& atlas, const Rect& rect, const ViewRequest& request) {
   std::vector<float> depths(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
   const GLenum format = atlas.shape().format == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT;
   atlas.read(0, rect, {format, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
-  return depthImage(rect.width, rect.height, depths, encoded);
+  return depthImage(rect.width, rect.height, depths, request.encoded, request.fine);
+}
+
+std::vector<std::uint16_t> fineWords(View view, const std::vector<float>& linear, std::size_t channels) {
+  std::vector<std::uint16_t> words(linear.size());
+  forEachPiece(linear.size() / channels, 16384, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first * channels; i < last * channels; ++i) {
+      words[i] = fineWord(traitsOf(view), i % channels, linear[i]);
+    }
+  });
+  return words;
 }
 
 } // namespace
 
-Image readView(const DrawnView& drawn, View view, bool encoded, bool opaque) {
-  Image image{drawn.color.width(), drawn.color.height(), channelsOf(view, encoded, opaque), {}};
-  if (encoded) {
-    image.pixels = readPicked<std::uint8_t>(drawn, GL_UNSIGNED_BYTE, image.channels.size());
+Image readView(const DrawnView& drawn, const ViewRequest& request) {
+  Image image{drawn.color.width(), drawn.color.height(), channelsOf(request.view, request.encoded, request.opaque), {}};
+  const std::size_t channels = image.channels.size();
+  if (request.encoded && !request.fine) {
+    image.pixels = readPicked<std::uint8_t>(drawn, GL_UNSIGNED_BYTE, channels);
+    return image;
+  }
+  auto linear = readPicked<float>(drawn, GL_FLOAT, channels);
+  if (request.encoded) {
+    image.pixels = fineWords(request.view, linear, channels);
   } else {
-    image.pixels = readPicked<float>(drawn, GL_FLOAT, image.channels.size());
+    image.pixels = std::move(linear);
   }
   return image;
 }
 
-Image readTile(const gl::Texture& depths, const ShadowTile& tile, bool encoded) {
-  return depthsIn(depths, tile.rect, encoded);
+Image readTile(const gl::Texture& depths, const ShadowTile& tile, const ViewRequest& request) {
+  return depthsIn(depths, tile.rect, request);
 }
 
-Image readAtlas(const gl::Texture& depths, const ShadowPlan& plan, bool encoded) {
-  Image image = depthsIn(depths, {0, 0, depths.width(), depths.height()}, encoded);
-  return encoded ? namedTiles(image, plan) : image;
+Image readAtlas(const gl::Texture& depths, const ShadowPlan& plan, const ViewRequest& request) {
+  Image image = depthsIn(depths, {0, 0, depths.width(), depths.height()}, request);
+  return request.encoded ? namedTiles(image, plan) : image;
 }
 
 } // namespace gnomon

@@ -12,9 +12,10 @@ namespace gnomon {
 
 namespace {
 
-GLenum formatOf(View view, bool encoded) {
-  if (!encoded) return GL_RGBA32F;
-  return traitsOf(view).srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+/// What is fine becomes words as it is read back.
+GLenum formatOf(const ViewRequest& request) {
+  if (!request.encoded || request.fine) return GL_RGBA32F;
+  return traitsOf(request.view).srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
 /// A variant that holds no more than these lights and surfaces need.
@@ -72,16 +73,16 @@ const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey) {
   return surfaces.ownDepth.id() != 0 ? surfaces.ownDepth : survey.depth;
 }
 
-Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
-                           bool encoded) {
+Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources,
+                           const ViewRequest& request) {
   const Surfaces& surfaces = sources.surfaces;
-  const ViewVariant variant = variantFor(inputs, shading, sources, view, encoded);
+  const ViewVariant variant = variantFor(inputs, shading, sources, request.view, request.encoded);
   const auto program = inputs.programs.get(viewProgram(variant));
   if (!program) return program.problems();
 
   DrawnView drawn;
   drawn.timer = gl::Timer::start();
-  drawn.color = gl::Texture({formatOf(view, variant.encoded), inputs.width, inputs.height}, "view");
+  drawn.color = gl::Texture({formatOf(request), inputs.width, inputs.height}, "view");
   auto target = gl::Framebuffer::create({{{&drawn.color}}, {}}, "view");
   if (!target) return target.problems();
   drawn.framebuffer = std::move(*target);
@@ -104,7 +105,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   if (variant.volumes) bindTexture(sources.volumes->picture, texels, GNOMON_VOLUMES_UNIT);
   bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
   bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);
-  if (traitsOf(view).oneLight) {
+  if (traitsOf(request.view).oneLight) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
     (*program)->set(GNOMON_ATLAS_SIZE,
                     glm::vec2(shading.atlas.textures->depth.width(), shading.atlas.textures->depth.height()));

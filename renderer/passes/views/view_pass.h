@@ -5,6 +5,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
+#include "renderer/device/device.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
@@ -33,7 +34,7 @@ void writeVisibility(VisibilityLayers& layers, int layer, std::span<const std::u
 
 /// One view, drawn: a single-sample color target.
 struct DrawnView {
-  gl::Texture color; ///< RGBA8 or SRGB8_ALPHA8 when encoded, else RGBA32F
+  gl::Texture color; ///< RGBA8 or SRGB8_ALPHA8 when encoded, else RGBA32F; that also when fine
   gl::Framebuffer framebuffer;
   gl::Timer timer;
 };
@@ -69,9 +70,9 @@ struct ViewSources {
 /// no light that has a layer (VisibilityLayers) is looked up in its tiles.
 ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool layersDecide);
 
-/// Lights the surfaces of every pixel for a view that is a picture or data. `encoded`: as in ViewRequest.
-Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources, View view,
-                           bool encoded);
+/// Lights the surfaces of every pixel for a view that is a picture or data.
+Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, const ViewSources& sources,
+                           const ViewRequest& request);
 
 /// The depth of these surfaces.
 const gl::Texture& depthOf(const Surfaces& surfaces, const Survey& survey);
