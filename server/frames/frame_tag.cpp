@@ -16,7 +16,13 @@ std::string frameEtag(std::string_view sceneId, const FrameSpec& spec, std::stri
   hash.add("\n");
   hash.add(jsonText(toJson(spec)));
   const std::string tag = '"' + hash.hex() + '"';
-  return form.form == ReplyForm::image ? tag : "W/" + tag;
+  return tellsTimes(form) ? "W/" + tag : tag;
+}
+
+std::string reprDigest(std::string_view body) {
+  Sha256 hash;
+  hash.add(body);
+  return "sha-256=:" + base64Text(hash.bytes()) + ':';
 }
 
 } // namespace gnomon

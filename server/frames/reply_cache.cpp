@@ -1,5 +1,7 @@
 #include "server/frames/reply_cache.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace gnomon {
@@ -68,6 +70,8 @@ void ReplyCache::keep(const std::string& etag, const HttpReply& reply) {
   kept->contentType = reply.contentType;
   kept->body = reply.body;
   kept->headers = {{"Cache-Status", "gnomon; hit"}};
+  std::copy_if(reply.headers.begin(), reply.headers.end(), std::back_inserter(kept->headers),
+               [](const auto& header) { return header.first == "Repr-Digest"; });
   const std::lock_guard lock(mutex_);
   if (byTag_.contains(etag)) return;
   use_.bytes += kept->body.size();

@@ -31,7 +31,7 @@ class ReplyCache {
  public:
   explicit ReplyCache(std::size_t budgetBytes) : budget_(budgetBytes) {}
 
-  /// nullptr = it is not there. The reply has a Cache-Status (RFC 9211), and no stages.
+  /// nullptr = it is not there. The reply has a Cache-Status (RFC 9211) and its Repr-Digest, and no stages.
   std::shared_ptr<const HttpReply> find(const std::string& etag);
 
   /// The same for a request that has not found it before; counts nothing.

@@ -67,9 +67,11 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   const auto drawn = [&](const std::function<bool()>& gone) {
-    return replyOf(runTask(services, task, gone), call.request.id);
+    HttpReply reply = replyOf(runTask(services, task, gone), call.request.id);
+    if (reply.status == 200) reply.headers.emplace_back("Repr-Digest", reprDigest(reply.body));
+    return reply;
   };
-  if (hasTarget || form.form != ReplyForm::image) return drawn(call.clientGone); // it tells times
+  if (hasTarget || tellsTimes(form)) return drawn(call.clientGone);
   return services.shared.run(etag, task.deadline, call.clientGone, [&](const std::function<bool()>& gone) {
     if (const auto kept = services.replies.findAgain(etag)) return *kept; // drawn since we looked
     HttpReply reply = drawn(gone);
@@ -112,7 +114,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const std::string etag = frameEtag(frame.sceneId, frame.spec, services.workers.info().fingerprint, *form);
 
   HttpReply reply;
-  const bool mayBeKept = request.method != "HEAD" && form->form == ReplyForm::image && !frame.spec.quality;
+  const bool mayBeKept = request.method != "HEAD" && !tellsTimes(*form) && !frame.spec.quality;
   const auto known = headerValue(request.headers, "if-none-match");
   if (known && !frame.spec.quality && etagMatches(*known, etag)) {
     reply.status = 304;

@@ -59,7 +59,16 @@ int specificityOf(std::string_view range, std::string_view type) {
 struct Rating {
   int quality = 0;     ///< thousandths; 0 = not acceptable
   int specificity = 0; ///< of that range
+
+  auto operator<=>(const Rating&) const = default;
 };
+
+/// Of equals the first; nothing where none is acceptable.
+std::optional<std::size_t> highest(std::span<const Rating> ratings) {
+  const auto best = std::max_element(ratings.begin(), ratings.end());
+  if (best == ratings.end() || best->quality == 0) return std::nullopt;
+  return static_cast<std::size_t>(best - ratings.begin());
+}
 
 Rating ratingOf(const std::vector<MediaRange>& ranges, std::string_view type) {
   Rating rating;
@@ -83,17 +92,9 @@ std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std
     return 0;
   }
   const std::vector<MediaRange> ranges = rangesOf(*accept);
-  std::optional<std::size_t> best;
-  Rating highest;
-  for (std::size_t i = 0; i < offers.size(); ++i) {
-    const Rating rating = ratingOf(ranges, offers[i]);
-    if (rating.quality > highest.quality ||
-        (rating.quality == highest.quality && rating.quality > 0 && rating.specificity > highest.specificity)) {
-      best = i;
-      highest = rating;
-    }
-  }
-  return best;
+  std::vector<Rating> ratings;
+  for (const std::string_view offer : offers) ratings.push_back(ratingOf(ranges, offer));
+  return highest(ratings);
 }
 
 Problem notAcceptable(std::string_view what, std::optional<std::string_view> accept,
@@ -106,15 +107,39 @@ Problem notAcceptable(std::string_view what, std::optional<std::string_view> acc
           all, asciiExcerpt(accept.value_or(""))};
 }
 
+namespace {
+
+/// The spec's own format first, then other pictures, forms with a report, and arrays.
+std::vector<FrameForm> formsFor(ImageFormat specFormat) {
+  std::vector<FrameForm> forms{{ReplyForm::image, specFormat}};
+  const auto add = [&](bool pictures) {
+    for (const FormatTraits& traits : kFormatTraits) {
+      const bool isPicture = traits.mediaType.starts_with("image/");
+      if (traits.format != specFormat && isPicture == pictures) forms.push_back({ReplyForm::image, traits.format});
+    }
+  };
+  add(true);
+  forms.push_back({ReplyForm::multipart, specFormat});
+  forms.push_back({ReplyForm::json, specFormat});
+  add(false);
+  return forms;
+}
+
+} // namespace
+
 std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat) {
-  const ImageFormat other = specFormat == ImageFormat::png ? ImageFormat::exr : ImageFormat::png;
-  const std::array<FrameForm, 4> forms{{{ReplyForm::image, specFormat},
-                                        {ReplyForm::image, other},
-                                        {ReplyForm::multipart, specFormat},
-                                        {ReplyForm::json, specFormat}}};
-  std::array<std::string_view, 4> offers;
-  std::transform(forms.begin(), forms.end(), offers.begin(), [](FrameForm form) { return mediaTypeOf(form); });
-  const auto best = preferred(accept, offers);
+  const std::vector<FrameForm> forms = formsFor(specFormat);
+  if (!accept || trimmed(*accept).empty()) return forms.front();
+  const std::vector<MediaRange> ranges = rangesOf(*accept);
+  std::vector<Rating> ratings;
+  for (const FrameForm form : forms) ratings.push_back(ratingOf(ranges, mediaTypeOf(form)));
+  if (ratings.front().quality > 0) {
+    for (std::size_t i = 1; i < forms.size(); ++i) {
+      const bool listed = forms[i].form == ReplyForm::image && traitsOf(forms[i].format).inBrowsers;
+      if (listed) ratings.front() = std::max(ratings.front(), ratings[i]);
+    }
+  }
+  const auto best = highest(ratings);
   return best ? std::optional(forms[*best]) : std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "protocol/base/result.h"
+#include "protocol/spec/format_traits.h"
 #include "server/wire/frame_form.h"
 
 namespace gnomon {
@@ -19,12 +20,17 @@ Problem notAcceptable(std::string_view what, std::optional<std::string_view> acc
                       std::span<const std::string_view> offers);
 
 /// The media types that negotiate() chooses from.
-inline constexpr std::array<std::string_view, 4> kFrameTypes{"image/png", "image/x-exr", "multipart/mixed",
-                                                             "application/json"};
+inline constexpr auto kFrameTypes = [] {
+  std::array<std::string_view, kFormatTraits.size() + 2> types;
+  for (std::size_t i = 0; i < kFormatTraits.size(); ++i) types[i] = kFormatTraits[i].mediaType;
+  types[kFormatTraits.size()] = "multipart/mixed";
+  types[kFormatTraits.size() + 1] = "application/json";
+  return types;
+}();
 
-/// The form that Accept (RFC 9110, q-values included) prefers. An image type in Accept overrides the spec's format;
-/// where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format is used. Nothing: no form is
-/// acceptable.
+/// The form that Accept (RFC 9110, q-values included) prefers. A format's type in Accept overrides the spec's format;
+/// where Accept leaves it open (no Accept, */*, image/*, or a tie) the spec's format is used, and also where Accept
+/// takes that but prefers PNG, JPEG or WebP: browsers list these for every picture. Nothing: no form is acceptable.
 std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat);
 
 /// Whether an If-None-Match names this tag (RFC 9110 section 13.1.2: lists, "*", weak comparison).

@@ -1,9 +1,11 @@
 #include "server/wire/frame_form.h"
 
+#include "protocol/spec/format_traits.h"
+
 namespace gnomon {
 
 std::string_view mediaTypeOf(ImageFormat format) {
-  return format == ImageFormat::png ? "image/png" : "image/x-exr";
+  return traitsOf(format).mediaType;
 }
 
 std::string_view mediaTypeOf(FrameForm form) {
@@ -16,6 +18,10 @@ std::string_view mediaTypeOf(FrameForm form) {
       return "application/json";
   }
   return "";
+}
+
+bool tellsTimes(FrameForm form) {
+  return form.form != ReplyForm::image || traitsOf(form.format).hasReport;
 }
 
 } // namespace gnomon

@@ -1,9 +1,11 @@
 #include "server/worker/frame_file.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/format_traits.h"
 #include "server/wire/frame_form.h"
 
 namespace gnomon {
@@ -19,9 +21,9 @@ std::string multipartBody(const Frame& frame, const std::vector<EncodedPicture>&
     body.append(content).append("\r\n");
   };
   part("application/json", "report.json", jsonText(toJson(frame.report)));
-  const std::string ending = format == ImageFormat::png ? ".png" : ".exr";
+  const FormatTraits& traits = traitsOf(format);
   for (const EncodedPicture& picture : pictures) {
-    part(mediaTypeOf(format), (format == ImageFormat::png ? picture.view : "frame") + ending, asText(picture.file));
+    part(traits.mediaType, (traits.allViews ? "frame" : picture.view).append(traits.suffix), asText(picture.file));
   }
   return body.append("--").append(boundary).append("--\r\n");
 }
@@ -53,6 +55,11 @@ Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view me
     file.body = multipartBody(frame, *pictures, format, boundary);
   } else {
     file.body = jsonBody(std::move(frame), *pictures, format);
+  }
+  constexpr std::size_t kMostBytes = std::numeric_limits<std::int32_t>::max();
+  if (file.body.size() > kMostBytes) {
+    return Problem{ProblemCode::tooLarge, "/views", "The frame's file is too large to be sent.",
+                   std::to_string(kMostBytes) + " bytes", std::to_string(file.body.size()) + " bytes"};
   }
   return file;
 }

@@ -15,9 +15,9 @@ struct FrameFile {
   std::vector<StageTime> stages; ///< of the frame, with `encode`
 };
 
-/// Encodes the frame and adds the stage `encode` to its report. `format`: of its pictures. `mediaType`: theirs, for the
-/// first view of a PNG or all of an EXR; multipart/mixed, whose parts `boundary` separates, which must not occur in a
-/// picture by chance; or application/json. `goOn`: as encodePictures takes it.
+/// Encodes the frame and adds the stage `encode` to its report. `format`: of its pictures. `mediaType`: theirs, for one
+/// file of the first view or, as the format has it, of all; multipart/mixed, whose parts `boundary` separates, which
+/// must not occur in a picture by chance; or application/json. `goOn`: as encodePictures takes it.
 Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view mediaType, std::string_view boundary,
                             const GoOn& goOn);
 

@@ -1,9 +1,11 @@
 #include "server/worker/frame_memory.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
+#include "protocol/spec/format_traits.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
@@ -24,20 +26,55 @@ std::size_t longerSide(const Shadow& shadow) {
   return static_cast<std::size_t>(options.texelsPerMetre ? kLimits.maxLightMapSide : options.size);
 }
 
+/// What encoding holds beside the pixels.
+struct EncodingBytes {
+  ImageFormat format;
+  std::size_t files; ///< of every view, in its pixels' size: its file
+  std::size_t work;  ///< bytes for each pixel of one view, while that is encoded
+};
+
+constexpr std::array kEncodingBytes{
+    EncodingBytes{ImageFormat::png, 0, 0}, //
+    EncodingBytes{ImageFormat::exr, 0, 0},
+    EncodingBytes{ImageFormat::npy, 1, 16},  // with alpha, the colors that it has multiplied
+    EncodingBytes{ImageFormat::npz, 1, 32},  // and the array that goes into the ZIP
+    EncodingBytes{ImageFormat::tiff, 1, 16}, // as an array
+    EncodingBytes{ImageFormat::jpeg, 1, 0},
+    EncodingBytes{ImageFormat::webp, 1, 16}, // as YUV, and what is found about its blocks
+};
+static_assert(rowsAreComplete(kEncodingBytes, &EncodingBytes::format));
+
+std::size_t pixelBytes(View view, const Output& output) {
+  constexpr std::size_t kChannels = 4;
+  switch (pixelTypeOf(view, output)) {
+    case PixelType::bytes:
+      return kChannels;
+    case PixelType::words:
+      return kChannels * sizeof(std::uint16_t);
+    case PixelType::numbers:
+      return kChannels * sizeof(float);
+  }
+  return kChannels;
+}
+
 } // namespace
 
 std::size_t frameBytes(const FrameSpec& spec) {
   constexpr std::size_t kTriangleBytes = 12; ///< a number, and what it stands for
-  const std::size_t bytesPerPixel = spec.output.format == ImageFormat::exr ? 16 : 4;
+  const EncodingBytes& encoding = kEncodingBytes[static_cast<std::size_t>(spec.output.format)];
   const auto ofFrame = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  std::size_t pixels = 0;
+  std::size_t bytes = 0;
+  std::size_t largest = 0; // of the views, in pixels
   for (const View view : spec.views) {
     const auto side = static_cast<std::size_t>(spec.atlas.size);
-    pixels += traitsOf(view).source == ViewSource::atlas ? side * side : ofFrame;
+    const std::size_t pixels = traitsOf(view).source == ViewSource::atlas ? side * side : ofFrame;
+    bytes += pixels * pixelBytes(view, spec.output) * (1 + encoding.files);
+    largest = std::max(largest, pixels);
   }
+  bytes += largest * encoding.work;
   const bool traced = std::any_of(spec.views.begin(), spec.views.end(), needsReference);
   const bool triangles = std::any_of(spec.views.begin(), spec.views.end(), tellsOfTriangles);
-  return pixels * bytesPerPixel + (traced ? ofFrame * kReferenceBytes : 0) + (triangles ? ofFrame * kTriangleBytes : 0);
+  return bytes + (traced ? ofFrame * kReferenceBytes : 0) + (triangles ? ofFrame * kTriangleBytes : 0);
 }
 
 std::size_t evaluationBytes(const Evaluation& evaluation, std::size_t sceneLights) {

@@ -11,6 +11,17 @@ TEST(Etag, IsStrongForPicturesAndWeakForReports) {
   EXPECT_TRUE(frameEtag("id", {}, "f", {ReplyForm::json, ImageFormat::png}).starts_with("W/\""));
 }
 
+TEST(Etag, IsWeakForAZipWhichHoldsTheReport) {
+  for (const FormatTraits& traits : kFormatTraits) {
+    const bool weak = frameEtag("id", {}, "f", {ReplyForm::image, traits.format}).starts_with("W/");
+    EXPECT_EQ(weak, traits.format == ImageFormat::npz) << traits.suffix;
+  }
+}
+
+TEST(ReprDigest, IsThatOfTheBody) {
+  EXPECT_EQ(reprDigest("abc"), "sha-256=:ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=:") << "FIPS 180-4's example";
+}
+
 TEST(Etag, TellsEverythingApart) {
   FrameSpec wider;
   wider.width = 1281;

@@ -23,6 +23,18 @@ TEST(ReplyCache, GivesBackWhatItKept) {
   EXPECT_EQ(found->contentType, "image/png");
   EXPECT_TRUE(found->stages.empty()) << "nothing was done for it";
   EXPECT_EQ(found->headers.front().first, "Cache-Status");
+  EXPECT_EQ(found->headers.size(), 1u);
+}
+
+TEST(ReplyCache, KeepsTheDigest) {
+  ReplyCache cache(1000);
+  HttpReply reply = picture(100);
+  reply.headers = {{"Server-Timing", "shade;dur=1"}, {"Repr-Digest", "sha-256=:x:"}};
+  cache.keep("a", reply);
+  const std::pair<std::string, std::string> digest{"Repr-Digest", "sha-256=:x:"};
+  ASSERT_TRUE(cache.find("a"));
+  EXPECT_EQ(cache.find("a")->headers.back(), digest);
+  EXPECT_EQ(cache.find("a")->headers.size(), 2u);
 }
 
 TEST(ReplyCache, DropsTheLeastRecentlyUsed) {

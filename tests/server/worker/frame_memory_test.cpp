@@ -16,6 +16,26 @@ TEST(FrameMemory, CountsPixelsViewsAndFormat) {
   EXPECT_EQ(frameBytes(spec), 2u * 100 * 50 * 16);
 }
 
+TEST(FrameMemory, CountsWhatEncodingHolds) {
+  FrameSpec spec;
+  spec.width = 100;
+  spec.height = 50;
+  spec.views = {View::color, View::depth};
+  const auto pixelBytes = [&](ImageFormat format) {
+    spec.output.format = format;
+    return frameBytes(spec) / (100 * 50);
+  };
+  EXPECT_EQ(pixelBytes(ImageFormat::tiff), 2u * (16 + 16) + 16);
+  EXPECT_EQ(pixelBytes(ImageFormat::npy), (4 + 4) + (16 + 16) + 16u) << "colors are bytes";
+  EXPECT_EQ(pixelBytes(ImageFormat::npz), (4 + 4) + (16 + 16) + 32u);
+  EXPECT_EQ(pixelBytes(ImageFormat::jpeg), 2u * (4 + 4));
+  EXPECT_EQ(pixelBytes(ImageFormat::webp), 2u * (4 + 4) + 16);
+  spec.output.arrayColors = ArrayColors::linear;
+  EXPECT_EQ(pixelBytes(ImageFormat::npy), 2u * (16 + 16) + 16);
+  spec.output.pngBits = 16;
+  EXPECT_EQ(pixelBytes(ImageFormat::png), 2u * 8);
+}
+
 TEST(FrameMemory, TheAtlasHasItsOwnSize) {
   FrameSpec spec;
   spec.views = {View::atlas};
