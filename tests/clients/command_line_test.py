@@ -6,6 +6,7 @@ import os
 import subprocess
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 
 from shipped_server import BINARY, EXR_MAGIC, SCENES, TIMEOUT, Server, environment, png_size
@@ -72,7 +73,7 @@ class Usage(CommandLine):
             ["paint"],
             ["render"],
             ["render", BOX],
-            ["render", BOX, "-o", "a.jpg"],
+            ["render", BOX, "-o", "a.gif"],
             ["render", BOX, "-o", "a.png", "--sun", "135"],
             ["render", BOX, "-o", "a.png", "--size", "64"],
             ["render", BOX, "-o", "a.png", "--size", "64x48", "--width", "3"],
@@ -145,6 +146,18 @@ class Render(CommandLine):
         self.output = self.folder / "frame.exr"
         self.render("--view", "color", "--view", "depth")
         self.assertEqual(self.output.read_bytes()[:4], EXR_MAGIC)
+        for suffix, magic in (("npy", b"\x93NUMPY"), ("npz", b"PK\3\4"), ("tiff", b"II*\0"), ("tif", b"II*\0"),
+                              ("jpg", b"\xff\xd8\xff"), ("jpeg", b"\xff\xd8\xff"), ("webp", b"RIFF")):
+            self.output = self.folder / f"frame.{suffix}"
+            self.render()
+            self.assertTrue(self.output.read_bytes().startswith(magic), suffix)
+
+    def test_one_npz_holds_every_view(self):
+        self.output = self.folder / "frame.npz"
+        self.render("--view", "color", "--view", "depth")
+        with zipfile.ZipFile(self.output) as archive:
+            self.assertEqual(archive.namelist(), ["color.npy", "depth.npy", "report.json"])
+        self.assertEqual(os.listdir(self.folder), ["frame.npz"])
 
     def test_several_views_are_several_files(self):
         run = self.render("--view", "color", "--view", "shadow")
@@ -252,6 +265,12 @@ class WithServer(CommandLine):
         self.output = self.folder / "frame.exr"
         here, there = self.both("--view", "color", "--view", "depth")
         self.assertEqual(here, there)
+
+    def test_the_same_file_of_every_other_format_here_and_there(self):
+        for suffix in ("npy", "tiff", "jpg", "webp"):
+            self.output = self.folder / f"frame.{suffix}"
+            here, there = self.both("--view", "normal")
+            self.assertEqual(here, there)
 
     def test_files_are_uploaded_with_their_model(self):
         here, there = self.both(scene=split_glb(Path(BOX).read_bytes(), self.folder))

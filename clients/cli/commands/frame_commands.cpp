@@ -62,7 +62,8 @@ int runRender(RenderOptions options) {
 }
 
 std::string checkOutput(const std::string& output) {
-  return output == "-" || formatOf(output) ? "" : "needs a name that ends in .png or .exr, or - for standard output";
+  if (output == "-" || formatOf(output)) return "";
+  return "needs a name that ends in one of " + suffixList() + ", or - for standard output";
 }
 
 struct PlanOptions {
@@ -102,8 +103,9 @@ Subcommand addRenderCommand(CLI::App& app) {
   command
       ->add_option(
           "-o,--output", options->output,
-          "The picture, .png or .exr; - is standard output. With several views as PNG, each file name gets the "
-          "view's name: frame.depth.png")
+          "The picture; its name's suffix is its format: " + suffixList() +
+              ". - is standard output. Of several views, each file name gets the view's name, frame.depth.png, but for "
+              "EXR and NPZ, which hold every view")
       ->required()
       ->check(checkOutput);
   command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "protocol/spec/format_traits.h"
+
 namespace gnomon::cli {
 namespace {
 
@@ -86,10 +88,22 @@ Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
 }
 
 std::optional<std::string> formatOf(const std::string& output) {
-  const auto suffix = std::filesystem::path(output).extension();
-  if (suffix == ".png") return "png";
-  if (suffix == ".exr") return "exr";
+  const std::string suffix = std::filesystem::path(output).extension();
+  if (suffix.empty()) return std::nullopt;
+  for (const FormatTraits& traits : kFormatTraits) {
+    if (suffix == traits.suffix || suffix == traits.otherSuffix) return std::string(spell(traits.format));
+  }
   return std::nullopt;
+}
+
+std::string suffixList() {
+  std::string list;
+  for (const FormatTraits& traits : kFormatTraits) {
+    for (const std::string_view suffix : {traits.suffix, traits.otherSuffix}) {
+      if (!suffix.empty()) list.append(list.empty() ? "" : " ").append(suffix);
+    }
+  }
+  return list;
 }
 
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount) {

@@ -21,8 +21,11 @@ Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 /// Puts the file in place in one step: whoever looks sees the old file or the whole new one. "-" is standard output.
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// "png" or "exr" by the name's suffix; nothing for any other, and for "-" (standard output).
+/// The `output.format` that the name's suffix stands for; nothing for any other, and for "-" (standard output).
 std::optional<std::string> formatOf(const std::string& output);
+
+/// Every suffix that formatOf knows: ".png .exr ...".
+std::string suffixList();
 
 /// Where a picture goes: the output itself, or, one of several, "frame.depth.png" for view depth of "frame.png".
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);

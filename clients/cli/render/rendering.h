@@ -16,13 +16,13 @@ namespace gnomon::cli {
 
 /// An encoded picture.
 struct Picture {
-  std::string view; ///< its name; of an EXR, which holds every view, the first one's
-  Bytes file;       ///< PNG or EXR
+  std::string view; ///< its name; of a file that holds every view, the first one's
+  Bytes file;       ///< in the spec's format
 };
 
 /// What a frame gives, wherever it was rendered: the same spec gives the same pictures here and there.
 struct Rendered {
-  std::vector<Picture> pictures; ///< one per view as PNG, one for all as EXR
+  std::vector<Picture> pictures; ///< one per view, or one for all, as the format has it
   std::string reportJson;
 };
 

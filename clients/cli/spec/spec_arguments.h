@@ -33,7 +33,7 @@ struct SpecArguments {
   std::optional<std::vector<double>> orbit; ///< --orbit: azimuth, elevation, distance if a third
   std::optional<std::array<double, 2>> sun; ///< --sun: azimuth, elevation
   std::vector<std::string> views;           ///< --view
-  std::optional<std::string> format;        ///< from the output's suffix: "png" | "exr"
+  std::optional<std::string> format;        ///< `output.format`, from the output's suffix
   std::vector<std::pair<std::string, std::string>> sets; ///< --set: dotted path, value
 };
 

@@ -29,7 +29,12 @@ TEST(ProblemLine, CantSteerTheTerminal) {
 TEST(OutputFiles, FormatIsTheSuffix) {
   EXPECT_EQ(formatOf("a/frame.png"), "png");
   EXPECT_EQ(formatOf("frame.b.exr"), "exr");
-  for (const char* name : {"-", "frame", "frame.jpg", "frame.PNG", ".png", "png"}) EXPECT_FALSE(formatOf(name)) << name;
+  EXPECT_EQ(formatOf("frame.tif"), "tiff");
+  EXPECT_EQ(formatOf("frame.tiff"), "tiff");
+  EXPECT_EQ(formatOf("frame.jpg"), "jpeg");
+  EXPECT_EQ(formatOf("frame.jpeg"), "jpeg");
+  for (const char* name : {"-", "frame", "frame.gif", "frame.PNG", ".png", "png"}) EXPECT_FALSE(formatOf(name)) << name;
+  EXPECT_EQ(suffixList(), ".png .exr .npy .npz .tiff .tif .jpg .jpeg .webp");
 }
 
 TEST(OutputFiles, SeveralPicturesGetTheirViewsNames) {
