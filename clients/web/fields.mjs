@@ -143,6 +143,7 @@ export const kViews = [
   ['instances', 'Instances', 'A colour for each copy of a mesh'],
   ['albedo', 'Albedo', 'Base colour, without light'],
   ['position', 'Position', 'Place in the scene’s bounds, as a colour'],
+  ['motion', 'Motion', 'How far each point has moved since the last picture: the direction as a hue, white = not at all'],
   ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
 ];
 

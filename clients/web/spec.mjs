@@ -3,10 +3,16 @@
 import { removePath } from './paths.mjs';
 
 // The sharp picture of the present state. `size` is used where the user chose none.
-export function fullSpec({ spec, view }, size) {
+export function fullSpec({ spec, view, report }, size) {
   const sized = spec.width && spec.height ? spec : { ...size, ...spec };
-  return { ...sized, views: [view] };
+  const motion = view === 'motion' && !spec.motionFrom ? { motionFrom: momentOf(report) } : {};
+  return { ...sized, ...motion, views: [view] };
 }
+
+// What the last picture showed.
+const momentOf = (report) => (report ? { camera: report.spec.camera, animation: report.spec.animation ?? {}, nodes: placesOf(report.spec.nodes) } : {});
+const placesOf = (nodes = []) =>
+  nodes.map(({ visible, castShadow, receiveShadow, layers, ...place }) => place).filter((place) => Object.keys(place).length > 1);
 
 // The same, cheap enough to follow the hand: fewer pixels, no antialiasing.
 export function draftSpec(state, size, scale) {

@@ -144,7 +144,7 @@ class Run {
 
 Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer,
                                   const EvaluationTools& tools, const EvaluationListener& listener) {
-  const auto posed = posedScene(scene, evaluation.spec.animation);
+  const auto posed = posedScene(scene, poseOf(evaluation.spec));
   if (!posed) return inSpec(posed.problems());
   if (const auto base = resolveFrame(**posed, evaluation.spec); !base) return inSpec(base.problems());
   return Run(scene, evaluation, tools, listener).run(renderer);

@@ -76,7 +76,7 @@ void addPrediction(const FrameReport& report, int light, std::optional<Predicted
 } // namespace
 
 Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size_t index) {
-  const auto posed = posedScene(loaded, variant.spec.animation);
+  const auto posed = posedScene(loaded, poseOf(variant.spec));
   if (!posed) return posed.problems();
   const Scene& scene = **posed;
   auto frame = resolveFrame(scene, variant.spec);
@@ -115,7 +115,7 @@ std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>
 }
 
 Result<const TracedScene*> Truth::traced(const ResolvedFrame& frame) {
-  auto posed = posedScene(scene_, frame.spec.animation);
+  auto posed = posedScene(scene_, poseOf(frame.spec));
   if (!posed) return posed.problems();
   if (traced_ && &traced_->scene() == posed->get() && tracedIndex_ == frame.scene) return &*traced_;
   const auto begin = std::chrono::steady_clock::now();

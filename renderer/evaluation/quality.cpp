@@ -143,7 +143,7 @@ FrameSpec withChoice(const FrameSpec& spec, const QualityReport& report) {
 }
 
 Result<std::string> viewClass(const Scene& loaded, const FrameSpec& spec) {
-  const auto posed = posedScene(loaded, spec.animation);
+  const auto posed = posedScene(loaded, poseOf(spec));
   if (!posed) return posed.problems();
   const Scene& scene = **posed;
   FrameSpec settled = spec;

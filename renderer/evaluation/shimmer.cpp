@@ -148,7 +148,7 @@ Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, c
                    std::to_string(path.size())};
   }
   if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
-  const auto posed = posedScene(loaded, spec.animation);
+  const auto posed = posedScene(loaded, poseOf(spec));
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
   auto frames = resolvePath(*scene, measured(spec), path);

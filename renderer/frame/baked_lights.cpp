@@ -1,11 +1,13 @@
 #include "renderer/frame/baked_lights.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "protocol/bake/bake_json.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -20,19 +22,18 @@ std::span<const glm::vec3> verticesOf(const Scene& scene, const Instance& instan
   return std::span(scene.positions).subspan(primitive.baseVertex, primitive.vertexCount);
 }
 
-/// The node that a pose moves away from where the file has it, or whose mesh it deforms; -1 = there is none.
-int movedNode(const FrameScene& scene, int index) {
-  if (scene.loaded == scene.posed) return -1;
-  const std::vector<Instance>& still = scene.loaded->scenes[static_cast<std::size_t>(index)].instances;
-  const std::vector<Instance>& posed = scene.posed->scenes[static_cast<std::size_t>(index)].instances;
-  const bool deformed = scene.loaded->positions != scene.posed->positions;
+/// The node that an animation moves away from where it stands without, or whose mesh it deforms; -1 = there is none.
+int movedNode(const Scene& without, const Scene& with, int index) {
+  const std::vector<Instance>& still = without.scenes[static_cast<std::size_t>(index)].instances;
+  const std::vector<Instance>& moved = with.scenes[static_cast<std::size_t>(index)].instances;
+  const bool deformed = without.positions != with.positions;
   const auto same = [&](const Instance& a, const Instance& b) {
     if (a.worldFromLocal != b.worldFromLocal || a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max)
       return false;
-    return !deformed || std::ranges::equal(verticesOf(*scene.loaded, a), verticesOf(*scene.posed, b));
+    return !deformed || std::ranges::equal(verticesOf(without, a), verticesOf(with, b));
   };
-  const auto [a, b] = std::mismatch(still.begin(), still.end(), posed.begin(), posed.end(), same);
-  return b == posed.end() ? -1 : b->node;
+  const auto [a, b] = std::mismatch(still.begin(), still.end(), moved.begin(), moved.end(), same);
+  return b == moved.end() ? -1 : b->node;
 }
 
 std::string nameOf(const Scene& scene, int node) {
@@ -56,11 +57,17 @@ Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, Trace
                                                       const FrameScene& scene, const FrameSpec& asked,
                                                       const ResolvedFrame& frame, const BakeProgress& progress) {
   std::vector<LightMapCache::Found> found;
+  std::optional<int> moved;
   for (const int light : layeredLights(frame)) {
     const Shadow& shadow = *(*frame.spec.lights)[static_cast<std::size_t>(light)].shadow;
     if (!traitsOf(shadow.technique).baked) continue;
     const std::string pointer = shadowPointer(asked, light);
-    if (const int node = movedNode(scene, frame.scene); node >= 0) {
+    if (!moved) {
+      const auto still = posedScene(scene.loaded, {.nodes = frame.spec.nodes});
+      if (!still) return still.problems();
+      moved = movedNode(**still, *scene.posed, frame.scene);
+    }
+    if (const int node = *moved; node >= 0) {
       return Problem{ProblemCode::unsupportedFeature, pointer + "/technique",
                      "A light map holds the shadow of what stands still, but this pose moves node " +
                          nameOf(*scene.loaded, node) + ".",

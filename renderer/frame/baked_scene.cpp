@@ -23,7 +23,7 @@ std::vector<int> lightsToBake(const ResolvedFrame& frame) {
 Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Scene>& scene, const FrameSpec& spec,
                              const BakeListener& listener) {
   const auto start = std::chrono::steady_clock::now();
-  const auto posed = posedScene(scene, spec.animation);
+  const auto posed = posedScene(scene, poseOf(spec));
   if (!posed) return posed.problems();
   FrameSpec seen = spec;
   seen.camera = Camera{};

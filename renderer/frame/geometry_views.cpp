@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/device/view_image.h"
+#include "renderer/frame/motion_view.h"
 
 namespace gnomon {
 namespace {
@@ -17,19 +19,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const Instance& instanceOf(const ShownGeometry& shown, const PlacedTriangle& triangle) {
   return shown.view.instances[triangle.instance];
-}
-
-/// The corners of a triangle, relative to the eye.
-std::array<glm::dvec3, 3> cornersOf(const ShownGeometry& shown, const PlacedTriangle& triangle) {
-  const Instance& instance = instanceOf(shown, triangle);
-  const Primitive& primitive = shown.scene.primitives[static_cast<std::size_t>(instance.primitive)];
-  std::array<glm::dvec3, 3> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::size_t index = shown.scene.indices[primitive.firstIndex + std::size_t{triangle.triangle} * 3 + i];
-    const glm::dvec4 local(glm::dvec3(shown.scene.positions[primitive.baseVertex + index]), 1.0);
-    corners[i] = glm::dvec3(instance.worldFromLocal * local) - shown.camera.eye;
-  }
-  return corners;
 }
 
 /// -1 = a surface that has none in the file: it shows the last, which loading adds.
@@ -45,6 +34,17 @@ int idOf(const ShownGeometry& shown, View view, const PlacedTriangle& triangle) 
   return view == View::ids ? instance.node : instance.copy;
 }
 
+/// Of a hue, 0..1 round the circle from red: from white to its full color, and from black.
+glm::vec3 colorOfHue(float turn, float saturation, float brightness) {
+  glm::vec3 color(0);
+  for (int i = 0; i < 3; ++i) {
+    const float at = turn + static_cast<float>(3 - i) / 3.0f;
+    const float full = std::clamp(std::abs((at - std::floor(at)) * 6.0f - 3.0f) - 1.0f, 0.0f, 1.0f);
+    color[i] = (1.0f + (full - 1.0f) * saturation) * brightness;
+  }
+  return color;
+}
+
 /// A hue for each index, far from those of its neighbours: steps of the golden ratio. Black for -1.
 glm::vec3 colorOf(int id) {
   if (id < 0) return glm::vec3(0);
@@ -52,16 +52,18 @@ glm::vec3 colorOf(int id) {
     const double turned = (id + 1) * ratio;
     return static_cast<float>(turned - std::floor(turned));
   };
-  const float turn = step(0.6180339887498949);
-  const float paleness = 0.55f + 0.4f * step(0.7548776662466927);
-  const float brightness = 0.7f + 0.3f * step(0.5698402909980532);
-  glm::vec3 color(0);
-  for (int i = 0; i < 3; ++i) {
-    const float at = turn + static_cast<float>(3 - i) / 3.0f;
-    const float full = std::clamp(std::abs((at - std::floor(at)) * 6.0f - 3.0f) - 1.0f, 0.0f, 1.0f);
-    color[i] = (1.0f + (full - 1.0f) * paleness) * brightness;
-  }
-  return color;
+  return colorOfHue(step(0.6180339887498949), 0.55f + 0.4f * step(0.7548776662466927),
+                    0.7f + 0.3f * step(0.5698402909980532));
+}
+
+/// White for no motion, and the full hue of its direction from `kFarMotion` pixels on: red to the right, then
+/// clockwise. Black where there is none.
+glm::vec3 colorOfMotion(const glm::dvec2& motion) {
+  constexpr double kFarMotion = 16;
+  const double length = glm::length(motion);
+  if (!std::isfinite(length)) return glm::vec3(0);
+  const double turn = std::atan2(motion.y, motion.x) / glm::two_pi<double>();
+  return colorOfHue(static_cast<float>(turn), static_cast<float>(std::min(length / kFarMotion, 1.0)), 1);
 }
 
 /// 0..1 along each side of the bounds; 0 along one that has no length.
@@ -94,6 +96,7 @@ template <class Number>
 std::vector<Number> colorsOf(const ShownGeometry& shown, View view) {
   return pixelsOf<Number>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, Number* out) {
     const glm::vec3 color = view == View::position ? placeIn(shown.view.bounds, seenPoint(shown, triangle, place))
+                            : view == View::motion ? colorOfMotion(motionAt(shown, *shown.earlier, triangle, place))
                                                    : colorOf(idOf(shown, view, triangle));
     for (int i = 0; i < 3; ++i) out[i] = unorm<Number>(color[i]);
   });
@@ -101,18 +104,59 @@ std::vector<Number> colorsOf(const ShownGeometry& shown, View view) {
 
 } // namespace
 
-glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
-  if (triangle.instance == kNoSurface) return glm::dvec3(kInfinity);
-  const auto [a, b, c] = cornersOf(shown, triangle);
+std::array<glm::dvec3, 3> cornersOf(const Scene& scene, const Instance& instance, std::uint32_t triangle,
+                                    const glm::dvec3& eye) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t index = scene.indices[primitive.firstIndex + std::size_t{triangle} * 3 + i];
+    const glm::dvec4 local(glm::dvec3(scene.positions[primitive.baseVertex + index]), 1.0);
+    corners[i] = glm::dvec3(instance.worldFromLocal * local) - eye;
+  }
+  return corners;
+}
+
+namespace {
+
+/// Relative to the eye; not finite where the triangle is seen edge-on.
+glm::dvec3 onPlane(const ShownGeometry& shown, const std::array<glm::dvec3, 3>& corners, glm::dvec2 place) {
+  const auto& [a, b, c] = corners;
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const glm::dvec2 ndc(2 * place.x / shown.width - 1, 1 - 2 * place.y / shown.height);
   const glm::dvec3 begin = pointAt(shown.camera, ndc, 0);
   const glm::dvec3 way = pointAt(shown.camera, ndc, 1) - begin;
-  const double along = glm::dot(normal, way);
-  const glm::dvec3 point = begin + way * (glm::dot(normal, a - begin) / along);
+  return begin + way * (glm::dot(normal, a - begin) / glm::dot(normal, way));
+}
+
+bool isFinite(const glm::dvec3& v) {
+  return glm::all(glm::lessThan(glm::abs(v), glm::dvec3(kInfinity)));
+}
+
+std::array<glm::dvec3, 3> shownCorners(const ShownGeometry& shown, const PlacedTriangle& triangle) {
+  return cornersOf(shown.scene, instanceOf(shown, triangle), triangle.triangle, shown.camera.eye);
+}
+
+} // namespace
+
+glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
+  if (triangle.instance == kNoSurface) return glm::dvec3(kInfinity);
+  const auto corners = shownCorners(shown, triangle);
+  const glm::dvec3 point = onPlane(shown, corners, place);
   // Of a triangle that is seen edge-on any point does.
-  return glm::all(glm::lessThan(glm::abs(point), glm::dvec3(kInfinity))) ? shown.camera.eye + point
-                                                                         : shown.camera.eye + a;
+  return shown.camera.eye + (isFinite(point) ? point : corners[0]);
+}
+
+glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
+  const auto corners = shownCorners(shown, triangle);
+  const glm::dvec3 ab = corners[1] - corners[0];
+  const glm::dvec3 ac = corners[2] - corners[0];
+  const glm::dvec3 ap = onPlane(shown, corners, place) - corners[0];
+  const glm::dvec3 normal = glm::cross(ab, ac);
+  const double area = glm::dot(normal, normal);
+  const double b = glm::dot(normal, glm::cross(ap, ac)) / area;
+  const double c = glm::dot(normal, glm::cross(ab, ap)) / area;
+  const glm::dvec3 weights(1 - b - c, b, c);
+  return isFinite(weights) ? weights : glm::dvec3(1, 0, 0);
 }
 
 Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {
@@ -125,6 +169,11 @@ Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {
     image.pixels = pixelsOf<float>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, float* out) {
       const glm::dvec3 point = seenPoint(shown, triangle, place);
       for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(point[i]);
+    });
+  } else if (view == View::motion) {
+    image.pixels = pixelsOf<float>(shown, 2, [&](const PlacedTriangle& triangle, glm::dvec2 place, float* out) {
+      const glm::dvec2 moved = motionAt(shown, *shown.earlier, triangle, place);
+      for (int i = 0; i < 2; ++i) out[i] = static_cast<float>(moved[i]);
     });
   } else {
     image.pixels = pixelsOf<float>(shown, 1, [&](const PlacedTriangle& triangle, glm::dvec2, float* out) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "protocol/spec/format_traits.h"
@@ -11,6 +12,8 @@
 /// device found the triangles.
 namespace gnomon {
 
+struct EarlierMoment;
+
 /// The triangles that a camera sees; first row on top.
 struct ShownGeometry {
   const Scene& scene;
@@ -19,10 +22,23 @@ struct ShownGeometry {
   int width = 0; ///< pixels
   int height = 0;
   std::vector<PlacedTriangle> triangles{};
+  const EarlierMoment* earlier = nullptr; ///< what view motion compares with; needed by that alone
 };
 
 /// A view of source `geometry`, as View says: numbers, or what they are seen as.
 Image geometryView(const ShownGeometry& shown, View view, PixelType pixels);
+
+/// The corners of a triangle of an instance, relative to `eye`.
+std::array<glm::dvec3, 3> cornersOf(const Scene& scene, const Instance& instance, std::uint32_t triangle,
+                                    const glm::dvec3& eye);
+
+/// How much each corner counts in the point where the ray through a place on the picture meets the plane of a triangle;
+/// their sum is 1. Of a triangle that is seen edge-on, the first alone. REQUIRES: there is a triangle.
+glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place);
+
+inline glm::dvec3 pointOf(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& weights) {
+  return corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+}
 
 /// Where the ray through a place on the picture (pixels, from the upper left corner) meets the plane of a triangle, in
 /// the world. Infinite where it does not.

@@ -7,6 +7,7 @@
 #include "renderer/core/vec3.h"
 #include "renderer/reference/trace.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/scene/animation/node_places.h"
 #include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
@@ -23,11 +24,31 @@ class Values {
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
     return *this;
   }
+  Values& add(const std::string& text) {
+    add(text.size());
+    text_.append(text);
+    return *this;
+  }
   std::string take() { return std::move(text_); }
 
  private:
   std::string text_;
 };
+
+void addPlace(const NodeOptions& entry, Values& text) {
+  const auto addPart = [&](const auto& part) {
+    text.add(part.has_value());
+    if (part) text.add(*part);
+  };
+  if (!hasPlace(entry)) return;
+  const int* index = std::get_if<int>(&*entry.node);
+  text.add(index != nullptr ? *index : -1);
+  if (index == nullptr) text.add(std::get<std::string>(*entry.node));
+  addPart(entry.matrix);
+  addPart(entry.translation);
+  addPart(entry.rotation);
+  addPart(entry.scale);
+}
 
 bool isShadowing(const ShiningLights& shining, std::size_t light) {
   return std::find(shining.shadowing.begin(), shining.shadowing.end(), static_cast<int>(light)) !=
@@ -66,6 +87,7 @@ std::string castersText(const ResolvedFrame& frame) {
     text.add(moment->timeSeconds).add(moment->index.value_or(-1));
     pose = moment->name.value_or("");
   }
+  for (const NodeOptions& entry : frame.spec.nodes) addPlace(entry, text);
   return text.take() + pose;
 }
 

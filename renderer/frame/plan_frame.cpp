@@ -35,7 +35,7 @@ void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene&
 } // namespace
 
 Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const RendererInfo& device) {
-  const auto posed = posedScene(loaded, spec.animation);
+  const auto posed = posedScene(loaded, poseOf(spec));
   if (!posed) return posed.problems();
   const Scene& scene = **posed;
   const auto frame = resolveFrame(scene, spec);

@@ -7,6 +7,7 @@
 #include "renderer/frame/baked_lights.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
+#include "renderer/frame/motion_view.h"
 #include "renderer/frame/predicted_displacement.h"
 #include "renderer/frame/volumes_of_frame.h"
 #include "renderer/prepare/light_lists.h"
@@ -19,9 +20,13 @@
 namespace gnomon {
 namespace {
 
+bool shows(const FrameSpec& spec, View view) {
+  return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
+}
+
 Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
                          TileUse tiles) {
-  const auto posed = posedScene(loaded, spec.animation);
+  const auto posed = posedScene(loaded, poseOf(spec));
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
   auto resolved = resolveFrame(*scene, spec);
@@ -30,6 +35,13 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   resolved->spec.device = device.info().device;
   const FrameSpec& effective = resolved->spec;
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
+  std::optional<EarlierMoment> earlier;
+  if (shows(effective, View::motion)) {
+    auto moment = earlierMoment(loaded, spec, view);
+    if (!moment) return moment.problems();
+    earlier = *std::move(moment);
+    resolved->spec.motionFrom->camera = earlier->settledCamera;
+  }
   const std::vector<int> layered = layeredLights(*resolved);
   const std::vector<int> mapped = mappedLights(*resolved, view, device.info());
   const auto tracedScene = [&] { return caches.traced.get(scene, resolved->scene); };
@@ -103,8 +115,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (views.needGeometry()) {
     auto triangles = drawing.shownTriangles();
     if (!triangles) return triangles.problems();
-    geometry.emplace(
-        ShownGeometry{*scene, view, resolved->view, effective.width, effective.height, *std::move(triangles)});
+    geometry.emplace(ShownGeometry{*scene, view, resolved->view, effective.width, effective.height,
+                                   *std::move(triangles), earlier ? &*earlier : nullptr});
   }
 
   auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr);

@@ -41,11 +41,12 @@ std::vector<gl::VertexAttribute> allAttributes() {
 } // namespace
 
 SceneVertices sceneVertices(const GpuScene& scene, const gl::Buffer& instances) {
-  const std::array<gl::VertexStream, 3> streams{{{&scene.positions, sizeof(glm::vec3), 0, 0},
-                                                 {&scene.attributes, sizeof(VertexAttributes), 0, 0},
+  const GpuMeshes& meshes = *scene.meshes;
+  const std::array<gl::VertexStream, 3> streams{{{&meshes.positions, sizeof(glm::vec3), 0, 0},
+                                                 {&meshes.attributes, sizeof(VertexAttributes), 0, 0},
                                                  {&instances, sizeof(shared::InstanceData), 0, 1}}};
-  return {{streams, allAttributes(), &scene.indices, "scene vertices"},
-          {streams, positionAttributes(), &scene.welded, "scene positions"}};
+  return {{streams, allAttributes(), &meshes.indices, "scene vertices"},
+          {streams, positionAttributes(), &meshes.welded, "scene positions"}};
 }
 
 SceneVertices mappedVertices(const GpuMappedScene& scene, const gl::Buffer& instances) {

@@ -102,18 +102,26 @@ std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene) {
   return gpu;
 }
 
-GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuTextures> textures) {
+std::shared_ptr<const GpuMeshes> uploadMeshes(const Scene& scene) {
+  auto gpu = std::make_shared<GpuMeshes>();
+  gpu->positions = gl::Buffer(gl::bytesOf(*scene.positions), "positions");
+  gpu->attributes = gl::Buffer(gl::bytesOf(*scene.attributes), "attributes");
+  gpu->indices = gl::Buffer(gl::bytesOf(*scene.indices), "indices");
+  gpu->welded = gl::Buffer(gl::bytesOf(*scene.welded), "welded indices");
+  gpu->bytes = gpu->positions.bytes() + gpu->attributes.bytes() + gpu->indices.bytes() + gpu->welded.bytes();
+  return gpu;
+}
+
+GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuMeshes> meshes,
+                     std::shared_ptr<const GpuTextures> textures) {
   GpuScene gpu;
-  gpu.positions = gl::Buffer(gl::bytesOf(scene.positions), "positions");
-  gpu.attributes = gl::Buffer(gl::bytesOf(scene.attributes), "attributes");
-  gpu.indices = gl::Buffer(gl::bytesOf(scene.indices), "indices");
-  gpu.welded = gl::Buffer(gl::bytesOf(scene.welded), "welded indices");
   for (const SceneView& view : scene.scenes) {
     gpu.anchored.emplace_back(gl::bytesOf(instanceData(frameGeometry(scene, view, anchorOf(view)))),
                               "anchored instances");
     gpu.bytes += gpu.anchored.back().bytes();
   }
-  gpu.bytes += gpu.positions.bytes() + gpu.attributes.bytes() + gpu.indices.bytes() + gpu.welded.bytes();
+  gpu.bytes += meshes->bytes;
+  gpu.meshes = std::move(meshes);
 
   std::vector<shared::MaterialData> data;
   for (const Material& material : scene.materials) data.push_back(materialData(material));

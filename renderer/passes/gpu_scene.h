@@ -31,13 +31,19 @@ struct GpuTextures {
   std::size_t bytes = 0; ///< of device memory, about
 };
 
-/// A scene's geometry and materials on the device. Made once per scene.
-struct GpuScene {
-  std::uint64_t id = 0;  ///< of the upload: no two have the same
+/// A scene's triangles, on the device.
+struct GpuMeshes {
   gl::Buffer positions;  ///< vec3
   gl::Buffer attributes; ///< VertexAttributes
   gl::Buffer indices;
-  gl::Buffer welded;                           ///< indices for draws that read positions only
+  gl::Buffer welded;     ///< indices for draws that read positions only
+  std::size_t bytes = 0; ///< of device memory
+};
+
+/// A scene's geometry and materials on the device. Made once per scene.
+struct GpuScene {
+  std::uint64_t id = 0;                        ///< of the upload: no two have the same
+  std::shared_ptr<const GpuMeshes> meshes;     ///< poses of a scene share them where none is deformed
   gl::Buffer materialData;                     ///< shared::MaterialData
   std::shared_ptr<const GpuTextures> textures; ///< the poses of a scene share them
   std::vector<gl::Buffer> anchored;            ///< shared::InstanceData relative to anchorOf, one a glTF scene
@@ -46,7 +52,10 @@ struct GpuScene {
 
 std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene);
 
-/// `textures`: of this scene, or of another pose of it.
-GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuTextures> textures);
+std::shared_ptr<const GpuMeshes> uploadMeshes(const Scene& scene);
+
+/// `meshes` and `textures`: of this scene, or of another pose of it that has the same.
+GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuMeshes> meshes,
+                     std::shared_ptr<const GpuTextures> textures);
 
 } // namespace gnomon

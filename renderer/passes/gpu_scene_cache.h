@@ -2,7 +2,6 @@
 
 #include <list>
 #include <memory>
-#include <optional>
 
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/scene/mesh_edges.h"
@@ -23,13 +22,14 @@ class GpuSceneCache {
   struct Entry {
     std::weak_ptr<const Scene> scene;
     GpuScene gpu;
-    std::optional<std::vector<EdgeMesh>> edges{};
+    std::shared_ptr<const std::vector<EdgeMesh>> edges{};
 
     std::size_t bytes() const { return gpu.bytes + (edges ? bytesOf(*edges) : 0); }
   };
 
   Entry& entryOf(const std::shared_ptr<const Scene>& scene);
   std::shared_ptr<const GpuTextures> texturesOf(const Scene& scene) const;
+  const Entry* sameMeshes(const Scene& scene) const;
   void drop();
 
   std::size_t budgetBytes_;

@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <optional>
-#include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "protocol/base/result.h"
-#include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
+#include "renderer/scene/found_nodes.h"
 
 namespace gnomon {
 namespace {
-
-using NodesByName = std::unordered_multimap<std::string_view, std::size_t>;
-
-NodesByName nodesByName(const Scene& scene) {
-  NodesByName nodes;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.emplace(scene.nodes[i].name, i);
-  return nodes;
-}
 
 /// Brings the switches that `entry` sets.
 void addSwitches(const NodeOptions& entry, NodeOptions& switches) {
@@ -34,26 +23,15 @@ void addSwitches(const NodeOptions& entry, NodeOptions& switches) {
 /// What the entries say of each node itself.
 Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entries, const Scene& scene) {
   std::vector<NodeOptions> own(scene.nodes.size());
-  std::optional<NodesByName> byName;
+  NodeFinder finder(scene);
   ProblemList problems;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::string pointer = "/nodes/" + std::to_string(i) + "/node";
-    if (const int* index = std::get_if<int>(&*entries[i].node)) {
-      const auto node = static_cast<std::size_t>(*index);
-      if (node < own.size()) {
-        addSwitches(entries[i], own[node]);
-      } else {
-        problems.add(noNodeOfIndex(*index, scene, pointer));
-      }
-      continue;
+    const auto found = finder.find(*entries[i].node, "/nodes/" + std::to_string(i) + "/node");
+    if (found) {
+      for (const std::size_t node : *found) addSwitches(entries[i], own[node]);
+    } else {
+      for (const Problem& problem : found.problems()) problems.add(problem);
     }
-    if (!byName) byName = nodesByName(scene);
-    const std::string& name = std::get<std::string>(*entries[i].node);
-    const auto [first, last] = byName->equal_range(name);
-    if (first == last) {
-      problems.add({ProblemCode::invalidValue, pointer, "The file has no node of that name.", nodeNames(scene), name});
-    }
-    std::for_each(first, last, [&](const auto& found) { addSwitches(entries[i], own[found.second]); });
   }
   if (!problems.empty()) return std::move(problems).take();
   return own;
@@ -90,20 +68,6 @@ NodeSwitches settled(const NodeOptions& options) {
 }
 
 } // namespace
-
-std::string nodeNames(const Scene& scene) {
-  std::vector<std::string_view> names;
-  for (const SceneNode& node : scene.nodes) {
-    if (!node.name.empty()) names.push_back(node.name);
-  }
-  return names.empty() ? "no node has a name" : oneOf(names);
-}
-
-Problem noNodeOfIndex(int index, const Scene& scene, std::string pointer) {
-  return {ProblemCode::invalidValue, std::move(pointer), "The file has no node of that index.",
-          scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1),
-          std::to_string(index)};
-}
 
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene) {
   std::vector<NodeSwitches> nodes;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -10,12 +9,6 @@
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
-
-/// What a problem with a node's name says there is: names in the file's order.
-std::string nodeNames(const Scene& scene);
-
-/// The problem of an index that no node has.
-Problem noNodeOfIndex(int index, const Scene& scene, std::string pointer);
 
 /// The switches of every node of the file, by its index: of each switch the nearest entry up the tree counts, and of
 /// two entries for one node the later. Empty where there are no entries: every node has the defaults. An entry that

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "renderer/resolve/resolve_nodes.h"
+#include "renderer/scene/found_nodes.h"
 #include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {

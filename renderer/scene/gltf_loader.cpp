@@ -70,18 +70,16 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   FlatScenes flat = flattenScenes(context, {tree, meshes, posed, scene->primitives}, !motion->animations.empty());
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = std::move(flat.views);
-  if (!motion->animations.empty()) {
-    motion->parents = tree.parents;
-    motion->order = tree.order;
-    motion->locals = tree.locals;
-    motion->visible = tree.visible;
-    if (std::ranges::any_of(motion->animations, [](const Animation& each) { return !each.properties.empty(); })) {
-      motion->properties = Properties{model.materials, model.cameras, model.lights};
-    }
-    motion->views = std::move(flat.moving);
-    scene->motion = std::move(motion);
-    scene->poses = std::make_shared<PoseCache>();
+  motion->parents = tree.parents;
+  motion->order = tree.order;
+  motion->locals = tree.locals;
+  motion->visible = tree.visible;
+  if (std::ranges::any_of(motion->animations, [](const Animation& each) { return !each.properties.empty(); })) {
+    motion->properties = Properties{model.materials, model.cameras, model.lights};
   }
+  motion->views = std::move(flat.moving);
+  scene->motion = std::move(motion);
+  scene->poses = std::make_shared<PoseCache>();
   scene->variants = model.variants;
   addVariantScenes(limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();

@@ -13,6 +13,7 @@
 #include "protocol/report/replies.h"
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
+#include "renderer/core/shared_vector.h"
 #include "renderer/scene/scene_image.h"
 
 namespace gnomon {
@@ -172,10 +173,10 @@ class PoseCache;
 /// A loaded glTF file, shared between threads: immutable but for `poses` and `images`, which lock
 /// themselves. At least one scene.
 struct Scene {
-  std::vector<glm::vec3> positions;         ///< of all primitives
-  std::vector<VertexAttributes> attributes; ///< parallel to positions
-  std::vector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
-  std::vector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
+  SharedVector<glm::vec3> positions;         ///< of all primitives
+  SharedVector<VertexAttributes> attributes; ///< parallel to positions
+  SharedVector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
+  SharedVector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
   std::vector<Material> materials;                           ///< at least one (the default material)
@@ -184,7 +185,7 @@ struct Scene {
   std::vector<SceneNode> nodes;                              ///< as the file numbers them
   std::vector<PlacedNode> placedNodes;                       ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation;            ///< of skins and morph targets; nullptr = nothing deforms
-  std::shared_ptr<const Motion> motion;                      ///< of animations; nullptr = nothing moves
+  std::shared_ptr<const Motion> motion;                      ///< what poses are made from; nullptr in a pose
   std::shared_ptr<PoseCache> poses;                          ///< the last poses asked for; beside motion
   std::vector<SceneView> scenes;     ///< the file's, and then all of them again for each variant
   std::vector<std::string> variants; ///< names of the file's material variants

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "renderer/scene/animation/motion.h"
+#include "renderer/scene/animation/node_places.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/posing/deformation.h"
@@ -22,6 +23,10 @@ std::uint64_t bundleBytes(const SceneBundle& bundle) {
 template <class T>
 std::uint64_t bytesIn(const std::vector<T>& values) {
   return values.size() * sizeof(T);
+}
+template <class T>
+std::uint64_t bytesIn(const SharedVector<T>& values) {
+  return bytesIn(*values);
 }
 
 std::uint64_t bytesIn(const Deformation& deformation) {
@@ -51,11 +56,11 @@ std::uint64_t bytesIn(const Motion& motion) {
   return bytes;
 }
 
-/// Of an animated scene with the poses that are kept.
+/// With the poses that are kept.
 MemorySummary memoryOf(const Scene& scene) {
   MemorySummary memory;
   memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
-  memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded) + bytesIn(scene.clusters);
+  memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded);
   for (const auto& image : scene.images) memory.images += image->bytes();
   for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
@@ -65,13 +70,15 @@ MemorySummary memoryOf(const Scene& scene) {
   for (const SceneView& view : scene.scenes) {
     memory.structure += bytesIn(view.roots) + bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
   }
-  if (scene.motion) {
-    constexpr std::uint64_t kCopies = 1 + PoseCache::kKept;
+  constexpr std::uint64_t kCopies = 1 + PoseCache::kKept;
+  if (scene.deformation) {
     memory.vertices *= kCopies;
     memory.indices *= kCopies;
-    memory.structure *= kCopies;
-    memory.animations = bytesIn(*scene.motion);
   }
+  memory.indices += bytesIn(scene.clusters) * kCopies;
+  memory.structure *= kCopies;
+  memory.structure += scene.nodes.size() * sizeof(NodePlace) * PoseCache::kKept;
+  memory.animations = bytesIn(*scene.motion);
   return memory;
 }
 
@@ -163,10 +170,8 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   summary.nodes = nodesOf(model, scene.defaultScene);
   summary.triangles = view.triangles;
   countContents(model, scene, view, summary);
-  if (scene.motion) {
-    for (const Animation& animation : scene.motion->animations) {
-      summary.animations.push_back({animation.name, animation.durationSeconds});
-    }
+  for (const Animation& animation : scene.motion->animations) {
+    summary.animations.push_back({animation.name, animation.durationSeconds});
   }
   if (!view.bounds.empty()) {
     summary.boundsMin = {view.bounds.min.x, view.bounds.min.y, view.bounds.min.z};

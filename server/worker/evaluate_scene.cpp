@@ -11,6 +11,7 @@ namespace {
 /// Equal for frames that one choice serves.
 std::string keyOf(const std::string& sceneId, const std::string& viewClass, FrameSpec spec) {
   spec.camera = Camera{};
+  spec.motionFrom.reset();
   return sceneId + "\n" + viewClass + "\n" + jsonText(toJson(spec));
 }
 

@@ -39,7 +39,7 @@ DepthFloor::DepthFloor(const Scene& scene, const FrameSpec& spec, int samples)
   Prepared& p = *prepared_;
   const ResolvedFrame frame = valueOf(resolveFrame(scene, spec));
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
-  p.gpu = uploadScene(scene, uploadTextures(scene));
+  p.gpu = uploadScene(scene, uploadMeshes(scene), uploadTextures(scene));
   const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye);
   p.instances = gl::Buffer(gl::bytesOf(instanceData(geometry)), "instances");
   p.vertices = sceneVertices(p.gpu, p.instances);

@@ -52,7 +52,7 @@ void requirePoses(const std::shared_ptr<const Scene>& scene) {
       AnimationMoment moment;
       moment.index = static_cast<int>(i);
       moment.timeSeconds = seconds;
-      const auto posed = posedScene(scene, moment);
+      const auto posed = posedScene(scene, {moment});
       if (!posed) {
         fuzz::requireSound(posed.problems());
         continue;

@@ -93,7 +93,8 @@ class VolumeDraws {
     state.depthOffset = offset;
     state.depthClamp = beyond;
     state.clipDistances = beyond ? 1 : 0;
-    return draw(caps, {{{&inputs_.gpu.positions, sizeof(glm::vec3), 0, 0}, instances()}}, false, program, state);
+    return draw(caps, {{{&inputs_.gpu.meshes->positions, sizeof(glm::vec3), 0, 0}, instances()}}, false, program,
+                state);
   }
 
   gl::VertexStream instances() const { return {&inputs_.instances, sizeof(shared::InstanceData), 0, 1}; }

@@ -44,7 +44,8 @@ struct Animation {
   double durationSeconds = 0;              ///< time of the last keyframe
 };
 
-/// A primitive where the nodes of a scene put it, whether or not the rest pose shows it.
+/// A primitive where the nodes of a scene put it, whether or not the rest pose shows it. What is hidden is there only
+/// in a file whose animations might show it.
 struct Placement {
   int node = 0;
   int primitive = 0;          ///< index into Scene::primitives
@@ -60,7 +61,7 @@ struct MovingView {
   std::vector<FileLight> lights;
 };
 
-/// What it takes to pose an animated file anew.
+/// What it takes to pose a file anew.
 struct Motion {
   std::vector<Animation> animations;
   std::vector<int> parents; ///< of the nodes; -1 for a root

@@ -28,14 +28,13 @@ struct MovedNodes {
   Weights weights;           ///< of those whose weights move
 };
 
-MovedNodes moveNodes(const Motion& motion, const Animation& animation, double timeSeconds) {
-  MovedNodes moved{motion.locals, motion.visible, {}};
+void animate(const Animation& animation, double timeSeconds, MovedNodes& nodes) {
   std::vector<double> value;
   for (const Channel& channel : animation.channels) {
     const Sampler& sampler = animation.samplers[channel.sampler];
     value.resize(sampler.components);
     sample(sampler, timeSeconds, value);
-    LocalTransform& local = moved.locals[static_cast<std::size_t>(channel.node)];
+    LocalTransform& local = nodes.locals[static_cast<std::size_t>(channel.node)];
     switch (channel.path) {
       case ChannelPath::translation:
         local.translation = {value[0], value[1], value[2]};
@@ -47,14 +46,20 @@ MovedNodes moveNodes(const Motion& motion, const Animation& animation, double ti
         local.scale = {value[0], value[1], value[2]};
         break;
       case ChannelPath::weights:
-        moved.weights[channel.node] = value;
+        nodes.weights[channel.node] = value;
         break;
       case ChannelPath::visibility:
-        moved.visible[static_cast<std::size_t>(channel.node)] = value[0] != 0;
+        nodes.visible[static_cast<std::size_t>(channel.node)] = value[0] != 0;
         break;
     }
   }
-  return moved;
+}
+
+MovedNodes moveNodes(const Motion& motion, const PoseInput& input) {
+  MovedNodes nodes{motion.locals, motion.visible, {}};
+  if (input.animation != nullptr) animate(*input.animation, input.timeSeconds, nodes);
+  for (const NodePlace& place : input.places) nodes.locals[place.node] = moved(nodes.locals[place.node], place);
+  return nodes;
 }
 
 /// What a pose places by.
@@ -72,19 +77,48 @@ std::vector<SkinPose> poseSkins(const Scene& scene, const NodePlaces& places) {
   return skins;
 }
 
-/// False where a vertex is not finite.
-bool poseVertices(const std::vector<SkinPose>& skins, const Weights& weights, Scene& scene) {
-  if (!scene.deformation) return true;
+bool isAtRest(const PosedPrimitive& posed, const std::vector<SkinPose>& skins, const std::vector<SkinPose>& resting,
+              const Weights& weights) {
+  if (const auto moving = weights.find(posed.node); moving != weights.end() && moving->second != posed.weights) {
+    return false;
+  }
+  const auto skin = static_cast<std::size_t>(posed.skin);
+  return posed.skin < 0 || skins[skin].localFromMesh == resting[skin].localFromMesh;
+}
+
+/// The vertices that are not as the rest pose has them. Nothing, or the node of one that is not finite.
+std::optional<std::size_t> poseVertices(const Motion& motion, const std::vector<SkinPose>& skins,
+                                        const Weights& weights, Scene& scene) {
+  if (!scene.deformation) return std::nullopt;
+  const std::vector<SkinPose> resting = poseSkins(scene, placeNodes(motion.order, motion.parents, motion.locals));
   for (const PosedPrimitive& posed : scene.deformation->posed) {
+    if (isAtRest(posed, skins, resting, weights)) continue;
     const Deformable& source = scene.deformation->deformables[static_cast<std::size_t>(posed.deformable)];
     const auto moving = weights.find(posed.node);
     const std::span<const glm::dmat4> joints =
         posed.skin < 0 ? std::span<const glm::dmat4>() : skins[static_cast<std::size_t>(posed.skin)].localFromMesh;
     const PosedShape shape = pose(source, moving == weights.end() ? posed.weights : moving->second, joints);
-    if (!finite(shape.bounds)) return false;
+    if (!finite(shape.bounds)) return static_cast<std::size_t>(posed.node);
     applyPose(shape, posed.primitive, scene);
   }
-  return true;
+  return std::nullopt;
+}
+
+/// Of what takes a node beyond what is finite: the nearest place above it, else any, else the animation.
+Problem lost(const Motion& motion, const PoseInput& input, std::size_t node) {
+  const NodePlace* mover = input.places.empty() ? nullptr : &input.places.back();
+  for (int up = static_cast<int>(node); up >= 0; up = motion.parents[static_cast<std::size_t>(up)]) {
+    const auto place = std::ranges::lower_bound(input.places, static_cast<std::size_t>(up), {}, &NodePlace::node);
+    if (place == input.places.end() || place->node != static_cast<std::size_t>(up)) continue;
+    mover = &*place;
+    break;
+  }
+  if (mover == nullptr) {
+    return {ProblemCode::invalidValue, "/animation", "The animation produces a non-finite value at this time.", "",
+            std::to_string(input.timeSeconds) + " seconds"};
+  }
+  return {ProblemCode::invalidValue, "/nodes/" + std::to_string(mover->entry),
+          "This place takes something beyond what is finite.", "", "node " + std::to_string(node)};
 }
 
 Problem disallowed(const std::string& pointer, double timeSeconds, const std::string& detail) {
@@ -117,8 +151,9 @@ Result<Properties> moveProperties(const Properties& rest, const Animation& anima
   return moved;
 }
 
-/// False where an instance is not finite. What is flat is left out.
-bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene, SceneView& view) {
+/// Nothing, or the node of an instance that is not finite. What is flat is left out.
+std::optional<std::size_t> placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene,
+                                          SceneView& view) {
   view.instances.reserve(moving.placements.size());
   stopIfAsked();
   for (const Placement& placement : moving.placements) {
@@ -134,12 +169,12 @@ bool placeInstances(const MovingView& moving, const PosedGraph& graph, const Sce
     instance.copy = placement.copy;
     instance.worldFromLocal = worldFromLocal;
     instance.bounds = transformed(worldFromLocal, primitive.bounds);
-    if (!finite(instance.bounds)) return false;
+    if (!finite(instance.bounds)) return node;
     view.bounds.add(instance.bounds);
     view.triangles += primitive.indexCount / 3;
     view.instances.push_back(instance);
   }
-  return true;
+  return std::nullopt;
 }
 
 void placeCameras(const MovingView& moving, const PosedGraph& graph, SceneView& view) {
@@ -164,17 +199,15 @@ void placeLights(const MovingView& moving, const PosedGraph& graph, SceneView& v
 
 } // namespace
 
-Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animation& animation, double timeSeconds) {
-  const Problem lost{ProblemCode::invalidValue, "/animation", "The animation produces a non-finite value at this time.",
-                     "", std::to_string(timeSeconds) + " seconds"};
+Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const PoseInput& input) {
   const Motion& motion = *scene.motion;
-  const MovedNodes moved = moveNodes(motion, animation, timeSeconds);
+  const MovedNodes nodes = moveNodes(motion, input);
   PosedGraph graph;
-  graph.places = placeNodes(motion.order, motion.parents, moved.locals);
-  if (firstLost(graph.places, motion.order)) return lost;
-  graph.hidden = hiddenNodes(motion.order, motion.parents, moved.visible);
-  if (!animation.properties.empty()) {
-    auto properties = moveProperties(*motion.properties, animation, timeSeconds);
+  graph.places = placeNodes(motion.order, motion.parents, nodes.locals);
+  if (const auto node = firstLost(graph.places, motion.order)) return lost(motion, input, *node);
+  graph.hidden = hiddenNodes(motion.order, motion.parents, nodes.visible);
+  if (input.animation != nullptr && !input.animation->properties.empty()) {
+    auto properties = moveProperties(*motion.properties, *input.animation, input.timeSeconds);
     if (!properties) return std::move(properties).problems();
     graph.properties = *std::move(properties);
   }
@@ -187,11 +220,13 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const Animati
   }
   if (!scene.placedNodes.empty()) posed->placedNodes = placedNodes(graph.places, graph.hidden);
   graph.skins = poseSkins(scene, graph.places);
-  if (!poseVertices(graph.skins, moved.weights, *posed)) return lost;
+  if (const auto node = poseVertices(motion, graph.skins, nodes.weights, *posed)) return lost(motion, input, *node);
   posed->scenes.assign(motion.views.size(), {});
   for (std::size_t i = 0; i < motion.views.size(); ++i) {
     posed->scenes[i].roots = scene.scenes[i].roots;
-    if (!placeInstances(motion.views[i], graph, *posed, posed->scenes[i])) return lost;
+    if (const auto node = placeInstances(motion.views[i], graph, *posed, posed->scenes[i])) {
+      return lost(motion, input, *node);
+    }
     placeCameras(motion.views[i], graph, posed->scenes[i]);
     placeLights(motion.views[i], graph, posed->scenes[i]);
   }

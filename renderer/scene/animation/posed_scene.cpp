@@ -43,35 +43,45 @@ Result<std::size_t> animationOf(const std::vector<Animation>& animations, const 
 
 } // namespace
 
-Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scene>& scene,
-                                                const std::optional<AnimationMoment>& moment) {
-  if (!moment || (!moment->index && !moment->name)) return scene;
-  static const std::vector<Animation> kNone;
-  const std::vector<Animation>& animations = scene->motion ? scene->motion->animations : kNone;
-  const auto index = animationOf(animations, *moment);
-  if (!index) return index.problems();
-  const Animation& animation = animations[*index];
-  // Beyond its ends nothing moves, so that all times there are one.
-  const double time = std::clamp(moment->timeSeconds, 0.0, animation.durationSeconds);
-  return scene->poses->get(*index, time, [&] { return poseScene(*scene, animation, time); });
+Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scene>& scene, const Pose& pose) {
+  const auto& moment = pose.animation;
+  const bool animated = moment && (moment->index || moment->name);
+  PoseCache::Key key;
+  PoseInput input;
+  if (animated) {
+    static const std::vector<Animation> kNone;
+    const std::vector<Animation>& animations = scene->motion ? scene->motion->animations : kNone;
+    const auto index = animationOf(animations, *moment);
+    if (!index) return index.problems();
+    input.animation = &animations[*index];
+    key.animation = *index;
+    // Beyond its ends nothing moves, so that all times there are one.
+    key.timeSeconds = std::clamp(moment->timeSeconds, 0.0, input.animation->durationSeconds);
+  }
+  auto places = nodePlaces(pose.nodes, *scene);
+  if (!places) return places.problems();
+  key.places = *std::move(places);
+  if (!animated && key.places.empty()) return scene;
+  input.timeSeconds = key.timeSeconds;
+  input.places = key.places;
+  return scene->poses->get(key, [&] { return poseScene(*scene, input); });
 }
 
-Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const std::optional<AnimationMoment>& moment) {
-  return posedScene(std::shared_ptr<const Scene>(std::shared_ptr<const Scene>(), &scene), moment);
+Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const Pose& pose) {
+  return posedScene(std::shared_ptr<const Scene>(std::shared_ptr<const Scene>(), &scene), pose);
 }
 
-Result<std::shared_ptr<const Scene>> PoseCache::get(std::size_t animation, double timeSeconds, const Make& make) {
+Result<std::shared_ptr<const Scene>> PoseCache::get(const Key& key, const Make& make) {
   const auto lock = lockUnlessStopped(mutex_);
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.animation == animation && entry.timeSeconds == timeSeconds;
-  });
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
   if (found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front().scene;
   }
   auto made = make();
   if (!made) return made;
-  entries_.push_front({animation, timeSeconds, *made});
+  entries_.push_front({key, *made});
   if (entries_.size() > kKept) entries_.pop_back();
   return made;
 }

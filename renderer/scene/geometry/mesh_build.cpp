@@ -36,6 +36,11 @@ Outline outlineOf(const TriangleMesh& mesh) {
   return outline;
 }
 
+template <class T>
+void add(const std::vector<T>& more, std::vector<T>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 int append(const TriangleMesh& mesh, const Outline& outline, int material, Scene& scene) {
   Primitive primitive;
   primitive.material = material;
@@ -49,11 +54,11 @@ int append(const TriangleMesh& mesh, const Outline& outline, int material, Scene
   primitive.solid = outline.solid;
   for (const Cluster& cluster : outline.clusters) primitive.bounds.add(cluster.bounds);
 
-  scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
-  scene.attributes.insert(scene.attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
-  scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
-  scene.welded.insert(scene.welded.end(), outline.welded.begin(), outline.welded.end());
-  scene.clusters.insert(scene.clusters.end(), outline.clusters.begin(), outline.clusters.end());
+  add(mesh.positions, scene.positions.edit());
+  add(mesh.attributes, scene.attributes.edit());
+  add(mesh.indices, scene.indices.edit());
+  add(outline.welded, scene.welded.edit());
+  add(outline.clusters, scene.clusters);
   scene.primitives.push_back(primitive);
   return static_cast<int>(scene.primitives.size()) - 1;
 }

@@ -11,7 +11,7 @@ namespace {
 
 class Flattening {
  public:
-  Flattening(const LoadContext& load, const LoadedMeshes& loaded, bool moves)
+  Flattening(const LoadContext& load, const LoadedMeshes& loaded, bool animated)
       : load_(load),
         nodes_(load.document.model.nodes),
         tree_(loaded.tree),
@@ -20,7 +20,7 @@ class Flattening {
         primitives_(loaded.primitives),
         limits_(load.limits),
         findings_(load.findings),
-        moves_(moves) {}
+        animated_(animated) {}
 
   std::vector<int> roots() const {
     std::vector<int> roots;
@@ -33,7 +33,7 @@ class Flattening {
   void flatten(const std::vector<int>& roots, const std::string& pointer) {
     SceneView& view = scenes_.views.emplace_back();
     view.roots = roots;
-    if (moves_) scenes_.moving.emplace_back();
+    scenes_.moving.emplace_back();
     const std::vector<int> nodes = reachedFrom(roots);
     for (const int node : nodes) {
       if (findings_.refused()) return;
@@ -58,9 +58,9 @@ class Flattening {
   /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
     const gltf::Node& source = nodes_[node];
-    if (source.mesh >= 0 && (moves_ || !tree_.hidden[node])) placeMesh(node, view, pointer);
+    if (source.mesh >= 0 && (animated_ || !tree_.hidden[node])) placeMesh(node, view, pointer);
     if (const auto camera = cameraAt(load_.document.model, node, findings_)) {
-      if (moves_) scenes_.moving.back().cameras.push_back(*camera);
+      scenes_.moving.back().cameras.push_back(*camera);
       if (auto placed = placedAt(tree_.worldFromUnscaled[node], camera->camera)) {
         view.cameras.push_back(*std::move(placed));
       } else {
@@ -68,7 +68,7 @@ class Flattening {
       }
     }
     if (const auto light = lightAt(load_.document.model, node, findings_)) {
-      if (moves_) scenes_.moving.back().lights.push_back(*light);
+      scenes_.moving.back().lights.push_back(*light);
       if (tree_.hidden[node]) return;
       if (auto placed = placedAt(tree_.worldFromUnscaled[node], light->light)) {
         view.lights.push_back(*std::move(placed));
@@ -85,7 +85,6 @@ class Flattening {
 
   void addPlacements(std::size_t node, int skin, int copy, const glm::dmat4& nodeFromCopy,
                      const std::vector<int>& primitives) {
-    if (!moves_) return;
     for (const int primitive : primitives) {
       scenes_.moving.back().placements.push_back({static_cast<int>(node), primitive, skin, copy, nodeFromCopy});
     }
@@ -124,14 +123,13 @@ class Flattening {
                  SceneView& view, const std::string& pointer) {
     if (primitives.empty()) return;
     const bool flat = isFlat(worldFromLocal);
-    if (flat && !moves_) {
+    if (flat && !animated_) {
       findings_.warn("The mesh at node " + std::to_string(node) + " has a degenerate transform and is not drawn.");
-      return;
     }
     for (const int index : primitives) {
       const Primitive& primitive = primitives_[static_cast<std::size_t>(index)];
       const std::uint64_t triangles = primitive.indexCount / 3;
-      triangles_ += triangles; // what an animation may show counts as well
+      triangles_ += triangles; // what another pose may show counts as well
       if (triangles_ > limits_.maxTriangles) {
         findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(limits_.maxTriangles),
                            std::to_string(triangles_));
@@ -177,7 +175,7 @@ class Flattening {
   const std::vector<Primitive>& primitives_;
   const Limits& limits_;
   Findings& findings_;
-  bool moves_;
+  bool animated_;
   FlatScenes scenes_;
   std::uint64_t triangles_ = 0; ///< of all scenes
   std::uint64_t placed_ = 0;    ///< of all scenes; <= maxInstances
@@ -185,8 +183,8 @@ class Flattening {
 
 } // namespace
 
-FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool moves) {
-  Flattening flattening(load, loaded, moves);
+FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool animated) {
+  Flattening flattening(load, loaded, animated);
   const auto& scenes = load.document.model.scenes;
   for (std::size_t i = 0; i < scenes.size() && !load.findings.refused(); ++i) {
     flattening.flatten(scenes[i].nodes, pointerTo("/scenes", i));

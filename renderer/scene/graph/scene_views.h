@@ -14,7 +14,7 @@ namespace gnomon {
 /// The file's scenes, flattened.
 struct FlatScenes {
   std::vector<SceneView> views;   ///< in the rest pose
-  std::vector<MovingView> moving; ///< parallel to the views; empty where nothing moves
+  std::vector<MovingView> moving; ///< parallel to the views
 };
 
 /// What scenes are made of.
@@ -26,7 +26,7 @@ struct LoadedMeshes {
 };
 
 /// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all its roots.
-/// `moves`: whether the file has animations.
-FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool moves);
+/// `animated`: whether the file has animations, which might show what the rest pose hides.
+FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool animated);
 
 } // namespace gnomon

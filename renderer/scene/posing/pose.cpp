@@ -129,11 +129,11 @@ PosedShape pose(const Deformable& deformable, std::span<const double> weights,
 
 void applyPose(const PosedShape& shape, int index, Scene& scene) {
   Primitive& primitive = scene.primitives[static_cast<std::size_t>(index)];
-  std::copy(shape.positions.begin(), shape.positions.end(), scene.positions.begin() + primitive.baseVertex);
-  for (std::size_t i = 0; i < shape.positions.size(); ++i) {
-    VertexAttributes& attributes = scene.attributes[primitive.baseVertex + i];
-    attributes.normal = shape.normals[i];
-    if (!shape.tangents.empty()) attributes.tangent = shape.tangents[i];
+  std::copy(shape.positions.begin(), shape.positions.end(), scene.positions.edit().begin() + primitive.baseVertex);
+  const auto attributes = std::span(scene.attributes.edit()).subspan(primitive.baseVertex, shape.positions.size());
+  for (std::size_t i = 0; i < attributes.size(); ++i) {
+    attributes[i].normal = shape.normals[i];
+    if (!shape.tangents.empty()) attributes[i].tangent = shape.tangents[i];
   }
   const auto indices = std::span(scene.indices).subspan(primitive.firstIndex, primitive.indexCount);
   const std::vector<Cluster> clusters = clustersOf(indices, shape.positions);
@@ -142,7 +142,7 @@ void applyPose(const PosedShape& shape, int index, Scene& scene) {
   for (const Cluster& cluster : clusters) primitive.bounds.add(cluster.bounds);
   stopIfAsked();
   const std::vector<std::uint32_t> welded = weldedIndices(indices, shape.positions);
-  std::copy(welded.begin(), welded.end(), scene.welded.begin() + primitive.firstIndex);
+  std::copy(welded.begin(), welded.end(), scene.welded.edit().begin() + primitive.firstIndex);
   primitive.solid = boundsSolids(welded, shape.positions);
 }
 

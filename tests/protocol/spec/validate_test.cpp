@@ -106,6 +106,47 @@ TEST(Validate, AnAnimationHasOneNameOrIndexAndATimeOnlyWithIt) {
   EXPECT_THAT(wrongWith({.timeSeconds = 2}), ElementsAre("/animation"));
 }
 
+std::vector<std::string> wrongIn(const NodeOptions& node) {
+  FrameSpec spec;
+  spec.nodes = {node};
+  return wrongIn(spec);
+}
+
+TEST(Validate, ANodeHasAMatrixOrPartsOfAPlace) {
+  constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  NodeOptions node;
+  node.node = 0;
+  node.matrix = kIdentity;
+  EXPECT_THAT(wrongIn(node), IsEmpty());
+  node.scale = Vec3{1, 1, 1};
+  EXPECT_THAT(wrongIn(node), ElementsAre("/nodes/0/matrix"));
+  node.scale.reset();
+  (*node.matrix)[7] = 0.5;
+  EXPECT_THAT(wrongIn(node), ElementsAre("/nodes/0/matrix"));
+  node.matrix.reset();
+  node.scale = Vec3{0, 0, 0};
+  node.rotation = {0, 0, 0, 1e-3};
+  EXPECT_THAT(wrongIn(node), IsEmpty());
+  node.rotation = {0, 0, 0, 0};
+  EXPECT_THAT(wrongIn(node), ElementsAre("/nodes/0/rotation"));
+}
+
+TEST(Validate, MotionNeedsAnEarlierMomentOfPlacesAlone) {
+  FrameSpec spec;
+  spec.views = {View::motion};
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/motionFrom"));
+  spec.motionFrom.emplace();
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+  spec.motionFrom->camera = Camera{.lookAt = EyeTarget{}, .orbit = Orbit{}};
+  spec.motionFrom->animation = AnimationMoment{.timeSeconds = 2};
+  NodeOptions node;
+  node.translation = Vec3{1, 2, 3};
+  node.layers = 2;
+  spec.motionFrom->nodes = {node};
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/motionFrom/camera/orbit", "/motionFrom/animation",
+                                         "/motionFrom/nodes/0/node", "/motionFrom/nodes/0"));
+}
+
 TEST(Validate, ACameraLooksSomewhere) {
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}}}), ElementsAre("/camera/target"));
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{{0, 0, 5}, {0, 0, 0}, {0, 0, 0}}}), ElementsAre("/camera/up"));

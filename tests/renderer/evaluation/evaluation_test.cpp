@@ -6,6 +6,7 @@
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/render.h"
+#include "tests/support/glb_builder.h"
 
 namespace gnomon {
 namespace {
@@ -70,6 +71,15 @@ TEST(EvaluationTruth, VariantsThatSeeTheSameShareAReference) {
       {"shadow": {"technique": "rayTraced"}, "width": 99}, {"shadow": {"blendedCasters": "threshold"}},
       {"camera": {"orbit": {"azimuthDegrees": 3}}}, {"views": ["depth"], "antialiasing": "none"}]})"));
   EXPECT_EQ(groups, (std::vector<std::vector<std::size_t>>{{0, 1, 3, 4, 9}, {2, 6}, {5}, {7}, {8}}));
+}
+
+TEST(EvaluationTruth, VariantsWithNodesElsewhereHaveReferencesOfTheirOwn) {
+  const auto scene = loadScene(testing::plane().bundle());
+  ASSERT_TRUE(scene);
+  const auto groups = shareReferences(subjectsOf(**scene, R"({"variants": [
+      {}, {"nodes": [{"node": 0, "translation": [1, 0, 0]}]}, {"nodes": [{"node": 0, "translation": [2, 0, 0]}]},
+      {"nodes": [{"node": 0, "translation": [1, 0, 0]}], "exposure": 1}]})"));
+  EXPECT_EQ(groups, (std::vector<std::vector<std::size_t>>{{0}, {1, 3}, {2}}));
 }
 
 TEST(EvaluationTruth, OnlyLightsThatCastAreMeasured) {

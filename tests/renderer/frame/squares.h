@@ -11,7 +11,7 @@ namespace gnomon::testing {
 inline std::shared_ptr<const Scene> squares() {
   Scene scene;
   scene.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
-  scene.attributes.resize(4);
+  scene.attributes = std::vector<VertexAttributes>(4);
   scene.indices = {0, 1, 2, 0, 2, 3};
   scene.welded = scene.indices;
   scene.materials.resize(1);

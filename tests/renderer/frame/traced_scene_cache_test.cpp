@@ -12,7 +12,7 @@ namespace {
 std::shared_ptr<const Scene> triangle() {
   Scene scene;
   scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.attributes.resize(3);
+  scene.attributes = std::vector<VertexAttributes>(3);
   scene.indices = {0, 1, 2};
   scene.welded = scene.indices;
   scene.materials.resize(1);

@@ -21,7 +21,7 @@ void addPrimitive(Placed& placed, int material, std::uint32_t fullClusters, cons
   primitive.indexCount = fullClusters * kClusterTriangles * 3 + 3;
   primitive.firstCluster = static_cast<std::uint32_t>(placed.scene.clusters.size());
   primitive.clusterCount = fullClusters + 1;
-  placed.scene.indices.resize(placed.scene.indices.size() + primitive.indexCount);
+  placed.scene.indices.edit().resize(placed.scene.indices.size() + primitive.indexCount);
   for (std::uint32_t i = 0; i < primitive.clusterCount; ++i) {
     placed.scene.clusters.push_back({{glm::dvec3(i), glm::dvec3(i + 1.0)}});
   }

@@ -143,10 +143,12 @@ TEST(Reference, VerticesThatAreNotNumbersAndTrianglesWithoutAreaDoNoHarm) {
   const Primitive& ball = scene.primitives[1];
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto added = std::uint32_t(scene.positions.size()) - ball.baseVertex;
-  scene.positions.insert(scene.positions.end(), {{0, 1.5f, nan}, {nan, nan, nan}, {1, 1.5f, 1}, {-1, 1.5f, -1}});
-  scene.attributes.resize(scene.positions.size());
-  scene.indices.insert(scene.indices.end(), {added, added + 2, added + 3, added + 1, added + 1, added + 1, added + 2,
-                                             added + 2, added + 3, added + 3, added + 3, added + 3});
+  std::vector<glm::vec3>& positions = scene.positions.edit();
+  positions.insert(positions.end(), {{0, 1.5f, nan}, {nan, nan, nan}, {1, 1.5f, 1}, {-1, 1.5f, -1}});
+  scene.attributes.edit().resize(positions.size());
+  std::vector<std::uint32_t>& indices = scene.indices.edit();
+  indices.insert(indices.end(), {added, added + 2, added + 3, added + 1, added + 1, added + 1, added + 2, added + 2,
+                                 added + 3, added + 3, added + 3, added + 3});
   scene.primitives[1].indexCount += 12;
   scene.primitives[1].vertexCount += 4;
   Traced broken(std::move(scene));

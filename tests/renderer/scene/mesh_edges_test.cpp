@@ -13,8 +13,9 @@ namespace {
 /// A scene of one primitive whose vertices are at as many places.
 Scene meshOf(const std::vector<std::uint32_t>& welded, std::uint32_t firstIndex = 0) {
   Scene scene;
-  scene.welded.assign(firstIndex, 0);
-  scene.welded.insert(scene.welded.end(), welded.begin(), welded.end());
+  std::vector<std::uint32_t>& all = scene.welded.edit();
+  all.assign(firstIndex, 0);
+  all.insert(all.end(), welded.begin(), welded.end());
   Primitive primitive;
   primitive.firstIndex = firstIndex;
   primitive.indexCount = static_cast<std::uint32_t>(welded.size());

@@ -27,7 +27,8 @@ testing::GlbBuilder deformedCube() {
 }
 
 std::uint64_t sumOf(const MemorySummary& memory) {
-  return memory.vertices + memory.indices + memory.images + memory.deformation + memory.structure;
+  return memory.vertices + memory.indices + memory.images + memory.volumes + memory.deformation + memory.animations +
+         memory.structure;
 }
 
 TEST(Summary, MemoryByPartAddsUp) {

@@ -48,15 +48,15 @@ void MadeScene::place(const std::vector<Material>& materials, std::vector<std::s
       const glm::vec3 middle = vector() * 10.0f;
       const float size = std::exp2(number() * 3.0f);
       for (std::uint32_t c = 0; c < 3; ++c) {
-        scene_.indices.push_back(3 * t + (c + t) % 3);
-        scene_.positions.push_back(middle + vector() * size);
+        scene_.indices.edit().push_back(3 * t + (c + t) % 3);
+        scene_.positions.edit().push_back(middle + vector() * size);
         VertexAttributes attributes;
         attributes.normal = vector();
         attributes.tangent = glm::vec4(glm::normalize(vector()), t % 2 == 0 ? 1 : -1);
         attributes.uv0 = glm::vec2(vector());
         attributes.uv1 = glm::vec2(vector());
         attributes.color = glm::u16vec4((glm::vec4(vector(), number()) * 0.5f + 0.5f) * 65535.0f);
-        scene_.attributes.push_back(attributes);
+        scene_.attributes.edit().push_back(attributes);
       }
     }
     scene_.primitives.push_back(primitive);

@@ -34,7 +34,7 @@ Result<std::shared_ptr<const Scene>> posedAt(const testing::GlbBuilder& builder,
   AnimationMoment moment;
   moment.index = 0;
   moment.timeSeconds = seconds;
-  return posedScene(scene, moment);
+  return posedScene(scene, {moment});
 }
 
 TEST(MovedProperties, LightsChangeAndKeepTheirPlace) {

@@ -27,7 +27,7 @@ AnimationMoment at(double seconds) {
 }
 
 std::shared_ptr<const Scene> posedAt(const std::shared_ptr<const Scene>& scene, double seconds) {
-  const auto posed = posedScene(scene, at(seconds));
+  const auto posed = posedScene(scene, {at(seconds)});
   if (posed) return *posed;
   ADD_FAILURE() << posed.problems().front().detail;
   return scene;
@@ -175,27 +175,27 @@ TEST(PosedScene, ThePoseThatWasAskedForIsKept) {
 
 TEST(PosedScene, WithoutAnAnimationItIsTheSceneItself) {
   const auto scene = shared(flyingCube());
-  EXPECT_EQ(*posedScene(scene, std::nullopt), scene);
-  EXPECT_EQ(*posedScene(scene, AnimationMoment{}), scene);
+  EXPECT_EQ(*posedScene(scene, {}), scene);
+  EXPECT_EQ(*posedScene(scene, {AnimationMoment{}}), scene);
 }
 
 TEST(PosedScene, UnknownAnimationsAreToldWithThoseThereAre) {
   const auto scene = shared(flyingCube());
   AnimationMoment moment;
   moment.index = 1;
-  const auto byIndex = posedScene(scene, moment);
+  const auto byIndex = posedScene(scene, {moment});
   ASSERT_FALSE(byIndex);
   EXPECT_THAT(byIndex.problems(), ElementsAre(ProblemAt(ProblemCode::invalidValue, "/animation/index")));
   EXPECT_EQ(byIndex.problems()[0].limit, "0..0");
   moment.index.reset();
   moment.name = "Moov";
-  const auto byName = posedScene(scene, moment);
+  const auto byName = posedScene(scene, {moment});
   ASSERT_FALSE(byName);
   EXPECT_THAT(byName.problems(), ElementsAre(ProblemAt(ProblemCode::invalidValue, "/animation/name")));
   EXPECT_EQ(byName.problems()[0].limit, "\"Move\"");
   moment.name = "Move";
-  EXPECT_TRUE(posedScene(scene, moment));
-  EXPECT_FALSE(posedScene(shared(testing::cube()), moment)) << "a scene without animations";
+  EXPECT_TRUE(posedScene(scene, {moment}));
+  EXPECT_FALSE(posedScene(shared(testing::cube()), {moment})) << "a scene without animations";
 }
 
 TEST(PosedScene, APlaceBeyondWhatIsFiniteIsAProblem) {
@@ -205,8 +205,8 @@ TEST(PosedScene, APlaceBeyondWhatIsFiniteIsAProblem) {
   builder.add("nodes", {{"children", {0}}});
   animate(builder, 1, "scale", {0, 1}, {1, 1, 1, 3e38f, 1, 1}, "VEC3");
   const auto scene = shared(builder);
-  EXPECT_TRUE(posedScene(scene, at(0)));
-  const auto lost = posedScene(scene, at(1));
+  EXPECT_TRUE(posedScene(scene, {at(0)}));
+  const auto lost = posedScene(scene, {at(1)});
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.problems()[0].pointer, "/animation");
 }

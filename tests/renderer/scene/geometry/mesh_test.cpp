@@ -175,7 +175,7 @@ TEST(Mesh, ReadsVertexColors) {
     builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = builder.add("accessors", accessor);
     const Scene scene = load(builder);
     EXPECT_TRUE(scene.materials[static_cast<std::size_t>(scene.primitives.at(0).material)].hasVertexColors);
-    return scene.attributes.at(0).color;
+    return (*scene.attributes).at(0).color;
   };
   EXPECT_EQ(colorOf(std::array<float, 12>{0.5f, 0, 2, 0.25f}, "VEC4", 5126, false),
             glm::u16vec4(32768, 0, 65535, 16384));

@@ -64,7 +64,7 @@ json materialOn(int baseColor, int normal, int emissive) {
 /// The set that a texture reads from the first vertex.
 int setRead(const Scene& scene, const std::optional<TextureUse>& texture) {
   if (!texture) return -1;
-  const VertexAttributes& vertex = scene.attributes.at(0);
+  const VertexAttributes& vertex = (*scene.attributes).at(0);
   return static_cast<int>(std::lround((texture->texCoord == 1 ? vertex.uv1 : vertex.uv0).x * 10)) - 1;
 }
 
@@ -128,7 +128,7 @@ TEST(UvSets, APrimitiveWithoutThoseCoordinatesReadsZeros) {
   builder.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_3");
   const Scene scene = load(builder);
   EXPECT_EQ(scene.materials[0].baseColor->texCoord, 1);
-  EXPECT_EQ(scene.attributes.at(0).uv1, glm::vec2(0));
+  EXPECT_EQ((*scene.attributes).at(0).uv1, glm::vec2(0));
 }
 
 } // namespace
