@@ -8,6 +8,7 @@
 #include "protocol/base/result.h"
 #include "protocol/base/scene_bundle.h"
 #include "protocol/report/frame_report.h"
+#include "protocol/report/node_list.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"
@@ -37,6 +38,9 @@ Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLi
 
 /// What the scene holds, and its id. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);
+
+/// A page of the file's nodes, which ends early where their names are long. Any thread.
+NodeList nodesOf(const Scene& scene, const NodePage& page);
 
 struct RendererOptions {
   BackendOptions backend;

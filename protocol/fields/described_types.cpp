@@ -1,6 +1,7 @@
 #include "protocol/bake/bake_rows.h"
 #include "protocol/evaluation/evaluation_rows.h"
 #include "protocol/fields/type_tables.h"
+#include "protocol/report/node_rows.h"
 #include "protocol/report/reply_rows.h"
 
 namespace gnomon {
@@ -16,6 +17,8 @@ template const ValueType& typeOf<Capabilities>();
 template const ValueType& typeOf<ErrorMetrics>();
 template const ValueType& typeOf<FrameReply>();
 template const ValueType& typeOf<FrameReport>();
+template const ValueType& typeOf<NodeList>();
+template const ValueType& typeOf<NodePage>();
 template const ValueType& typeOf<PlanReport>();
 template const ValueType& typeOf<RendererInfo>();
 template const ValueType& typeOf<SceneList>();

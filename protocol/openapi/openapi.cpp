@@ -7,6 +7,7 @@
 #include "protocol/fields/field_list.h"
 #include "protocol/openapi/openapi_access.h"
 #include "protocol/openapi/openapi_parts.h"
+#include "protocol/report/node_list.h"
 #include "protocol/spec/format_traits.h"
 
 namespace gnomon {
@@ -140,6 +141,24 @@ Json scenesRoute() {
   return {{"get", std::move(get)}, {"post", withBody(std::move(post), sceneBody())}};
 }
 
+Json nodesRoute() {
+  Json get =
+      withScene(operation("listNodes", "The nodes of a scene's file, in pages",
+                          replies(jsonReply("A page, ascending by index; it may have fewer than `limit`.", "NodeList"),
+                                  {"400", "404", "422", "429", "500", "503", "504"})));
+  get["parameters"].push_back(
+      {{"name", "limit"},
+       {"in", "query"},
+       {"description", "The most nodes on the page."},
+       {"schema",
+        {{"type", "integer"}, {"minimum", 1}, {"maximum", kMostNodesOnPage}, {"default", NodePage{}.limit}}}});
+  get["parameters"].push_back({{"name", "after"},
+                               {"in", "query"},
+                               {"description", "What the page before gave as its `next`; absent = the first page."},
+                               {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  return {{"get", std::move(get)}};
+}
+
 Json framesRoute() {
   Json post = operation(
       "renderFrame", "Render a frame",
@@ -235,6 +254,7 @@ Json paths() {
   Json paths = Json::object();
   paths["/v1/scenes"] = scenesRoute();
   paths["/v1/scenes/{id}"] = sceneRoute();
+  paths["/v1/scenes/{id}/nodes"] = nodesRoute();
   paths["/v1/scenes/{id}/frames"] = framesRoute();
   paths["/v1/scenes/{id}/frame"] = frameRoute();
   paths["/v1/scenes/{id}/plan"] = planRoute();

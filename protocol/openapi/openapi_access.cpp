@@ -27,6 +27,7 @@ constexpr std::array kAccess{
     AccessRow{"/v1/scenes/{id}", "get", Scope::read},
     AccessRow{"/v1/scenes/{id}", "head", Scope::read},
     AccessRow{"/v1/scenes/{id}", "delete", Scope::upload},
+    AccessRow{"/v1/scenes/{id}/nodes", "get", Scope::read},
     AccessRow{"/v1/scenes/{id}/frames", "post", Scope::render},
     AccessRow{"/v1/scenes/{id}/frame", "get", Scope::render, true},
     AccessRow{"/v1/scenes/{id}/plan", "post", Scope::render},

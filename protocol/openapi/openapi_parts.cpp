@@ -9,6 +9,7 @@
 #include "protocol/fields/json_schema.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/openapi/openapi_access.h"
+#include "protocol/report/node_list.h"
 #include "protocol/report/replies.h"
 
 namespace gnomon::openapi {
@@ -105,6 +106,7 @@ Json schemas() {
   schemaOf<FrameReply>(Notes{}, components);
   schemaOf<PlanReport>(Notes{}, components);
   schemaOf<SceneList>(Notes{}, components);
+  schemaOf<NodeList>(Notes{}, components);
   schemaOf<Capabilities>(Notes{}, components);
   schemaOf<EvaluationRequest>(Notes{}, components);
   schemaOf<EvaluationReport>(Notes{}, components);

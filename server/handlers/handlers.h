@@ -40,6 +40,7 @@ HttpReply putScene(Services& services, RouteCall call);    ///< PUT /v1/scenes/{
 HttpReply listScenes(Services& services, RouteCall call);  ///< GET /v1/scenes
 HttpReply getScene(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}
 HttpReply deleteScene(Services& services, RouteCall call); ///< DELETE /v1/scenes/{id}
+HttpReply getNodes(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}/nodes
 
 HttpReply postFrame(Services& services, RouteCall call);  ///< POST /v1/scenes/{id}/frames
 HttpReply getFrame(Services& services, RouteCall call);   ///< GET /v1/scenes/{id}/frame?…

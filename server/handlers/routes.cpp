@@ -158,6 +158,7 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"PUT", "/v1/scenes/{id}", Scope::upload, upload, sceneTypes, bind(putScene)},
       {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
       {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
+      {"GET", "/v1/scenes/{id}/nodes", Scope::read, none, {}, bind(getNodes)},
       {"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)},
       {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), false, true},
       {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},

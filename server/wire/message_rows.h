@@ -18,9 +18,10 @@ static_assert(spellsAll<Backend>());
 
 template <>
 inline constexpr std::array kSpellings<OrderKind>{
-    spelling(OrderKind::load, "load"), spelling(OrderKind::frame, "frame"),
-    spelling(OrderKind::plan, "plan"), spelling(OrderKind::evaluation, "evaluation"),
-    spelling(OrderKind::bake, "bake"), spelling(OrderKind::bakeFile, "bakeFile"),
+    spelling(OrderKind::load, "load"),   spelling(OrderKind::frame, "frame"),
+    spelling(OrderKind::plan, "plan"),   spelling(OrderKind::evaluation, "evaluation"),
+    spelling(OrderKind::bake, "bake"),   spelling(OrderKind::bakeFile, "bakeFile"),
+    spelling(OrderKind::nodes, "nodes"),
 };
 static_assert(spellsAll<OrderKind>());
 

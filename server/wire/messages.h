@@ -42,7 +42,8 @@ enum class OrderKind {
   plan,       ///< a PlanReport
   evaluation, ///< an EvaluationReport, as JSON, CSV, chart or events
   bake,       ///< a BakeReport, as JSON or events
-  bakeFile    ///< a bake as a file
+  bakeFile,   ///< a bake as a file
+  nodes       ///< a NodeList; the request is a NodePage
 };
 
 /// Work for a worker. Two files go with it: the scene's bundle, and the JSON text of the request (a FrameSpec or an

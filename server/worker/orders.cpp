@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "protocol/json/json_codec.h"
+#include "protocol/json/node_json.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -18,9 +19,10 @@ struct OrderTraits {
 };
 
 constexpr std::array kOrderTraits{
-    OrderTraits{OrderKind::load, loadOrder}, OrderTraits{OrderKind::frame, frameOrder},
-    OrderTraits{OrderKind::plan, planOrder}, OrderTraits{OrderKind::evaluation, evaluationOrder},
-    OrderTraits{OrderKind::bake, bakeOrder}, OrderTraits{OrderKind::bakeFile, bakeFileOrder}};
+    OrderTraits{OrderKind::load, loadOrder},  OrderTraits{OrderKind::frame, frameOrder},
+    OrderTraits{OrderKind::plan, planOrder},  OrderTraits{OrderKind::evaluation, evaluationOrder},
+    OrderTraits{OrderKind::bake, bakeOrder},  OrderTraits{OrderKind::bakeFile, bakeFileOrder},
+    OrderTraits{OrderKind::nodes, nodesOrder}};
 
 } // namespace
 
@@ -71,6 +73,15 @@ Answer loadOrder(WorkContext& context, const OrderCall& call) {
   auto scene = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
   return {.contentType = std::string(kJson), .body = jsonText(toJson(std::get<LoadedScene>(scene).summary))};
+}
+
+Answer nodesOrder(WorkContext& context, const OrderCall& call) {
+  const auto page = readNodePage(call.request);
+  if (!page) return {.problems = {{ProblemCode::internal, "", "The order names no page of nodes.", "", ""}}};
+  auto scene = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
+  return {.contentType = std::string(kJson),
+          .body = jsonText(toJson(nodesOf(*std::get<LoadedScene>(scene).scene, *page)))};
 }
 
 Answer planOrder(WorkContext& context, const OrderCall& call) {

@@ -41,6 +41,20 @@ class Scenes(ServerTest):
         self.assertEqual(self.server.ask("HEAD", f"/v1/scenes/{wrong}").status, 404)
         self.assert_problem(self.server.ask("PUT", "/v1/scenes/abc", self.glb, GLB), 400, "id")
 
+    def test_its_nodes_come_in_pages(self):
+        self.server.upload("box_on_plane")
+        path = f"/v1/scenes/{self.id}/nodes"
+        whole = self.server.get(path).json()
+        self.assertNotIn("next", whole)
+        self.assertEqual([node["node"] for node in whole["nodes"]], list(range(len(whole["nodes"]))))
+        self.assertEqual(sum(node["triangles"] for node in whole["nodes"]), 14)
+        first = self.server.get(path + "?limit=1").json()
+        rest = self.server.get(f"{path}?after={first['next']}").json()
+        self.assertEqual(first["nodes"] + rest["nodes"], whole["nodes"])
+        for query in ("limit=0", "limit=10001", "after=-1", "after=x", "limit=1&limit=1", "first=1"):
+            self.assert_problem(self.server.get(f"{path}?{query}"), 400, "/" + query.split("=")[0])
+        self.assert_problem(self.server.get(f"/v1/scenes/{'0' * 64}/nodes"), 404, "id")
+
     def test_head_tells_existence_without_a_body(self):
         self.assertEqual(self.server.ask("HEAD", f"/v1/scenes/{self.id}").status, 404)
         self.server.upload("box_on_plane")

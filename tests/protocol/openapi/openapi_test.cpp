@@ -60,6 +60,7 @@ TEST(OpenApi, HasEveryRoute) {
                                                "get /v1/scenes/{id}",
                                                "head /v1/scenes/{id}",
                                                "delete /v1/scenes/{id}",
+                                               "get /v1/scenes/{id}/nodes",
                                                "post /v1/scenes/{id}/frames",
                                                "get /v1/scenes/{id}/frame",
                                                "post /v1/scenes/{id}/plan",
