@@ -44,16 +44,35 @@ export async function renderFile(sceneId, spec, contentType) {
   return blob(await postFrame(sceneId, spec, contentType));
 }
 
+// Decides a frame without drawing it: its PlanReport.
+export async function planFrame(sceneId, spec, signal) {
+  return json(await post(`v1/scenes/${sceneId}/plan`, spec, 'application/json', signal));
+}
+
+// The first nodes of a scene's file: {nodes: [{node, name, parent, triangles}], next}.
+export async function sceneNodes(sceneId) {
+  return json(await call(`v1/scenes/${sceneId}/nodes?limit=10000`, { headers: { Accept: 'application/json' } }));
+}
+
 // Bakes the light maps of a spec; `onStep` is told {light, share, done, of} as it goes. Stops where the signal says so.
-export async function bakeAhead(sceneId, spec, onStep, signal) {
-  const reply = await post(`v1/scenes/${sceneId}/bakes`, spec, 'text/event-stream', signal);
+export const bakeAhead = (sceneId, spec, onStep, signal) =>
+  followed(`v1/scenes/${sceneId}/bakes`, spec, { progress: onStep }, signal);
+
+// Measures the variants of a request ({spec, variants | sweep, repeats}); `listeners` are told of events `progress`
+// ({done, of, variant}) and `row`. Its EvaluationReport.
+export const evaluate = (sceneId, request, listeners, signal) =>
+  followed(`v1/scenes/${sceneId}/evaluations`, request, listeners, signal);
+
+// Work that is told as events, until the one with its result.
+async function followed(address, body, listeners, signal) {
+  const reply = await post(address, body, 'text/event-stream', signal);
   if (!reply.ok) throw await refusalIn(reply);
   const last = {};
-  const read = createEventReader((name, data) => (name === 'progress' ? onStep(JSON.parse(data)) : (last[name] = data)));
+  const read = createEventReader((name, data) => (listeners[name] ? listeners[name](JSON.parse(data)) : (last[name] = data)));
   const pieces = reply.body.pipeThrough(new TextDecoderStream()).getReader();
   for (let piece = await pieces.read(); !piece.done; piece = await pieces.read()) read(piece.value);
   if (last.result) return JSON.parse(last.result);
-  throw last.problem ? refusalOf(400, null, last.problem) : new Refusal(0, 'The bake has ended without a result.', []);
+  throw last.problem ? refusalOf(400, null, last.problem) : new Refusal(0, 'The work has ended without a result.', []);
 }
 
 // What was baked, as a Blob: PNG, EXR or GLB.

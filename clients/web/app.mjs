@@ -3,24 +3,33 @@
 import { capabilities, renderFrame } from './api.mjs';
 import { createBakePanel } from './bake_panel.mjs';
 import { createCameraPanel } from './camera_panel.mjs';
-import { choices, createControl } from './controls.mjs';
+import { createCompare } from './compare.mjs';
+import { createControl } from './controls.mjs';
 import { fromHash, toHash } from './deep_link.mjs';
 import { element } from './dom.mjs';
-import { kDebugViews, kSections, kViews } from './fields.mjs';
+import { createErrorPanel } from './error_panel.mjs';
+import { createEvaluationPanel } from './evaluation_panel.mjs';
+import { kSections } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
 import { lightsWithSun } from './light_math.mjs';
+import { createLightsPanel } from './lights_panel.mjs';
+import { createMotionPanel } from './motion_panel.mjs';
+import { createNodesPanel } from './nodes_panel.mjs';
 import { fitOrbit, kFovYDegrees, orbitInForce } from './orbit_math.mjs';
 import { setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
+import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
 import { showReport } from './report_panel.mjs';
 import { createScenePanel } from './scene_panel.mjs';
-import { copyCurl, copyLink, download } from './share.mjs';
+import { copySnippet, download } from './share.mjs';
 import { draftSpec, fullSpec } from './spec.mjs';
 import { attachOrbit } from './stage.mjs';
 import { createStore } from './store.mjs';
 import { createSunPanel } from './sun_panel.mjs';
+import { createTargetPanel } from './target_panel.mjs';
 import { createTimings } from './timings.mjs';
+import { createViewChoice } from './view_choice.mjs';
 import { withFile } from './volume_math.mjs';
 import { createVolumePanel } from './volume_panel.mjs';
 
@@ -30,6 +39,8 @@ const picture = createPicture(byId('picture'));
 const problems = createProblems(document.body, byId('banner'));
 const showTimings = createTimings(byId('timings'));
 const store = createStore({ ...fromHash(location.hash), summary: null, report: null });
+const announce = (text) => (byId('live').textContent = text);
+const sharpSpec = () => fullSpec(store.state, stageSize());
 
 // ---- frames
 
@@ -44,7 +55,7 @@ function stageSize() {
 function render(draft, scale, signal) {
   const { state } = store;
   if (!state.summary) return null;
-  const spec = draft ? draftSpec(state, stageSize(), scale) : fullSpec(state, stageSize());
+  const spec = draft ? draftSpec(state, stageSize(), scale) : sharpSpec();
   return renderFrame(state.summary.id, spec, signal);
 }
 
@@ -53,11 +64,14 @@ async function show({ report, images, roundTripMs }, draft) {
   await picture.show(images[0]);
   stage.classList.toggle('draft', draft);
   showTimings(report, roundTripMs);
+  plan.update(report, store.state.summary);
   if (draft) return;
   showReport(byId('report'), report);
   const told = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
   byId('report-section').hidden = !told && !report.volumes.length && !report.warnings.length;
   store.update({ report });
+  announce(`The picture is sharp, after ${Math.round(roundTripMs)} milliseconds`);
+  if (compare.isOn()) compare.refresh();
 }
 
 function refused(error) {
@@ -65,11 +79,13 @@ function refused(error) {
   stage.classList.add('draft');
 }
 
+let linkTimer = 0;
 store.subscribe((state, before) => {
   const asked = state.spec !== before.spec || state.view !== before.view || state.summary !== before.summary;
   if (!asked) return;
   loop.changed({ settled: state.summary !== before.summary || state.view !== before.view });
-  if (state.summary) history.replaceState(null, '', toHash(state));
+  clearTimeout(linkTimer); // browsers take only a few new addresses a second
+  linkTimer = setTimeout(() => store.state.summary && history.replaceState(null, '', toHash(store.state)), 250);
 });
 
 let askedSize = JSON.stringify(stageSize());
@@ -105,6 +121,31 @@ attachOrbit(stage, {
 });
 byId('camera').append(createCameraPanel(store, fit));
 
+// ---- what lies over the picture
+
+const plan = createPlanOverlay(stage);
+const compare = createCompare(store, { picture: byId('picture'), specOf: sharpSpec, problems, announce });
+stage.append(...plan.nodes, compare.node, createErrorPanel(store, { specOf: sharpSpec, problems, announce }));
+
+function pressed(button, act) {
+  const set = (on) => {
+    if (!store.state.summary) return;
+    button.setAttribute('aria-pressed', String(on));
+    act(on);
+  };
+  button.addEventListener('click', () => set(button.getAttribute('aria-pressed') !== 'true'));
+  return set;
+}
+const setCompare = pressed(byId('compare'), compare.toggle);
+pressed(byId('plan'), plan.toggle);
+addEventListener('keydown', (event) => {
+  if (event.key !== 'Escape') return;
+  if (byId('copy-menu').open) {
+    byId('copy-menu').open = false;
+    byId('copy-menu').querySelector('summary').focus();
+  } else if (compare.isOn()) setCompare(false);
+});
+
 // ---- scene, light and the other fields
 
 const scenePanel = createScenePanel({
@@ -135,13 +176,17 @@ function showScene(summary, added) {
   store.update({ sceneId: summary.id, summary, spec: next, report: null, freshVolume: Boolean(added) });
 }
 
-byId('sun').append(createSunPanel(store));
+byId('sun').append(createSunPanel(store), createLightsPanel(store));
 const panels = {
   bake: createBakePanel(store, {
-    specOf: () => setPath(setPath(fullSpec(store.state, stageSize()), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
+    specOf: () => setPath(setPath(sharpSpec(), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
     done: () => store.setSpec('shadow.technique', 'lightMap'),
     problems,
   }),
+  evaluation: createEvaluationPanel(store, { specOf: sharpSpec, problems, announce }),
+  motion: createMotionPanel(store),
+  nodes: createNodesPanel(store),
+  target: createTargetPanel(store),
   volume: createVolumePanel(store, scenePanel.addFiles),
 };
 for (const section of kSections) {
@@ -150,26 +195,10 @@ for (const section of kSections) {
   byId('fields').append(element('details', { open: !section.closed }, element('summary', {}, element('h2', {}, section.title)), ...body));
 }
 
-// ---- views
-
-const views = choices({ label: 'View', choices: kViews, choose: (view) => store.update({ view }) }, store, 'view');
-const debugViews = element(
-  'select',
-  { 'aria-label': 'Debug view', onchange: () => debugViews.value && store.update({ view: debugViews.value }) },
-  element('option', { value: '' }, 'Debug view …'),
-  ...kDebugViews.map(([value, text, says]) => element('option', { value, title: says }, text)),
-);
-byId('views').append(views.node, debugViews);
-store.subscribe(({ view, summary }) => {
-  views.show(view);
-  debugViews.value = kDebugViews.some(([name]) => name === view) ? view : '';
+createViewChoice(store, byId('views'));
+store.subscribe(({ summary }) => {
   document.body.classList.toggle('no-scene', !summary);
   for (const part of document.querySelectorAll('.panel > :not(.scene)')) part.inert = !summary;
-});
-addEventListener('keydown', (event) => {
-  if (event.target.closest('input, select, textarea') || event.ctrlKey || event.metaKey || event.altKey) return;
-  const view = kViews[Number(event.key) - 1];
-  if (view) store.update({ view: view[0] });
 });
 
 // ---- taking it along
@@ -187,7 +216,8 @@ function onButton(id, act) {
     const { summary } = store.state;
     if (!summary) return toast('There is no scene yet');
     try {
-      toast(await act(summary.id, fullSpec(store.state, stageSize())));
+      toast(await act(summary.id, sharpSpec()));
+      byId('copy-menu').open = false;
     } catch (error) {
       problems.show(error);
     }
@@ -195,8 +225,8 @@ function onButton(id, act) {
 }
 
 const copied = async (done, what) => ((await done) ? `${what} copied` : `${what} could not be copied`);
-onButton('copy-link', () => copied(copyLink(), 'Link'));
-onButton('copy-curl', (id, spec) => copied(copyCurl(id, spec), 'curl command'));
+const kCopies = { link: 'Link', curl: 'curl command', python: 'Python code', img: 'Image tag', cli: 'Command line' };
+for (const [what, name] of Object.entries(kCopies)) onButton(`copy-${what}`, (id, spec) => copied(copySnippet(what, id, spec), name));
 onButton('save-png', async (id, spec) => (await download(id, spec, 'png'), 'PNG saved'));
 onButton('save-exr', async (id, spec) => (await download(id, spec, 'exr'), 'EXR saved'));
 

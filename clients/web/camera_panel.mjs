@@ -1,6 +1,9 @@
-// Orbit by hand, or a camera of the scene.
+// Orbit by hand, or a camera of the scene; and its lens.
 
+import { createControl } from './controls.mjs';
 import { element, short } from './dom.mjs';
+
+const kLens = { path: 'camera.perspective.fovYDegrees', label: 'Lens', unit: '°', says: 'Full vertical angle of view', slider: [5, 120, 0.5], clears: 'camera.perspective', needs: (store) => !store.effective('camera.orthographic') };
 
 // `fit()` gives the orbit of the whole scene.
 export function createCameraPanel(store, fit) {
@@ -29,7 +32,7 @@ export function createCameraPanel(store, fit) {
     list.value = spec.camera?.node ?? '';
     readout.textContent = readoutOf(spec.camera?.orbit);
   });
-  return node;
+  return element('div', {}, node, createControl(kLens, store));
 }
 
 function readoutOf(orbit) {

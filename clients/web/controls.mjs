@@ -28,7 +28,7 @@ export function createControl(field, store) {
   store.subscribe(() => {
     row.hidden = field.needs ? !field.needs(store) : false;
     row.classList.toggle('set', !field.keeps && isSet(field, store));
-    show(store.effective(field.path) ?? field.absent);
+    show(field.value ? field.value(store) : (store.effective(field.path) ?? field.absent));
   });
   return row;
 }
@@ -52,8 +52,9 @@ function inputOf(field, store, id) {
   return number(field, store, id);
 }
 
-function toggle({ path }, store, id) {
-  const node = element('input', { type: 'checkbox', role: 'switch', id, onchange: () => store.setSpec(path, node.checked) });
+function toggle({ path, choose }, store, id) {
+  const set = () => (choose ? choose(node.checked, store) : store.setSpec(path, node.checked));
+  const node = element('input', { type: 'checkbox', role: 'switch', id, onchange: set });
   return { node, show: (value) => (node.checked = value ?? false) };
 }
 
@@ -66,17 +67,23 @@ function numberInput(id, label, onvalue) {
   return { node, show };
 }
 
-export function slider({ path, label, slider: [min, max, step] }, store, id) {
-  const set = (value) => store.setSpec(path, value);
-  const range = element('input', { type: 'range', min, max, step, id, oninput: () => set(range.valueAsNumber) });
+export function slider({ path, label, log, slider: ends, ...field }, store, id) {
+  const set = (value) => (field.choose ? field.choose(value, store) : store.setSpec(path, value));
+  const [, , step] = ends;
+  const along = log ? Math.log10 : (value) => value; // a value's place on the slider
+  const [min, max] = ends.slice(0, 2).map(along);
+  const valueAt = (place) => (log ? Number((10 ** place).toPrecision(2)) : place);
+  const range = element('input', { type: 'range', min, max, step, id, oninput: () => set(valueAt(range.valueAsNumber)) });
   const exact = numberInput(null, `${label}, exact`, set);
   const show = (value) => {
     if (value === undefined) return;
-    range.value = value;
+    const place = along(value);
+    range.value = place;
+    if (log) range.setAttribute('aria-valuetext', String(value));
     const share = (at) => ((Math.min(max, Math.max(min, at)) - min) / (max - min)) * 100;
-    const ends = [share(0), share(value)].sort((a, b) => a - b); // filled from zero, wherever that is
-    range.style.setProperty('--from', `${ends[0]}%`);
-    range.style.setProperty('--to', `${ends[1]}%`);
+    const [from, to] = [share(log ? min : 0), share(place)].sort((a, b) => a - b); // filled from zero, wherever that is
+    range.style.setProperty('--from', `${from}%`);
+    range.style.setProperty('--to', `${to}%`);
     exact.show(value);
   };
   return { node: element('div', { class: 'pair' }, range, exact.node), show };
@@ -91,8 +98,9 @@ function vector({ path, label }, store, id) {
   return { node, show: (value) => parts.forEach((part, axis) => part.show(value?.[axis])) };
 }
 
-function color({ choose }, store, id) {
-  const node = element('input', { type: 'color', id, oninput: () => choose(linearOf(node.value), store) });
+function color({ path, choose }, store, id) {
+  const set = (value) => (choose ? choose(value, store) : store.setSpec(path, value));
+  const node = element('input', { type: 'color', id, oninput: () => set(linearOf(node.value)) });
   return { node, show: (value) => value && (node.value = hexOf(value)) };
 }
 

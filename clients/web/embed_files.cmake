@@ -1,5 +1,16 @@
 # Writes OUTPUT, a C++ source that defines gnomon::webFiles() from the files in FILES (names relative to SOURCE_DIR).
 # Run as: cmake -DOUTPUT=... -DSOURCE_DIR=... -DFILES=a,b,c -P embed_files.cmake
+
+# Without indentation and lines that only comment: a seventh less for browsers to fetch.
+function(slim variable)
+  string(REGEX REPLACE "(^|\n)[ \t]+" "\\1" text "${${variable}}")
+  if(name MATCHES "\\.mjs$")
+    string(REGEX REPLACE "(^|\n)//[^\n]*" "\\1" text "${text}")
+  endif()
+  string(REGEX REPLACE "\n\n+" "\n" text "${text}")
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 string(REPLACE "," ";" FILES "${FILES}")
 set(arrays "")
 set(rows "")
@@ -21,7 +32,9 @@ foreach(name IN LISTS FILES)
   if(name STREQUAL "index.html")
     set(path "/")
   endif()
-  file(READ ${SOURCE_DIR}/${name} hex HEX)
+  file(READ ${SOURCE_DIR}/${name} text)
+  slim(text)
+  string(HEX "${text}" hex)
   string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
   string(APPEND arrays "constexpr unsigned char kFile${index}[] = {\n${bytes}};\n")

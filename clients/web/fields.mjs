@@ -1,7 +1,8 @@
 // The controls of the panel, as data. `path` is the field's place in the FrameSpec; `slider` is the comfortable range:
 // the number beside it takes any value, and the server says what it refuses. `choose` does more than to set the field;
 // `clears` is what goes with it when it is given back, where that is more; `absent` is what its absence means; `whole`
-// gives it a row of its own; `keeps` has no default to go back to. `panel` is what else a section holds (app.mjs).
+// gives it a row of its own; `keeps` has no default to go back to; `value(store)` is what is shown where that is not the
+// field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs).
 
 import { withFile } from './volume_math.mjs';
 
@@ -44,6 +45,42 @@ function chooseVolumeColor(color, store) {
   for (const stop of [0, 1]) store.setSpec(`volumes.0.transferFunction.${stop}.color`, color);
 }
 
+// A target is an error or a time, or there is none.
+const targetKind = ({ state: { spec } }) => Object.keys(spec.quality ?? {})[0] ?? 'none';
+const kFirstTargets = { maxError: 0.005, maxMilliseconds: 100 };
+
+function chooseTarget(kind, store) {
+  if (kind === 'none') store.clearSpec('quality');
+  else store.setSpec('quality', { [kind]: kFirstTargets[kind] });
+}
+
+// Manual splits begin as equal parts.
+function choosePartition(mode, store) {
+  const count = store.effective('shadow.cascadeCount') ?? 4;
+  const splits = Array.from({ length: count }, (_, i) => Number(((i + 1) / count).toPrecision(3)));
+  store.setSpec('shadow.partition', mode === 'manual' ? { mode, splits } : { mode });
+}
+
+function chooseBias(mode, store) {
+  if (mode === 'automatic') store.clearSpec('shadow.bias');
+  else store.setSpec('shadow.bias', { mode, depth: 0.005, slope: 0.005, normalOffsetScale: 1 });
+}
+
+// Of manual splits there is one a cascade.
+function chooseCascades(count, store) {
+  store.setSpec('shadow.cascadeCount', count);
+  if (store.effective('shadow.partition.mode') === 'manual') choosePartition('manual', store);
+}
+
+const manualSplit = (index) => ({
+  path: `shadow.partition.splits.${index}`,
+  label: `Split ${index + 1}`,
+  says: 'Where this cascade ends, as a share of the depth range',
+  slider: [0, 1, 0.005],
+  keeps: true,
+  needs: (store) => one('shadow.partition.mode', 'manual')(store) && store.state.spec.shadow?.partition?.splits?.length > index + 1,
+});
+
 const volumeFiles = ({ state }) => [['', 'None'], ...(state.summary?.volumeFiles ?? []).map((name) => [name, name])];
 const hasVolume = (store) => store.isSet('volumes.0.file');
 const hasBox = (store) => store.isSet('volumes.0.box'); // and not a matrix, or a node alone
@@ -52,8 +89,7 @@ export const kSections = [
   {
     title: 'Light',
     fields: [
-      { path: 'lights.0.intensity', label: 'Sun strength', says: 'Lux', slider: [0, 20, 0.1], needs: (store) => store.isSet('lights') },
-      { path: 'lights.0.angularDiameterDegrees', label: 'Sun size', says: 'Degrees that its disc spans, 0.53 for the real one; exact and baked shadows and the filter PCSS are soft by it', slider: [0, 10, 0.01], absent: 0, needs: (store) => store.isSet('lights') },
+      { path: 'shadowLightPolicy', label: 'Shadows of', choices: [['all', 'All lights'], ['first', 'First sun']], says: 'Which lights cast shadows' },
       { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light from the surroundings' },
       { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
       { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
@@ -77,7 +113,7 @@ export const kSections = [
         needs: shadowed,
       },
       { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('hybrid', 'rayTraced')(store) && lightHasSize(store) },
-      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], needs: tiled },
+      { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], choose: chooseCascades, needs: tiled },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },
       { path: 'shadow.filter.type', label: 'Filter', whole: true, choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: by('shadowMap') },
@@ -87,7 +123,21 @@ export const kSections = [
     ],
   },
   {
+    title: 'Target',
+    says: 'Say what you want, and the server measures which settings give it',
+    panel: 'target',
+    fields: [
+      { path: 'quality', label: 'Choose by', whole: true, choices: [['none', 'Hand'], ['maxError', 'Error', 'The fastest settings that are no more wrong than this'], ['maxMilliseconds', 'Time', 'The most exact settings that take no longer than this']], value: targetKind, choose: chooseTarget, absent: 'none' },
+      { path: 'quality.maxError', label: 'Most error', says: 'Share of the receivers that are misclassified, 0.01 = 1 %', log: true, slider: [0.0001, 0.1, 0.01], needs: (store) => targetKind(store) === 'maxError', keeps: true },
+      { path: 'quality.maxMilliseconds', label: 'Most time', unit: 'ms', says: 'Of a whole warm frame, without encoding', log: true, slider: [1, 2000, 0.01], needs: (store) => targetKind(store) === 'maxMilliseconds', keeps: true },
+    ],
+  },
+  { title: 'Evaluation', closed: true, panel: 'evaluation', fields: [] },
+  { title: 'Nodes', closed: true, panel: 'nodes', fields: [] },
+  { title: 'Scenes, variants, animation', closed: true, panel: 'motion', fields: [] },
+  {
     title: 'Light map',
+    closed: true,
     panel: 'bake',
     fields: [
       { path: 'shadow.lightMap.size', label: 'Map size', says: 'Texels along the longer side of the light map; twice as many take four times as long to bake', choices: [[512, '512'], [1024, '1k'], [2048, '2k'], [4096, '4k']], choose: chooseMapSize, needs: shadowed },
@@ -95,6 +145,7 @@ export const kSections = [
   },
   {
     title: 'Volume',
+    closed: true,
     panel: 'volume',
     fields: [
       { path: 'volumes.0.file', label: 'File', says: 'A .npy or .vdb file of the upload', options: volumeFiles, choose: chooseVolume, clears: 'volumes' },
@@ -111,7 +162,8 @@ export const kSections = [
     title: 'Cascade planning',
     closed: true,
     fields: [
-      { path: 'shadow.partition.mode', label: 'Partition', choices: [['logarithmic', 'Log'], ['uniform', 'Uniform']], says: 'How split distances are chosen; the API also takes manual ones' },
+      { path: 'shadow.partition.mode', label: 'Partition', choices: [['logarithmic', 'Log'], ['uniform', 'Uniform'], ['manual', 'Manual']], says: 'How split distances are chosen', choose: choosePartition, clears: 'shadow.partition' },
+      ...[0, 1, 2, 3, 4, 5, 6].map(manualSplit),
       { path: 'shadow.partition.pssmFactor', label: 'PSSM factor', slider: [0, 1, 0.01], says: '0 = logarithmic, 1 = uniform', needs: one('shadow.partition.mode', 'logarithmic') },
       { path: 'shadow.depthRange.mode', label: 'Depth range', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = from the nearest to the farthest surface in view', choose: chooseDepthRange, clears: 'shadow.depthRange' },
       { path: 'shadow.depthRange.min', label: 'From', unit: 'm', needs: one('shadow.depthRange.mode', 'manual') },
@@ -119,6 +171,19 @@ export const kSections = [
       { path: 'shadow.stabilization', label: 'Stabilise', choices: [['none', 'None'], ['projectionSnapping', 'Proj.', 'Projection snapping'], ['viewSnapping', 'View', 'View snapping']] },
       { path: 'shadow.blendCascades', label: 'Blend cascades', toggle: true },
       { path: 'atlas.baseSize', label: 'Base tile', says: 'Texels along a side of a Large tile', choices: [[512, '512'], [1024, '1024'], [2048, '2048']] },
+      { path: 'atlas.size', label: 'Atlas', says: 'Largest side of the atlas; smaller saves memory, and shrinks tiles when it is full', choices: [[1024, '1k'], [2048, '2k'], [4096, '4k'], [8192, '8k']] },
+      { path: 'atlas.samples', label: 'Samples', says: 'Depths in each texel; four smooth edges within a texel', choices: [[1, '1'], [4, '4']] },
+    ],
+  },
+  {
+    title: 'Bias and casters',
+    closed: true,
+    fields: [
+      { path: 'shadow.bias.mode', label: 'Bias', choices: [['automatic', 'Automatic'], ['manual', 'Manual']], says: 'Automatic = from texels, filter and slope: nothing to tune', choose: chooseBias, clears: 'shadow.bias' },
+      { path: 'shadow.bias.depth', label: 'Depth', unit: 'm', says: 'Distance towards the light', needs: one('shadow.bias.mode', 'manual'), keeps: true },
+      { path: 'shadow.bias.slope', label: 'Slope', unit: 'm', says: 'Times the tangent of the angle between normal and light', needs: one('shadow.bias.mode', 'manual'), keeps: true },
+      { path: 'shadow.bias.normalOffsetScale', label: 'Normal', says: 'Distance along the normal, as a multiple of the depth', needs: one('shadow.bias.mode', 'manual'), keeps: true },
+      { path: 'shadow.blendedCasters', label: 'Glass casts', choices: [['dither', 'Dither', 'As much shadow as its alpha says'], ['threshold', 'Threshold', 'All or nothing']] },
     ],
   },
   {
@@ -139,6 +204,10 @@ export const kViews = [
   ['depth', 'Depth', 'Distance along the view axis'],
   ['normal', 'Normal', 'World-space shading normal'],
   ['ids', 'Nodes', 'A colour for each node'],
+];
+
+// Data that is asked for more rarely.
+export const kDataViews = [
   ['materials', 'Materials', 'A colour for each material'],
   ['instances', 'Instances', 'A colour for each copy of a mesh'],
   ['albedo', 'Albedo', 'Base colour, without light'],
@@ -160,6 +229,9 @@ export const kDebugViews = [
   ['error', 'Error', 'Compared with rays: false shadow red, false light blue'],
   ['edgeDistance', 'Edge distance', 'How far the shadow’s edges lie from the true ones: black 0, green 8, red 16 pixels'],
 ];
+
+// As the view `cascades` tints them.
+export const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8'];
 
 // One hue a stage, in the order of the work.
 export const kStageColors = {

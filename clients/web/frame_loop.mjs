@@ -2,9 +2,10 @@
 // drafts; once it has been still for a moment, the sharp picture. A sharp one that is out when the state changes is
 // abandoned; a draft is let finish, so that there is something to see under a hand that never rests.
 
+import { kDraftScales } from './spec.mjs';
+
 const kStillMs = 180;
-const kDraftGoalMs = 150; // a draft's size is steered towards this
-const kScales = [0.25, 0.33, 0.4, 0.5, 0.67, 0.8];
+const kDraftGoalMs = 70; // a draft's size is steered towards this
 
 // `render(draft: bool, scale, signal)` -> frame, or null where there is nothing to render.
 // `show(frame, draft)`, `fail(error)`, `busy(bool)`.
@@ -65,10 +66,15 @@ export function createFrameLoop({ render, show, fail, busy }) {
   }
 
   function steer(milliseconds) {
-    const at = kScales.indexOf(scale);
-    if (milliseconds > kDraftGoalMs * 1.4) scale = kScales[Math.max(0, at - 1)];
-    if (milliseconds < kDraftGoalMs * 0.6) scale = kScales[Math.min(kScales.length - 1, at + 1)];
+    scale = steered(scale, milliseconds);
   }
 
   return { changed };
+}
+
+// The scale of the next draft after one that took so long: far too slow jumps, a little too slow steps.
+export function steered(scale, milliseconds) {
+  const at = kDraftScales.indexOf(scale);
+  const by = milliseconds > kDraftGoalMs * 3 ? -2 : milliseconds > kDraftGoalMs * 1.25 ? -1 : milliseconds < kDraftGoalMs * 0.6 ? 1 : 0;
+  return kDraftScales[Math.min(kDraftScales.length - 1, Math.max(0, at + by))];
 }

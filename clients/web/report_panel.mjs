@@ -1,8 +1,7 @@
 // What the frame's report says about each light's tiles or light map, and its warnings.
 
 import { count, element, short } from './dom.mjs';
-
-const kTints = ['#35c26b', '#4f8cff', '#a56bf0', '#ef5b5b', '#f2a33a', '#3ccfcf', '#e8d84a', '#f28fb8']; // as the view `cascades` tints them
+import { kTints } from './fields.mjs';
 
 export function showReport(node, report) {
   node.replaceChildren(...report.lights.map(lightOf), ...report.volumes.map(volumeOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));

@@ -1,7 +1,8 @@
-// Taking the picture along: files, a curl command, a link.
+// Taking the picture along: files, a link, code that asks for the same.
 
 import { renderFile } from './api.mjs';
-import { curlCommand, withFormat } from './spec.mjs';
+import { kSnippets } from './snippets.mjs';
+import { withFormat } from './spec.mjs';
 
 export async function download(sceneId, spec, format) {
   const contentType = format === 'exr' ? 'image/x-exr' : 'image/png';
@@ -16,12 +17,12 @@ export function saveFile(file, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-export function copyCurl(sceneId, spec) {
+// `what`: a key of kSnippets, or link.
+export function copySnippet(what, sceneId, spec) {
+  if (what === 'link') return copyText(location.href);
   const origin = new URL('.', location.href).href.replace(/\/$/, '');
-  return copyText(curlCommand(origin, sceneId, spec, 'png'));
+  return copyText(kSnippets[what](origin, sceneId, spec));
 }
-
-export const copyLink = () => copyText(location.href);
 
 // The clipboard proper needs a secure page; a selected text area does without.
 async function copyText(text) {

@@ -1,7 +1,5 @@
 // From the page's state to the FrameSpec that is sent. Pure.
 
-import { removePath } from './paths.mjs';
-
 // The sharp picture of the present state. `size` is used where the user chose none.
 export function fullSpec({ spec, view, report }, size) {
   const sized = spec.width && spec.height ? spec : { ...size, ...spec };
@@ -14,24 +12,22 @@ const momentOf = (report) => (report ? { camera: report.spec.camera, animation: 
 const placesOf = (nodes = []) =>
   nodes.map(({ visible, castShadow, receiveShadow, layers, ...place }) => place).filter((place) => Object.keys(place).length > 1);
 
-// The same, cheap enough to follow the hand: fewer pixels, no antialiasing.
-export function draftSpec(state, size, scale) {
-  const full = fullSpec(state, size);
-  const side = (pixels) => Math.max(16, Math.round((pixels * scale) / 2) * 2);
-  return { ...full, width: side(full.width), height: side(full.height), antialiasing: 'none' };
-}
+// How small a draft may be drawn, as shares of the picture's sides.
+export const kDraftScales = [0.12, 0.16, 0.2, 0.25, 0.33, 0.4, 0.5, 0.67, 0.8];
+const kCoarse = 0.33; // from here down, shadow maps are coarser too
+const kCoarsest = 0.2; // and from here down, fewer
 
-// One command that gives the same picture.
-export function curlCommand(origin, sceneId, spec, format) {
-  const body = JSON.stringify(format === 'png' ? removePath(spec, 'output.format') : withFormat(spec, format));
-  const type = format === 'png' ? 'image/png' : 'image/x-exr';
-  return [
-    `curl -sSf -X POST ${quoted(`${origin}/v1/scenes/${sceneId}/frames`)}`,
-    `-H 'Content-Type: application/json' -H 'Accept: ${type}'`,
-    `-d ${quoted(body)} -o frame.${format}`,
-  ].join(' \\\n  ');
+// The same, cheap enough to follow the hand: fewer pixels, no antialiasing, no target to be searched for. Rays are
+// taken last, since they are what exact techniques are for.
+export function draftSpec(state, size, scale) {
+  const { quality, ...full } = fullSpec(state, size);
+  const side = (pixels) => Math.max(16, Math.round((pixels * scale) / 2) * 2);
+  const draft = { ...full, width: side(full.width), height: side(full.height), antialiasing: 'none' };
+  if (draft.shadow?.raySamples > 4) draft.shadow = { ...draft.shadow, raySamples: 4 };
+  if (scale <= kCoarse) draft.atlas = { ...draft.atlas, baseSize: Math.min(512, draft.atlas?.baseSize ?? 512) };
+  const { cascadeCount = 4, partition } = draft.shadow ?? {};
+  if (scale <= kCoarsest && partition?.mode !== 'manual') draft.shadow = { ...draft.shadow, cascadeCount: Math.min(2, cascadeCount) };
+  return draft;
 }
 
 export const withFormat = (spec, format) => ({ ...spec, output: { ...spec.output, format } });
-
-const quoted = (text) => `'${text.replaceAll("'", "'\\''")}'`;

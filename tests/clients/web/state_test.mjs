@@ -6,7 +6,8 @@ import test from 'node:test';
 import { fromHash, toHash } from '../../../clients/web/deep_link.mjs';
 import { kSections } from '../../../clients/web/fields.mjs';
 import { flatten, getPath, pointerOf, removePath, setPath } from '../../../clients/web/paths.mjs';
-import { curlCommand, draftSpec, fullSpec } from '../../../clients/web/spec.mjs';
+import { curlCommand } from '../../../clients/web/snippets.mjs';
+import { draftSpec, fullSpec } from '../../../clients/web/spec.mjs';
 import { createStore } from '../../../clients/web/store.mjs';
 
 test('a path is set without touching what it is set in', () => {
