@@ -122,10 +122,11 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findPoints(DrawnView view, const DrawnPlace
     const glm::vec3 position = (relative + view.eyeLow) + view.eyeHigh;
     const float unsure = 16 * kHalf * (sumOfSizes(corner) + sumOfSizes(relative));
     const float lost = 2 * kHalf * sumOfSizes(normal * position);
-    const float pixel = 2 * (depth * view.slope.y + view.spread.y) / view.size.y; // its side, where the point lies
+    const glm::vec2 sides = (view.slope * depth + view.spread) * 2.0f / view.size; // of the pixel, where the point lies
     const float thinnest = select(small, 1e-8f, 1.0f / 16);
     points.sure[i] = when(squared > 1e-30f) & when(squared > thinnest * squares) & (within | small) &
-                     when(16 * unsure < pixel) & when(steepness * steepness > 1e-6f * squared * glm::dot(way, way));
+                     when(16 * unsure < sides.x) & when(16 * unsure < sides.y) &
+                     when(steepness * steepness > 1e-6f * squared * glm::dot(way, way));
     points.turn[i] = 1e-6f + 8 * kHalf * std::sqrt(squares) / size;
     points.unsure[i] = unsure;
     points.u[i] = u;

@@ -160,7 +160,8 @@ TEST(Validate, APoseIsARotationAndATranslation) {
   const double c = std::cos(0.4), s = std::sin(0.4), nan = std::numeric_limits<double>::quiet_NaN();
   const std::string matrix = "/camera/pose/worldFromCamera";
   EXPECT_THAT(wrong({{{c, -s, 0, 7}, {s, c, 0, -8e8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), IsEmpty());
-  EXPECT_THAT(wrong({{{0.921, -0.389, 0, 7}, {0.389, 0.921, 0, 8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), IsEmpty()) << "rounded";
+  EXPECT_THAT(wrong({{{0.921, -0.389, 0, 7}, {0.389, 0.921, 0, 8}, {0, 0, 1, 9}, {0, 0, 0, 1}}}), IsEmpty())
+      << "rounded";
   EXPECT_THAT(wrong({{{c, s, 0, 0}, {-s, c, 0, 0}, {0, 0, 1, 0}, {7, 8, 9, 1}}}), ElementsAre(matrix + "/3"))
       << "transposed";
   EXPECT_THAT(wrong({{{c, -s, 0, 7}, {s, c, 0, 8}, {0, 0, -1, 9}, {0, 0, 0, 1}}}), ElementsAre(matrix)) << "mirrored";
@@ -171,7 +172,7 @@ TEST(Validate, APoseIsARotationAndATranslation) {
   EXPECT_THAT(wrong({{{1, 0, 0, 0}, {0, 1, 0, 2e9}, {0, 0, 1, 0}, {0, 0, 0, 1}}}), ElementsAre(matrix + "/1/3"));
 }
 
-TEST(Validate, ACameraHasOnePlacementAndOneLens) {
+TEST(Validate, APoseIsAPlacementAndIntrinsicsAreALens) {
   EXPECT_THAT(wrongIn(Camera{.lookAt = EyeTarget{}, .pose = CameraPose{}}), ElementsAre("/camera/pose"));
   EXPECT_THAT(wrongIn(Camera{.perspective = Perspective{}, .intrinsics = Intrinsics{}}),
               ElementsAre("/camera/intrinsics"));
