@@ -23,7 +23,8 @@ std::string multipartBody(const Frame& frame, const std::vector<EncodedPicture>&
   part("application/json", "report.json", jsonText(toJson(frame.report)));
   const FormatTraits& traits = traitsOf(format);
   for (const EncodedPicture& picture : pictures) {
-    part(traits.mediaType, (traits.allViews ? "frame" : picture.view).append(traits.suffix), asText(picture.file));
+    part(traits.mediaType, std::string(traits.allViews ? "frame" : picture.view).append(traits.suffix),
+         asText(picture.file));
   }
   return body.append("--").append(boundary).append("--\r\n");
 }
