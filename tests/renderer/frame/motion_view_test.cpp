@@ -51,7 +51,9 @@ Scene triangleAt(const glm::dmat4& place) {
   Scene scene;
   scene.positions = {{-5, -5, 0}, {6, -4, 1}, {1, 7, 2}};
   scene.indices = {0, 1, 2};
-  scene.primitives.push_back({.vertexCount = 3, .indexCount = 3});
+  Primitive primitive;
+  primitive.vertexCount = primitive.indexCount = 3;
+  scene.primitives.push_back(primitive);
   SceneView view;
   Instance instance;
   instance.worldFromLocal = place;
