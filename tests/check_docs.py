@@ -176,7 +176,7 @@ def table_faults(tree):
 
     views = spellings(tree, "View")
     yield from compare("server/API.md", "view", first_column(tree, "server/API.md", "Views"), views)
-    lists = found(r"kViews = \[(.*?)\n\];", page) + found(r"kDebugViews = \[(.*?)\n\];", page)
+    lists = "\n".join(re.findall(r"k\w*Views = \[(.*?)\n\];", page, re.DOTALL))
     yield from compare("clients/web/fields.mjs", "view", re.findall(r"^  \['(\w+)'", lists, re.MULTILINE), views)
 
     names = stages(tree)
