@@ -86,7 +86,8 @@ struct SceneSummary {
   std::vector<CameraSummary> cameras{};
   std::vector<LightSummary> lights{};
   std::vector<AnimationSummary> animations{};
-  std::vector<std::string> volumeFiles{}; ///< names of the bundle's files that hold grids, for volumes
+  std::vector<std::string> materialVariants{}; ///< names of the file's KHR_materials_variants
+  std::vector<std::string> volumeFiles{};      ///< names of the bundle's files that hold grids, for volumes
   std::vector<std::string> extensionsUsed{};
   std::vector<std::string> extensionsIgnored{}; ///< those of them that the loader does not know
   std::vector<std::string> warnings{};          ///< what the file holds that is drawn without or drawn differently

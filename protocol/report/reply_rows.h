@@ -78,6 +78,8 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field("cameras", &SceneSummary::cameras, {.says = "Its cameras."}),
     field("lights", &SceneSummary::lights, {.says = "Its lights."}),
     field("animations", &SceneSummary::animations, {.says = "The file's animations, in the order of their indices."}),
+    field("materialVariants", &SceneSummary::materialVariants,
+          {.says = "Names of the file's material variants, for `materialVariant`."}),
     field("volumeFiles", &SceneSummary::volumeFiles,
           {.says = "Names of the upload's .npy and .vdb files, which a frame's `volumes` may show."}),
     field("extensionsUsed", &SceneSummary::extensionsUsed, {.says = "glTF extensions that the file names."}),

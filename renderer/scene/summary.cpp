@@ -183,6 +183,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   for (const SceneLight& light : view.lights) {
     summary.lights.push_back({light.node, light.name, nameOf(light.light.type)});
   }
+  summary.materialVariants = scene.variants;
   for (const auto& [name, file] : scene.grids) summary.volumeFiles.push_back(name);
   summary.extensionsUsed = model.extensionsUsed;
   summary.extensionsIgnored = unsupportedOf(model.extensionsUsed);

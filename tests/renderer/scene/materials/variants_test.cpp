@@ -23,6 +23,7 @@ testing::GlbBuilder withVariants() {
 TEST(MaterialVariants, EachOneHasTheFilesScenesWithItsMaterials) {
   const Scene scene = load(withVariants());
   EXPECT_THAT(scene.variants, ElementsAre("red", "same"));
+  EXPECT_THAT(scene.summary.materialVariants, ElementsAre("red", "same"));
   EXPECT_EQ(fileScenes(scene), 1);
   EXPECT_EQ(scene.summary.scenes, 1);
   ASSERT_EQ(scene.scenes.size(), 3u);
