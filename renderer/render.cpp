@@ -10,8 +10,9 @@
 
 namespace gnomon {
 
-Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits, const std::string& id, const GoOn& goOn) {
-  return untilStopped(goOn, [&] { return loadGltf(bundle, limits, id); });
+Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits, const std::string& id, const GoOn& goOn,
+                           KnownContent* known) {
+  return untilStopped(goOn, [&] { return loadGltf(bundle, limits, id, known); });
 }
 
 const SceneSummary& summaryOf(const Scene& scene) {

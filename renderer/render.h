@@ -25,6 +25,7 @@
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
+#include "renderer/scene/known_content.h"
 #include "renderer/volume/vdb_file.h"
 
 /// The only door into the renderer.
@@ -32,9 +33,11 @@ namespace gnomon {
 
 /// Loads a glTF from memory. Any thread. Refuses, with every problem and its place, what it can't show rightly. `id`:
 /// names these very bytes in a LightMapStore; empty = nothing of the scene is kept there.
-/// `goOn`: false ends the loading with a problem of code unavailable.
+/// `goOn`: false ends the loading with a problem of code unavailable. `known`: where meshes and images that an earlier
+/// scene has are found, and those of this one are kept; frames of scenes that share them share what drawing made of
+/// them.
 Result<ScenePtr> loadScene(const SceneBundle& bundle, const Limits& limits = kLimits, const std::string& id = {},
-                           const GoOn& goOn = {});
+                           const GoOn& goOn = {}, KnownContent* known = nullptr);
 
 /// What the scene holds, and its id. Any thread.
 const SceneSummary& summaryOf(const Scene& scene);

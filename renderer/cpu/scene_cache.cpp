@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene/alike.h"
+
 namespace gnomon::cpu {
 
 CachedScene& SceneCache::of(const std::shared_ptr<const Scene>& scene) {
@@ -9,6 +11,16 @@ CachedScene& SceneCache::of(const std::shared_ptr<const Scene>& scene) {
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.scene.lock() == scene; });
   if (found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
+    return entries_.front().cached;
+  }
+  if (const auto like = std::find_if(entries_.begin(), entries_.end(),
+                                     [&](const Entry& entry) {
+                                       const auto other = entry.scene.lock();
+                                       return other && sameSurfaces(*other, *scene);
+                                     });
+      like != entries_.end()) {
+    like->scene = scene;
+    entries_.splice(entries_.begin(), entries_, like);
     return entries_.front().cached;
   }
   auto textures = texturesOf(*scene);

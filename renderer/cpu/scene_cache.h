@@ -9,11 +9,12 @@ namespace gnomon::cpu {
 
 /// What frames of one scene share beside it.
 struct CachedScene {
-  std::uint64_t id = 0; ///< no other scene's
+  std::uint64_t id = 0; ///< no other scene's but of the same surfaces
   std::shared_ptr<Textures> textures;
 };
 
-/// Of the scenes drawn lately. What belongs to a scene that is gone goes with the next one that comes.
+/// Of the scenes drawn lately; those with the same surfaces are one. What belongs to a scene that is gone goes with the
+/// next one that comes.
 class SceneCache {
  public:
   /// Valid until the next call.

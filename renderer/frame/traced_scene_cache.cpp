@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/core/stop.h"
+#include "renderer/scene/alike.h"
 
 namespace gnomon {
 
@@ -16,9 +17,10 @@ constexpr std::size_t kMostScenes = 256;
 Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shared_ptr<const Scene>& scene, int index) {
   const auto lock = lockUnlessStopped(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.index == index && &entry.traced->scene() == scene.get();
+    return entry.index == index && sameSurfaces(entry.traced->scene(), *scene);
   });
   if (found != entries_.end()) {
+    found->scene = scene;
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front().traced;
   }
@@ -30,22 +32,21 @@ Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shar
 }
 
 /// A traced scene keeps its scene alive, so that one with no other holder is out of use.
-std::vector<const Scene*> TracedSceneCache::outOfUse() const {
-  std::vector<const Scene*> scenes;
+std::vector<const TracedScene*> TracedSceneCache::outOfUse() const {
+  std::vector<const TracedScene*> idle;
   for (const Entry& entry : entries_) {
-    const Scene* scene = &entry.traced->scene();
-    const auto traced = std::count_if(entries_.begin(), entries_.end(),
-                                      [scene](const Entry& other) { return &other.traced->scene() == scene; });
-    if (entry.scene.use_count() <= traced) scenes.push_back(scene);
+    const auto scene = entry.scene.lock();
+    const auto holders = 1 + std::count_if(entries_.begin(), entries_.end(),
+                                           [&](const Entry& other) { return &other.traced->scene() == scene.get(); });
+    if (scene.use_count() <= holders) idle.push_back(entry.traced.get());
   }
-  return scenes;
+  return idle;
 }
 
 void TracedSceneCache::drop() {
-  const std::vector<const Scene*> idle = outOfUse();
-  entries_.remove_if([&idle](const Entry& entry) {
-    return std::find(idle.begin(), idle.end(), &entry.traced->scene()) != idle.end();
-  });
+  const std::vector<const TracedScene*> idle = outOfUse();
+  entries_.remove_if(
+      [&idle](const Entry& entry) { return std::find(idle.begin(), idle.end(), entry.traced.get()) != idle.end(); });
   if (entries_.size() > kMostScenes) entries_.resize(kMostScenes);
   std::size_t bytes = 0;
   auto entry = entries_.begin();

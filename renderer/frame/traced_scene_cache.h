@@ -16,17 +16,18 @@ class TracedSceneCache {
  public:
   explicit TracedSceneCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
-  /// Made now if need be. `index` into Scene::scenes. The newest stays, whatever its size.
+  /// Made now if need be, or that of a scene with the same surfaces. `index` into Scene::scenes. The newest stays,
+  /// whatever its size.
   Result<std::shared_ptr<const TracedScene>> get(const std::shared_ptr<const Scene>& scene, int index);
 
  private:
   struct Entry {
-    std::weak_ptr<const Scene> scene;
+    std::weak_ptr<const Scene> scene; ///< the last that asked
     int index = 0;
     std::shared_ptr<const TracedScene> traced;
   };
 
-  std::vector<const Scene*> outOfUse() const;
+  std::vector<const TracedScene*> outOfUse() const;
   void drop();
 
   std::size_t budgetBytes_;

@@ -40,21 +40,20 @@ struct GpuMeshes {
   std::size_t bytes = 0; ///< of device memory
 };
 
-/// A scene's geometry and materials on the device. Made once per scene.
+/// A scene's geometry and materials on the device. Made once for all scenes with the same surfaces.
 struct GpuScene {
   std::uint64_t id = 0;                        ///< of the upload: no two have the same
-  std::shared_ptr<const GpuMeshes> meshes;     ///< poses of a scene share them where none is deformed
+  std::shared_ptr<const GpuMeshes> meshes;     ///< scenes of the same meshes share them
   gl::Buffer materialData;                     ///< shared::MaterialData
-  std::shared_ptr<const GpuTextures> textures; ///< the poses of a scene share them
+  std::shared_ptr<const GpuTextures> textures; ///< scenes that read the same images in the same way share them
   std::vector<gl::Buffer> anchored;            ///< shared::InstanceData relative to anchorOf, one a glTF scene
   std::size_t bytes = 0;                       ///< of device memory, about
 };
 
+std::shared_ptr<const GpuMeshes> uploadMeshes(const Scene& scene);
 std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene);
 
-std::shared_ptr<const GpuMeshes> uploadMeshes(const Scene& scene);
-
-/// `meshes` and `textures`: of this scene, or of another pose of it that has the same.
+/// `meshes` and `textures`: of this scene, or of one where they are the same (alike.h).
 GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuMeshes> meshes,
                      std::shared_ptr<const GpuTextures> textures);
 

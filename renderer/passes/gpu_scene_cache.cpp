@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene/alike.h"
+
 namespace gnomon {
 
 const GpuScene& GpuSceneCache::get(const std::shared_ptr<const Scene>& scene) {
@@ -28,33 +30,26 @@ GpuSceneCache::Entry& GpuSceneCache::entryOf(const std::shared_ptr<const Scene>&
     entries_.splice(entries_.begin(), entries_, found);
     return entries_.front();
   }
-  auto textures = texturesOf(*scene);
-  const Entry* same = sameMeshes(*scene);
-  auto meshes = same != nullptr ? same->gpu.meshes : uploadMeshes(*scene);
+  const auto alike = [&](bool (*same)(const Scene&, const Scene&)) {
+    return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+      const auto other = entry.scene.lock();
+      return other && same(*other, *scene);
+    });
+  };
+  if (const auto like = alike(sameSurfaces); like != entries_.end()) {
+    like->scene = scene;
+    entries_.splice(entries_.begin(), entries_, like);
+    return entries_.front();
+  }
+  const auto ofMeshes = alike(sameMeshes);
+  const auto ofTextures = alike(sameTextures);
+  auto meshes = ofMeshes != entries_.end() ? ofMeshes->gpu.meshes : uploadMeshes(*scene);
+  auto textures = ofTextures != entries_.end() ? ofTextures->gpu.textures : uploadTextures(*scene);
   entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
   entries_.push_front({scene, uploadScene(*scene, std::move(meshes), std::move(textures)), {}});
   entries_.front().gpu.id = ++uploads_;
   drop();
   return entries_.front();
-}
-
-/// Scenes that share their images are poses of one.
-std::shared_ptr<const GpuTextures> GpuSceneCache::texturesOf(const Scene& scene) const {
-  for (const Entry& entry : entries_) {
-    const auto other = entry.scene.lock();
-    if (other && !scene.images.empty() && other->images == scene.images) return entry.gpu.textures;
-  }
-  return uploadTextures(scene);
-}
-
-/// Poses that move nothing but nodes share their vertices; null where none of the scene has been uploaded.
-const GpuSceneCache::Entry* GpuSceneCache::sameMeshes(const Scene& scene) const {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    const auto other = entry.scene.lock();
-    return other && other->positions.sharesWith(scene.positions) && other->attributes.sharesWith(scene.attributes) &&
-           other->indices.sharesWith(scene.indices) && other->welded.sharesWith(scene.welded);
-  });
-  return found == entries_.end() ? nullptr : &*found;
 }
 
 void GpuSceneCache::drop() {

@@ -8,7 +8,8 @@
 
 namespace gnomon {
 
-/// Uploaded scenes, the least recently used dropped first once they take more than a budget.
+/// Uploaded scenes, those with the same surfaces as one, the least recently used dropped first once they take more than
+/// a budget.
 class GpuSceneCache {
  public:
   explicit GpuSceneCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
@@ -28,8 +29,6 @@ class GpuSceneCache {
   };
 
   Entry& entryOf(const std::shared_ptr<const Scene>& scene);
-  std::shared_ptr<const GpuTextures> texturesOf(const Scene& scene) const;
-  const Entry* sameMeshes(const Scene& scene) const;
   void drop();
 
   std::size_t budgetBytes_;

@@ -21,6 +21,7 @@ class Findings {
   void warn(std::string sentence);
 
   bool refused() const { return !problems_.empty(); }
+  std::size_t count() const { return problems_.size() + warnings_.size() + unsaidWarnings_; }
   Problems takeProblems() { return std::move(problems_); }
   std::vector<std::string> takeWarnings();
 

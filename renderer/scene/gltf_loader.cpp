@@ -37,7 +37,8 @@ std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle&
   return grids;
 }
 
-Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
+Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id,
+                                          KnownContent* known) {
   Findings findings;
   auto document = readGltf(bundle, limits, findings);
   if (!document) return std::move(document).problems();
@@ -62,7 +63,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
   const std::vector<BuiltMesh> meshes =
-      buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings);
+      buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings, known);
   const NodeTree tree = buildNodeTree(model, findings);
   if (findings.refused()) return findings.takeProblems();
   const std::vector<PosedMesh> posed = poseNodes(context, tree, meshes, *deformation, *scene);
@@ -85,7 +86,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
   if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
   scene->nodes = namedNodes(model);
-  scene->images = loadImages(*document, limits, scene->materials, findings);
+  scene->images = loadImages(*document, limits, scene->materials, findings, known);
   if (findings.refused()) return findings.takeProblems();
 
   scene->grids = gridFiles(bundle);
@@ -94,14 +95,16 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.id = id;
   scene->summary.warnings = findings.takeWarnings();
+  if (known != nullptr) known->keepMeshes(scene);
   return std::shared_ptr<const Scene>(std::move(scene));
 }
 
 } // namespace
 
-Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits, const std::string& id) {
+Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const Limits& limits, const std::string& id,
+                                              KnownContent* known) {
   try {
-    return load(bundle, limits, id);
+    return load(bundle, limits, id, known);
   } catch (const std::bad_alloc&) {
     return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene.", {}, {}};
   } catch (const std::exception&) {

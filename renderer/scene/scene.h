@@ -46,8 +46,9 @@ struct Primitive {
   std::uint32_t firstCluster = 0; ///< into Scene::clusters; cluster k holds triangles [k, k+1) * kClusterTriangles
   std::uint32_t clusterCount = 0;
   bool hasTangents = false;
-  bool solid = false; ///< its triangles bound solids, front faces outside (welding.h)
-  Aabb bounds;        ///< in its own space
+  bool solid = false;    ///< its triangles bound solids, front faces outside (welding.h)
+  Aabb bounds;           ///< in its own space
+  std::string content{}; ///< SHA-256 of what its vertices and indices were made from; empty = not known
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -67,6 +68,8 @@ enum class MinFilter {
 struct TextureTransform {
   glm::mat2 axes{1};
   glm::vec2 offset{0};
+
+  bool operator==(const TextureTransform&) const = default;
 };
 
 /// A texture as a material uses it.
@@ -78,12 +81,16 @@ struct TextureUse {
   bool nearest = false; ///< magnification filter
   MinFilter minFilter = MinFilter::linearMipmapLinear;
   std::optional<TextureTransform> transform{};
+
+  bool operator==(const TextureUse&) const = default;
 };
 
 /// KHR_materials_pbrSpecularGlossiness; the diffuse color is Material::baseColorFactor, its texture baseColor.
 struct SpecularGlossiness {
   glm::vec3 specularFactor{1}; ///< linear
   float glossinessFactor = 1;
+
+  bool operator==(const SpecularGlossiness&) const = default;
 };
 
 /// glTF metallic-roughness, or specular-glossiness.
@@ -105,6 +112,8 @@ struct Material {
   std::optional<SpecularGlossiness> specularGlossiness{}; ///< instead of metal and roughness
   /// metallicRoughness: with `specularGlossiness` its texture, sRGB specular and alpha glossiness.
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
+
+  bool operator==(const Material&) const = default;
 };
 
 /// A node of the file, whichever scene it belongs to.

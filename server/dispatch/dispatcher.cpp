@@ -178,6 +178,8 @@ DispatcherState Dispatcher::state() const {
   }
   for (const TicketPtr& ticket : waiting_) ++state.waitingByLane[static_cast<std::size_t>(ticket->task.lane)];
   state.replacements = replacements_;
+  state.reusedMeshes = reusedMeshes_;
+  state.reusedImages = reusedImages_;
   return state;
 }
 

@@ -55,6 +55,8 @@ struct DispatcherState {
   std::array<std::size_t, kLanes> waitingByLane{};       ///< tasks
   std::array<std::size_t, kLanes> runningByLane{};       ///< tasks
   std::array<std::uint64_t, kWorkerEnds> replacements{}; ///< workers, since the start
+  std::uint64_t reusedMeshes = 0; ///< by loads, since the start: found in a scene that a worker had
+  std::uint64_t reusedImages = 0; ///< alike
 };
 
 /// Workers, and the queue before them. Where the processor draws, but requests may ask for OpenGL, those go to a
@@ -129,6 +131,8 @@ class Dispatcher {
   std::list<TicketPtr> waiting_; ///< in order of arrival
   std::uint64_t numbers_ = 0;
   std::array<std::uint64_t, kWorkerEnds> replacements_{};
+  std::uint64_t reusedMeshes_ = 0;
+  std::uint64_t reusedImages_ = 0;
   double taskMs_ = 0; ///< moving average of what a task takes in a worker
   RendererInfo info_;
   FrameCost costFactors_;           ///< milliseconds for a unit of each part

@@ -77,6 +77,9 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
   Lock lock(mutex_);
   slot.heard = Clock::now();
   if (message->beat) {
+    const auto since = [](std::uint64_t before, std::uint64_t now) { return now >= before ? now - before : now; };
+    reusedMeshes_ += since(slot.beat.reusedMeshes, message->beat->reusedMeshes); // a new worker begins at 0
+    reusedImages_ += since(slot.beat.reusedImages, message->beat->reusedImages);
     slot.beat = *message->beat;
     const std::vector<double>& factors = slot.beat.costFactors;
     const bool sound = factors.size() == kFrameParts &&

@@ -101,6 +101,8 @@ template <>
 inline constexpr auto kRows<Beat> = rows("Beat", "A sign of life.",
                                          field("scenes", &Beat::scenes, {.says = "Loaded scenes."}),
                                          field("sceneBytes", &Beat::sceneBytes, {.says = "Of them.", .unit = "bytes"}),
+                                         field("reusedMeshes", &Beat::reusedMeshes, {.says = "Found in other scenes."}),
+                                         field("reusedImages", &Beat::reusedImages, {.says = "Alike."}),
                                          field("costFactors", &Beat::costFactors,
                                                {.says = "Of each part of a frame.", .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<Beat>);

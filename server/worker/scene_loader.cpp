@@ -18,7 +18,7 @@ bool isBundleOf(const std::string& id, std::span<const std::uint8_t> bytes) {
 } // namespace
 
 std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, const BundleFile& bundle,
-                                                         const GoOn& goOn) const {
+                                                         const GoOn& goOn) {
   auto bytes = readFile(bundle.file, std::numeric_limits<std::size_t>::max()); // the front has bounded it
   if (!bytes) {
     return LoadFailure{{{ProblemCode::unavailable, "", "The scene's bytes could not be read.", "", ""}}};
@@ -27,7 +27,7 @@ std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, 
   if (bundle.isStored && !isBundleOf(id, *bytes)) return LoadFailure{{}, true};
   auto read = readBundle(*std::move(bytes), limits_);
   if (!read) return LoadFailure{std::move(read).problems()};
-  auto scene = loadScene(*read, limits_, id, goOn);
+  auto scene = loadScene(*read, limits_, id, goOn, &known_);
   if (!scene) return LoadFailure{std::move(scene).problems()};
   LoadedScene loaded{*scene, summaryOf(**scene)};
   loaded.summary.id = id;

@@ -24,7 +24,7 @@ struct LoadFailure {
 };
 
 /// Loads scenes from their bundles and keeps them, within a budget. A scene is loaded once for all who want it at the
-/// same time. Any thread.
+/// same time, and shares the meshes and images that it has in common with those that are kept. Any thread.
 class SceneLoader {
  public:
   /// `memoryBytes`: what loaded scenes may take together, and so the most for one. `limits`: of a single scene.
@@ -39,12 +39,14 @@ class SceneLoader {
 
   std::size_t bytes() const { return cache_.bytes(); }
   std::size_t count() const { return cache_.count(); }
+  ReuseCounts reused() const { return known_.reused(); }
 
  private:
-  std::variant<LoadedScene, LoadFailure> load(const std::string& id, const BundleFile& bundle, const GoOn& goOn) const;
+  std::variant<LoadedScene, LoadFailure> load(const std::string& id, const BundleFile& bundle, const GoOn& goOn);
 
   Limits limits_;
   SceneCache cache_;
+  KnownContent known_;
   std::size_t most_;
   SingleFlight<std::variant<LoadedScene, LoadFailure>> loading_;
 };

@@ -169,7 +169,8 @@ class Worker {
     FrameCost unit;
     unit.parts.fill(1);
     const auto factors = context_->costs.parts(unit).parts;
-    return {scenes_->count(), scenes_->bytes(), {factors.begin(), factors.end()}};
+    const ReuseCounts reused = scenes_->reused();
+    return {scenes_->count(), scenes_->bytes(), reused.meshes, reused.images, {factors.begin(), factors.end()}};
   }
 
   void say(const ToFront& message) {

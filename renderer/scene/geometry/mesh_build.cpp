@@ -7,6 +7,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
+#include "renderer/scene/geometry/mesh_content.h"
 #include "renderer/scene/geometry/triangle_mesh.h"
 #include "renderer/scene/posing/deformation.h"
 
@@ -63,11 +64,36 @@ int append(const TriangleMesh& mesh, const Outline& outline, int material, Scene
   return static_cast<int>(scene.primitives.size()) - 1;
 }
 
+/// Appends a primitive of another scene; returns its index.
+int appendKnown(const KnownContent::Mesh& known, int material, Scene& scene) {
+  const Scene& from = *known.scene;
+  const auto append = [](auto& to, const auto& all, std::size_t first, std::size_t count) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  Primitive primitive = from.primitives[static_cast<std::size_t>(known.primitive)];
+  const Primitive source = primitive;
+  primitive.material = material;
+  primitive.variantMaterials.clear();
+  primitive.baseVertex = static_cast<std::uint32_t>(scene.positions.size());
+  primitive.firstIndex = static_cast<std::uint32_t>(scene.indices.size());
+  primitive.firstCluster = static_cast<std::uint32_t>(scene.clusters.size());
+  append(scene.positions.edit(), *from.positions, source.baseVertex, source.vertexCount);
+  append(scene.attributes.edit(), *from.attributes, source.baseVertex, source.vertexCount);
+  append(scene.indices.edit(), *from.indices, source.firstIndex, source.indexCount);
+  append(scene.welded.edit(), *from.welded, source.firstIndex, source.indexCount);
+  append(scene.clusters, from.clusters, source.firstCluster, source.clusterCount);
+  scene.primitives.push_back(std::move(primitive));
+  return static_cast<int>(scene.primitives.size()) - 1;
+}
+
 /// A primitive between being read and being appended.
 struct ReadPrimitive {
   const PrimitiveSource& source;
   BuiltMesh& of;
   TriangleMesh mesh;
+  std::string content{};                     ///< empty = it may not be kept for other files
+  std::optional<KnownContent::Mesh> known{}; ///< instead of `mesh`
   Outline outline{};
 };
 
@@ -75,21 +101,34 @@ struct ReadPrimitive {
 /// there is work to share and little memory lies in between.
 class MeshBuilder {
  public:
-  MeshBuilder(int defaultMaterial, Scene& scene, std::vector<Deformable>& deformables, Findings& findings)
-      : defaultMaterial_(defaultMaterial), scene_(scene), deformables_(deformables), findings_(findings) {}
+  MeshBuilder(int defaultMaterial, Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
+              KnownContent* known)
+      : defaultMaterial_(defaultMaterial),
+        scene_(scene),
+        deformables_(deformables),
+        findings_(findings),
+        known_(known) {}
 
   void read(const PrimitiveSource& source, BuiltMesh& of) {
     stopIfAsked();
+    std::string content = known_ != nullptr ? meshContent(source) : std::string();
+    if (auto known = content.empty() ? std::nullopt : known_->mesh(content)) {
+      read_.push_back({source, of, {}, std::move(content), std::move(known)});
+      return;
+    }
+    const std::size_t said = findings_.count();
     TriangleMesh mesh = buildVertices(source, findings_);
     if (mesh.indices.empty()) return;
+    if (findings_.count() != said) content.clear(); // what it says must be said for each file
     corners_ += mesh.indices.size();
-    read_.push_back({source, of, std::move(mesh)});
+    read_.push_back({source, of, std::move(mesh), std::move(content)});
     if (corners_ >= kMostCorners) build();
   }
 
   void build() {
     forEach(read_.size(), [&](std::size_t i) {
       ReadPrimitive& each = read_[i];
+      if (each.known) return;
       each.mesh = ordered(std::move(each.mesh));
       if (!each.source.deforms()) each.outline = outlineOf(each.mesh);
     });
@@ -114,7 +153,9 @@ class MeshBuilder {
       deformables_.back().material = material;
       deformables_.back().variantMaterials = source.variantMaterials;
     } else {
-      read.of.primitives.push_back(append(read.mesh, read.outline, material, scene_));
+      read.of.primitives.push_back(read.known ? appendKnown(*read.known, material, scene_)
+                                              : append(read.mesh, read.outline, material, scene_));
+      scene_.primitives.back().content = std::move(read.content);
       scene_.primitives.back().variantMaterials = source.variantMaterials;
     }
   }
@@ -123,6 +164,7 @@ class MeshBuilder {
   Scene& scene_;
   std::vector<Deformable>& deformables_;
   Findings& findings_;
+  KnownContent* const known_;
   std::vector<ReadPrimitive> read_;
   std::size_t corners_ = 0; ///< of all that are read
 };
@@ -134,9 +176,10 @@ int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
 }
 
 std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
-                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings) {
+                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
+                                   KnownContent* known) {
   std::vector<BuiltMesh> built(meshes.size());
-  MeshBuilder builder(defaultMaterial, scene, deformables, findings);
+  MeshBuilder builder(defaultMaterial, scene, deformables, findings, known);
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     for (const PrimitiveSource& source : meshes[m]) builder.read(source, built[m]);
   }

@@ -7,6 +7,7 @@
 
 #include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/geometry/triangle_mesh.h"
+#include "renderer/scene/known_content.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/scene.h"
 
@@ -19,9 +20,10 @@ struct BuiltMesh {
 };
 
 /// Fills the scene's vertices, indices, clusters and primitives, and the deformables. Primitives without triangles are
-/// left out. A primitive without a material gets the index `defaultMaterial`.
+/// left out. A primitive without a material gets the index `defaultMaterial`. What is in `known` is copied from there.
 std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
-                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings);
+                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
+                                   KnownContent* known = nullptr);
 
 /// Appends one primitive's vertices, triangles and clusters to the scene; returns its index.
 int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene);

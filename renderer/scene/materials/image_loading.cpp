@@ -80,10 +80,19 @@ void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, c
   }
 }
 
+/// SHA-256 of an image and of its place in the file, which problems tell.
+std::string imageContent(Encoded bytes, const std::string& pointer) {
+  Sha256 hash;
+  hash.add(pointer);
+  hash.add(std::string_view("\0", 1));
+  hash.add(bytes);
+  return hash.hex();
+}
+
 } // namespace
 
 SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
-                       Findings& findings) {
+                       Findings& findings, KnownContent* known) {
   const std::map<int, int> slots = usedImages(document, materials, findings);
   checkSizes(document, slots, limits, findings);
   SceneImages images;
@@ -92,10 +101,16 @@ SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::
     if (slot < 0) continue;
     stopIfAsked();
     const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
-    auto checked =
-        checkImage(document.images[static_cast<std::size_t>(image)].view(), limits.maxImageSide, limits.maxImagePixels);
+    const Encoded bytes = document.images[static_cast<std::size_t>(image)].view();
+    const std::string content = known != nullptr ? imageContent(bytes, pointer) : std::string();
+    if (auto before = known != nullptr ? known->image(content) : nullptr) {
+      images.push_back(std::move(before));
+      continue;
+    }
+    auto checked = checkImage(bytes, limits.maxImageSide, limits.maxImagePixels);
     if (checked) {
       images.push_back(std::make_shared<const SceneImage>(*std::move(checked), pointer));
+      if (known != nullptr) known->keepImage(content, images.back());
     } else {
       findings.take(locatedImageProblems(std::move(checked).problems(), pointer));
     }

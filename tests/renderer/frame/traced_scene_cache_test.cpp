@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 /// One triangle, in each of two scenes of the file.
-std::shared_ptr<const Scene> triangle() {
+std::shared_ptr<const Scene> triangle(const std::string& content = {}) {
   Scene scene;
   scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   scene.attributes = std::vector<VertexAttributes>(3);
@@ -18,6 +18,7 @@ std::shared_ptr<const Scene> triangle() {
   scene.materials.resize(1);
   scene.primitives.resize(1);
   Primitive& primitive = scene.primitives[0];
+  primitive.content = content;
   primitive.vertexCount = primitive.indexCount = 3;
   for (const glm::vec3& position : scene.positions) primitive.bounds.add(glm::dvec3(position));
   scene.nodes.resize(1);
@@ -47,6 +48,21 @@ TEST(TracedSceneCache, ASceneIsMadeOnce) {
   EXPECT_EQ(&second->view(), &scene->scenes[1]);
   EXPECT_EQ(got(cache, scene), first);
   EXPECT_NE(got(cache, triangle()), first) << "another file of the same content";
+}
+
+TEST(TracedSceneCache, ScenesOfKnownContentWithTheSameSurfacesShareOne) {
+  TracedSceneCache cache(1 << 20);
+  auto first = triangle("a triangle");
+  auto second = triangle("a triangle");
+  const std::weak_ptr<const TracedScene> traced = got(cache, first);
+  EXPECT_EQ(got(cache, second), traced.lock());
+  EXPECT_NE(got(cache, triangle("another")), traced.lock());
+  first.reset();
+  got(cache, triangle());
+  EXPECT_EQ(got(cache, second), traced.lock()) << "the second scene still uses it";
+  second.reset();
+  got(cache, triangle());
+  EXPECT_TRUE(traced.expired()) << "nobody does";
 }
 
 TEST(TracedSceneCache, TheLeastRecentlyUsedIsDroppedFirst) {
