@@ -20,6 +20,7 @@
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
 #include "renderer/export/bake_file.h"
+#include "renderer/export/sensor_pictures.h"
 #include "renderer/frame/bake_listener.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"

@@ -244,6 +244,36 @@ Json renderRoute() {
   return {{"post", withBody(std::move(post), renderBody())}};
 }
 
+Json drakeRoute() {
+  const Json number = {{"type", "number"}};
+  Json fields = {{"scene", textPart("glTF whose buffers and images are data: URIs, with a node \"Camera Node\".")},
+                 {"scene_sha256", textPart("SHA-256 of the part scene, in hexadecimal digits.")},
+                 {"image_type", {{"type", "string"}, {"enum", {"color", "depth", "label"}}}},
+                 {"submit", textPart("Sent by some clients; it means nothing.")}};
+  for (const char* name : {"width", "height"}) fields[name] = {{"type", "integer"}, {"description", "Pixels."}};
+  Json required = {"scene", "scene_sha256", "image_type", "width", "height"};
+  for (const char* name : {"near", "far", "focal_x", "focal_y", "fov_x", "fov_y", "center_x", "center_y"}) {
+    fields[name] = number;
+    required.push_back(name);
+  }
+  for (const char* name : {"min_depth", "max_depth"}) {
+    fields[name] = {{"type", "number"}, {"description", "Metres; needed with depth, and with nothing else."}};
+  }
+  const Json form = {
+      {"schema",
+       {{"type", "object"}, {"required", required}, {"properties", fields}, {"additionalProperties", false}}}};
+  const char* description =
+      "color: an RGB PNG; label: an RGB PNG of the materials' base colors; depth: a TIFF of 32-bit floats in metres.";
+  Json good = {{"200", success(description, {{"image/png", bytesContent()}, {"image/tiff", bytesContent()}},
+                               {"Server-Timing"})}};
+  Json post = operation(
+      "renderDrake", "A picture for Drake's RenderEngineGltfClient",
+      replies(std::move(good), {"400", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  post["description"] = "Refusals of the form and of the scene are text/plain, a line for each problem.";
+  const Json body = {{"required", true}, {"content", {{"multipart/form-data", form}}}};
+  return {{"post", withBody(std::move(post), body)}};
+}
+
 Json getRoute(const char* id, const char* summary, Json responses) {
   return {{"get", operation(id, summary, std::move(responses))}};
 }
@@ -262,6 +292,7 @@ Json paths() {
   paths["/v1/scenes/{id}/bakes"] = bakesRoute();
   paths["/v1/scenes/{id}/bakes/{key}"] = bakeRoute();
   paths["/v1/render"] = renderRoute();
+  paths["/render"] = drakeRoute();
   paths["/v1/capabilities"] =
       getRoute("capabilities", "What this server can do", jsonReply("Its renderer and limits.", "Capabilities"));
   paths["/openapi.json"] = getRoute("openApi", "This document", {{"200", success("OpenAPI 3.1.", document)}});

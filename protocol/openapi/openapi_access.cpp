@@ -36,6 +36,7 @@ constexpr std::array kAccess{
     AccessRow{"/v1/scenes/{id}/bakes/{key}", "get", Scope::render},
     AccessRow{"/v1/scenes/{id}/bakes/{key}", "delete", Scope::render},
     AccessRow{"/v1/render", "post", Scope::render | Scope::upload},
+    AccessRow{"/render", "post", Scope::render | Scope::upload},
     AccessRow{"/v1/capabilities", "get", Scope::read},
     AccessRow{"/metrics", "get", Scope::admin},
 };

@@ -15,9 +15,9 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Workers by descending weight for this scene.
-std::vector<std::size_t> preference(const std::string& scene, std::size_t workers) {
-  const std::uint64_t seed = std::hash<std::string>()(scene);
+/// Workers by descending weight for this scene and all that are kin to it.
+std::vector<std::size_t> preference(const Task& task, std::size_t workers) {
+  const std::uint64_t seed = std::hash<std::string>()(task.kin.empty() ? task.order.scene : task.kin);
   std::vector<std::size_t> order(workers);
   for (std::size_t i = 0; i < workers; ++i) order[i] = i;
   const auto weight = [&](std::size_t worker) { return mixed(seed ^ mixed(worker + 1)); };
@@ -38,7 +38,7 @@ std::optional<std::size_t> placeFor(const Task& task, std::span<const WorkerView
         workers.begin(), workers.end(), [](const WorkerView& worker) { return worker.holdingRenderer > 0; }));
     if (held + 1 >= workers.size()) return std::nullopt;
   }
-  const auto order = preference(task.order.scene, workers.size());
+  const auto order = preference(task, workers.size());
   const auto preferred =
       std::find_if(order.begin(), order.end(), [&](std::size_t worker) { return workers[worker].ready; });
   if (preferred == order.end()) return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<std::size_t> placeFor(const Task& task, std::span<const WorkerView
 }
 
 std::optional<LonePlace> lonePlaceFor(const Task& task, std::span<const WorkerView> workers) {
-  const auto order = preference(task.order.scene, workers.size());
+  const auto order = preference(task, workers.size());
   std::optional<LonePlace> best;
   for (const std::size_t worker : order) {
     if (!workers[worker].ready) continue;

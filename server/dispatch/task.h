@@ -35,6 +35,7 @@ struct Task {
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
   bool needsDriver = false;   ///< OpenGL draws some of it, whatever the server draws with
   std::string client;         ///< who asks: tasks of different clients take turns
+  std::string kin{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 
 /// Why the dispatcher itself refused a task.

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -23,26 +22,6 @@ struct FrameCall {
   SceneCounts counts;    ///< as far as they are known
   std::string request{}; ///< names all that the reply depends on; empty = the body counts too
 };
-
-/// Frames that are expected to take longer wait for each other, and leave a worker to all others.
-constexpr double kLongFrame = 1'000; ///< milliseconds
-
-/// An estimate counts work that a frame may be spared, and may be wrong by as much as this.
-constexpr double kDoubt = 4;
-
-std::string secondsText(double milliseconds) {
-  return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
-}
-
-/// Why a frame that takes so many milliseconds can't be done in time.
-std::optional<Problem> tooMuchWork(const Services& services, double estimate) {
-  const auto allowed = static_cast<double>(services.requestTimeout.count());
-  if (estimate <= allowed * kDoubt) return std::nullopt;
-  return Problem{ProblemCode::tooLarge, "",
-                 "This frame is more work than can be done in the time of a request "
-                 "(--request-timeout): fewer pixels, lights, samples or rays are less.",
-                 secondsText(allowed), "about " + secondsText(estimate)};
-}
 
 HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
                const std::string& etag) {

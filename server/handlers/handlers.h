@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"
 #include "server/bakes/bake_book.h"
 #include "server/dispatch/dispatcher.h"
@@ -31,6 +32,7 @@ struct Services {
   BakeBook bakeBook{};
   SharedFrames shared{};
   ReplyCache replies{0};
+  FrameSpec drakeColors{};                ///< how Drake's color pictures are drawn
   std::function<std::string()> metrics{}; ///< the text of GET /metrics
   std::atomic<bool> draining = false;     ///< true from the first signal on; readyz reports it
 };
@@ -46,6 +48,8 @@ HttpReply postFrame(Services& services, RouteCall call);  ///< POST /v1/scenes/{
 HttpReply getFrame(Services& services, RouteCall call);   ///< GET /v1/scenes/{id}/frame?…
 HttpReply postPlan(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/plan
 HttpReply renderOnce(Services& services, RouteCall call); ///< POST /v1/render
+
+HttpReply renderDrake(Services& services, RouteCall call); ///< POST /render
 
 HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
 

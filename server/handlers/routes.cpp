@@ -167,6 +167,7 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake)},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
       {"POST", "/v1/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderOnce)},
+      {"POST", "/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderDrake)},
       plainRoute(services, "/v1/capabilities", Scope::read, getCapabilities),
       plainRoute(services, "/openapi.json", Scope::none, getOpenApi),
       probeRoute(services, "/livez", getLivez),

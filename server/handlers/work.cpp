@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -33,6 +34,13 @@ RefusalReason refusalOf(TaskRefusal refusal) {
                                           : RefusalReason::none;
 }
 
+/// An estimate counts work that a frame may be spared, and may be wrong by as much as this.
+constexpr double kDoubt = 4;
+
+std::string secondsText(double milliseconds) {
+  return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
+}
+
 } // namespace
 
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
@@ -60,6 +68,15 @@ bool needsDriver(const FrameSpec& spec) {
                           });
   return spec.device == DeviceChoice::gl ||
          (spec.device != DeviceChoice::cpu && (byStencil(spec.shadow) || isAnyLight));
+}
+
+std::optional<Problem> tooMuchWork(const Services& services, double estimate) {
+  const auto allowed = static_cast<double>(services.requestTimeout.count());
+  if (estimate <= allowed * kDoubt) return std::nullopt;
+  return Problem{ProblemCode::tooLarge, "",
+                 "This frame is more work than can be done in the time of a request "
+                 "(--request-timeout): fewer pixels, lights, samples or rays are less.",
+                 secondsText(allowed), "about " + secondsText(estimate)};
 }
 
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <semaphore>
 #include <string>
 #include <string_view>
@@ -21,6 +22,12 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
 
 /// Whether OpenGL draws it, whatever the server draws with: since it says so, or since nothing else can.
 bool needsDriver(const FrameSpec& spec);
+
+/// Frames that are expected to take longer wait for each other, and leave a worker to all others.
+inline constexpr double kLongFrame = 1'000; ///< milliseconds
+
+/// Why a frame that is expected to take so many milliseconds can't be done in time.
+std::optional<Problem> tooMuchWork(const Services& services, double estimate);
 
 /// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem.
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "renderer/core/parallel.h"
 #include "server/access/access_check.h"
 #include "server/access/key_ring.h"
+#include "server/handlers/drake_form.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
@@ -44,6 +46,28 @@ int failed(const Problems& problems) {
     std::fprintf(stderr, "gnomon: %s%s\n", problem.detail.c_str(), actual.c_str());
   }
   return 1;
+}
+
+/// The spec for Drake's color pictures.
+Result<FrameSpec> drakeColors(const std::string& file) {
+  if (file.empty()) return drakeDefaults();
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(kLimits.maxSpecBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto refused = [&](std::string detail, std::string actual) {
+    return Problem{ProblemCode::invalidValue, "drake-spec", std::move(detail), "", std::move(actual)};
+  };
+  if (text.empty()) return refused("The file of --drake-spec can't be read, or is empty.", file);
+  if (text.size() > kLimits.maxSpecBytes)
+    return refused("The file of --drake-spec is larger than a spec may be.", file);
+  auto spec = readDrakeSpec(text);
+  if (spec) return spec;
+  Problems problems;
+  for (const Problem& problem : spec.problems()) {
+    problems.push_back(refused("--drake-spec: " + problem.pointer + ": " + problem.detail, problem.actual));
+  }
+  return problems;
 }
 
 [[noreturn]] void endNow(const char* why) {
@@ -162,6 +186,8 @@ int serve(const ServeOptions& options) {
     return failed({{ProblemCode::invalidValue, "admin-bind",
                     "--admin-bind is an address of --admin-port, which is not set.", "", options.adminBind}});
   }
+  auto colors = drakeColors(options.drakeSpecFile);
+  if (!colors) return failed(colors.problems());
   auto trusted = ipNetworks(options.trustedProxies);
   if (!trusted) return failed(trusted.problems());
   const auto descriptors =
@@ -195,7 +221,8 @@ int serve(const ServeOptions& options) {
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                     .page = options.page,
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations),
-                    .replies = ReplyCache(options.replyCacheBytes)};
+                    .replies = ReplyCache(options.replyCacheBytes),
+                    .drakeColors = *std::move(colors)};
   std::optional<StoreKeeping> keeping;
   if (!options.storeDirectory.empty()) keeping.emplace(**store, **workers, storeAge);
   ConnectionLimits connections;

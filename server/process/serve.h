@@ -50,6 +50,7 @@ struct ServeOptions {
   std::size_t httpThreads = 128;             ///< >= 1; requests served at once; 503 beyond it, except for probes
   std::size_t maxConnectionsPerAddress = 0;  ///< of those for one client (429); 0 = three quarters of them
   int maxEvaluations = 1;                    ///< >= 1; evaluations that may run at once (429)
+  std::string drakeSpecFile; ///< a FrameSpec (drake_form.h) for the color pictures of POST /render; empty = the default
 
   // Timeouts
   int requestTimeoutSeconds = 60;     ///< >= 1; from the arrival of a request to its frame (504)

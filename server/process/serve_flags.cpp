@@ -12,7 +12,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 36);
+static_assert(memberCount<ServeOptions>() == 37);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -60,6 +60,13 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
                   "File of the keys that clients need, one a line; without it anyone may do anything. SIGHUP reads it "
                   "again")
       ->envname("GNOMON_KEYS")
+      ->type_name("FILE")
+      ->group("Address and storage");
+  serve
+      .add_option("--drake-spec", options.drakeSpecFile,
+                  "File with a frame specification, JSON without size, camera, views and output, by which POST /render "
+                  "draws color pictures for Drake; without it a sun from above")
+      ->envname("GNOMON_DRAKE_SPEC")
       ->type_name("FILE")
       ->group("Address and storage");
   serve

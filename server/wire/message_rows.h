@@ -44,6 +44,12 @@ inline constexpr auto kRows<WorkerOptions> =
 static_assert(kRowsAreComplete<WorkerOptions>);
 
 template <>
+inline constexpr auto kRows<SensorRange> = rows("SensorRange", "What a depth sensor can measure.",
+                                                field("min", &SensorRange::min, {.says = "The nearest.", .unit = "m"}),
+                                                field("max", &SensorRange::max,
+                                                      {.says = "The farthest.", .unit = "m"}));
+
+template <>
 inline constexpr auto kRows<Order> =
     rows("Order", "Work for a worker.", field("number", &Order::number, {.says = "Names it."}),
          field("kind", &Order::kind, {.says = "What is wanted."}),
@@ -54,7 +60,9 @@ inline constexpr auto kRows<Order> =
          field("mediaType", &Order::mediaType, {.says = "Of the result."}),
          field("boundary", &Order::boundary, {.says = "Between the parts of a multipart result."}),
          field("light", &Order::light, {.says = "Index of the light of a bakeFile."}),
-         field("traceId", &Order::traceId, {.says = "Of the request, for the log."}));
+         field("traceId", &Order::traceId, {.says = "Of the request, for the log."}),
+         field("depthRange", &Order::depthRange, {.says = "Of a sensor that sees depths."}),
+         field("labels", &Order::labels, {.says = "Colors of materials are wanted."}));
 static_assert(kRowsAreComplete<Order>);
 
 template <>

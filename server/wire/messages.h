@@ -8,6 +8,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/report/replies.h"
+#include "protocol/report/sensor_range.h"
 
 /// What the process that listens (the front) and a worker tell each other, over a Channel. Each message is one JSON
 /// object with one member; files go with some.
@@ -59,6 +60,9 @@ struct Order {
   std::string boundary{};        ///< between the parts of a multipart result
   std::optional<int> light{};    ///< of a bakeFile
   std::string traceId{};         ///< of the request, for the log
+
+  std::optional<SensorRange> depthRange{}; ///< of a frame: its depths as a sensor of this range has them
+  bool labels = false;                     ///< of a frame: the colors of its materials
 };
 
 /// Nobody waits for an order any more; its outcome still comes.

@@ -6,6 +6,7 @@
 #include "server/worker/frame_file.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"
+#include "server/worker/sensor_file.h"
 
 namespace gnomon {
 
@@ -41,8 +42,9 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
       {StageTime{"queue", call.order.queuedMilliseconds + drawn->queuedMilliseconds}, StageTime{"load", loadMs}});
   report.quality = quality;
   context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
-  auto file =
-      frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType, call.order.boundary, call.goOn);
+  auto file = wantsSensor(call.order) ? sensorFile(scene.scene, std::move(drawn->frame), call.order, call.goOn)
+                                      : frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType,
+                                                  call.order.boundary, call.goOn);
   if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the frame", call)}};
   return {
       .contentType = std::move(file->contentType), .body = std::move(file->body), .stages = std::move(file->stages)};

@@ -28,6 +28,7 @@ ROUTES = [
     ("PUT", f"/v1/scenes/{MISSING}", {"upload"}),
     ("DELETE", f"/v1/scenes/{MISSING}", {"upload"}),
     ("POST", "/v1/render", {"upload", "render"}),
+    ("POST", "/render", {"upload", "render"}),
     ("GET", "/metrics", {"admin"}),
 ]
 
@@ -64,7 +65,7 @@ class Access(unittest.TestCase):
         every = ("read", "render", "upload", "admin")
         server = self.start(*(line(name, name) for name in every), line("both", "render,upload"))
         held = {name: {name} for name in every} | {"both": {"render", "upload"}, "admin": {"admin", "read", "render", "upload"}}
-        types = {"/v1/render": "multipart/form-data", "/v1/scenes": "model/gltf-binary"}
+        types = {"/render": "multipart/form-data", "/v1/render": "multipart/form-data", "/v1/scenes": "model/gltf-binary"}
         for method, path, needed in ROUTES:
             is_upload = path in types or method == "PUT"
             kind = {"Content-Type": types.get(path, "model/gltf-binary" if is_upload else "application/json")}

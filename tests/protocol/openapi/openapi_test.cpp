@@ -69,6 +69,7 @@ TEST(OpenApi, HasEveryRoute) {
                                                "get /v1/scenes/{id}/bakes/{key}",
                                                "delete /v1/scenes/{id}/bakes/{key}",
                                                "post /v1/render",
+                                               "post /render",
                                                "get /v1/capabilities",
                                                "get /openapi.json",
                                                "get /livez",
@@ -105,6 +106,7 @@ TEST(OpenApi, OperationsSayWhatAKeyMustAllow) {
   };
   EXPECT_EQ(scopesOf("/v1/scenes", "get"), Json::array({"read"}));
   EXPECT_EQ(scopesOf("/v1/render", "post"), Json::array({"render", "upload"}));
+  EXPECT_EQ(scopesOf("/render", "post"), Json::array({"render", "upload"}));
   EXPECT_EQ(scopesOf("/metrics", "get"), Json::array({"admin"}));
   EXPECT_TRUE(scopesOf("/livez", "get").empty());
   EXPECT_TRUE(document["paths"]["/v1/scenes/{id}/frame"]["get"]["security"].at(2).contains("signature"));

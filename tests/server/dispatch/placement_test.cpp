@@ -28,6 +28,16 @@ TEST(Placement, ScenesStayWithTheirWorkerAndSpreadOverAll) {
   for (const auto& [worker, count] : scenes) EXPECT_NEAR(count, 250, 60) << worker;
 }
 
+TEST(Placement, KinStayTogether) {
+  std::map<std::size_t, int> places;
+  for (int i = 0; i < 100; ++i) {
+    Task made = task(std::to_string(i));
+    made.kin = "of one client";
+    ++places[placeFor(made, ready(4)).value()];
+  }
+  EXPECT_EQ(places.size(), 1u);
+}
+
 TEST(Placement, OnlyTheScenesOfAWorkerThatIsGoneMove) {
   auto without = ready(4);
   without[2].ready = false;

@@ -1,0 +1,90 @@
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "protocol/json/json_codec.h"
+#include "protocol/spec/validate.h"
+#include "server/handlers/drake_form.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/work.h"
+#include "server/http/negotiation.h"
+#include "server/http/reply.h"
+#include "server/scenes/upload.h"
+
+namespace gnomon {
+namespace {
+
+/// The same refusal for a client that shows its text to people: a line for each problem.
+HttpReply asText(HttpReply reply, const Problems& problems) {
+  reply.contentType = "text/plain; charset=utf-8";
+  reply.body.clear();
+  for (const Problem& problem : problems) {
+    reply.body += problem.pointer.empty() ? problem.detail : problem.pointer + ": " + problem.detail;
+    if (!problem.limit.empty()) reply.body += " Allowed: " + problem.limit + '.';
+    if (!problem.actual.empty()) reply.body += " Sent: " + problem.actual + '.';
+    reply.body += '\n';
+  }
+  return reply;
+}
+
+HttpReply refused(const Problems& problems, const RouteCall& call) {
+  return asText(problemReply(problems, call.request.id), problems);
+}
+
+constexpr std::array<std::string_view, 1> kDepthTypes{"image/tiff"};
+constexpr std::array<std::string_view, 1> kColorTypes{"image/png"};
+
+HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pack, const DrakeForm& form,
+               std::string_view mediaType) {
+  const FrameSpec spec = drakeFrame(form, services.drakeColors);
+  if (const Problems problems = validate(spec); !problems.empty()) return refused(problems, call);
+  const double estimate = services.workers.milliseconds(frameCost(spec, SceneCounts()));
+  const bool hasTarget = spec.quality.has_value();
+  if (!hasTarget) {
+    if (auto problem = tooMuchWork(services, estimate)) {
+      HttpReply reply = refused({*std::move(problem)}, call);
+      reply.refusal = RefusalReason::cost;
+      return reply;
+    }
+  }
+  Task task = taskFor(call, OrderKind::frame, pack.id, {pack.file}, jsonText(toJson(spec)),
+                      hasTarget ? services.evaluationTimeout : services.requestTimeout);
+  const bool batch = hasTarget || estimate > kLongFrame;
+  task.lane = batch ? Lane::batch : Lane::interactive;
+  task.holdsRenderer = batch && !hasTarget;
+  task.needsDriver = needsDriver(spec);
+  task.order.mediaType = mediaType;
+  task.kin = "drake " + call.request.client; // no two of its scenes are the same, and most hold the same meshes
+  task.order.depthRange = form.range;
+  task.order.labels = form.image == DrakeImage::label;
+  TaskResult result = runTask(services, std::move(task), call.clientGone);
+  const Problems problems = result.outcome.problems;
+  HttpReply reply = replyOf(std::move(result), call.request.id);
+  if (!problems.empty()) return asText(std::move(reply), problems);
+  reply.headers.emplace_back("Cache-Control", "no-store");
+  return reply;
+}
+
+} // namespace
+
+HttpReply renderDrake(Services& services, RouteCall call) {
+  const auto parts = partsOf(call.request, services.limits);
+  if (!parts) return refused(parts.problems(), call);
+  const auto form = readDrakeForm(*parts);
+  if (!form) return refused(form.problems(), call);
+  const std::array<std::string_view, 1>& offers = form->range ? kDepthTypes : kColorTypes;
+  const auto accept = headerValue(call.request.headers, "accept");
+  const auto type = preferred(accept, offers);
+  if (!type) return refused({notAcceptable("This image", accept, offers)}, call);
+  SceneBundle bundle;
+  bundle.model.assign(form->scene.begin(), form->scene.end());
+  if (const auto fits = checkBundleSize(bundle, services.limits); !fits) return refused(fits.problems(), call);
+  DrakeForm asked = *form;
+  asked.scene = {};
+  call.request.body = Bytes();
+  const auto pack = packed(bundle);
+  if (!pack) return refused(pack.problems(), call);
+  bundle = SceneBundle();
+  return draw(services, call, *pack, asked, offers[*type]);
+}
+
+} // namespace gnomon
