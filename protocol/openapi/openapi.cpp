@@ -263,9 +263,11 @@ Json drakeRoute() {
       {"schema",
        {{"type", "object"}, {"required", required}, {"properties", fields}, {"additionalProperties", false}}}};
   const char* description =
-      "color: an RGB PNG; label: an RGB PNG of the materials' base colors; depth: a TIFF of 32-bit floats in metres.";
+      "color: an RGB PNG; label: an RGB PNG of the materials' base colors; depth: a TIFF of 32-bit floats in metres, "
+      "or "
+      "a 16-bit PNG in millimetres.";
   Json good = {{"200", success(description, {{"image/png", bytesContent()}, {"image/tiff", bytesContent()}},
-                               {"Server-Timing"})}};
+                               {"Repr-Digest", "Server-Timing"})}};
   Json post = operation(
       "renderDrake", "A picture for Drake's RenderEngineGltfClient",
       replies(std::move(good), {"400", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));

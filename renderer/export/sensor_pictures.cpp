@@ -26,6 +26,11 @@ float sensed(float depth, const SensorRange& range) {
   return depth < range.min ? 0.0f : depth;
 }
 
+std::uint16_t millimetres(float depth) {
+  constexpr float kTooFar = 65535;
+  return static_cast<std::uint16_t>(std::min(std::round(depth * 1000.0f), kTooFar));
+}
+
 using Rgb = std::array<std::uint8_t, 3>;
 
 std::vector<Rgb> labelColors(const Scene& scene) {
@@ -50,6 +55,17 @@ Result<Bytes> depthTiff(const Frame& frame, const SensorRange& range, const GoOn
     for (float& depth : depths) depth = sensed(depth, range);
     image.pixels = std::move(depths);
     return encodeTiff(image);
+  });
+}
+
+Result<Bytes> depthPng(const Frame& frame, const SensorRange& range, const GoOn& goOn) {
+  return untilStopped(goOn, [&] {
+    Image image = imageLike(frame, {"Y"});
+    std::vector<std::uint16_t> depths;
+    depths.reserve(numbersOf(frame).size());
+    for (const float depth : numbersOf(frame)) depths.push_back(millimetres(sensed(depth, range)));
+    image.pixels = std::move(depths);
+    return encodePng(image, frame.report.spec.output.pngCompression);
   });
 }
 

@@ -224,7 +224,7 @@ Result<FrameSpec> readDrakeSpec(std::string_view json) {
   mustBePlain(spec->width == plain.width && spec->height == plain.height, "/width");
   mustBePlain(spec->camera == plain.camera, "/camera");
   mustBePlain(spec->views == plain.views, "/views");
-  mustBePlain(spec->output.format == plain.output.format && spec->output.pngBits == plain.output.pngBits, "/output");
+  mustBePlain(spec->output == plain.output, "/output");
   if (spec->background.alpha != 1) {
     problems.push_back(
         wrong("/background/alpha", "Drake's pictures are opaque.", "1", shortest(spec->background.alpha)));

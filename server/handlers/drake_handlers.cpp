@@ -3,6 +3,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/validate.h"
+#include "server/frames/frame_tag.h"
 #include "server/handlers/drake_form.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
@@ -30,7 +31,8 @@ HttpReply refused(const Problems& problems, const RouteCall& call) {
   return asText(problemReply(problems, call.request.id), problems);
 }
 
-constexpr std::array<std::string_view, 1> kDepthTypes{"image/tiff"};
+/// Of depth: metres or, for those who want a PNG, millimetres.
+constexpr std::array<std::string_view, 2> kDepthTypes{"image/tiff", "image/png"};
 constexpr std::array<std::string_view, 1> kColorTypes{"image/png"};
 
 HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pack, const DrakeForm& form,
@@ -61,6 +63,8 @@ HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pa
   HttpReply reply = replyOf(std::move(result), call.request.id);
   if (!problems.empty()) return asText(std::move(reply), problems);
   reply.headers.emplace_back("Cache-Control", "no-store");
+  reply.headers.emplace_back("Vary", "Accept");
+  reply.headers.emplace_back("Repr-Digest", reprDigest(reply.body));
   return reply;
 }
 
@@ -71,7 +75,8 @@ HttpReply renderDrake(Services& services, RouteCall call) {
   if (!parts) return refused(parts.problems(), call);
   const auto form = readDrakeForm(*parts);
   if (!form) return refused(form.problems(), call);
-  const std::array<std::string_view, 1>& offers = form->range ? kDepthTypes : kColorTypes;
+  const std::span<const std::string_view> offers =
+      form->range ? std::span<const std::string_view>(kDepthTypes) : kColorTypes;
   const auto accept = headerValue(call.request.headers, "accept");
   const auto type = preferred(accept, offers);
   if (!type) return refused({notAcceptable("This image", accept, offers)}, call);

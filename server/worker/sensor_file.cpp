@@ -8,6 +8,7 @@ Result<FrameFile> sensorFile(const ScenePtr& scene, Frame frame, const Order& or
   const auto start = std::chrono::steady_clock::now();
   auto file = [&]() -> Result<Bytes> {
     if (order.labels) return labelPng(*scene, frame, goOn);
+    if (order.mediaType == "image/png") return depthPng(frame, *order.depthRange, goOn);
     return depthTiff(frame, *order.depthRange, goOn);
   }();
   if (!file) return std::move(file).problems();

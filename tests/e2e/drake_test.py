@@ -265,6 +265,14 @@ class Pictures(ServerTest):
             self.assertAlmostEqual(depths[middle[0]][middle[1]], expected, delta=2.5e-5)
             self.assertEqual(depths[0][0], TOO_FAR)
 
+    def test_depths_in_millimetres_for_those_who_want_a_png(self):
+        gltf = scene([(BOX, (1, 0, 0), moved(0, 0, 0.25))], above(0, 0, 3))
+        reply = post(self.server, gltf, fields(gltf, "depth"), accept="image/png")
+        self.assertEqual((reply.status, reply.headers["Content-Type"]), (200, "image/png"), reply.body[:500])
+        self.assertEqual(reply.body[24:26], b"\x10\0", "16 bits, grey")
+        digest = base64.b64encode(hashlib.sha256(reply.body).digest()).decode()
+        self.assertEqual(reply.headers["Repr-Digest"], f"sha-256=:{digest}:")
+
     def test_labels_are_the_colors_that_drake_paints_to_the_pixel(self):
         labels = [(0, 0), (1, 0), (2, 0), (253, 127), (254, 1), (17, 34), (128, 64)]
         half = (0.08, 0.2, 0.05)

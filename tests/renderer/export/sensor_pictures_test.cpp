@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -50,6 +51,17 @@ TEST(Depths, BeyondTheSensorAreZeroAndInfinity) {
                                   {0, std::numeric_limits<double>::max()});
   ASSERT_TRUE(sensed && expected);
   EXPECT_EQ(*sensed, *expected);
+}
+
+TEST(Depths, InMillimetresAreWholeNumbers) {
+  const auto millimetres = [](std::vector<std::uint16_t> numbers) {
+    const int width = static_cast<int>(numbers.size());
+    return *encodePng(Image{width, 1, {"Y"}, std::move(numbers)}, Output{}.pngCompression);
+  };
+  const auto sensed =
+      depthPng(frameOf(View::depth, 6, {0.05f, 0.1f, 1.2344f, 65.5f, 70, kInfinity}), SensorRange{0.1, 100});
+  ASSERT_TRUE(sensed);
+  EXPECT_EQ(*sensed, millimetres({0, 100, 1234, 65500, 65535, 65535}));
 }
 
 } // namespace
