@@ -32,23 +32,23 @@ struct NumberRow {
   bool ofDepth = false; ///< sent with depth alone
 };
 
-constexpr double kMost = 1e9; ///< of lengths in metres and in pixels
+constexpr double kGreatest = 1e9; ///< of lengths in metres and in pixels
 constexpr double kSide = kLimits.maxFrameSide;
 constexpr double kHalfTurn = 3.1415927;
 
 constexpr std::array kNumbers{
     NumberRow{"width", &Numbers::width, 1, kSide, true, true},
     NumberRow{"height", &Numbers::height, 1, kSide, true, true},
-    NumberRow{"near", &Numbers::near, 0, kMost},
-    NumberRow{"far", &Numbers::far, 0, kMost},
-    NumberRow{"focal_x", &Numbers::focalX, 0, kMost},
-    NumberRow{"focal_y", &Numbers::focalY, 0, kMost},
+    NumberRow{"near", &Numbers::near, 0, kGreatest},
+    NumberRow{"far", &Numbers::far, 0, kGreatest},
+    NumberRow{"focal_x", &Numbers::focalX, 0, kGreatest},
+    NumberRow{"focal_y", &Numbers::focalY, 0, kGreatest},
     NumberRow{"fov_x", &Numbers::fovX, 0, kHalfTurn},
     NumberRow{"fov_y", &Numbers::fovY, 0, kHalfTurn},
     NumberRow{"center_x", &Numbers::centerX, -0.5, kSide},
     NumberRow{"center_y", &Numbers::centerY, -0.5, kSide},
-    NumberRow{"min_depth", &Numbers::minDepth, 0, kMost, true, false, true},
-    NumberRow{"max_depth", &Numbers::maxDepth, 0, kMost, false, false, true},
+    NumberRow{"min_depth", &Numbers::minDepth, 0, kGreatest, true, false, true},
+    NumberRow{"max_depth", &Numbers::maxDepth, 0, kGreatest, false, false, true},
 };
 
 constexpr std::array<std::string_view, 4> kTexts{"scene", "scene_sha256", "image_type", "submit"};
