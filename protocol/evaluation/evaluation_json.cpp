@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "protocol/evaluation/patch_checks.h"
 #include "protocol/evaluation/sweeps.h"
 #include "protocol/fields/field_decode.h"
 #include "protocol/fields/field_encode.h"
-#include "protocol/fields/field_list.h"
 #include "protocol/spec/rules.h"
 #include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {
-
-/// The same problems, seen from the document that `place` is in.
-Problems within(Problems problems, const std::string& place) {
-  for (Problem& problem : problems) problem.pointer.insert(0, place);
-  return problems;
-}
 
 /// The rules across fields of the spec that stands at /spec.
 std::vector<BrokenRule> rulesOfSpec(const FrameSpec& spec) {
@@ -27,27 +21,6 @@ std::vector<BrokenRule> rulesOfSpec(const FrameSpec& spec) {
     for (std::string& read : rule.reads) read.insert(0, "/spec");
   }
   return rules;
-}
-
-bool isField(const std::string& path) {
-  static const std::vector<FieldEntry> fields = frameFields();
-  return std::any_of(fields.begin(), fields.end(), [&](const FieldEntry& field) {
-    return field.path.starts_with(path) &&
-           (field.path.size() == path.size() || field.path[path.size()] == '.' || field.path[path.size()] == '[');
-  });
-}
-
-/// A null leaves nothing behind that the decoder could find fault with.
-void checkRemovals(const Json& patch, const std::string& path, const Place& place, ProblemList& problems) {
-  for (const auto& [key, value] : patch.items()) {
-    const Place inner(place, key);
-    const std::string innerPath = path.empty() ? key : path + "." + key;
-    if (value.is_object()) checkRemovals(value, innerPath, inner, problems);
-    if (!value.is_null() || isField(innerPath)) continue;
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = inner.pointer(),
-                  .detail = "There is no field of this name that could be taken away."});
-  }
 }
 
 /// What is wrong with a path besides its values.
@@ -127,7 +100,7 @@ std::vector<Variant> readVariants(const EvaluationRequest& request, const Json& 
     const Json patch = Json::parse((*request.variants)[i].json);
     const std::string place = "/variants/" + std::to_string(i);
     ProblemList removals;
-    checkRemovals(patch, "", Place(), removals);
+    checkRemovals(patch, removals);
     for (Problem& problem : within(std::move(removals).take(), place)) problems.add(std::move(problem));
     reader.read(variantName(patch), patch, place, variants);
   }

@@ -3,6 +3,7 @@
 #include "protocol/fields/type_tables.h"
 #include "protocol/report/node_rows.h"
 #include "protocol/report/reply_rows.h"
+#include "protocol/sequence/sequence_rows.h"
 
 namespace gnomon {
 
@@ -31,5 +32,10 @@ template const ValueType& typeOf<EvaluationReport>();
 template const ValueType& typeOf<EvaluationRequest>();
 template const ValueType& typeOf<EvaluationRow>();
 template const ValueType& typeOf<EvaluationStep>();
+
+template const ValueType& typeOf<Carried>();
+template const ValueType& typeOf<SequenceFrame>();
+template const ValueType& typeOf<SequenceReport>();
+template const ValueType& typeOf<SequenceRequest>();
 
 } // namespace gnomon

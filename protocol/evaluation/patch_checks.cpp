@@ -1,0 +1,42 @@
+#include "protocol/evaluation/patch_checks.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "protocol/fields/field_list.h"
+
+namespace gnomon {
+namespace {
+
+bool isField(const std::string& path) {
+  static const std::vector<FieldEntry> fields = frameFields();
+  return std::any_of(fields.begin(), fields.end(), [&](const FieldEntry& field) {
+    return field.path.starts_with(path) &&
+           (field.path.size() == path.size() || field.path[path.size()] == '.' || field.path[path.size()] == '[');
+  });
+}
+
+void checkRemovalsAt(const Json& patch, const std::string& path, const Place& place, ProblemList& problems) {
+  for (const auto& [key, value] : patch.items()) {
+    const Place inner(place, key);
+    const std::string innerPath = path.empty() ? key : path + "." + key;
+    if (value.is_object()) checkRemovalsAt(value, innerPath, inner, problems);
+    if (!value.is_null() || isField(innerPath)) continue;
+    problems.add({.code = ProblemCode::invalidValue,
+                  .pointer = inner.pointer(),
+                  .detail = "There is no field of this name that could be taken away."});
+  }
+}
+
+} // namespace
+
+Problems within(Problems problems, const std::string& place) {
+  for (Problem& problem : problems) problem.pointer.insert(0, place);
+  return problems;
+}
+
+void checkRemovals(const Json& patch, ProblemList& problems) {
+  checkRemovalsAt(patch, "", Place(), problems);
+}
+
+} // namespace gnomon

@@ -1,0 +1,100 @@
+#include "protocol/sequence/between_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/base/text.h"
+#include "protocol/fields/value_type.h"
+
+namespace gnomon {
+namespace {
+
+using Kind = ValueType::Kind;
+
+/// The type of a struct's member; null = there is no such member.
+const ValueType* memberOf(const StructType& type, std::string_view key) {
+  for (const FieldType& field : type.fields) {
+    if (!field.inlined && field.name == key) return field.type;
+    const ValueType* inner = field.type->kind == Kind::optional ? field.type->element : field.type;
+    if (!field.inlined || inner->object == nullptr) continue;
+    if (const ValueType* found = memberOf(*inner->object, key)) return found;
+  }
+  return nullptr;
+}
+
+/// Without the optionals around it.
+const ValueType* bare(const ValueType* type) {
+  while (type != nullptr && type->kind == Kind::optional) type = type->element;
+  return type;
+}
+
+std::string shown(const Json& value) {
+  return asciiExcerpt(jsonText(value));
+}
+
+/// `type`: of what stands here; null = nothing that a spec has.
+void check(const Json& a, const Json& b, const ValueType* type, const Place& place, ProblemList& problems) {
+  type = bare(type);
+  if (a.is_object() && b.is_object()) {
+    const StructType* object = type != nullptr ? type->object : nullptr;
+    for (const auto& [key, value] : a.items()) {
+      const Place inner(place, key);
+      if (b.contains(key)) {
+        check(value, b[key], object != nullptr ? memberOf(*object, key) : nullptr, inner, problems);
+      } else {
+        problems.add({.code = ProblemCode::invalidValue,
+                      .pointer = inner.pointer(),
+                      .detail = "The key before has this field, so this one needs it, too.",
+                      .limit = shown(value)});
+      }
+    }
+    for (const auto& [key, value] : b.items()) {
+      if (a.contains(key)) continue;
+      problems.add({.code = ProblemCode::invalidValue,
+                    .pointer = Place(place, key).pointer(),
+                    .detail = "Neither the spec nor the key before has this field, so there is nothing to interpolate "
+                              "from.",
+                    .actual = shown(value)});
+    }
+    return;
+  }
+  if (a.is_array() && b.is_array() && a.size() == b.size()) {
+    const bool holds = type != nullptr && (type->kind == Kind::array || type->kind == Kind::list);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      check(a[i], b[i], holds ? type->element : nullptr, Place(place, i), problems);
+    }
+    return;
+  }
+  if (a == b || (a.is_number() && b.is_number() && type != nullptr && type->kind == Kind::number)) return;
+  const bool numbers = a.is_number() && b.is_number();
+  problems.add({.code = ProblemCode::invalidValue,
+                .pointer = place.pointer(),
+                .detail = numbers ? "A whole number can't be interpolated; neighbouring keys must have the same."
+                                  : "Only numbers are interpolated; neighbouring keys must agree in all else.",
+                .limit = shown(a),
+                .actual = shown(b)});
+}
+
+} // namespace
+
+Json between(const Json& a, const Json& b, double t) {
+  if (t == 0) return a;
+  if (t == 1) return b;
+  if (a.is_number() && b.is_number()) {
+    if (a == b) return a;
+    return std::lerp(a.get<double>(), b.get<double>(), t);
+  }
+  Json result = a;
+  if (a.is_object()) {
+    for (auto& [key, value] : result.items()) value = between(value, b[key], t);
+  } else if (a.is_array()) {
+    for (std::size_t i = 0; i < a.size(); ++i) result[i] = between(a[i], b[i], t);
+  }
+  return result;
+}
+
+void checkNeighbours(const Json& a, const Json& b, const Place& place, ProblemList& problems) {
+  check(a, b, &typeOf<FrameSpec>(), place, problems);
+}
+
+} // namespace gnomon
