@@ -200,6 +200,25 @@ Json evaluationsRoute() {
   return {{"post", withBody(withScene(std::move(post)), body)}};
 }
 
+Json sequencesRoute() {
+  const char* description =
+      "Frames in order, sent as they are drawn, and at last a SequenceReport. multipart/mixed = a part for each "
+      "picture "
+      "(frame-00012.png), with the headers Gnomon-Frame, Gnomon-View and Gnomon-Carried (what the next frame needs, if "
+      "the sequence goes on there), and last report.json, or problem.json; application/zip = the same files; "
+      "text/event-stream = an event `frame` (SequenceFrame) for each, and at last `result` (SequenceReport) or "
+      "`problem` (Problem). Whoever closes the connection ends the sequence.";
+  const Json events = {{"anyOf", {reference("schemas/SequenceFrame"), reference("schemas/SequenceReport")}}};
+  const Json content = {{"multipart/mixed", bytesContent()},
+                        {"application/zip", bytesContent()},
+                        {"text/event-stream", {{"schema", events}}}};
+  Json post = operation("renderSequence", "Render many frames in order",
+                        replies({{"200", success(description, content)}},
+                                {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  const Json body = {{"required", true}, {"content", {{"application/json", schemaContent("SequenceRequest")}}}};
+  return {{"post", withBody(withScene(std::move(post)), body)}};
+}
+
 Json bakesRoute() {
   const char* description =
       "Bakes the shadows of the lights whose technique is lightMap, so that frames of the same spec only look them up. "
@@ -291,6 +310,7 @@ Json paths() {
   paths["/v1/scenes/{id}/frame"] = frameRoute();
   paths["/v1/scenes/{id}/plan"] = planRoute();
   paths["/v1/scenes/{id}/evaluations"] = evaluationsRoute();
+  paths["/v1/scenes/{id}/sequences"] = sequencesRoute();
   paths["/v1/scenes/{id}/bakes"] = bakesRoute();
   paths["/v1/scenes/{id}/bakes/{key}"] = bakeRoute();
   paths["/v1/render"] = renderRoute();

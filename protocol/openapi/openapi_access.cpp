@@ -32,6 +32,7 @@ constexpr std::array kAccess{
     AccessRow{"/v1/scenes/{id}/frame", "get", Scope::render, true},
     AccessRow{"/v1/scenes/{id}/plan", "post", Scope::render},
     AccessRow{"/v1/scenes/{id}/evaluations", "post", Scope::render},
+    AccessRow{"/v1/scenes/{id}/sequences", "post", Scope::render},
     AccessRow{"/v1/scenes/{id}/bakes", "post", Scope::render},
     AccessRow{"/v1/scenes/{id}/bakes/{key}", "get", Scope::render},
     AccessRow{"/v1/scenes/{id}/bakes/{key}", "delete", Scope::render},

@@ -11,6 +11,7 @@
 #include "protocol/openapi/openapi_access.h"
 #include "protocol/report/node_list.h"
 #include "protocol/report/replies.h"
+#include "protocol/sequence/sequence.h"
 
 namespace gnomon::openapi {
 namespace {
@@ -111,6 +112,9 @@ Json schemas() {
   schemaOf<EvaluationRequest>(Notes{}, components);
   schemaOf<EvaluationReport>(Notes{}, components);
   schemaOf<EvaluationStep>(Notes{}, components);
+  schemaOf<SequenceRequest>(Notes{}, components);
+  schemaOf<SequenceFrame>(Notes{}, components);
+  schemaOf<SequenceReport>(Notes{}, components);
   schemaOf<BakeReport>(Notes{}, components);
   schemaOf<BakeStep>(Notes{}, components);
   components["Problem"] = problemSchema();

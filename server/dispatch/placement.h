@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,8 +12,8 @@
 namespace gnomon {
 
 /// How many tasks of each lane one worker has at once. Two interactive ones: while one is drawn, the other one's scene
-/// is loaded or its picture encoded.
-inline constexpr std::array<std::size_t, kLanes> kPlaces{2, 1, 2};
+/// is loaded or its picture encoded. Two frames of sequences, for the same reason.
+inline constexpr std::array<std::size_t, kLanes> kPlaces{2, 1, 2, 2};
 
 /// What placing must know of a worker.
 struct WorkerView {
@@ -21,7 +22,7 @@ struct WorkerView {
   std::size_t holdingRenderer = 0;           ///< tasks that hold its renderer
   bool reserved = false;                     ///< for a task that must be alone there
 
-  std::size_t all() const { return running[0] + running[1] + running[2]; }
+  std::size_t all() const { return std::accumulate(running.begin(), running.end(), std::size_t{0}); }
 };
 
 /// The worker that a task goes to now; nothing = it waits. Tasks of a scene go to the worker that has the scene, by

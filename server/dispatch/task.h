@@ -18,10 +18,11 @@ namespace gnomon {
 enum class Lane {
   interactive, ///< somebody waits for it
   batch,       ///< may take minutes
-  load         ///< scenes that are uploaded
+  load,        ///< scenes that are uploaded
+  sequence     ///< frames of sequences
 };
-inline constexpr std::size_t kLanes = 3;
-inline constexpr std::array<std::string_view, kLanes> kLaneNames{"interactive", "batch", "load"};
+inline constexpr std::size_t kLanes = 4;
+inline constexpr std::array<std::string_view, kLanes> kLaneNames{"interactive", "batch", "load", "sequence"};
 
 /// Work for whichever worker suits it.
 struct Task {

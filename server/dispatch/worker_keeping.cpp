@@ -103,7 +103,7 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     const auto found = slot.running.find(message->event->number);
     if (found == slot.running.end()) return false;
     Ticket& ticket = *found->second;
-    ticket.hasEvents = true;
+    ticket.hasEvents = ticket.task.order.kind != OrderKind::sequenceFrame; // which tells the same again
     // Who reads slowly gets the newest progress, so that what waits for them stays small.
     const bool replaces = ticket.events.size() > kMostEvents && ticket.events.back().name == "progress" &&
                           message->event->name == "progress";

@@ -26,9 +26,11 @@ struct Services {
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
+  std::chrono::milliseconds sequenceTimeout{3'600'000}; ///< of all frames of a sequence
   std::vector<StaticFile> page;
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same
+  std::counting_semaphore<> sequences{1};   ///< the same
   BakeBook bakeBook{};
   SharedFrames shared{};
   ReplyCache replies{0};
@@ -52,6 +54,8 @@ HttpReply renderOnce(Services& services, RouteCall call); ///< POST /v1/render
 HttpReply renderDrake(Services& services, RouteCall call); ///< POST /render
 
 HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
+
+HttpReply postSequence(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/sequences
 
 HttpReply postBake(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/bakes
 HttpReply getBake(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}/bakes/{key}

@@ -163,6 +163,7 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), false, true},
       {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", Scope::render, json, {"application/json"}, bind(postEvaluation)},
+      {"POST", "/v1/scenes/{id}/sequences", Scope::render, json, {"application/json"}, bind(postSequence)},
       {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
       {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake)},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},

@@ -34,13 +34,6 @@ RefusalReason refusalOf(TaskRefusal refusal) {
                                           : RefusalReason::none;
 }
 
-/// An estimate counts work that a frame may be spared, and may be wrong by as much as this.
-constexpr double kDoubt = 4;
-
-std::string secondsText(double milliseconds) {
-  return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
-}
-
 } // namespace
 
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
@@ -68,6 +61,10 @@ bool needsDriver(const FrameSpec& spec) {
                           });
   return spec.device == DeviceChoice::gl ||
          (spec.device != DeviceChoice::cpu && (byStencil(spec.shadow) || isAnyLight));
+}
+
+std::string secondsText(double milliseconds) {
+  return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
 }
 
 std::optional<Problem> tooMuchWork(const Services& services, double estimate) {

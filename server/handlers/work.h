@@ -23,6 +23,12 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
 /// Whether OpenGL draws it, whatever the server draws with: since it says so, or since nothing else can.
 bool needsDriver(const FrameSpec& spec);
 
+/// An estimate of a frame's time counts work that it may be spared, and may be wrong by as much as this.
+inline constexpr double kDoubt = 4;
+
+/// "12 seconds", for problems that quote a time; rounded up.
+std::string secondsText(double milliseconds);
+
 /// Frames that are expected to take longer wait for each other, and leave a worker to all others.
 inline constexpr double kLongFrame = 1'000; ///< milliseconds
 

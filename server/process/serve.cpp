@@ -219,8 +219,10 @@ int serve(const ServeOptions& options) {
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
+                    .sequenceTimeout = std::chrono::seconds(options.sequenceTimeoutSeconds),
                     .page = options.page,
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations),
+                    .sequences = std::counting_semaphore<>(options.maxSequences),
                     .replies = ReplyCache(options.replyCacheBytes),
                     .drakeColors = *std::move(colors)};
   std::optional<StoreKeeping> keeping;

@@ -50,11 +50,13 @@ struct ServeOptions {
   std::size_t httpThreads = 128;             ///< >= 1; requests served at once; 503 beyond it, except for probes
   std::size_t maxConnectionsPerAddress = 0;  ///< of those for one client (429); 0 = three quarters of them
   int maxEvaluations = 1;                    ///< >= 1; evaluations that may run at once (429)
+  int maxSequences = 2;                      ///< >= 1; sequences that may run at once (429)
   std::string drakeSpecFile; ///< a FrameSpec (drake_form.h) for the color pictures of POST /render; empty = the default
 
   // Timeouts
   int requestTimeoutSeconds = 60;     ///< >= 1; from the arrival of a request to its frame (504)
   int evaluationTimeoutSeconds = 600; ///< >= 1; from the arrival of an evaluation to its report (504)
+  int sequenceTimeoutSeconds = 3600;  ///< >= 1; from the arrival of a sequence to its last frame
   int idleTimeoutSeconds = 75;        ///< >= 1; between two requests of a connection
   int drainSeconds = 0; ///< after SIGTERM, requests are served while /readyz fails, so that load balancers notice
   int graceSeconds = 8; ///< after that, for the requests in progress; the rest get 503, within two seconds more

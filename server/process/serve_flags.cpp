@@ -12,7 +12,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 37);
+static_assert(memberCount<ServeOptions>() == 39);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -197,6 +197,10 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
       ->envname("GNOMON_MAX_EVALUATIONS")
       ->check(CLI::Range(1, 64))
       ->group("Limits");
+  serve.add_option("--max-sequences", options.maxSequences, "Sequences that may run at once, 429 beyond it")
+      ->envname("GNOMON_MAX_SEQUENCES")
+      ->check(CLI::Range(1, 64))
+      ->group("Limits");
 }
 
 void addHowLong(CLI::App& serve, ServeOptions& options) {
@@ -211,6 +215,8 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
       "Time for a frame from the arrival of its request; 504 beyond it");
   add("--evaluation-timeout", "GNOMON_EVALUATION_TIMEOUT", options.evaluationTimeoutSeconds, 1,
       "Time for an evaluation from the arrival of its request; 504 beyond it");
+  add("--sequence-timeout", "GNOMON_SEQUENCE_TIMEOUT", options.sequenceTimeoutSeconds, 1,
+      "Time for all frames of a sequence from the arrival of its request; each has --request-timeout besides");
   add("--idle-timeout", "GNOMON_IDLE_TIMEOUT", options.idleTimeoutSeconds, 1,
       "Time for which a connection without a request is kept; more than that of a proxy in front");
   add("--drain", "GNOMON_DRAIN", options.drainSeconds, 0,

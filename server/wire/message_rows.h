@@ -21,7 +21,7 @@ inline constexpr std::array kSpellings<OrderKind>{
     spelling(OrderKind::load, "load"),   spelling(OrderKind::frame, "frame"),
     spelling(OrderKind::plan, "plan"),   spelling(OrderKind::evaluation, "evaluation"),
     spelling(OrderKind::bake, "bake"),   spelling(OrderKind::bakeFile, "bakeFile"),
-    spelling(OrderKind::nodes, "nodes"),
+    spelling(OrderKind::nodes, "nodes"), spelling(OrderKind::sequenceFrame, "sequenceFrame"),
 };
 static_assert(spellsAll<OrderKind>());
 

@@ -38,13 +38,14 @@ struct WorkerOptions {
 inline constexpr std::string_view kEventStream = "text/event-stream";
 
 enum class OrderKind {
-  load,       ///< loads a scene; the result is its SceneSummary
-  frame,      ///< a picture, or report and pictures
-  plan,       ///< a PlanReport
-  evaluation, ///< an EvaluationReport, as JSON, CSV, chart or events
-  bake,       ///< a BakeReport, as JSON or events
-  bakeFile,   ///< a bake as a file
-  nodes       ///< a NodeList; the request is a NodePage
+  load,         ///< loads a scene; the result is its SceneSummary
+  frame,        ///< a picture, or report and pictures
+  plan,         ///< a PlanReport
+  evaluation,   ///< an EvaluationReport, as JSON, CSV, chart or events
+  bake,         ///< a BakeReport, as JSON or events
+  bakeFile,     ///< a bake as a file
+  nodes,        ///< a NodeList; the request is a NodePage
+  sequenceFrame ///< a frame of a sequence: its pictures' bytes one after the other, told about as in sequence_news.h
 };
 
 /// Work for a worker. Two files go with it: the scene's bundle, and the JSON text of the request (a FrameSpec or an

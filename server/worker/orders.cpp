@@ -19,10 +19,10 @@ struct OrderTraits {
 };
 
 constexpr std::array kOrderTraits{
-    OrderTraits{OrderKind::load, loadOrder},  OrderTraits{OrderKind::frame, frameOrder},
-    OrderTraits{OrderKind::plan, planOrder},  OrderTraits{OrderKind::evaluation, evaluationOrder},
-    OrderTraits{OrderKind::bake, bakeOrder},  OrderTraits{OrderKind::bakeFile, bakeFileOrder},
-    OrderTraits{OrderKind::nodes, nodesOrder}};
+    OrderTraits{OrderKind::load, loadOrder},   OrderTraits{OrderKind::frame, frameOrder},
+    OrderTraits{OrderKind::plan, planOrder},   OrderTraits{OrderKind::evaluation, evaluationOrder},
+    OrderTraits{OrderKind::bake, bakeOrder},   OrderTraits{OrderKind::bakeFile, bakeFileOrder},
+    OrderTraits{OrderKind::nodes, nodesOrder}, OrderTraits{OrderKind::sequenceFrame, sequenceFrameOrder}};
 
 } // namespace
 

@@ -49,6 +49,7 @@ Answer evaluationOrder(WorkContext& context, const OrderCall& call);
 Answer bakeOrder(WorkContext& context, const OrderCall& call);
 Answer bakeFileOrder(WorkContext& context, const OrderCall& call);
 Answer nodesOrder(WorkContext& context, const OrderCall& call);
+Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call);
 
 /// Calls the one for the order's kind. Nothing that it throws leaves it.
 Answer carryOut(WorkContext& context, const OrderCall& call) noexcept;

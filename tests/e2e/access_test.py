@@ -21,6 +21,7 @@ ROUTES = [
     ("GET", f"/v1/scenes/{MISSING}/frame", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/plan", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/evaluations", {"render"}),
+    ("POST", f"/v1/scenes/{MISSING}/sequences", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/bakes", {"render"}),
     ("GET", f"/v1/scenes/{MISSING}/bakes/x", {"render"}),
     ("DELETE", f"/v1/scenes/{MISSING}/bakes/x", {"render"}),

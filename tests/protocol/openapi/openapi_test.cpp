@@ -65,6 +65,7 @@ TEST(OpenApi, HasEveryRoute) {
                                                "get /v1/scenes/{id}/frame",
                                                "post /v1/scenes/{id}/plan",
                                                "post /v1/scenes/{id}/evaluations",
+                                               "post /v1/scenes/{id}/sequences",
                                                "post /v1/scenes/{id}/bakes",
                                                "get /v1/scenes/{id}/bakes/{key}",
                                                "delete /v1/scenes/{id}/bakes/{key}",

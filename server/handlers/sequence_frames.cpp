@@ -1,0 +1,146 @@
+#include "server/handlers/sequence_frames.h"
+
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/sequence/carry.h"
+#include "server/system/memory_file.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kInWork = 2; ///< one is drawn, one is encoded
+
+/// Problems of a frame's own spec, seen from the request.
+Problems placed(Problems problems, const std::string& place) {
+  for (Problem& problem : problems) {
+    const bool isPlace = problem.pointer.empty() || problem.pointer.front() == '/';
+    if (isPlace) problem.pointer.insert(0, place);
+  }
+  return problems;
+}
+
+} // namespace
+
+SequenceFrames::SequenceFrames(Services& services, Sequence sequence, SceneCounts counts, Task task, Permit permit,
+                               std::function<bool()> clientGone)
+    : services_(services),
+      sequence_(std::move(sequence)),
+      counts_(std::move(counts)),
+      task_(std::move(task)),
+      permit_(std::move(permit)),
+      clientGone_(std::move(clientGone)),
+      next_(sequence_.first),
+      carried_(sequence_.carried) {}
+
+SequenceFrames::~SequenceFrames() {
+  stopped_ = true;
+  for (const auto& inWork : inWork_) inWork->thread.join();
+}
+
+/// With the mutex held.
+bool SequenceFrames::mayBegin() const {
+  if (next_ == sequence_.count || inWork_.size() >= kInWork) return false;
+  return inWork_.empty() || (inWork_.back()->isDrawn && inWork_.back()->frame.problems.empty());
+}
+
+void SequenceFrames::begin() {
+  const Carried before = inWork_.empty() ? carried_ : inWork_.back()->frame.carried;
+  const FrameSpec spec = frameSpec(sequence_, next_, before);
+  Task task = task_;
+  task.request = jsonText(toJson(spec));
+  task.allowed = services_.requestTimeout;
+  task.deadline = std::min(task_.deadline, Clock::now() + services_.requestTimeout);
+  task.needsDriver = needsDriver(spec);
+  task.holdsRenderer = services_.workers.milliseconds(frameCost(spec, counts_)) > kLongFrame;
+  auto inWork = std::make_unique<FrameInWork>();
+  inWork->frame.index = next_++;
+  inWork->frame.carried = before;
+  inWork->thread =
+      std::thread([this, &frame = *inWork, task = std::move(task)]() mutable { work(frame, std::move(task)); });
+  inWork_.push_back(std::move(inWork));
+}
+
+/// A frame's thread.
+void SequenceFrames::work(FrameInWork& inWork, Task task) {
+  const auto start = Clock::now();
+  Problems problems;
+  TaskResult result;
+  Bytes bytes;
+  try {
+    if (task.request.size() > kLimits.maxSpecBytes) {
+      problems = {{ProblemCode::tooLarge, "", "The frame's spec is too large with every default filled in.",
+                   std::to_string(kLimits.maxSpecBytes) + " bytes", std::to_string(task.request.size()) + " bytes"}};
+    } else {
+      result = runPatiently(inWork, task);
+      problems = std::move(result.outcome.problems);
+    }
+    std::size_t size = 0;
+    for (const PictureNews& picture : inWork.frame.pictures) size += picture.bytes;
+    std::optional<Bytes> read;
+    if (problems.empty() && result.body) read = readFile(*result.body, size);
+    if (problems.empty() && (!read || read->size() != size || size == 0)) {
+      problems = {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
+    }
+    bytes = std::move(read).value_or(Bytes());
+  } catch (const std::exception&) {
+    problems = {{ProblemCode::internal, "", "An internal error occurred.", "", ""}};
+  }
+  const std::lock_guard lock(mutex_);
+  inWork.frame.problems = placed(std::move(problems), framePlace(sequence_, inWork.frame.index));
+  inWork.frame.result = std::move(result);
+  inWork.frame.bytes = std::move(bytes);
+  inWork.frame.milliseconds = millisecondsSince(start);
+  inWork.isDone = true;
+  changed_.notify_all();
+}
+
+/// A full queue ends no sequence that has begun: its frame asks again until its deadline.
+TaskResult SequenceFrames::runPatiently(FrameInWork& inWork, const Task& task) {
+  constexpr std::chrono::milliseconds kPause{50};
+  const std::function<bool()> gone = [this] { return stopped_ || clientGone_(); };
+  while (true) {
+    TaskResult result = runTask(services_, task, gone, [&](const OrderEvent& event) { hear(inWork, event); });
+    const bool isFirst = inWork.frame.index == sequence_.first;
+    if (result.refusal != TaskRefusal::queue || isFirst || gone() || Clock::now() >= task.deadline) return result;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+void SequenceFrames::hear(FrameInWork& inWork, const OrderEvent& event) {
+  auto news = event.name == kSequenceNews ? readSequenceNews(event.data) : std::nullopt;
+  if (!news) return;
+  const std::lock_guard lock(mutex_);
+  if (news->drawn && !inWork.isDrawn) {
+    inWork.frame.carried = carriedAfter(inWork.frame.carried, std::move(news->drawn->carried));
+    inWork.frame.warnings = std::move(news->drawn->warnings);
+    inWork.isDrawn = true;
+    changed_.notify_all();
+  }
+  if (!news->pictures.empty()) inWork.frame.pictures = std::move(news->pictures);
+}
+
+DoneFrame SequenceFrames::next(const std::function<void()>& waiting) {
+  constexpr std::chrono::milliseconds kHeartbeat{5'000};
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (mayBegin()) begin();
+    const bool inTime = changed_.wait_for(lock, kHeartbeat, [&] { return inWork_.front()->isDone || mayBegin(); });
+    if (inWork_.front()->isDone && !mayBegin()) break;
+    if (inTime) continue;
+    lock.unlock();
+    waiting();
+    lock.lock();
+  }
+  const auto inWork = std::move(inWork_.front());
+  inWork_.pop_front();
+  carried_ = inWork->frame.carried;
+  lock.unlock();
+  inWork->thread.join();
+  return std::move(inWork->frame);
+}
+
+} // namespace gnomon

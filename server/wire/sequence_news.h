@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/sequence/sequence.h"
+
+/// What an order of kind sequenceFrame tells as its event kSequenceNews: first that the frame is drawn, so that the
+/// next one can begin, and then, once it is encoded, what its bytes are.
+namespace gnomon {
+
+inline constexpr std::string_view kSequenceNews = "news";
+
+struct DrawnNews {
+  Carried carried{}; ///< of this frame alone
+  std::vector<std::string> warnings{};
+};
+
+/// A picture among the bytes of the result.
+struct PictureNews {
+  std::string view{};
+  std::string contentType{};
+  std::uint64_t bytes = 0;
+};
+
+struct SequenceNews {
+  std::optional<DrawnNews> drawn{};
+  std::vector<PictureNews> pictures{}; ///< in the order of their bytes; empty while it is not encoded
+};
+
+std::string textOf(const SequenceNews& news);
+
+/// Nothing where the text is no such news.
+std::optional<SequenceNews> readSequenceNews(std::string_view text);
+
+} // namespace gnomon

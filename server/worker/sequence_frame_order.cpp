@@ -1,0 +1,49 @@
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/sequence/carry.h"
+#include "server/wire/frame_form.h"
+#include "server/wire/sequence_news.h"
+#include "server/worker/frame_memory.h"
+#include "server/worker/orders.h"
+
+namespace gnomon {
+
+/// While this encodes, the render thread may draw the next frame, whose order came once this one was drawn.
+Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
+  const auto spec = decodeFrameSpec(call.request);
+  if (!spec) return {.problems = spec.problems()};
+  const auto start = Clock::now();
+  auto loaded = sceneOf(context, call);
+  if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
+  const auto& scene = std::get<LoadedScene>(loaded);
+  const double loadMs = millisecondsSince(start);
+  ByteLease memory(context.frameMemory);
+  if (auto taken = takeMemory(memory, context.frameMemory, frameBytes(*spec), "/views", call); !taken) {
+    return {.problems = taken.problems()};
+  }
+  auto drawn = context.renderer.render(scene.scene, *spec, TileUse::kept, call.goOn);
+  if (!drawn) return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
+  FrameReport& report = drawn->frame.report;
+  call.event(kSequenceNews, textOf(SequenceNews{.drawn = DrawnNews{carriedOf(report), report.warnings}}));
+  context.costs.learn(frameCost(*spec, sceneCounts(scene.summary)), report);
+
+  const auto encoding = Clock::now();
+  const auto pictures = encodePictures(drawn->frame, drawn->frame.images.size(), call.goOn);
+  if (!pictures) return {.problems = call.goOn() ? pictures.problems() : Problems{stoppedProblem("the frame", call)}};
+  SequenceNews news;
+  Answer answer{.contentType = "application/octet-stream", .stages = std::move(report.stages)};
+  for (const EncodedPicture& picture : *pictures) {
+    news.pictures.push_back({picture.view, std::string(mediaTypeOf(spec->output.format)), picture.file.size()});
+    answer.body += asText(picture.file);
+  }
+  call.event(kSequenceNews, textOf(news));
+  answer.stages.insert(
+      answer.stages.begin(),
+      {StageTime{"queue", call.order.queuedMilliseconds + drawn->queuedMilliseconds}, StageTime{"load", loadMs}});
+  answer.stages.push_back({"encode", millisecondsSince(encoding)});
+  return answer;
+}
+
+} // namespace gnomon
