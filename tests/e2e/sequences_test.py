@@ -271,7 +271,7 @@ class Leaving(SequenceTest):
                     self.assertTrue(connection.recv(1))
                     self.assert_problem(self.sequence({"spec": SPEC, "frames": [{}]}), 429)
                 # All of it would take minutes.
-                self.assertLess(self.wait_until_free(), 10 * SLOW)
+                self.assertLess(self.wait_until_free(), 1 * SLOW)
 
     def test_who_never_reads_holds_the_sequence_up_and_takes_no_memory(self):
         request = {"spec": SPEC | {"width": 1024, "height": 768}, "frames": [{"exposure": i / 100} for i in range(300)]}
@@ -285,6 +285,7 @@ class Leaving(SequenceTest):
                 if self.frames_drawn() == drawn:
                     break
                 drawn = self.frames_drawn()
+            self.assertGreater(drawn, 2)
             self.assertLess(drawn, 20)
             self.assertLess(self.server.resident_bytes() - before, 200 << 20)
         self.assertLess(self.wait_until_free(), 30 * SLOW)
