@@ -77,7 +77,8 @@ int run(int argc, char** argv) {
       "gnomon COMMAND --help lists the options of a command.");
   const std::array commands{addServeCommand(app),        addWorkerCommand(app),      cli::addRenderCommand(app),
                             cli::addPlanCommand(app),    cli::addBakeCommand(app),   cli::addEvaluateCommand(app),
-                            cli::addInspectCommand(app), cli::addHealthCommand(app), cli::addSignCommand(app)};
+                            cli::addInspectCommand(app), cli::addHealthCommand(app), cli::addSignCommand(app),
+                            cli::addOpenApiCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

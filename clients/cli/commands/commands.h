@@ -29,5 +29,6 @@ Subcommand addEvaluateCommand(CLI::App& app);
 Subcommand addInspectCommand(CLI::App& app);
 Subcommand addHealthCommand(CLI::App& app);
 Subcommand addSignCommand(CLI::App& app);
+Subcommand addOpenApiCommand(CLI::App& app);
 
 } // namespace gnomon::cli
