@@ -26,6 +26,8 @@
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
 #include "renderer/image/image.h"
+#include "renderer/image/image_codec.h"
+#include "renderer/image/png_encode.h"
 #include "renderer/scene/known_content.h"
 #include "renderer/volume/vdb_file.h"
 

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clients/cli/commands/commands.h"
@@ -75,10 +75,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 a problem (described on standard error), 2 a wrong command line.\n"
       "gnomon COMMAND --help lists the options of a command.");
-  const std::array commands{addServeCommand(app),        addWorkerCommand(app),      cli::addRenderCommand(app),
-                            cli::addPlanCommand(app),    cli::addBakeCommand(app),   cli::addEvaluateCommand(app),
-                            cli::addInspectCommand(app), cli::addHealthCommand(app), cli::addSignCommand(app),
-                            cli::addOpenApiCommand(app)};
+  std::vector<cli::Subcommand> commands{addServeCommand(app), addWorkerCommand(app)};
+  for (cli::Subcommand& command : cli::addClientCommands(app)) commands.push_back(std::move(command));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

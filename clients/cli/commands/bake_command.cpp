@@ -77,7 +77,7 @@ Subcommand addBakeCommand(CLI::App& app) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--report", options->report, "Write the bake's report as JSON; - is standard output");
   addPictureFlags(*command, options->arguments);
-  addWhereFlags(*command, options->where);
+  addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runBake(*options); }};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -22,13 +23,24 @@ struct Subcommand {
   std::function<int()> run; ///< gives an ExitCode
 };
 
-Subcommand addRenderCommand(CLI::App& app);
-Subcommand addPlanCommand(CLI::App& app);
+/// Every command that needs no server in the process. `app` outlives them: some tell what it holds.
+std::vector<Subcommand> addClientCommands(CLI::App& app);
+
 Subcommand addBakeCommand(CLI::App& app);
+Subcommand addCapabilitiesCommand(CLI::App& app);
+Subcommand addCompareCommand(CLI::App& app);
+Subcommand addCompletionCommand(CLI::App& app);
 Subcommand addEvaluateCommand(CLI::App& app);
-Subcommand addInspectCommand(CLI::App& app);
 Subcommand addHealthCommand(CLI::App& app);
-Subcommand addSignCommand(CLI::App& app);
+Subcommand addInspectCommand(CLI::App& app);
+Subcommand addLsCommand(CLI::App& app);
+Subcommand addManCommand(CLI::App& app);
 Subcommand addOpenApiCommand(CLI::App& app);
+Subcommand addPlanCommand(CLI::App& app);
+Subcommand addRenderCommand(CLI::App& app);
+Subcommand addRmCommand(CLI::App& app);
+Subcommand addSignCommand(CLI::App& app);
+Subcommand addUploadCommand(CLI::App& app);
+Subcommand addWatchCommand(CLI::App& app);
 
 } // namespace gnomon::cli

@@ -152,7 +152,7 @@ Subcommand addEvaluateCommand(CLI::App& app) {
     }
   });
   addPictureFlags(*command, options->arguments);
-  addWhereFlags(*command, options->where);
+  addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runEvaluate(*options); }};
 }
 

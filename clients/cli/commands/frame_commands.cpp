@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
+#include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
+#include "clients/cli/render/frame_maker.h"
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
@@ -14,7 +17,8 @@ namespace gnomon::cli {
 namespace {
 
 struct RenderOptions {
-  std::string scene;
+  std::vector<std::string> scenes;
+  std::vector<std::string> cameras;
   std::string output;
   std::string spec;   // a file, "-" = standard input, empty = none
   std::string report; // a file, "-" = standard output, empty = none
@@ -22,22 +26,12 @@ struct RenderOptions {
   WhereOptions where;
 };
 
-Result<Rendered> renderScene(const RenderOptions& options, const FrameSpec& spec, ProgressLine& progress) {
-  progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, spec.volumes);
-  if (!bundle) return bundle.problems();
-  if (options.where.server.empty()) return renderHere(*bundle, spec, options.where.backend, progress);
-  const auto remote = remoteOf(options.where);
-  if (!remote) return remote.problems();
-  return renderThere(*remote, *bundle, spec, progress);
-}
-
-Status writeAll(const RenderOptions& options, const Rendered& rendered, ProgressLine& progress) {
+Status writeAll(const BatchItem& item, const Rendered& rendered, ProgressLine& progress) {
   progress.stage("writing");
-  const auto names = writePictures(rendered.pictures, options.output);
+  const auto names = writePictures(rendered.pictures, item.output);
   if (!names) return names.problems();
-  if (!options.report.empty()) {
-    if (auto done = writeFile(options.report, asBytes(rendered.reportJson)); !done) return done;
+  if (!item.report.empty()) {
+    if (auto done = writeFile(item.report, asBytes(rendered.reportJson)); !done) return done;
   }
   progress.finish();
   if (names->size() > 1) {
@@ -46,19 +40,77 @@ Status writeAll(const RenderOptions& options, const Rendered& rendered, Progress
   return Done{};
 }
 
-int runRender(RenderOptions options) {
-  if (options.output != "-") options.arguments.format = formatOf(options.output);
-  const auto [spec, origins, json] = resolveSpecFile(options.spec, options.arguments);
-  if (!spec) return printProblems(spec.problems(), origins);
+/// The pictures of one scene.
+class SceneRun {
+ public:
+  SceneRun(FrameMaker& maker, ProgressLine& progress) : maker_(maker), progress_(progress) {}
 
+  /// Opens the scene of the item unless it is open already, and makes its pictures.
+  Status make(const BatchItem& item, const FrameSpec& spec) {
+    if (scene_ != item.scene) {
+      scene_ = item.scene;
+      opened_ = open(item.scene, spec);
+    }
+    if (!opened_) return opened_;
+    const auto rendered = maker_.draw(spec, progress_);
+    if (!rendered) return rendered.problems();
+    return writeAll(item, *rendered, progress_);
+  }
+
+ private:
+  Status open(const std::string& scene, const FrameSpec& spec) {
+    progress_.stage("reading " + scene);
+    auto bundle = readSceneFile(scene, spec.volumes);
+    if (!bundle) return bundle.problems();
+    return maker_.open(*std::move(bundle), progress_);
+  }
+
+  FrameMaker& maker_;
+  ProgressLine& progress_;
+  std::string scene_;
+  Status opened_ = Done{};
+};
+
+/// What is told before the problems of one of several pictures.
+std::string nameOf(const BatchItem& item) {
+  return item.scene + (item.camera ? ", camera " + *item.camera : "");
+}
+
+/// Every picture that can be made; those that can't be tell their problems.
+int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs, FrameMaker& maker) {
   auto progress = ProgressLine::onTerminal();
-  const auto rendered = renderScene(options, *spec, progress);
-  progress.finish();
-  if (!rendered) return printProblems(rendered.problems(), origins);
-  const auto written = writeAll(options, *rendered, progress);
-  progress.finish();
-  if (!written) return printProblems(written.problems());
-  return kExitOk;
+  SceneRun run(maker, progress);
+  int exit = kExitOk;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items.size() > 1) {
+      progress.lead(std::to_string(i + 1) + " of " + std::to_string(items.size()) + ", " + nameOf(items[i]) + ": ");
+    }
+    const ResolvedSpec& resolved = specs[i % specs.size()];
+    Status made = run.make(items[i], *resolved.spec);
+    progress.finish();
+    if (made) continue;
+    exit =
+        printProblems(items.size() > 1 ? about(nameOf(items[i]), made.problems()) : made.problems(), resolved.origins);
+  }
+  return exit;
+}
+
+int runRender(RenderOptions options) {
+  if (options.output != "-" && !options.arguments.format) options.arguments.format = formatOf(options.output);
+  const auto items = batchItems({options.scenes, options.cameras, options.output, options.report});
+  if (!items) return printProblems(items.problems());
+  // One for each camera: the same for every scene. The request is read once, since it may come from standard input.
+  const auto text = specText(options.spec);
+  if (!text) return printProblems(text.problems());
+  std::vector<ResolvedSpec> specs;
+  for (std::size_t i = 0; i < std::max<std::size_t>(options.cameras.size(), 1); ++i) {
+    if (!options.cameras.empty()) options.arguments.camera = options.cameras[i];
+    specs.push_back(resolveSpec(*text, options.arguments));
+    if (!specs.back().spec) return printProblems(specs.back().spec.problems(), specs.back().origins);
+  }
+  auto maker = makerFor(options.where);
+  if (!maker) return printProblems(maker.problems());
+  return renderBatch(*items, specs, *maker);
 }
 
 std::string checkOutput(const std::string& output) {
@@ -99,19 +151,35 @@ int runPlan(const PlanOptions& options) {
 Subcommand addRenderCommand(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   auto* command = app.add_subcommand("render", "Render a scene to a picture, in this process or on a server");
-  command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "The picture; its name's suffix is its format: " + suffixList() +
-              ". - is standard output. Of several views, each file name gets the view's name, frame.depth.png, but for "
-              "EXR and NPZ, which hold every view")
-      ->required()
-      ->check(checkOutput);
+      ->add_option("scenes", options->scenes,
+                   "A .glb or .gltf file, or several; - is standard input. Each is loaded once, and drawn by each "
+                   "camera")
+      ->required();
+  auto* output =
+      command
+          ->add_option(
+              "-o,--output", options->output,
+              "The picture; its name's suffix is its format: " + suffixList() +
+                  ". - is standard output. Of several views, each file name gets the view's name, frame.depth.png, but "
+                  "for EXR and NPZ, which hold every view. {scene}, {camera} and {view} stand for those names")
+          ->required()
+          ->check(checkOutput);
+  command
+      ->add_option_function<std::string>(
+          "--format",
+          [options, output](const std::string& format) {
+            const auto suffix = formatOf(output->as<std::string>());
+            if (suffix && *suffix != format)
+              throw CLI::ValidationError("--format", "the output's name says " + *suffix);
+            options->arguments.format = format;
+          },
+          "The picture's format, where its name tells none: on standard output")
+      ->type_name("NAME");
   command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
-  addPictureFlags(*command, options->arguments);
-  addWhereFlags(*command, options->where);
+  addPictureFlags(*command, options->arguments, &options->cameras);
+  addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runRender(*options); }};
 }
 
@@ -121,7 +189,7 @@ Subcommand addPlanCommand(CLI::App& app) {
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
   command->add_option("spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   addPictureFlags(*command, options->arguments);
-  addWhereFlags(*command, options->where);
+  addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runPlan(*options); }};
 }
 

@@ -19,7 +19,9 @@ int runHealth(const HealthOptions& options) {
   HttpCall call;
   call.path = options.live ? "/livez" : "/readyz";
   call.patience = std::chrono::seconds(options.timeoutSeconds);
-  const auto reply = callServer({options.url}, call);
+  Remote remote;
+  remote.url = options.url;
+  const auto reply = callServer(remote, call);
   if (!reply) return printProblems(reply.problems());
   if (reply->status == 200) {
     std::cout << (options.live ? "alive\n" : "ready\n");

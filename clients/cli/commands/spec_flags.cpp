@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
 
 #include "clients/cli/files/file_io.h"
+#include "clients/cli/spec/field_flags.h"
 #include "protocol/base/text.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/spec/enum_rows.h"
@@ -20,9 +22,42 @@ std::string viewNames() {
   return names;
 }
 
+/// `placements`: the other flags that say where the camera stands.
+void addFieldFlags(CLI::App& command, SpecArguments& arguments, std::vector<CLI::Option*> placements) {
+  for (const FieldFlag& field : kFieldFlags) {
+    // `evaluate` has a --variant of its own: a variant of the frame.
+    const bool isTaken = command.get_option_no_throw(field.flag) != nullptr;
+    auto* option = command.add_option_function<std::string>(
+        isTaken ? "--material-variant" : field.flag,
+        [&arguments, &field](const std::string& text) {
+          const auto value = fieldValue(field, text);
+          if (!value) throw CLI::ValidationError(field.flag, value.problems().front().detail);
+          arguments.fields[field.flag] = text;
+        },
+        field.says);
+    option->type_name(field.typeName)->group("Picture");
+    if (field.replaces != kOtherPlacements) continue;
+    for (CLI::Option* placement : placements) option->excludes(placement);
+  }
+}
+
+/// "Name: value", as a header of HTTP may be.
+std::optional<std::pair<std::string, std::string>> headerOf(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
+  const auto isToken = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+           std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+  };
+  const auto isText = [](char c) { return (c >= ' ' && c < 0x7f) || c == '\t'; };
+  if (!std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon), isToken)) return std::nullopt;
+  if (!std::all_of(text.begin(), text.end(), isText)) return std::nullopt;
+  return std::pair(text.substr(0, colon), std::string(trimmed(std::string_view(text).substr(colon + 1))));
+}
+
 } // namespace
 
-void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
+void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras) {
   const auto refuse = [](const char* flag, const char* need) { throw CLI::ValidationError(flag, need); };
   command.add_option("--width", arguments.width, "Width of the picture in pixels")->group("Picture");
   command.add_option("--height", arguments.height, "Height of the picture in pixels")->group("Picture");
@@ -51,23 +86,21 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
           "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon")
       ->type_name("AZ,EL")
       ->group("Picture");
-  auto* camera =
-      command.add_option("--camera", arguments.camera, "Use a camera of the scene, by its node's name or index")
-          ->type_name("NODE")
-          ->group("Picture");
-  command
-      .add_option_function<std::string>(
-          "--orbit",
-          [&arguments, refuse](const std::string& text) {
-            arguments.orbit = parseNumbers(text, 2, 3);
-            if (!arguments.orbit)
-              refuse("--orbit", "needs AZIMUTH,ELEVATION in degrees and optionally ,DISTANCE in metres");
-          },
-          "Place the camera around the scene: degrees clockwise from north, degrees above the horizon, and metres; "
-          "without a distance, far enough to see all of it")
-      ->type_name("AZ,EL[,DIST]")
-      ->excludes(camera)
-      ->group("Picture");
+  const std::string cameraSays = "Use a camera of the scene, by its node's name or index";
+  auto* camera = cameras != nullptr ? command.add_option("--camera", *cameras, cameraSays + ". Repeatable")->take_all()
+                                    : command.add_option("--camera", arguments.camera, cameraSays);
+  camera->type_name("NODE")->group("Picture");
+  auto* orbit = command.add_option_function<std::string>(
+      "--orbit",
+      [&arguments, refuse](const std::string& text) {
+        arguments.orbit = parseNumbers(text, 2, 3);
+        if (!arguments.orbit)
+          refuse("--orbit", "needs AZIMUTH,ELEVATION in degrees and optionally ,DISTANCE in metres");
+      },
+      "Place the camera around the scene: degrees clockwise from north, degrees above the horizon, and metres; "
+      "without a distance, far enough to see all of it");
+  orbit->type_name("AZ,EL[,DIST]")->excludes(camera)->group("Picture");
+  addFieldFlags(command, arguments, {camera, orbit});
   command.add_option("--view", arguments.views, "What to show: " + viewNames() + ". Repeatable")
       ->type_name("NAME")
       ->take_all()
@@ -98,10 +131,49 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments) {
       ->group("Picture");
 }
 
-void addWhereFlags(CLI::App& command, WhereOptions& where) {
+void addServerFlags(CLI::App& command, WhereOptions& where) {
+  auto* server = command.add_option("--server", where.server, "The server that does the work")->envname("GNOMON_URL");
+  server->type_name("URL")->group("Server");
+  command
+      .add_option("--key-file", where.keyFile,
+                  "File whose first line is the key that the server asks for; - = standard input. Without it the "
+                  "environment's GNOMON_KEY is taken")
+      ->type_name("FILE")
+      ->needs(server)
+      ->group("Server");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--header",
+          [&where](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              auto header = headerOf(text);
+              if (!header) throw CLI::ValidationError("--header", "needs 'Name: value'");
+              where.headers.push_back(*std::move(header));
+            }
+          },
+          "A header of every call, for what stands before the server. Repeatable")
+      ->type_name("'NAME: VALUE'")
+      ->take_all()
+      ->needs(server)
+      ->group("Server");
+  command.add_option("--ca-file", where.caFile, "Certificates to trust as PEM, instead of the system's")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile)
+      ->needs(server)
+      ->group("Server");
+  command
+      .add_option("--patience", where.patienceSeconds, "Longest wait for a server that is busy, starts again or works")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(1, 86'400))
+      ->capture_default_str()
+      ->group("Server");
+}
+
+void addWhereFlags(CLI::App& command, WhereOptions& where, SpecArguments& arguments) {
   auto* device = command.add_option_function<std::string>(
       "--device",
-      [&where](const std::string& name) {
+      [&where, &arguments](const std::string& name) {
+        arguments.device = name;
         where.backend.device = name == "cpu"  ? DeviceChoice::cpu
                                : name == "gl" ? DeviceChoice::gl
                                               : DeviceChoice::auto_;
@@ -117,24 +189,21 @@ void addWhereFlags(CLI::App& command, WhereOptions& where) {
   backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");
   auto* gpu = command.add_flag("--require-gpu", where.backend.requireGpu, "Refuse to run if only software could draw")
                   ->group("Where");
-  auto* server = command.add_option("--server", where.server, "Let this server do the work instead of this process")
-                     ->type_name("URL")
-                     ->excludes(device)
-                     ->excludes(backend)
-                     ->excludes(gpu)
-                     ->group("Where");
-  command
-      .add_option("--key-file", where.keyFile,
-                  "File whose first line is the key that the server asks for; - = standard input. Without it the "
-                  "environment's GNOMON_KEY is taken")
-      ->type_name("FILE")
-      ->needs(server)
-      ->group("Where");
+  addServerFlags(command, where);
+  command.get_option("--server")
+      ->description("Let this server do the work instead of this process")
+      ->envname("")
+      ->excludes(backend)
+      ->excludes(gpu);
 }
 
 Result<Remote> remoteOf(const WhereOptions& where) {
   constexpr std::size_t kLargestFile = 4096;
-  Remote remote{where.server};
+  Remote remote;
+  remote.url = where.server;
+  remote.headers = where.headers;
+  remote.caFile = where.caFile;
+  remote.patience = std::chrono::seconds(where.patienceSeconds);
   std::string place = "GNOMON_KEY";
   if (!where.keyFile.empty()) {
     const auto text = readText(where.keyFile, kLargestFile);
@@ -151,6 +220,13 @@ Result<Remote> remoteOf(const WhereOptions& where) {
     return Problem{ProblemCode::invalidValue, place, "A key has no spaces and none but ASCII characters.", "", ""};
   }
   return remote;
+}
+
+Result<FrameMaker> makerFor(const WhereOptions& where) {
+  if (where.server.empty()) return FrameMaker(where.backend);
+  auto remote = remoteOf(where);
+  if (!remote) return remote.problems();
+  return FrameMaker(*std::move(remote));
 }
 
 } // namespace gnomon::cli

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "clients/cli/remote/http_client.h"
+#include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "renderer/render.h"
 
@@ -17,14 +20,26 @@ namespace gnomon::cli {
 struct WhereOptions {
   std::string server;  ///< empty = in this process
   std::string keyFile; ///< whose first line is the secret that `server` is shown; empty = GNOMON_KEY
+  std::string caFile;  ///< certificates that `server` is held against; empty = the system's
+  std::vector<std::pair<std::string, std::string>> headers; ///< sent to `server` with every call
+  int patienceSeconds = 600;
   BackendOptions backend;
 };
 
-void addPictureFlags(CLI::App& command, SpecArguments& arguments);
+/// `cameras`: where --camera may be given several times.
+void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras = nullptr);
+
+/// --server and how it is called, for commands that can do without one in this process.
+void addServerFlags(CLI::App& command, WhereOptions& where);
+
 /// The server, with the key to show it: from the file, or from the environment's GNOMON_KEY. A command line is seen by
 /// other users of the machine, so no flag takes a key.
 Result<Remote> remoteOf(const WhereOptions& where);
 
-void addWhereFlags(CLI::App& command, WhereOptions& where);
+/// What makes frames where the flags say.
+Result<FrameMaker> makerFor(const WhereOptions& where);
+
+/// What draws: a device of this process, or a server.
+void addWhereFlags(CLI::App& command, WhereOptions& where, SpecArguments& arguments);
 
 } // namespace gnomon::cli

@@ -1,11 +1,12 @@
 #include "clients/cli/files/file_io.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <string_view>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,17 +55,30 @@ Result<Bytes> readFile(const std::filesystem::path& path, std::size_t maxBytes) 
   return bytes;
 }
 
+Result<Bytes> readStandardInput(std::size_t maxBytes) {
+  constexpr std::size_t kPiece = 1 << 16;
+  Bytes bytes;
+  while (true) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kPiece);
+    const ssize_t read = ::read(STDIN_FILENO, bytes.data() + size, kPiece);
+    bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(read, 0)));
+    if (read < 0 && errno == EINTR) continue;
+    if (read < 0) return fileProblem(ProblemCode::notFound, "standard input", std::strerror(errno));
+    if (bytes.size() > maxBytes) return tooLarge("standard input", maxBytes, "more");
+    if (read == 0) return bytes;
+  }
+}
+
 Result<std::string> readText(const std::string& path, std::size_t maxBytes) {
   if (path != "-") {
     auto bytes = readFile(path, maxBytes);
     if (!bytes) return bytes.problems();
     return std::string(bytes->begin(), bytes->end());
   }
-  std::string text(maxBytes + 1, '\0');
-  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(std::cin.gcount()));
-  if (text.size() > maxBytes) return tooLarge("standard input", maxBytes, "more");
-  return text;
+  auto bytes = readStandardInput(maxBytes);
+  if (!bytes) return bytes.problems();
+  return std::string(bytes->begin(), bytes->end());
 }
 
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
@@ -107,6 +121,10 @@ std::string suffixList() {
 }
 
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount) {
+  constexpr std::string_view kView = "{view}";
+  if (const auto at = output.find(kView); at != std::string::npos) {
+    return std::string(output).replace(at, kView.size(), view);
+  }
   if (pictureCount == 1) return output;
   std::filesystem::path path(output);
   const std::string suffix = path.extension();

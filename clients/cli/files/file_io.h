@@ -15,7 +15,10 @@ namespace gnomon::cli {
 /// The whole file, refused before reading when it is larger than `maxBytes`. Problems name `path` as the user gave it.
 Result<Bytes> readFile(const std::filesystem::path& path, std::size_t maxBytes);
 
-/// The same as text; "-" is standard input.
+/// All of standard input, refused once it is larger than `maxBytes`.
+Result<Bytes> readStandardInput(std::size_t maxBytes);
+
+/// A file as text; "-" is standard input.
 Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 
 /// Puts the file in place in one step: whoever looks sees the old file or the whole new one. "-" is standard output.
@@ -27,7 +30,8 @@ std::optional<std::string> formatOf(const std::string& output);
 /// Every suffix that formatOf knows: ".png .exr ...".
 std::string suffixList();
 
-/// Where a picture goes: the output itself, or, one of several, "frame.depth.png" for view depth of "frame.png".
+/// Where a picture goes: the output with its {view}, the output itself, or, one of several, "frame.depth.png" for view
+/// depth of "frame.png".
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);
 
 /// Writes every picture, each file in one step; gives their names. Standard output takes one picture only.

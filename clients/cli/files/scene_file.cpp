@@ -100,7 +100,8 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limit
 
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<const VolumeOptions> volumes,
                                   const Limits& limits) {
-  auto model = readFile(path, limits.maxSceneBytes);
+  const bool isPiped = path == "-";
+  auto model = isPiped ? readStandardInput(limits.maxSceneBytes) : readFile(path, limits.maxSceneBytes);
   if (!model) return model.problems();
   SceneBundle bundle;
   bundle.model = std::move(*model);
@@ -134,7 +135,8 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<c
     room -= bytes->size();
     bundle.files[*name] = std::move(*bytes);
   };
-  for (const std::string& uri : uris) add(percentDecoded(uri), uri, path.string(), "The model");
+  for (const std::string& uri : uris)
+    add(percentDecoded(uri), uri, isPiped ? "standard input" : path.string(), "The model");
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     add(volumes[i].file, volumes[i].file, "/volumes/" + std::to_string(i) + "/file", "The volume");
   }

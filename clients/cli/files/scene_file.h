@@ -17,7 +17,8 @@ namespace gnomon::cli {
 /// read as glTF gives none: judging it is the loader's.
 std::vector<std::string> externalUris(std::span<const std::uint8_t> model);
 
-/// Reads a .glb or .gltf and the files that it names beside it. A name must be relative and stay inside the model's
+/// Reads a .glb or .gltf and the files that it names beside it; "-" is standard input, whose files lie in the current
+/// folder. A name must be relative and stay inside the model's
 /// folder, symbolic links followed; anything else is refused, and nothing of it is opened.
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limits& limits = kLimits);
 

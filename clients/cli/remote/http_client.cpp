@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <httplib.h>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -70,6 +71,7 @@ httplib::Result send(httplib::Client& client, const std::string& path, const Htt
   for (const auto& [name, value] : call.headers) headers.emplace(name, value);
   if (call.method == "HEAD") return client.Head(path, headers);
   if (call.method == "GET") return client.Get(path, headers);
+  if (call.method == "DELETE") return client.Delete(path, headers);
   if (call.onReceived) return sendAndStream(client, path, std::move(headers), call);
   return client.Post(path, headers, call.body.size(), bodyProvider(call.body, call.onSent), call.contentType);
 }
@@ -86,15 +88,20 @@ Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
     if (!client.is_valid()) {
       return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
     }
-    client.set_connection_timeout(std::min(call.patience, std::chrono::seconds{10}));
-    client.set_read_timeout(call.patience);
-    client.set_write_timeout(call.patience);
+    const auto patience = call.patience.count() > 0 ? call.patience : remote.patience;
+    client.set_connection_timeout(std::min(patience, std::chrono::seconds{10}));
+    client.set_read_timeout(patience);
+    client.set_write_timeout(patience);
     client.set_tcp_nodelay(true);
-    if (!remote.key.empty()) client.set_default_headers({{"Authorization", "Bearer " + remote.key}});
+    if (!remote.caFile.empty()) client.set_ca_cert_path(remote.caFile.c_str());
+    httplib::Headers headers(remote.headers.begin(), remote.headers.end());
+    if (!remote.key.empty()) headers.emplace("Authorization", "Bearer " + remote.key);
+    client.set_default_headers(headers);
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
       return Problem{ProblemCode::unavailable, server, "There was no reply: " + httplib::to_string(reply.error()) + ".",
                      "", ""};
+    *remote.wasThere = true;
     const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
     return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};
   } catch (const std::exception& error) {

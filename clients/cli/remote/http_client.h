@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,12 +13,12 @@
 namespace gnomon::cli {
 
 struct HttpCall {
-  std::string method = "GET"; ///< GET, HEAD or POST
+  std::string method = "GET"; ///< GET, HEAD, POST or DELETE
   std::string path = "/";     ///< below the server's address
   std::vector<std::pair<std::string, std::string>> headers;
   std::string contentType;            ///< of the body
   std::string_view body;              ///< POST only; must live as long as the call
-  std::chrono::seconds patience{120}; ///< for each wait on the network
+  std::chrono::seconds patience{0};   ///< for each wait on the network; 0 = the caller's
   std::function<void(double)> onSent; ///< told the share of the body that is on its way, 0..1
   /// Given each piece of the body of a 200 as it comes; the reply is then without it.
   std::function<void(std::string_view)> onReceived;
@@ -34,6 +35,11 @@ struct HttpReply {
 struct Remote {
   std::string url;   ///< "http://host:port" or "https://…", with or without a path in front
   std::string key{}; ///< sent as a bearer token; empty = none
+  std::vector<std::pair<std::string, std::string>> headers{}; ///< sent with every call
+  std::string caFile{};               ///< certificates to trust, as PEM; empty = the system's. https only
+  std::chrono::seconds patience{600}; ///< for a busy or restarting server, and for each wait on the network
+  /// Whether a call has had a reply: a server that was there is waited for when it is not.
+  std::shared_ptr<bool> wasThere = std::make_shared<bool>(false);
 };
 
 /// One call. A reply of any status is a value; a problem means that there was none: a bad address, nobody there, no

@@ -1,7 +1,9 @@
 #include "clients/cli/remote/remote_scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -63,12 +65,6 @@ std::string modelId(const Bytes& model) {
   return hash.hex();
 }
 
-namespace {
-
-constexpr int kMostWaits = 20; // for a busy server
-
-} // namespace
-
 std::string textAt(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
@@ -92,12 +88,25 @@ Problems problemsOf(const std::string& server, const HttpReply& reply) {
   return problems;
 }
 
+std::optional<std::chrono::seconds> pauseAfter(const Result<HttpReply>& reply, bool serverWasThere) {
+  using std::chrono::seconds;
+  if (!reply) {
+    const bool isAway = reply.problems().front().code == ProblemCode::unavailable;
+    return isAway && serverWasThere ? std::optional(seconds(1)) : std::nullopt;
+  }
+  if (reply->status == 429) return seconds(std::max(reply->retryAfterSeconds, 1));
+  if (reply->status == 503 && reply->retryAfterSeconds > 0) return seconds(reply->retryAfterSeconds);
+  return std::nullopt;
+}
+
 Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, ProgressLine& progress) {
-  for (int waits = 0;; ++waits) {
+  const auto end = std::chrono::steady_clock::now() + remote.patience;
+  while (true) {
     auto reply = callServer(remote, call);
-    if (!reply || reply->status != 429 || waits == kMostWaits) return reply;
-    progress.stage("waiting: the server is busy");
-    std::this_thread::sleep_for(std::chrono::seconds(std::clamp(reply->retryAfterSeconds, 1, 30)));
+    const auto pause = pauseAfter(reply, *remote.wasThere);
+    if (!pause || std::chrono::steady_clock::now() + *pause > end) return reply;
+    progress.stage(reply ? "waiting: the server is busy" : "waiting for the server");
+    std::this_thread::sleep_for(*pause);
   }
 }
 
@@ -108,7 +117,7 @@ Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, Pro
     HttpCall ask;
     ask.method = "HEAD";
     ask.path = "/v1/scenes/" + id;
-    const auto known = callServer(remote, ask);
+    const auto known = callPatiently(remote, ask, progress);
     if (!known) return known.problems();
     if (known->status == 200) return id;
   }
@@ -127,6 +136,23 @@ Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, Pro
   const std::string id = summary.is_object() ? textAt(summary, "id") : "";
   if (id.empty()) return Problem{ProblemCode::internal, remote.url, "The reply to the upload names no scene.", "", ""};
   return id;
+}
+
+Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id,
+                            const std::function<HttpCall(const std::string& id)>& callOf, const std::string& stage,
+                            ProgressLine& progress) {
+  constexpr int kMostUploads = 3; // a server that keeps dropping the scene has no room for it
+  for (int uploads = 1;; ++uploads) {
+    if (id.empty()) {
+      auto found = sceneId(remote, bundle, progress);
+      if (!found) return found.problems();
+      id = *std::move(found);
+    }
+    progress.stage(stage);
+    auto reply = callPatiently(remote, callOf(id), progress);
+    if (!reply || reply->status != 404 || uploads == kMostUploads) return reply;
+    id.clear();
+  }
 }
 
 } // namespace gnomon::cli

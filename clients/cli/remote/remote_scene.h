@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "clients/cli/remote/http_client.h"
@@ -30,10 +33,20 @@ std::string textAt(const Json& json, const char* key);
 /// The problems of an RFC 9457 body, or one that names the status when the body is none.
 Problems problemsOf(const std::string& server, const HttpReply& reply);
 
-/// The same call again while the server says that it is busy, as patiently as it asks for.
+/// How long to wait before a call is made again: what a 429, or a 503 that names a time, asks for; a second where a
+/// server that was there gives no reply, since it may be starting again. Nothing = the reply is final.
+std::optional<std::chrono::seconds> pauseAfter(const Result<HttpReply>& reply, bool serverWasThere);
+
+/// The same call again while the server is busy or starts again, for no longer than the patience of `remote`.
 Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, ProgressLine& progress);
 
 /// The scene's id on the server, where it is uploaded unless it is there.
 Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress);
+
+/// A call about a scene: `callOf` makes it from the scene's id. `id` may be empty, or known from an earlier call; it is
+/// kept for the next. A server that has dropped the scene meanwhile is given it again.
+Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id,
+                            const std::function<HttpCall(const std::string& id)>& callOf, const std::string& stage,
+                            ProgressLine& progress);
 
 } // namespace gnomon::cli

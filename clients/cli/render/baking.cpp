@@ -27,25 +27,29 @@ void showBakeStep(const std::string& data, ProgressLine& progress) {
   progress.share(shareOfAll(static_cast<int>(number("done")), static_cast<int>(number("of")), number("share")));
 }
 
-/// The report of a bake on a server, which tells its progress.
-Result<BakeReport> askForBake(const Remote& remote, const std::string& path, const FrameSpec& spec,
+/// The report of a bake on a server, which tells its progress; `id` as callAbout takes it.
+Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
                               ProgressLine& progress) {
   const std::string body = toJson(spec).dump();
   EventReader reader;
   std::optional<ServerEvent> last;
-  HttpCall call;
-  call.method = "POST";
-  call.path = path;
-  call.headers = {{"Accept", "text/event-stream"}};
-  call.contentType = "application/json";
-  call.body = body;
-  call.onReceived = [&](std::string_view bytes) {
-    for (ServerEvent& event : reader.read(bytes)) {
-      if (event.name == "progress") showBakeStep(event.data, progress);
-      if (event.name == "result" || event.name == "problem") last = std::move(event);
-    }
+  const auto callOf = [&](const std::string& scene) {
+    reader = {};
+    HttpCall call;
+    call.method = "POST";
+    call.path = "/v1/scenes/" + scene + "/bakes";
+    call.headers = {{"Accept", "text/event-stream"}};
+    call.contentType = "application/json";
+    call.body = body;
+    call.onReceived = [&](std::string_view bytes) {
+      for (ServerEvent& event : reader.read(bytes)) {
+        if (event.name == "progress") showBakeStep(event.data, progress);
+        if (event.name == "result" || event.name == "problem") last = std::move(event);
+      }
+    };
+    return call;
   };
-  const auto reply = callPatiently(remote, call, progress);
+  const auto reply = callAbout(remote, bundle, id, callOf, "baking on the server", progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(remote.url, *reply);
   if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the bake did.", "", ""};
@@ -76,15 +80,13 @@ Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const 
 
 Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const BakeOrder& order,
                         ProgressLine& progress) {
-  const auto id = sceneId(remote, bundle, progress);
-  if (!id) return id.problems();
-  progress.stage("baking on the server");
-  const std::string path = "/v1/scenes/" + *id + "/bakes";
-  const auto report = askForBake(remote, path, order.spec, progress);
+  std::string id;
+  const auto report = askForBake(remote, bundle, id, order.spec, progress);
   if (!report) return report.problems();
   progress.stage("fetching the file");
   HttpCall fetch;
-  fetch.path = path + "/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
+  fetch.path =
+      "/v1/scenes/" + id + "/bakes/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
   fetch.headers = {{"Accept", std::string(kBakeFileTypes[static_cast<std::size_t>(order.kind)])}};
   const auto reply = callPatiently(remote, fetch, progress);
   if (!reply) return reply.problems();

@@ -30,14 +30,12 @@ Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Rende
 
 } // namespace
 
-Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
-                            ProgressLine& progress) {
-  auto here = openHere(bundle, backend, progress);
-  if (!here) return here.problems();
-  auto settled = settleTarget(here->scene, spec, here->renderer, progress);
+Result<Rendered> drawHere(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec,
+                          std::optional<double> loadMilliseconds, ProgressLine& progress) {
+  auto settled = settleTarget(scene, spec, renderer, progress);
   if (!settled) return settled.problems();
   progress.stage("rendering");
-  auto frame = here->renderer.render(here->scene, settled->spec);
+  auto frame = renderer.render(scene, settled->spec);
   if (!frame) return frame.problems();
   frame->report.quality = std::move(settled->quality);
 
@@ -46,7 +44,7 @@ Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, co
   auto pictures = encodePictures(*frame, frame->images.size());
   if (!pictures) return pictures.problems();
   auto& stages = frame->report.stages;
-  stages.insert(stages.begin(), {"load", here->loadMilliseconds});
+  if (loadMilliseconds) stages.insert(stages.begin(), {"load", *loadMilliseconds});
   stages.push_back({"encode", millisecondsSince(encodeStart)});
   std::vector<Picture> files;
   for (EncodedPicture& picture : *pictures) files.push_back({std::move(picture.view), std::move(picture.file)});

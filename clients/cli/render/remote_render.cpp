@@ -27,21 +27,20 @@ std::optional<Rendered> renderedOf(const std::string& text) {
   return rendered;
 }
 
-/// What the server says to a spec sent to `route` of the scene, which is uploaded unless it is there.
-Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, const std::string& route,
+/// What the server says to a spec sent to `route` of the scene; `id` as callAbout takes it.
+Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const std::string& route,
                              const FrameSpec& spec, ProgressLine& progress) {
-  const auto id = sceneId(remote, bundle, progress);
-  if (!id) return id.problems();
-
-  progress.stage("working on the server");
   const std::string body = toJson(spec).dump();
-  HttpCall call;
-  call.method = "POST";
-  call.path = "/v1/scenes/" + *id + route;
-  call.headers = {{"Accept", "application/json"}};
-  call.contentType = "application/json";
-  call.body = body;
-  auto reply = callPatiently(remote, call, progress);
+  const auto callOf = [&](const std::string& scene) {
+    HttpCall call;
+    call.method = "POST";
+    call.path = "/v1/scenes/" + scene + route;
+    call.headers = {{"Accept", "application/json"}};
+    call.contentType = "application/json";
+    call.body = body;
+    return call;
+  };
+  auto reply = callAbout(remote, bundle, id, callOf, "working on the server", progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(remote.url, *reply);
   return std::move(reply->body);
@@ -49,9 +48,9 @@ Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, co
 
 } // namespace
 
-Result<Rendered> renderThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
-                             ProgressLine& progress) {
-  const auto reply = askAbout(remote, bundle, "/frames", spec, progress);
+Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
+                           ProgressLine& progress) {
+  const auto reply = askAbout(remote, bundle, id, "/frames", spec, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
   if (!rendered) return Problem{ProblemCode::internal, remote.url, "The reply is not a frame.", "", ""};
@@ -60,7 +59,8 @@ Result<Rendered> renderThere(const Remote& remote, const SceneBundle& bundle, co
 
 Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress) {
-  const auto reply = askAbout(remote, bundle, "/plan", spec, progress);
+  std::string id;
+  const auto reply = askAbout(remote, bundle, id, "/plan", spec, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
   if (!plan.is_object()) return Problem{ProblemCode::internal, remote.url, "The reply is not a plan.", "", ""};
@@ -80,24 +80,26 @@ void showStep(const std::string& data, ProgressLine& progress) {
 
 Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, const std::string& requestJson,
                                        ProgressLine& progress) {
-  const auto id = sceneId(remote, bundle, progress);
-  if (!id) return id.problems();
-  progress.stage("measuring on the server");
   EventReader reader;
   std::optional<ServerEvent> last;
-  HttpCall call;
-  call.method = "POST";
-  call.path = "/v1/scenes/" + *id + "/evaluations";
-  call.headers = {{"Accept", "text/event-stream"}};
-  call.contentType = "application/json";
-  call.body = requestJson;
-  call.onReceived = [&](std::string_view bytes) {
-    for (ServerEvent& event : reader.read(bytes)) {
-      if (event.name == "progress") showStep(event.data, progress);
-      if (event.name == "result" || event.name == "problem") last = std::move(event);
-    }
+  const auto callOf = [&](const std::string& scene) {
+    reader = {};
+    HttpCall call;
+    call.method = "POST";
+    call.path = "/v1/scenes/" + scene + "/evaluations";
+    call.headers = {{"Accept", "text/event-stream"}};
+    call.contentType = "application/json";
+    call.body = requestJson;
+    call.onReceived = [&](std::string_view bytes) {
+      for (ServerEvent& event : reader.read(bytes)) {
+        if (event.name == "progress") showStep(event.data, progress);
+        if (event.name == "result" || event.name == "problem") last = std::move(event);
+      }
+    };
+    return call;
   };
-  const auto reply = callPatiently(remote, call, progress);
+  std::string id;
+  const auto reply = callAbout(remote, bundle, id, callOf, "measuring on the server", progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(remote.url, *reply);
   if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the evaluation did.", "", ""};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
+#include "renderer/render.h"
 
 namespace gnomon::cli {
 
@@ -26,9 +28,14 @@ struct Rendered {
   std::string reportJson;
 };
 
-/// Renders in this process. The report gets the stages `load` and `encode` besides the renderer's own.
-Result<Rendered> renderHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
-                            ProgressLine& progress);
+/// Renders in this process. The report gets the stage `encode` besides the renderer's own, and `load` where the scene
+/// was loaded for this frame.
+Result<Rendered> drawHere(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec,
+                          std::optional<double> loadMilliseconds, ProgressLine& progress);
+
+/// Renders on the server; `id` as callAbout takes it. What the server refuses comes back as its own problems.
+Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
+                           ProgressLine& progress);
 
 /// Measures in this process.
 Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
@@ -38,12 +45,7 @@ Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluatio
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                              ProgressLine& progress);
 
-/// Renders on the server: uploads the scene unless it is there, then asks for the frame. What the
-/// server refuses comes back as its own problems.
-Result<Rendered> renderThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
-                             ProgressLine& progress);
-
-/// The same for a plan: its JSON.
+/// Plans on the server: its JSON.
 Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clients/cli/files/file_io.h"
+#include "clients/cli/spec/field_flags.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
@@ -136,6 +137,15 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
     replacePlacement(spec, "orbit", std::move(orbit));
     origins["/camera/orbit"] = "--orbit";
   }
+  Problems problems;
+  for (const FieldFlag& field : kFieldFlags) {
+    const auto given = flags.fields.find(field.flag);
+    if (given == flags.fields.end()) continue;
+    const auto pointer = applyFieldFlag(spec, field, given->second);
+    if (pointer) origins[*pointer] = field.flag;
+    if (!pointer) problems.insert(problems.end(), pointer.problems().begin(), pointer.problems().end());
+  }
+  if (flags.device) set("device", *flags.device, "--device");
   if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
   if (flags.format) {
@@ -143,7 +153,6 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
     spec["output"]["format"] = *flags.format;
     origins["/output/format"] = "--output";
   }
-  Problems problems;
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
     const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
@@ -171,9 +180,13 @@ ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& argum
   return {decodeFrameSpec(json), origins, json};
 }
 
+Result<std::string> specText(const std::string& file) {
+  if (file.empty()) return std::string("{}");
+  return readText(file, kLimits.maxSpecBytes);
+}
+
 ResolvedSpec resolveSpecFile(const std::string& file, const SpecArguments& arguments) {
-  if (file.empty()) return resolveSpec("{}", arguments);
-  const auto text = readText(file, kLimits.maxSpecBytes);
+  const auto text = specText(file);
   if (!text) return {text.problems(), {}, "{}"};
   return resolveSpec(*text, arguments);
 }

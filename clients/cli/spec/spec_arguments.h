@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,13 +28,15 @@ Result<Json> valueOf(std::string_view text);
 
 /// What the flags of `render` say about the picture.
 struct SpecArguments {
-  std::optional<int> width;                 ///< --width, --size
-  std::optional<int> height;                ///< --height, --size
-  std::optional<std::string> camera;        ///< --camera: a node's index when it is a number, else its name
-  std::optional<std::vector<double>> orbit; ///< --orbit: azimuth, elevation, distance if a third
-  std::optional<std::array<double, 2>> sun; ///< --sun: azimuth, elevation
-  std::vector<std::string> views;           ///< --view
-  std::optional<std::string> format;        ///< `output.format`, from the output's suffix
+  std::optional<int> width;                  ///< --width, --size
+  std::optional<int> height;                 ///< --height, --size
+  std::optional<std::string> camera;         ///< --camera: a node's index when it is a number, else its name
+  std::optional<std::vector<double>> orbit;  ///< --orbit: azimuth, elevation, distance if a third
+  std::optional<std::array<double, 2>> sun;  ///< --sun: azimuth, elevation
+  std::vector<std::string> views;            ///< --view
+  std::map<std::string, std::string> fields; ///< of kFieldFlags: the flag, and its text
+  std::optional<std::string> device;         ///< --device
+  std::optional<std::string> format;         ///< `output.format`: --format, or from the output's suffix
   std::vector<std::pair<std::string, std::string>> sets; ///< --set: dotted path, value
 };
 
@@ -48,6 +51,9 @@ struct ResolvedSpec {
 /// server checks a request. --camera and --orbit replace the placement and keep the lens; --sun turns the first
 /// directional light, or adds one.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments);
+
+/// The text of a spec in a file; "-" is standard input, an empty name is "{}".
+Result<std::string> specText(const std::string& file);
 
 /// The same with the spec in a file; "-" is standard input, an empty name is "{}".
 ResolvedSpec resolveSpecFile(const std::string& file, const SpecArguments& arguments);

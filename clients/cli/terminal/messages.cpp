@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "clients/cli/commands/commands.h"
+#include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
 
@@ -36,7 +38,40 @@ std::string problemLine(const Problem& problem, const FlagOrigins& origins) {
   return printable(line);
 }
 
+Problems about(const std::string& what, Problems problems) {
+  for (Problem& problem : problems) problem.detail = "(" + what + ") " + problem.detail;
+  return problems;
+}
+
+namespace {
+
+/// The one thing that all commands share and none passes on: how to talk to whoever has started this process.
+Manners& manners() {
+  static Manners ours;
+  return ours;
+}
+
+} // namespace
+
+void setManners(const Manners& ours) {
+  manners() = ours;
+}
+
+std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins) {
+  Json json = problemJson(problems, 0, "");
+  json.erase("status"); // of HTTP
+  for (std::size_t i = 0; i < problems.size() && i < json["problems"].size(); ++i) {
+    const std::string flag = originOf(problems[i].pointer, origins);
+    if (!flag.empty()) json["problems"][i]["flag"] = flag;
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 int printProblems(const Problems& problems, const FlagOrigins& origins) {
+  if (manners().problems == ProblemForm::json) {
+    std::cerr << problemsAsJson(problems, origins) + "\n";
+    return kExitProblem;
+  }
   for (const Problem& problem : problems) std::cerr << "gnomon: " << problemLine(problem, origins) << '\n';
   return kExitProblem;
 }
@@ -68,7 +103,7 @@ ProgressLine::ProgressLine(bool shown) {
 }
 
 ProgressLine ProgressLine::onTerminal() {
-  return ProgressLine(::isatty(STDERR_FILENO) == 1);
+  return ProgressLine(!manners().quiet && ::isatty(STDERR_FILENO) == 1);
 }
 
 ProgressLine::~ProgressLine() {
@@ -94,6 +129,11 @@ void ProgressLine::share(double done) {
   share_ = done;
 }
 
+void ProgressLine::lead(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  lead_ = printable(text);
+}
+
 void ProgressLine::finish() {
   const std::lock_guard lock(mutex_);
   if (!stage_.empty() && thread_.joinable()) std::fputs(kClearLine, stderr);
@@ -104,8 +144,8 @@ void ProgressLine::finish() {
 void ProgressLine::draw() {
   if (stage_.empty() || !thread_.joinable()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
-  std::fprintf(stderr, "%s%s %s%s  %.1f s", kClearLine, kSpinner[frame_ % kSpinner.size()], stage_.c_str(),
-               share_ < 0 ? "" : bar(share_).c_str(), seconds);
+  std::fprintf(stderr, "%s%s %s%s%s  %.1f s", kClearLine, kSpinner[frame_ % kSpinner.size()], lead_.c_str(),
+               stage_.c_str(), share_ < 0 ? "" : bar(share_).c_str(), seconds);
   std::fflush(stderr);
 }
 

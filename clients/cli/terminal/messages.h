@@ -18,7 +18,23 @@ using FlagOrigins = std::map<std::string, std::string>;
 /// in what came from elsewhere are replaced, so that a file or a server can't write to the terminal.
 std::string problemLine(const Problem& problem, const FlagOrigins& origins = {});
 
-/// Every problem on its line on stderr, each after "gnomon: ". Gives kExitProblem.
+/// The same problems, each saying first what it is about.
+Problems about(const std::string& what, Problems problems);
+
+/// How problems are told.
+enum class ProblemForm { lines, json };
+
+/// How this process talks. To be set once, before any command runs.
+struct Manners {
+  ProblemForm problems = ProblemForm::lines;
+  bool quiet = false; ///< no progress
+};
+void setManners(const Manners& manners);
+
+/// As an RFC 9457 body of one line, each problem with the flag that set its place.
+std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins = {});
+
+/// Every problem on its line on stderr, each after "gnomon: "; or all as JSON on one line. Gives kExitProblem.
 int printProblems(const Problems& problems, const FlagOrigins& origins = {});
 
 /// The text with every control character replaced, so that what a file or a server says can't steer the terminal.
@@ -36,6 +52,7 @@ class ProgressLine {
 
   void stage(const std::string& name); ///< the stage that begins now; the one before is done
   void share(double done);             ///< of the stage, 0..1
+  void lead(const std::string& text);  ///< stands before every stage from now on: "3 of 12: "
   void finish();                       ///< clears the line; call before anything else is printed
 
  private:
@@ -45,6 +62,7 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::string lead_;
   std::string stage_;         // empty = nothing to show
   double share_ = -1;         // < 0 = not known
   Clock::time_point started_; // of the stage

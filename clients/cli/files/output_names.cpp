@@ -1,0 +1,94 @@
+#include "clients/cli/files/output_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+namespace gnomon::cli {
+namespace {
+
+/// What a client or a scene calls something, as a part of a file's name.
+std::string asFileName(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 0x20 || c == 0x7f; }, '_');
+  return name.empty() || name == "." || name == ".." ? "_" : name;
+}
+
+std::string listOf(const Placeholders& values) {
+  std::string list = "{view}";
+  for (const auto& [name, value] : values) list += " {" + name + "}";
+  return list;
+}
+
+bool isName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+/// Two items that would write one file.
+std::optional<Problem> collision(const std::vector<BatchItem>& items, std::string BatchItem::*file, const char* flag) {
+  std::map<std::string, const BatchItem*> owners;
+  for (const BatchItem& item : items) {
+    const std::string& name = item.*file;
+    if (name.empty()) continue;
+    const auto [owner, isNew] = owners.emplace(name, &item);
+    if (isNew) continue;
+    const std::string what = name == "-" ? "Standard output" : "The file " + name;
+    return Problem{ProblemCode::invalidValue, flag, what + " would be written more than once.",
+                   "a name with {scene} and {camera}", owner->second->scene + " and " + item.scene};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Result<std::string> filledIn(const std::string& pattern, const Placeholders& values) {
+  std::string text;
+  for (std::size_t at = 0; at < pattern.size();) {
+    const std::size_t end = pattern[at] == '{' ? pattern.find('}', at) : std::string::npos;
+    const std::string name = end == std::string::npos ? "" : pattern.substr(at + 1, end - at - 1);
+    if (!isName(name) || name == "view") {
+      text += pattern[at++];
+      continue;
+    }
+    const auto value = values.find(name);
+    if (value == values.end()) {
+      return Problem{ProblemCode::invalidValue, pattern, "There is no such placeholder here.", listOf(values),
+                     "{" + name + "}"};
+    }
+    text += asFileName(value->second);
+    at = end + 1;
+  }
+  return text;
+}
+
+std::string sceneName(const std::string& path) {
+  return path == "-" ? "stdin" : std::filesystem::path(path).stem().string();
+}
+
+std::string frameNumber(int index) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%05d", index);
+  return text.data();
+}
+
+Result<std::vector<BatchItem>> batchItems(const BatchOrder& order) {
+  std::vector<std::optional<std::string>> cameras(order.cameras.begin(), order.cameras.end());
+  if (cameras.empty()) cameras.emplace_back();
+  std::vector<BatchItem> items;
+  for (const std::string& scene : order.scenes) {
+    for (const auto& camera : cameras) {
+      const Placeholders values{{"scene", sceneName(scene)}, {"camera", camera.value_or("default")}};
+      auto output = filledIn(order.output, values);
+      if (!output) return output.problems();
+      auto report = filledIn(order.report, values);
+      if (!report) return report.problems();
+      items.push_back({scene, camera, *std::move(output), *std::move(report)});
+    }
+  }
+  if (auto problem = collision(items, &BatchItem::output, "--output")) return *std::move(problem);
+  if (auto problem = collision(items, &BatchItem::report, "--report")) return *std::move(problem);
+  return items;
+}
+
+} // namespace gnomon::cli

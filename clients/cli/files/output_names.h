@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/result.h"
+
+/// Names of files that are made from a pattern: "out/{scene}-{camera}.png".
+namespace gnomon::cli {
+
+/// Placeholder without its braces -> what stands for it.
+using Placeholders = std::map<std::string, std::string>;
+
+/// The pattern with every {placeholder} of `values` filled in; {view}, which is filled in when the pictures are there,
+/// stays. Problems: a placeholder that there is none of here.
+Result<std::string> filledIn(const std::string& pattern, const Placeholders& values);
+
+/// Of a path its name without its suffix; of "-" stdin.
+std::string sceneName(const std::string& path);
+
+/// A number with leading zeros, for names that sort: 7 -> "00007".
+std::string frameNumber(int index);
+
+/// Every camera of every scene.
+struct BatchOrder {
+  std::vector<std::string> scenes;
+  std::vector<std::string> cameras; ///< empty = as the request says
+  std::string output, report;       ///< patterns; an empty report is none
+};
+
+struct BatchItem {
+  std::string scene;
+  std::optional<std::string> camera;
+  std::string output, report;
+};
+
+/// The pictures to make, scene by scene. {scene} is a scene's name, {camera} the flag's value, or "default" without
+/// one. Problems: two pictures, or two reports, that would be one file; several on standard output.
+Result<std::vector<BatchItem>> batchItems(const BatchOrder& order);
+
+} // namespace gnomon::cli

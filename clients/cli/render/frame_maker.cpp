@@ -1,0 +1,41 @@
+#include "clients/cli/render/frame_maker.h"
+
+#include <chrono>
+#include <utility>
+
+#include "protocol/base/elapsed.h"
+
+namespace gnomon::cli {
+
+Status FrameMaker::open(SceneBundle bundle, ProgressLine& progress) {
+  if (std::holds_alternative<BackendOptions>(where_)) return load(bundle, progress);
+  bundle_ = std::move(bundle);
+  id_.clear();
+  return Done{};
+}
+
+Status FrameMaker::load(const SceneBundle& bundle, ProgressLine& progress) {
+  progress.stage("loading the scene");
+  const auto start = std::chrono::steady_clock::now();
+  scene_ = nullptr; // the one before goes first: both need not fit into the memory
+  auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  loadMilliseconds_ = millisecondsSince(start);
+  if (!renderer_) {
+    progress.stage("starting the renderer");
+    RendererOptions options;
+    options.backend = std::get<BackendOptions>(where_);
+    auto renderer = Renderer::create(options);
+    if (!renderer) return renderer.problems();
+    renderer_.emplace(*std::move(renderer));
+  }
+  scene_ = *std::move(scene);
+  return Done{};
+}
+
+Result<Rendered> FrameMaker::draw(const FrameSpec& spec, ProgressLine& progress) {
+  if (const auto* remote = std::get_if<Remote>(&where_)) return drawThere(*remote, bundle_, id_, spec, progress);
+  return drawHere(*renderer_, scene_, spec, std::exchange(loadMilliseconds_, std::nullopt), progress);
+}
+
+} // namespace gnomon::cli

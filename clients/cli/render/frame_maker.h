@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "clients/cli/render/rendering.h"
+
+namespace gnomon::cli {
+
+/// Makes frames of one scene after another: in this process by one renderer, or on a server.
+class FrameMaker {
+ public:
+  explicit FrameMaker(BackendOptions here) : where_(std::move(here)) {}
+  explicit FrameMaker(Remote there) : where_(std::move(there)) {}
+
+  /// The scene of the frames that follow. In this process it is loaded here; a server is asked with the first frame.
+  Status open(SceneBundle bundle, ProgressLine& progress);
+
+  /// REQUIRES: `open` went well.
+  Result<Rendered> draw(const FrameSpec& spec, ProgressLine& progress);
+
+ private:
+  Status load(const SceneBundle& bundle, ProgressLine& progress);
+
+  std::variant<BackendOptions, Remote> where_;
+  // In this process
+  std::optional<Renderer> renderer_; ///< made with the first scene
+  ScenePtr scene_;
+  std::optional<double> loadMilliseconds_; ///< until a frame's report has told it
+  // On a server
+  SceneBundle bundle_;
+  std::string id_; ///< empty = not asked yet
+};
+
+} // namespace gnomon::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+/// What the command line takes, as its own definitions say it: for what is made from them.
+namespace gnomon::cli {
+
+struct FlagRow {
+  std::string name;      ///< with its dashes; of an argument its bare name
+  std::string shortName; ///< "-o"; empty = none
+  std::string says;
+  std::string value;                ///< "WxH"; empty = a switch
+  std::vector<std::string> choices; ///< every value there is; empty = others, too
+  std::string defaultText;          ///< empty = none
+  std::string variable;             ///< of the environment; empty = none
+  std::string group;
+  bool isArgument = false;
+  bool isFile = false; ///< its value is a file's name
+};
+
+struct CommandRow {
+  std::string name;
+  std::string says;
+  std::vector<FlagRow> flags; ///< in the order of --help
+};
+
+/// Every command that people use, in the order of --help.
+std::vector<CommandRow> commandRows(const CLI::App& app);
+
+} // namespace gnomon::cli
