@@ -95,8 +95,7 @@ std::string checkOutput(const std::string& output) {
 
 Subcommand addWatchCommand(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
-  auto* command = app.add_subcommand(
-      "watch", "Render again whenever the scene, a file that it names, or the request changes, until Ctrl-C");
+  auto* command = app.add_subcommand("watch", "Render again when the scene, its files or the request change");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required()->check(CLI::ExistingFile);
   command->add_option("-o,--output", options->output, "The picture")->required()->check(checkOutput);
   command->add_option("--spec", options->spec, "A request as JSON. Flags override its fields")

@@ -1,0 +1,174 @@
+"""The command line in pipelines: pipes, many pictures in one run, fields as flags, comparison, watching, shells."""
+
+import json
+import shutil
+import signal
+import subprocess
+import unittest
+from pathlib import Path
+
+from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
+from shipped_server import BINARY, SCENES, TIMEOUT, environment, png_size
+
+CAMERAS = str(SCENES / "cameras.glb")
+
+
+class Pipes(CommandLine):
+    def test_a_scene_from_standard_input_to_standard_output(self):
+        self.render()
+        run = gnomon("render", "-", "-o", "-", "--format", "png", *SMALL, stdin=Path(BOX).read_bytes())
+        self.assert_ends(run, OK)
+        self.assertEqual(run.stdout, self.output.read_bytes())
+
+    def test_only_one_thing_is_read_from_standard_input(self):
+        self.assert_ends(gnomon("render", "-", "-o", "-", "--spec", "-"), USAGE, "only once")
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--format", "exr"), USAGE, "png")
+
+    def test_what_is_no_scene_is_refused(self):
+        self.assert_ends(gnomon("render", "-", "-o", "-", stdin=b"no scene"), PROBLEM, "gnomon: ")
+
+
+class Fields(CommandLine):
+    def test_a_flag_is_its_field(self):
+        self.render("--eye", "3,3,5", "--target", "0,0.5,0", "--fov", "40", "--background", "0.1,0.2,0.4", "--exposure", "0.5")
+        flags = self.output.read_bytes()
+        fields = ["camera.eye=[3,3,5]", "camera.target=[0,0.5,0]", "camera.perspective.fovYDegrees=40",
+                  "background.color=[0.1,0.2,0.4]", "exposure=0.5"]  # fmt: skip
+        self.render(*(part for field in fields for part in ("--set", field)))
+        self.assertEqual(flags, self.output.read_bytes())
+        self.render()
+        self.assertNotEqual(flags, self.output.read_bytes())
+
+    def test_a_placement_replaces_that_of_the_request(self):
+        spec = self.folder / "spec.json"
+        spec.write_text('{"camera": {"orbit": {"azimuthDegrees": 10}}}')
+        self.render("--spec", str(spec), "--eye", "3,3,5")
+        placed = self.output.read_bytes()
+        self.render("--eye", "3,3,5")
+        self.assertEqual(placed, self.output.read_bytes())
+
+    def test_faults_name_the_flag(self):
+        self.assert_ends(gnomon("render", BOX, "-o", "a.png", "--eye", "1,2"), USAGE, "--eye")
+        self.assert_ends(gnomon("render", BOX, "-o", "a.png", "--eye", "1,2,3", "--orbit", "1,2"), USAGE, "--orbit")
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--fov", "180"), PROBLEM, "--fov (/camera/perspective")
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--animation", "none"), PROBLEM, "--animation")
+
+    def test_problems_as_json(self):
+        run = gnomon("render", BOX, "-o", str(self.output), "--width", "0", "--exposure", "999", "--problems", "json")
+        self.assert_ends(run, PROBLEM)
+        told = {problem["pointer"]: problem for problem in json.loads(run.stderr)["problems"]}
+        self.assertEqual(told["/width"]["flag"], "--width")
+        self.assertEqual(told["/exposure"]["flag"], "--exposure")
+
+
+class Many(CommandLine):
+    def test_every_scene_by_every_camera(self):
+        names = [camera["name"] for camera in json.loads(gnomon("inspect", CAMERAS, "--json").stdout)["cameras"]][:2]
+        self.assertEqual(len(set(names)), 2)
+        flags = [part for name in names for part in ("--camera", name)]
+        run = gnomon("render", CAMERAS, "-o", str(self.folder / "{scene}-{camera}.png"), *SMALL, *flags)
+        self.assert_ends(run, OK)
+        for name in names:
+            self.render("--camera", name, scene=CAMERAS)
+            self.assertEqual((self.folder / f"cameras-{name}.png").read_bytes(), self.output.read_bytes())
+
+    def test_one_failure_does_not_stop_the_others(self):
+        run = gnomon("render", str(self.folder / "none.glb"), BOX, "-o", str(self.folder / "{scene}.png"), *SMALL)
+        self.assert_ends(run, PROBLEM, "none.glb", "no such file")
+        self.assertEqual(png_size((self.folder / "box_on_plane.png").read_bytes()), (64, 48))
+
+    def test_collisions_and_strange_placeholders_are_refused(self):
+        for name, said in (("a.png", "more than once"), ("{camra}.png", "{camra}")):
+            run = gnomon("render", BOX, CAMERAS, "-o", str(self.folder / name), *SMALL)
+            self.assert_ends(run, PROBLEM, said)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Compare(CommandLine):
+    def test_the_exit_code_is_the_verdict(self):
+        self.render()
+        other = self.folder / "other.png"
+        self.assert_ends(gnomon("render", BOX, "-o", str(other), *SMALL, "--exposure", "1"), OK)
+        same = gnomon("compare", str(self.output), str(self.output))
+        self.assert_ends(same, OK)
+        self.assertIn(b"largest 0 ", same.stdout)
+        diff = self.folder / "diff.png"
+        self.assert_ends(gnomon("compare", str(self.output), str(other), "--diff", str(diff)), PROBLEM)
+        self.assertEqual(png_size(diff.read_bytes()), (64, 48))
+        for passes in (["--threshold", "1"], ["--share", "1"]):
+            self.assert_ends(gnomon("compare", str(self.output), str(other), *passes), OK)
+        self.assert_ends(gnomon("compare", str(self.output), str(other), "--threshold", "2"), USAGE)
+
+    def test_sizes_that_differ_are_told(self):
+        self.render()
+        other = self.folder / "other.png"
+        self.assert_ends(gnomon("render", BOX, "-o", str(other), "--size", "32x48"), OK)
+        self.assert_ends(gnomon("compare", str(self.output), str(other)), PROBLEM, "64x48", "32x48")
+
+
+class Watch(CommandLine):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.folder / "scene.glb"
+        shutil.copy(BOX, self.scene)
+        self.process = subprocess.Popen([BINARY, "watch", str(self.scene), "-o", str(self.output), *SMALL],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment())  # fmt: skip
+        self.addCleanup(self.process.communicate)
+        self.addCleanup(self.process.kill)
+        self.assertIn(b"frame.png", self.process.stdout.readline())
+
+    def replace(self, content):
+        """As editors save: a new file is renamed over the old one."""
+        new = self.folder / "new"
+        new.write_bytes(content)
+        new.rename(self.scene)
+
+    def test_it_renders_again_and_outlives_broken_files(self):
+        first = self.output.read_bytes()
+        self.replace(Path(CAMERAS).read_bytes())
+        self.assertIn(b"frame.png", self.process.stdout.readline())
+        self.assertNotEqual(self.output.read_bytes(), first)
+        self.replace(b"broken")
+        self.assertIn(b"gnomon: ", self.process.stderr.readline())
+        self.replace(Path(BOX).read_bytes())
+        self.assertIn(b"frame.png", self.process.stdout.readline())
+        self.assertEqual(self.output.read_bytes(), first)
+        self.process.send_signal(signal.SIGINT)
+        self.assertEqual(self.process.wait(TIMEOUT), OK)
+
+
+class Shells(CommandLine):
+    def complete(self, *words):
+        script = self.folder / "completion"
+        script.write_bytes(gnomon("completion", "bash").stdout)
+        asked = 'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _gnomon; printf "%s\\n" "${COMPREPLY[@]}"'
+        run = subprocess.run(["bash", "-c", asked, str(script), *words], capture_output=True, text=True, timeout=TIMEOUT)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return run.stdout.split()
+
+    def test_bash_completes_commands_flags_and_values(self):
+        self.assertEqual(self.complete("gnomon", "comp"), ["compare", "completion"])
+        self.assertEqual(self.complete("gnomon", "render", "--dev"), ["--device"])
+        self.assertEqual(self.complete("gnomon", "render", "--device", ""), ["auto", "cpu", "gl"])
+        self.assertIn("albedo", self.complete("gnomon", "render", "--view", "a"))
+        self.assertNotIn("worker", self.complete("gnomon", ""))
+
+    def test_the_manual_page_has_every_flag_and_no_fault(self):
+        page = gnomon("man").stdout
+        for flag in (b"\\-\\-eye", b"\\-\\-patience", b"\\-\\-allowed\\-hosts"):
+            self.assertIn(flag, page)
+        if shutil.which("groff"):
+            run = subprocess.run(["groff", "-man", "-ww", "-z"], input=page, capture_output=True, timeout=TIMEOUT)
+            self.assertEqual((run.returncode, run.stderr), (0, b""))
+
+    def test_other_shells_have_scripts_too(self):
+        self.assertIn(b"#compdef gnomon", gnomon("completion", "zsh").stdout)
+        self.assertIn(b"-l eye", gnomon("completion", "fish").stdout)
+
+    def test_what_describes_the_api_is_json(self):
+        self.assertIn("/v1/scenes", json.loads(gnomon("openapi").stdout)["paths"])
+        self.assertIn("cpu", json.loads(gnomon("capabilities").stdout)["devices"])
+
+
+if __name__ == "__main__":
+    unittest.main()
