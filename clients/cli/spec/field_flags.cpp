@@ -55,11 +55,14 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
   std::string path = flag.path;
   if (flag.value == FlagValue::nameOrIndex) path += value->is_number() ? ".index" : ".name";
   const auto steps = split(path, '.');
+  // First, since erasing moves what stands behind.
+  const auto camera = spec.find("camera");
+  const bool hasCamera = camera != spec.end() && camera->is_object();
+  for (const std::string& other : splitTrimmed(hasCamera ? flag.replaces : "", ' ')) camera->erase(other);
   Json* parent = parentOf(spec, steps);
   if (parent == nullptr) {
     return Problem{ProblemCode::invalidValue, pointerOf(path), "There is no such place in the spec.", "", ""};
   }
-  for (const std::string& other : splitTrimmed(flag.replaces, ' ')) spec["camera"].erase(other);
   if (flag.value == FlagValue::nameOrIndex) parent->erase(value->is_number() ? "name" : "index");
   (*parent)[steps.back()] = *std::move(value);
   return pointerOf(path);
