@@ -1,0 +1,35 @@
+"""The session behind `gnomon.render`: made at the first call, ended with the program."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from typing import Any, Dict, Optional
+
+from .frame import Frame
+from .json_form import Spec
+from .scene_calls import SceneLike
+from .session import Session
+
+_lock = threading.Lock()
+_sessions: Dict[Any, Session] = {}
+
+
+def render(scene: SceneLike, spec: Optional[Spec] = None, *, server: Optional[str] = None, key: Optional[str] = None,
+           **fields: Any) -> Frame:
+    """Renders a scene: a path, bytes, or an id. `fields` are those of a FrameSpec, on top of `spec`, and
+    `sun=(azimuth, elevation)` in degrees; without `views`, these are color, depth, ids and shadow.
+
+    Asks `server`, or GNOMON_SERVER, or a server that the first call starts and the end of the program ends.
+    """
+    with _lock:
+        session = _sessions.get((server, key))
+        if session is None:
+            session = _sessions[server, key] = Session(server, key=key)
+    return session.frame(scene, spec, **fields)
+
+
+@atexit.register
+def _close() -> None:
+    for session in _sessions.values():
+        session.close()

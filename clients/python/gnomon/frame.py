@@ -1,0 +1,117 @@
+"""A rendered frame: its views as arrays, and its report."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from pathlib import Path
+from typing import Any, Callable, Dict, Mapping, Optional, Tuple, Union, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from . import png
+from .picture import Picture, picture_of
+from .reports import FrameReport
+
+Array = npt.NDArray[Any]
+Redraw = Callable[[Dict[str, Any], str], bytes]  # (spec, media type) -> the file
+MEDIA_TYPES = {".png": "image/png", ".exr": "image/x-exr", ".tiff": "image/tiff", ".tif": "image/tiff",
+               ".jpg": "image/jpeg", ".jpeg": "image/jpeg", ".webp": "image/webp", ".npy": "application/x-npy"}
+
+
+class Frame:
+    """Every view that was asked for is an attribute: `frame.color`, `frame.depth`. Rows come first, from the top.
+
+    `color` and other pictures are uint8 (H, W, 3), or (H, W, 4) where the background is not opaque, or float32 with
+    `output.arrayColors` linear. `ids`, `instances`, `materials`, `casterIds` are int32, -1 = nothing. `depth` is in
+    metres, infinite where nothing is. `normal` and `position` are float32 (H, W, 3), `motion` (H, W, 2), `shadow` and
+    other numbers (H, W).
+    """
+
+    color: Array
+    depth: Array
+    normal: Array
+    ids: Array
+    instances: Array
+    materials: Array
+    albedo: Array
+    position: Array
+    motion: Array
+    shadow: Array
+    reference: Array
+    error: Array
+    casterIds: Array
+
+    def __init__(self, views: Mapping[str, Array], report: FrameReport, content: bytes = b"",
+                 redraw: Optional[Redraw] = None, index: int = 0):
+        self.views: Dict[str, Array] = dict(views)
+        self.report = report
+        self.index = index  # in a sequence
+        self._content = content
+        self._redraw = redraw
+
+    def __getattr__(self, name: str) -> Array:
+        views = self.__dict__.get("views", {})
+        if name in views:
+            return cast(Array, views[name])
+        raise AttributeError(f"this frame has no {name!r}; its views are {', '.join(views)}: ask for others by views=[...]")
+
+    def __dir__(self) -> Any:
+        return [*super().__dir__(), *self.views]
+
+    def __repr__(self) -> str:
+        height, width = self.size[::-1]
+        return f"<gnomon.Frame {width} x {height}: {', '.join(self.views)}>"
+
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Width and height."""
+        height, width = next(iter(self.views.values())).shape[:2]
+        return width, height
+
+    @property
+    def timings(self) -> Dict[str, float]:
+        """Milliseconds of each stage."""
+        return self.report.get("stages", {})
+
+    def picture(self, view: Optional[str] = None) -> Picture:
+        """A view as uint8 for people to look at; the first unless one is named."""
+        name = view or next(iter(self.views))
+        return picture_of(name, getattr(self, name))
+
+    def save(self, path: Union[str, Path], view: Optional[str] = None) -> None:
+        """Writes .npz (all views and the report), or .npy .png .exr .tiff .jpg .webp, for which the server draws the
+        frame once more; but a PNG of `color` is written from the array. The first view unless one is named; an .exr
+        has all."""
+        path = Path(path)
+        suffix = path.suffix.lower()
+        if suffix == ".npz":
+            path.write_bytes(self._content)
+            return
+        if suffix not in MEDIA_TYPES:
+            raise ValueError(f"{path.name!r} does not end in {' '.join(['.npz', *MEDIA_TYPES])}")
+        name = view or next(iter(self.views))
+        values = getattr(self, name)
+        if suffix == ".png" and values.dtype == np.uint8:
+            path.write_bytes(png.encode(values))
+            return
+        if self._redraw is None:
+            raise ValueError("this frame belongs to no session: only .npz, and .png of colors, can be written")
+        views = [name] if view or suffix != ".exr" else list(self.views)
+        path.write_bytes(self._redraw({**self.report["spec"], "views": views}, MEDIA_TYPES[suffix]))
+
+    def _repr_png_(self) -> bytes:
+        return png.encode(self.picture())
+
+
+def read_frame(content: bytes, redraw: Optional[Redraw] = None, index: int = 0) -> Frame:
+    """The frame in a .npz as the server sends it, and as `save` writes it."""
+    views: Dict[str, Array] = {}
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        report = json.loads(archive.read("report.json"))
+        for name in archive.namelist():
+            if name.endswith(".npy"):
+                views[name[:-len(".npy")]] = np.load(io.BytesIO(archive.read(name)), allow_pickle=False)
+    return Frame(views, report, content, redraw, index)

@@ -1,0 +1,171 @@
+"""A server, and what can be asked of it."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Callable, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Union, cast
+from urllib.parse import quote
+
+from .bundle import Source
+from .frame import Frame, Redraw, read_frame
+from .json_form import Spec, encoded, frame_spec
+from .local_server import LocalServer
+from .problems import problem_from
+from .progress import Progress
+from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary
+from .rows import Rows, flat_rows
+from .scene_calls import Scene, SceneCalls, SceneLike
+from .streams import events, parts
+from .transport import Transport
+
+USUAL_VIEWS = ("color", "depth", "ids", "shadow")
+Patch = Mapping[str, Any]
+
+
+class Session:
+    """Talks to `server`, or GNOMON_SERVER, or starts a server of its own, which ends with the session.
+
+    `flags` are those of `gnomon serve` for a server of its own. `key`, or GNOMON_KEY, is the secret of a server that
+    asks for one. `timeout` is how many seconds the server may be silent, `patience` how many in all a request may wait
+    while the server is busy, restarts or cannot be reached. A session may be used by several threads.
+    """
+
+    def __init__(self, server: Optional[str] = None, *, key: Optional[str] = None,
+                 binary: Union[str, Path, None] = None, flags: Sequence[str] = (), timeout: float = 630,
+                 patience: float = 60, progress: bool = False):
+        url = server or (None if binary or flags else os.environ.get("GNOMON_SERVER"))
+        self._own = None if url else LocalServer(*flags, binary=binary)
+        self.url = url or cast(LocalServer, self._own).url
+        self.progress = progress
+        self._http = Transport(self.url, key or os.environ.get("GNOMON_KEY"), timeout, patience)
+        self._scenes = SceneCalls(self._http)
+
+    def __enter__(self) -> "Session":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def close(self) -> None:
+        self._http.close()
+        if self._own is not None:
+            self._own.close()
+
+    def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
+        """Stores a scene, unless the server has it: a .glb or .gltf by its path (with what it names beside it) or its
+        bytes, and further files by name."""
+        return self._scenes.upload(source, files)
+
+    def scene(self, scene: SceneLike) -> SceneSummary:
+        """What a scene holds."""
+        return cast(SceneSummary, json.loads(self._scenes.request(scene, "GET", "").body))
+
+    def list(self) -> Iterator[SceneSummary]:
+        """All scenes of the server, by id."""
+        after = ""
+        while True:
+            page = json.loads(self._http.request("GET", "/v1/scenes" + (f"?after={quote(after)}" if after else "")).body)
+            yield from page["scenes"]
+            if "next" not in page:
+                return
+            after = page["next"]
+
+    def delete(self, scene: Union[Scene, str]) -> None:
+        """Removes a scene from the server."""
+        name = scene.id if isinstance(scene, Scene) else scene
+        self._scenes.forget(name)
+        self._http.request("DELETE", f"/v1/scenes/{quote(name)}")
+
+    def capabilities(self) -> Capabilities:
+        """What draws, its fingerprint, and the server's limits."""
+        return cast(Capabilities, json.loads(self._http.request("GET", "/v1/capabilities").body))
+
+    def frame(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> Frame:
+        """Renders. `fields` are those of a FrameSpec, on top of `spec`, and `sun=(azimuth, elevation)` in degrees.
+        Without `views`, these are color, depth, ids and shadow."""
+        asked = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
+        reply = self._scenes.request(scene, "POST", "/frames", asked, Accept="application/zip")
+        return read_frame(reply.body, self._redraw(scene))
+
+    def picture(self, scene: SceneLike, spec: Optional[Spec] = None, media_type: str = "image/png",
+                **fields: Any) -> bytes:
+        """A frame as a file: image/png, image/x-exr, image/tiff, image/jpeg, image/webp or application/x-npy."""
+        return self._scenes.request(scene, "POST", "/frames", frame_spec(spec, **fields), Accept=media_type).body
+
+    def plan(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> PlanReport:
+        """What a frame would do, without rendering it."""
+        return cast(PlanReport, json.loads(self._scenes.request(scene, "POST", "/plan", frame_spec(spec, **fields)).body))
+
+    def evaluate(self, scene: SceneLike, spec: Optional[Spec] = None, *, variants: Optional[Sequence[Patch]] = None,
+                 sweep: Optional[str] = None, repeats: Optional[int] = None, referenceSamples: Optional[int] = None,
+                 path: Optional[Any] = None, **fields: Any) -> Rows:
+        """Speed against error: a row for each variant, as pandas.DataFrame takes them. `Rows.report` has all."""
+        asked = {"spec": frame_spec(spec, **fields), "variants": variants, "sweep": sweep, "repeats": repeats,
+                 "referenceSamples": referenceSamples, "path": path}
+        report = self._events(scene, "/evaluations", asked, "evaluating", lambda data: (data["done"], data["of"]))
+        return flat_rows(cast(EvaluationReport, report))
+
+    def bake(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> BakeReport:
+        """Bakes the light maps of a frame's lights, ahead of the frames that look them up."""
+        asked = frame_spec(spec, **fields)
+        report = self._events(scene, "/bakes", asked, "baking", lambda data: (data["done"] + data["share"], data["of"]))
+        return cast(BakeReport, report)
+
+    def baked(self, scene: SceneLike, key: str, media_type: str = "model/gltf-binary",
+              light: Optional[int] = None) -> bytes:
+        """A bake as a file: model/gltf-binary, image/png or image/x-exr."""
+        query = "" if light is None else f"?light={light}"
+        return self._scenes.request(scene, "GET", f"/bakes/{quote(key)}{query}", Accept=media_type).body
+
+    def sequence(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
+                 keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
+                 **fields: Any) -> Iterator[Frame]:
+        """Frames as they are drawn: one for each merge patch of `frames` over the spec, or `count` of them between
+        `keys`. Leaving the loop stops the server's work."""
+        first: Dict[str, Any] = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
+        first["output"] = {**first.get("output", {}), "format": "npz"}
+        asked = {"spec": first, "frames": frames, "keys": keys, "count": count, "stable": stable}
+        body = encoded(given(asked))
+        of = count if frames is None else len(frames)
+        return self._frames(scene, body, of or 0)
+
+    def _frames(self, scene: SceneLike, body: bytes, of: int) -> Iterator[Frame]:
+        bar = Progress("rendering", self.progress)
+        done = 0
+        try:
+            with self._scenes.stream(scene, "POST", "/sequences", body, Accept="multipart/mixed") as response:
+                for part in parts(response, str(response.headers.get_param("boundary"))):
+                    kind = part.headers.get_content_type()
+                    if kind == "application/problem+json":
+                        raise problem_from(0, part.content)
+                    if kind == "application/zip":
+                        yield read_frame(part.content, self._redraw(scene), done)
+                        done += 1
+                        bar.at(done, of)
+        finally:
+            bar.close()
+
+    def _events(self, scene: SceneLike, tail: str, asked: Dict[str, Any], what: str,
+                share: Callable[[Dict[str, Any]], Tuple[float, float]]) -> Any:
+        """The event `result` of a long work, its progress shown meanwhile."""
+        bar = Progress(what, self.progress)
+        try:
+            with self._scenes.stream(scene, "POST", tail, encoded(given(asked)), Accept="text/event-stream") as response:
+                for event in events(response):
+                    if event.name == "progress":
+                        bar.at(*share(event.data))
+                    elif event.name == "result":
+                        return event.data
+        finally:
+            bar.close()
+        raise ConnectionError("the server's events ended without a result")
+
+    def _redraw(self, scene: SceneLike) -> Redraw:
+        name = self._scenes.id_of(scene)
+        return lambda spec, media_type: self.picture(name, spec, media_type)
+
+
+def given(fields: Mapping[str, Any]) -> Dict[str, Any]:
+    return {name: value for name, value in fields.items() if value is not None}
