@@ -32,19 +32,19 @@ class Cancel:
     def __init__(self) -> None:
         self._event = threading.Event()
         self._lock = threading.Lock()
-        self._connection: Optional[http.client.HTTPConnection] = None
+        self._socket: Optional[socket.socket] = None
 
-    def watch(self, connection: Optional[http.client.HTTPConnection]) -> None:
+    def watch(self, connection: Optional[socket.socket]) -> None:
         with self._lock:
-            self._connection = connection
+            self._socket = connection
         self.check()
 
     def set(self) -> None:
         self._event.set()
         with self._lock:
-            if self._connection is not None and self._connection.sock is not None:
+            if self._socket is not None:
                 with contextlib.suppress(OSError):
-                    self._connection.sock.shutdown(socket.SHUT_RDWR)
+                    self._socket.shutdown(socket.SHUT_RDWR)
 
     def check(self) -> None:
         if self._event.is_set():
@@ -126,8 +126,10 @@ class Transport:
                 kept = self._idle.pop() if self._idle else None
             connection = kept or self._connect()
             try:
+                if connection.sock is None:
+                    connection.connect()
                 if cancel is not None:
-                    cancel.watch(connection)
+                    cancel.watch(connection.sock)
                 return connection, self._exchange(connection, method, path, body, headers)
             except (*LOST, ConnectionRefusedError) as error:
                 connection.close()
@@ -166,6 +168,7 @@ class Transport:
             with self._lock:
                 self._idle.append(connection)
         else:
+            response.close()
             connection.close()
 
     @staticmethod

@@ -1,0 +1,180 @@
+"""The Python client against the shipped server: frames as arrays, plans, evaluations, bakes, scenes."""
+
+import contextlib
+import io
+import os
+import unittest
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from unittest import mock
+
+import numpy as np
+from shipped_server import BINARY, EXR_MAGIC, SCENES, ServerTest
+
+import gnomon
+from gnomon import png
+
+BOX = SCENES / "box_on_plane.glb"
+SMALL = {"width": 64, "height": 48}
+
+
+class SessionTest(ServerTest):
+    flags = ("--device", "cpu")
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.url = "http://{}:{}".format(*cls.server.address)
+        cls.session = gnomon.Session(cls.url)
+        cls.addClassCleanup(cls.session.close)
+
+
+class Frames(SessionTest):
+    def test_the_usual_views_are_arrays(self):
+        frame = self.session.frame(BOX, sun=(135, 40), **SMALL)
+        for view, dtype, shape in (("color", np.uint8, (48, 64, 3)), ("depth", np.float32, (48, 64)),
+                                   ("ids", np.int32, (48, 64)), ("shadow", np.float32, (48, 64))):
+            values = getattr(frame, view)
+            self.assertEqual((values.dtype, values.shape), (dtype, shape), view)
+        seen = frame.ids >= 0
+        self.assertTrue(0 < seen.sum() < seen.size)
+        np.testing.assert_array_equal(np.isfinite(frame.depth), seen)
+        self.assertEqual(set(np.unique(frame.ids[seen])), {0, 1})
+        self.assertTrue(0 < (frame.shadow < 0.5).sum() < 0.5 * seen.sum())
+        self.assertEqual(frame.size, (64, 48))
+        self.assertEqual(frame.report["spec"]["lights"][0]["sun"]["azimuthDegrees"], 135)
+        self.assertIn("shade", frame.timings)
+        self.assertIn("color, depth, ids, shadow", repr(frame))
+
+    def test_colors_are_those_of_the_png(self):
+        frame = self.session.frame(BOX, views=["color"], **SMALL)
+        np.testing.assert_array_equal(frame.color, png.decode(self.session.picture(BOX, **SMALL)))
+        np.testing.assert_array_equal(frame.color, png.decode(frame._repr_png_()))
+
+    def test_colors_can_be_linear(self):
+        frame = self.session.frame(BOX, views=["color"], output={"arrayColors": "linear"}, **SMALL)
+        self.assertEqual((frame.color.dtype, frame.color.shape), (np.float32, (48, 64, 3)))
+
+    def test_a_view_that_was_not_asked_for_is_told(self):
+        frame = self.session.frame(BOX, views=["depth", "normal"], **SMALL)
+        self.assertEqual(frame.normal.shape, (48, 64, 3))
+        with self.assertRaisesRegex(AttributeError, "no 'color'; its views are depth, normal"):
+            frame.color
+
+    def test_positions_lie_on_the_rays_of_the_camera(self):
+        eye = np.array((3.0, 4.0, 9.0))
+        camera = gnomon.camera.look_at(eye, (0, 1, 0), fovYDegrees=40)
+        frame = self.session.frame(BOX, camera=camera, views=["depth", "position"], **SMALL)
+        seen = np.isfinite(frame.depth)
+        forward = (np.array((0, 1, 0)) - eye) / np.linalg.norm(np.array((0, 1, 0)) - eye)
+        np.testing.assert_allclose(((frame.position[seen] - eye) @ forward), frame.depth[seen], rtol=1e-4)
+
+    def test_frames_are_saved_in_every_format(self):
+        frame = self.session.frame(BOX, views=["color", "depth"], **SMALL)
+        starts = {".png": png.SIGNATURE, ".exr": EXR_MAGIC, ".tiff": b"II", ".jpg": b"\xff\xd8", ".webp": b"RIFF",
+                  ".npy": b"\x93NUMPY", ".npz": b"PK"}
+        with TemporaryDirectory() as folder:
+            for suffix, start in starts.items():
+                path = Path(folder) / f"frame{suffix}"
+                frame.save(path)
+                self.assertEqual(path.read_bytes()[:len(start)], start, suffix)
+            again = gnomon.read_frame((Path(folder) / "frame.npz").read_bytes())
+            np.testing.assert_array_equal(again.depth, frame.depth)
+            frame.save(Path(folder) / "depth.npy", "depth")
+            np.testing.assert_array_equal(np.load(Path(folder) / "depth.npy"), frame.depth)
+            with self.assertRaisesRegex(ValueError, ".npz .png"):
+                frame.save(Path(folder) / "frame.bmp")
+
+    def test_render_finds_or_starts_a_server(self):
+        here = gnomon.render(BOX, sun=(135, 40), server=self.url, **SMALL)
+        with mock.patch.dict(os.environ, {"GNOMON_SERVER": self.url}):
+            found = gnomon.render(str(BOX), sun=(135, 40), **SMALL)
+        np.testing.assert_array_equal(here.color, found.color)
+        with gnomon.Session(binary=BINARY, flags=["--device", "cpu"]) as own:
+            self.assertNotEqual(own.url, self.url)
+            np.testing.assert_array_equal(own.frame(BOX, sun=(135, 40), **SMALL).color, here.color)
+
+    def test_a_program_that_is_missing_is_told(self):
+        with mock.patch.dict(os.environ, {"GNOMON_BINARY": "/nowhere/gnomon"}):
+            with self.assertRaisesRegex(FileNotFoundError, "GNOMON_BINARY"):
+                gnomon.Session()
+        with self.assertRaisesRegex(RuntimeError, "--no-such-flag"):
+            gnomon.Session(binary=BINARY, flags=["--no-such-flag"])
+
+
+class Scenes(SessionTest):
+    def test_a_scene_is_uploaded_once(self):
+        first = self.session.upload(BOX)
+        self.assertEqual(first.summary["nodes"], 3)
+        self.assertEqual(self.session.upload(BOX.read_bytes()), first)
+        uploads = [line for line in self.server.settled_log().splitlines() if '"PUT"' in line and first.id in line]
+        self.assertEqual(len(uploads), 1, uploads)
+        self.assertEqual(self.session.scene(first), first.summary)
+        self.assertIn(first.id, [scene["id"] for scene in self.session.list()])
+
+    def test_a_deleted_scene_is_gone(self):
+        scene = self.session.upload(SCENES / "pebble.glb")
+        self.session.delete(scene)
+        with self.assertRaises(gnomon.NotFound):
+            self.session.picture(scene.id, **SMALL)
+
+    def test_an_animated_plan_and_its_capabilities(self):
+        plan = self.session.plan(BOX, shadow={"cascadeCount": 2}, **SMALL)
+        self.assertEqual(len(plan["lights"][0]["tiles"]), 2)
+        self.assertRegex(self.session.capabilities()["renderer"]["fingerprint"], "^[0-9a-f]{16}$")
+
+    def test_problems_have_their_places(self):
+        with self.assertRaises(gnomon.BadRequest) as caught:
+            self.session.frame(BOX, width=0, shadow={"cascadeCount": 99})
+        problem = caught.exception
+        self.assertEqual(problem.status, 400)
+        self.assertEqual([(each.pointer, each.limit, each.actual) for each in problem.problems],
+                         [("/width", "1..16384", "0"), ("/shadow/cascadeCount", "1..8", "99")])
+        self.assertIn("/width: This is out of range. Accepted: 1..16384. Given: 0.", str(problem))
+        with self.assertRaises(gnomon.BadRequest) as caught:
+            self.session.upload(b"{}")
+        self.assertEqual(caught.exception.status, 422)
+
+    def test_a_large_refused_body_still_tells_why(self):
+        with self.assertRaises(gnomon.TooLarge):
+            self.session.upload(b"glTF" + bytes(300 << 20))
+
+
+class LongWork(SessionTest):
+    def test_an_evaluation_is_a_table(self):
+        variants = [{"shadow": {"filter": {"type": "hard"}}}, {"shadow": {"cascadeCount": 0}}]
+        with self.assertRaises(gnomon.BadRequest) as caught:
+            self.session.evaluate(BOX, variants=variants, repeats=1, **SMALL)
+        self.assertIn("/variants/1/shadow/cascadeCount", [each.pointer for each in caught.exception.problems])
+        rows = self.session.evaluate(BOX, variants=variants[:1], repeats=1, **SMALL)
+        self.assertEqual(len(rows), 1)
+        self.assertEqual(rows[0]["name"], "filter.type hard")
+        self.assertGreater(rows[0]["milliseconds"], 0)
+        self.assertGreater(rows[0]["stages.shadow"], 0)
+        self.assertIn("misclassified", rows[0])
+        self.assertEqual(rows.report["rows"][0]["metrics"]["misclassified"], rows[0]["misclassified"])
+
+    def test_progress_is_shown_where_it_is_wanted(self):
+        for wanted in (True, False):
+            with gnomon.Session(self.url, progress=wanted) as session, contextlib.redirect_stderr(io.StringIO()) as shown:
+                session.evaluate(BOX, variants=[{}, {"shadow": {"cascadeCount": 1}}], repeats=1, **SMALL)
+            self.assertEqual("evaluating" in shown.getvalue(), wanted)
+
+    def test_a_bake_is_kept_under_its_key(self):
+        spec = {"lights": [{"sun": {}}], "shadow": {"technique": "lightMap", "lightMap": {"size": 64, "samples": 4}}}
+        report = self.session.bake(BOX, spec)
+        self.assertEqual(self.session.baked(BOX, report["key"])[:4], b"glTF")
+        self.assertEqual(self.session.baked(BOX, report["key"], "image/png", light=0)[:8], png.SIGNATURE)
+
+
+class Orbits(SessionTest):
+    def test_the_widget_asks_for_frames_that_the_server_draws(self):
+        widget = gnomon.orbit(self.session, BOX, sun=(135, 40), shadow={"cascadeCount": 2}, width=64, height=48)
+        self.assertIn(widget.address, widget._repr_html_())
+        path = widget.address[len(self.url):]
+        reply = self.server.get(path + "&width=64&height=48&camera.orbit.azimuthDegrees=90.00")
+        self.assertEqual((reply.status, reply.body[:8]), (200, png.SIGNATURE), reply.body[:300])
+
+
+if __name__ == "__main__":
+    unittest.main()
