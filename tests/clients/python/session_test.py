@@ -39,7 +39,7 @@ class Frames(SessionTest):
         seen = frame.ids >= 0
         self.assertTrue(0 < seen.sum() < seen.size)
         np.testing.assert_array_equal(np.isfinite(frame.depth), seen)
-        self.assertEqual(set(np.unique(frame.ids[seen])), {0, 1})
+        self.assertEqual(set(np.unique(frame.ids[seen])), {0, 2})
         self.assertTrue(0 < (frame.shadow < 0.5).sum() < 0.5 * seen.sum())
         self.assertEqual(frame.size, (64, 48))
         self.assertEqual(frame.report["spec"]["lights"][0]["sun"]["azimuthDegrees"], 135)
