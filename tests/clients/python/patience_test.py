@@ -62,8 +62,7 @@ class Evictions(unittest.TestCase):
                 self.assertLess(len(list(session.list())), 2, "nothing was dropped")
                 for scene in itertools.islice(itertools.cycle(scenes), 4):
                     self.assertTrue(session.picture(scene, **SMALL).startswith(png.SIGNATURE))
-                stranger = gnomon.Session(url_of(server))
-                with self.assertRaises(gnomon.NotFound):
+                with gnomon.Session(url_of(server)) as stranger, self.assertRaises(gnomon.NotFound):
                     stranger.picture(scenes[0].id, **SMALL)
 
 
@@ -121,11 +120,11 @@ class Asynchronous(unittest.TestCase):
                 task = asyncio.create_task(session.evaluate(scene, sweep="all", repeats=100, width=1280, height=720))
                 while not task.done():
                     # The one permit for evaluations is taken once a second evaluation is refused.
-                    try:
-                        impatient = gnomon.Session(url_of(server), patience=0)
-                        await asyncio.to_thread(impatient.evaluate, scene, variants=[{}], repeats=1, **SMALL)
-                    except gnomon.Busy:
-                        break
+                    with gnomon.Session(url_of(server), patience=0) as impatient:
+                        try:
+                            await asyncio.to_thread(impatient.evaluate, scene, variants=[{}], repeats=1, **SMALL)
+                        except gnomon.Busy:
+                            break
                 task.cancel()
                 begun = time.monotonic()
                 with self.assertRaises(asyncio.CancelledError):

@@ -69,6 +69,18 @@ class Frames(SessionTest):
         forward = (np.array((0, 1, 0)) - eye) / np.linalg.norm(np.array((0, 1, 0)) - eye)
         np.testing.assert_allclose(((frame.position[seen] - eye) @ forward), frame.depth[seen], rtol=1e-4)
 
+    def test_a_pose_and_a_calibration_show_what_look_at_shows(self):
+        eye, target = (12, 9, 20), (0, 1, 0)
+        focal = 24 / np.tan(np.radians(20))
+        K = [[focal, 0, 31.5], [0, focal, 23.5], [0, 0, 1]]
+        wanted = png.decode(self.session.picture(BOX, camera=gnomon.camera.look_at(eye, target, fovYDegrees=40), **SMALL))
+        usual = png.decode(self.session.picture(BOX, **SMALL))
+        self.assertGreater(np.abs(usual.astype(int) - wanted).mean(), 1)
+        for axes in ("opencv", "opengl"):
+            camera = gnomon.camera.from_pose(gnomon.camera.pose(eye, target, axes=axes), axes, K)
+            found = png.decode(self.session.picture(BOX, camera=camera, **SMALL))
+            self.assertLess(np.abs(found.astype(int) - wanted).mean(), 0.5, axes)
+
     def test_frames_are_saved_in_every_format(self):
         frame = self.session.frame(BOX, views=["color", "depth"], **SMALL)
         starts = {".png": png.SIGNATURE, ".exr": EXR_MAGIC, ".tiff": b"II", ".jpg": b"\xff\xd8", ".webp": b"RIFF",
