@@ -8,6 +8,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/elapsed.h"
 #include "protocol/sequence/sequence_json.h"
+#include "protocol/spec/format_traits.h"
 #include "server/handlers/event_reply.h"
 #include "server/http/zip_stream.h"
 
@@ -27,10 +28,10 @@ std::string pictureName(const DoneFrame& frame, const PictureNews& picture) {
   const int length = std::snprintf(number.data(), number.size(), "frame-%05d", frame.index);
   std::string name(number.data(), static_cast<std::size_t>(length));
   if (frame.pictures.size() > 1) name += "-" + picture.view;
-  const std::string_view type = picture.contentType;
-  std::string_view ending = type.substr(type.find('/') + 1);
-  if (ending.starts_with("x-")) ending.remove_prefix(2);
-  return name.append(".").append(ending == "zip" ? "npz" : ending);
+  const auto traits = std::find_if(kFormatTraits.begin(), kFormatTraits.end(), [&](const FormatTraits& format) {
+    return format.mediaType == picture.contentType;
+  });
+  return traits == kFormatTraits.end() ? name : name.append(traits->suffix);
 }
 
 /// How a sequence is written. Each function sends, and tells whether the client is still there.

@@ -39,7 +39,9 @@ Subcommand addOpenApiCommand(CLI::App& app);
 Subcommand addPlanCommand(CLI::App& app);
 Subcommand addRenderCommand(CLI::App& app);
 Subcommand addRmCommand(CLI::App& app);
+Subcommand addSequenceCommand(CLI::App& app);
 Subcommand addSignCommand(CLI::App& app);
+Subcommand addTurntableCommand(CLI::App& app);
 Subcommand addUploadCommand(CLI::App& app);
 Subcommand addWatchCommand(CLI::App& app);
 

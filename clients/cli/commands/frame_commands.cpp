@@ -114,8 +114,8 @@ int runRender(RenderOptions options) {
 }
 
 std::string checkOutput(const std::string& output) {
-  if (output == "-" || formatOf(output)) return "";
-  return "needs a name that ends in one of " + suffixList() + ", or - for standard output";
+  const std::string wrong = checkPictureName(output);
+  return output == "-" || wrong.empty() ? "" : wrong + ", or - for standard output";
 }
 
 struct PlanOptions {

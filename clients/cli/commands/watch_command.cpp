@@ -87,17 +87,13 @@ int runWatch(WatchOptions options) {
   return kExitOk;
 }
 
-std::string checkOutput(const std::string& output) {
-  return formatOf(output) ? "" : "needs a name whose suffix is a picture's format";
-}
-
 } // namespace
 
 Subcommand addWatchCommand(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
   auto* command = app.add_subcommand("watch", "Render again when the scene, its files or the request change");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required()->check(CLI::ExistingFile);
-  command->add_option("-o,--output", options->output, "The picture")->required()->check(checkOutput);
+  command->add_option("-o,--output", options->output, "The picture")->required()->check(checkPictureName);
   command->add_option("--spec", options->spec, "A request as JSON. Flags override its fields")
       ->check(CLI::ExistingFile);
   addPictureFlags(*command, options->arguments);

@@ -120,6 +120,10 @@ std::string suffixList() {
   return list;
 }
 
+std::string checkPictureName(const std::string& output) {
+  return formatOf(output) ? "" : "needs a name that ends in one of " + suffixList();
+}
+
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount) {
   constexpr std::string_view kView = "{view}";
   if (const auto at = output.find(kView); at != std::string::npos) {

@@ -30,6 +30,9 @@ std::optional<std::string> formatOf(const std::string& output);
 /// Every suffix that formatOf knows: ".png .exr ...".
 std::string suffixList();
 
+/// What a command line is told of an output's name: empty where formatOf knows it.
+std::string checkPictureName(const std::string& output);
+
 /// Where a picture goes: the output with its {view}, the output itself, or, one of several, "frame.depth.png" for view
 /// depth of "frame.png".
 std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);

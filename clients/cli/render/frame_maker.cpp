@@ -38,4 +38,12 @@ Result<Rendered> FrameMaker::draw(const FrameSpec& spec, ProgressLine& progress)
   return drawHere(*renderer_, scene_, spec, std::exchange(loadMilliseconds_, std::nullopt), progress);
 }
 
+Result<std::string> FrameMaker::drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,
+                                        ProgressLine& progress) {
+  if (const auto* remote = std::get_if<Remote>(&where_)) {
+    return sequenceThere(*remote, bundle_, id_, requestJson, take, progress);
+  }
+  return sequenceHere(*renderer_, scene_, sequence, take, progress);
+}
+
 } // namespace gnomon::cli

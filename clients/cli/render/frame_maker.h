@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "clients/cli/render/rendering.h"
+#include "clients/cli/render/sequence_run.h"
 
 namespace gnomon::cli {
 
@@ -19,6 +20,11 @@ class FrameMaker {
 
   /// REQUIRES: `open` went well.
   Result<Rendered> draw(const FrameSpec& spec, ProgressLine& progress);
+
+  /// Every frame of a sequence; `requestJson` is the request that it was decoded from. Gives its report as JSON.
+  /// REQUIRES: `open` went well.
+  Result<std::string> drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,
+                              ProgressLine& progress);
 
  private:
   Status load(const SceneBundle& bundle, ProgressLine& progress);

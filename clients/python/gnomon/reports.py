@@ -557,6 +557,8 @@ class SceneSummary(TypedDict, total=False):
         Its lights.
     animations:
         The file's animations, in the order of their indices.
+    materialVariants:
+        Names of the file's material variants, for `materialVariant`.
     volumeFiles:
         Names of the upload's .npy and .vdb files, which a frame's `volumes` may show.
     extensionsUsed:
@@ -589,6 +591,7 @@ class SceneSummary(TypedDict, total=False):
     cameras: List["CameraSummary"]
     lights: List["LightSummary"]
     animations: List["AnimationSummary"]
+    materialVariants: List[str]
     volumeFiles: List[str]
     extensionsUsed: List[str]
     extensionsIgnored: List[str]
@@ -886,3 +889,42 @@ class BakeReport(TypedDict, total=False):
     key: str
     lights: List["BakedLightReport"]
     milliseconds: float
+
+
+class SequenceFrameReport(TypedDict, total=False):
+    """What one frame of a sequence took.
+
+    index:
+        Which frame.
+    milliseconds:
+        Time from its beginning to its pictures; neighbouring frames overlap. Unit: milliseconds.
+    stages:
+        Time of each stage. Unit: milliseconds.
+    """
+
+    index: int
+    milliseconds: float
+    stages: Dict[str, float]
+
+
+class SequenceReport(TypedDict, total=False):
+    """What a sequence took and leaves behind.
+
+    frames:
+        One entry for each frame that was drawn.
+    milliseconds:
+        Time from the first frame's beginning to the last one's pictures, waiting for the client included. Unit:
+        milliseconds.
+    carried:
+        What the last frame leaves to a sequence that continues this one.
+    warnings:
+        What was drawn differently from what was asked, over all frames, each once; at most 32.
+    renderer:
+        The graphics context that drew the frames.
+    """
+
+    frames: List["SequenceFrameReport"]
+    milliseconds: float
+    carried: Dict[str, Any]
+    warnings: List[str]
+    renderer: "RendererInfo"

@@ -865,3 +865,66 @@ class EvaluationRequest:
     repeats: Optional[int] = None
     referenceSamples: Optional[int] = None
     path: Optional[Union["CameraPath", Json]] = None
+
+
+@dataclass
+class CarriedRange:
+    """The view depths that one light's cascades cover.
+
+    light:
+        Index into the lights of the frame. Default: 0.
+    near:
+        View depth where the range begins. Unit: metres. Default: 0.0.
+    far:
+        View depth where the range ends, more than `near`. Unit: metres. Default: 0.0.
+    """
+
+    light: Optional[int] = None
+    near: Optional[float] = None
+    far: Optional[float] = None
+
+
+@dataclass
+class Carried:
+    """What a frame of a sequence takes from the one before it. Pass it on as it came.
+
+    depthRanges:
+        For each light with cascades the depths that they cover.
+    """
+
+    depthRanges: Optional[Sequence[Union["CarriedRange", Json]]] = None
+
+
+@dataclass
+class SequenceRequest:
+    """Many frames of one scene; exactly one of `frames` and `keys`.
+
+    spec:
+        What every frame starts from; must not have `quality`.
+    frames:
+        One frame for each: what it changes in `spec`, as a JSON merge patch (RFC 7396): objects are merged, null
+        removes a field, lists are replaced.
+    keys:
+        Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is the first key,
+        the last frame the last key. In between, numbers at the same place of two neighbouring keys are interpolated
+        linearly; whole numbers and all else must be equal.
+    count:
+        With `keys`: number of frames. Unit: frames.
+    stable:
+        Shadows of directional lights hold still while the camera moves, and depth ranges pass from frame to frame,
+        except where the spec has `stabilization` or `depthRange` itself. False = each frame is drawn as if it were
+        alone, with the tightest fit. Default: true.
+    first:
+        Index of the first frame that is drawn: 0, or where a sequence that broke off goes on. Default: 0.
+    carried:
+        What the frame before `first` left, from its reply. Needed with `first` if the sequence is stable; with
+        `first` 0 it continues another sequence.
+    """
+
+    spec: Optional[Union["FrameSpec", Json]] = None
+    frames: Optional[Sequence[Json]] = None
+    keys: Optional[Sequence[Json]] = None
+    count: Optional[int] = None
+    stable: Optional[bool] = None
+    first: Optional[int] = None
+    carried: Optional[Union["Carried", Json]] = None

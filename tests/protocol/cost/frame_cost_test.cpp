@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "protocol/spec/enum_rows.h"
+
 namespace gnomon {
 namespace {
 

@@ -125,7 +125,9 @@ TEST(EncodeJpeg, IsCloseAtFullColorResolution) {
     EXPECT_EQ(spec.nchannels, channels == 1 ? 1 : 3) << "alpha is left out";
     const std::size_t step = static_cast<std::size_t>(spec.nchannels);
     EXPECT_LT(difference(std::get<Bytes>(image.pixels), channels, read90, step, step), 1.5) << channels;
-    if (channels > 1) EXPECT_EQ(spec.get_string_attribute("jpeg:subsampling"), "4:4:4");
+    if (channels > 1) {
+      EXPECT_EQ(spec.get_string_attribute("jpeg:subsampling"), "4:4:4");
+    }
   }
   EXPECT_LT(encodeJpeg(slopes(161, 93, 3), 10)->size(), encodeJpeg(slopes(161, 93, 3), 100)->size());
   OIIO::ImageSpec spec;

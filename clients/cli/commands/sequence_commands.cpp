@@ -1,0 +1,227 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/spec_flags.h"
+#include "clients/cli/files/file_io.h"
+#include "clients/cli/files/output_names.h"
+#include "clients/cli/files/scene_file.h"
+#include "clients/cli/render/frame_maker.h"
+#include "clients/cli/spec/spec_arguments.h"
+#include "clients/cli/terminal/messages.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/sequence/sequence_json.h"
+
+/// Many frames of one scene: a request's, or a turn around it.
+namespace gnomon::cli {
+namespace {
+
+struct SequenceOptions {
+  std::string scene;
+  std::string request; ///< a SequenceRequest, "-" = standard input
+  std::string spec;    ///< of a turntable; empty = none
+  int frames = 36;     ///< of a turntable
+  std::string output;  ///< with {frame}
+  std::string report;  ///< a file, "-" = standard output, empty = none
+  SpecArguments arguments;
+  WhereOptions where;
+};
+
+std::string checkFrameName(const std::string& output) {
+  if (output.find("{frame}") == std::string::npos) return "needs {frame} in its name, as frames/{frame}.png";
+  return checkPictureName(output);
+}
+
+/// The pictures of one scene, and the names that they get.
+int drawFrames(const SequenceOptions& options, const std::string& requestJson, const Sequence& sequence,
+               const FlagOrigins& origins, FrameMaker& maker, ProgressLine& progress) {
+  std::size_t written = 0;
+  const auto take = [&](int index, const std::vector<Picture>& pictures) -> Status {
+    const auto name = filledIn(options.output, {{"frame", frameNumber(index)}, {"scene", sceneName(options.scene)}});
+    if (!name) return name.problems();
+    std::error_code ignored; // a folder that can't be made is told when the file can't be
+    std::filesystem::create_directories(std::filesystem::path(*name).parent_path(), ignored);
+    const auto names = writePictures(pictures, *name);
+    if (!names) return names.problems();
+    written += names->size();
+    return Done{};
+  };
+  const auto report = maker.drawAll(sequence, requestJson, take, progress);
+  progress.finish();
+  if (!report) return printProblems(report.problems(), origins);
+  if (!options.report.empty()) {
+    if (auto done = writeFile(options.report, asBytes(*report)); !done) return printProblems(done.problems());
+  }
+  if (options.report != "-") std::cout << written << " pictures\n";
+  return kExitOk;
+}
+
+Status openScene(const SequenceOptions& options, const FrameSpec& spec, FrameMaker& maker, ProgressLine& progress) {
+  progress.stage("reading " + options.scene);
+  auto bundle = readSceneFile(options.scene, spec.volumes);
+  if (!bundle) return bundle.problems();
+  return maker.open(*std::move(bundle), progress);
+}
+
+int runSequence(SequenceOptions options) {
+  options.arguments.format = formatOf(options.output);
+  const auto text = specText(options.request);
+  if (!text) return printProblems(text.problems());
+  Json request = Json::parse(*text, nullptr, false);
+  // What is no object is told by the decoder, with its place.
+  FlagOrigins origins;
+  std::string requestJson = *text;
+  if (request.is_object()) {
+    const ResolvedSpec resolved = resolveSpec(request.value("spec", Json::object()).dump(), options.arguments);
+    if (!resolved.spec) return printProblems(about("spec", resolved.spec.problems()), resolved.origins);
+    request["spec"] = Json::parse(resolved.json);
+    requestJson = jsonText(request);
+    origins = resolved.origins;
+  }
+  const auto sequence = decodeSequence(requestJson);
+  if (!sequence) return printProblems(sequence.problems());
+  auto maker = makerFor(options.where);
+  if (!maker) return printProblems(maker.problems());
+  auto progress = ProgressLine::onTerminal();
+  if (auto opened = openScene(options, frameSpec(*sequence, sequence->first, sequence->carried), *maker, progress);
+      !opened) {
+    progress.finish();
+    return printProblems(opened.problems());
+  }
+  return drawFrames(options, requestJson, *sequence, origins, *maker, progress);
+}
+
+/// Where a frame's effective camera stands and looks.
+struct Seen {
+  Vec3 eye{}, target{};
+  double distance() const { return std::hypot(eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]); }
+};
+
+Result<Seen> seenBy(FrameMaker& maker, FrameSpec spec, double azimuth, ProgressLine& progress) {
+  // Only the camera matters: small, and without shadows.
+  const double scale = std::max(1.0, std::max(spec.width, spec.height) / 64.0);
+  spec.width = std::max(1, static_cast<int>(std::lround(spec.width / scale)));
+  spec.height = std::max(1, static_cast<int>(std::lround(spec.height / scale)));
+  spec.antialiasing = Antialiasing::none;
+  spec.shadow.enabled = false;
+  spec.quality.reset();
+  spec.views = {View::depth};
+  spec.output = {};
+  if (!spec.camera.orbit) spec.camera.orbit.emplace();
+  spec.camera.fit.reset();
+  spec.camera.orbit->azimuthDegrees = azimuth;
+  const auto rendered = maker.draw(spec, progress);
+  if (!rendered) return rendered.problems();
+  const Json camera = Json::parse(rendered->reportJson)["spec"]["camera"];
+  return Seen{camera["eye"].get<Vec3>(), camera["target"].get<Vec3>()};
+}
+
+/// One orbit for all frames: where the spec leaves target or distance open, a distance at which the whole scene shows
+/// from all sides, so that it does not grow and shrink while it turns.
+Result<Orbit> steadyOrbit(FrameMaker& maker, const FrameSpec& spec, ProgressLine& progress) {
+  Orbit orbit = spec.camera.orbit.value_or(Orbit{});
+  if (orbit.target && orbit.distance) return orbit;
+  constexpr int kSides = 8;
+  double distance = 0;
+  for (int side = 0; side < kSides; ++side) {
+    const auto seen = seenBy(maker, spec, 360.0 * side / kSides, progress);
+    if (!seen) return seen.problems();
+    distance = std::max(distance, seen->distance());
+    if (!orbit.target) orbit.target = seen->target;
+  }
+  if (!orbit.distance) orbit.distance = distance;
+  return orbit;
+}
+
+Json turn(const Orbit& orbit, int frames) {
+  Json patches = Json::array();
+  for (int i = 0; i < frames; ++i) {
+    const double azimuth = std::remainder(orbit.azimuthDegrees + 360.0 * i / frames, 360.0);
+    patches.push_back({{"camera",
+                        {{"orbit",
+                          {{"azimuthDegrees", azimuth},
+                           {"elevationDegrees", orbit.elevationDegrees},
+                           {"target", *orbit.target},
+                           {"distance", *orbit.distance}}}}}});
+  }
+  return patches;
+}
+
+int runTurntable(SequenceOptions options) {
+  options.arguments.format = formatOf(options.output);
+  const auto [spec, origins, json] = resolveSpecFile(options.spec, options.arguments);
+  if (!spec) return printProblems(spec.problems(), origins);
+  const Camera& camera = spec->camera;
+  if (camera.lookAt || camera.node || camera.pose) {
+    return printProblems({{ProblemCode::invalidValue, "/camera", "A turntable turns around the scene or a target.",
+                           "orbit | fit | no placement", "another placement"}},
+                         origins);
+  }
+  auto maker = makerFor(options.where);
+  if (!maker) return printProblems(maker.problems());
+  auto progress = ProgressLine::onTerminal();
+  const auto fail = [&](const Problems& problems) {
+    progress.finish();
+    return printProblems(problems, origins);
+  };
+  if (auto opened = openScene(options, *spec, *maker, progress); !opened) return fail(opened.problems());
+  const auto orbit = steadyOrbit(*maker, *spec, progress);
+  if (!orbit) return fail(orbit.problems());
+  Json request = {{"spec", Json::parse(json)}, {"frames", turn(*orbit, options.frames)}};
+  if (request["spec"].contains("camera")) request["spec"]["camera"].erase("fit");
+  const std::string requestJson = jsonText(request);
+  const auto sequence = decodeSequence(requestJson);
+  if (!sequence) return fail(sequence.problems());
+  return drawFrames(options, requestJson, *sequence, origins, *maker, progress);
+}
+
+void addFrameOutput(CLI::App& command, SequenceOptions& options) {
+  command
+      .add_option(
+          "-o,--output", options.output,
+          "The pictures, in a folder that is made if need be; {frame} stands for the number of each, {scene} for the "
+          "scene's name, {view} for the view's. The suffix is the format: " +
+              suffixList())
+      ->required()
+      ->check(checkFrameName);
+  command.add_option("--report", options.report, "Write the sequence's report as JSON; - is standard output");
+  addPictureFlags(command, options.arguments);
+  addWhereFlags(command, options.where, options.arguments);
+}
+
+} // namespace
+
+Subcommand addSequenceCommand(CLI::App& app) {
+  auto options = std::make_shared<SequenceOptions>();
+  auto* command =
+      app.add_subcommand("sequence", "Render the frames of a sequence: paths, moving nodes, a day of the sun");
+  command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
+  command
+      ->add_option(
+          "request", options->request,
+          "A sequence as JSON, as POST /v1/scenes/{id}/sequences takes it; - is standard input. Flags override "
+          "fields of its spec")
+      ->required();
+  addFrameOutput(*command, *options);
+  return {[command] { return command->parsed(); }, [options] { return runSequence(*options); }};
+}
+
+Subcommand addTurntableCommand(CLI::App& app) {
+  auto options = std::make_shared<SequenceOptions>();
+  auto* command = app.add_subcommand("turntable", "Render a scene from all around");
+  command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
+  command->add_option("--frames", options->frames, "How many pictures one turn has")
+      ->check(CLI::Range(2, static_cast<int>(kMaxSequenceFrames)))
+      ->capture_default_str();
+  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addFrameOutput(*command, *options);
+  return {[command] { return command->parsed(); }, [options] { return runTurntable(*options); }};
+}
+
+} // namespace gnomon::cli

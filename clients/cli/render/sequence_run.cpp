@@ -1,0 +1,126 @@
+#include "clients/cli/render/sequence_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "clients/cli/remote/http_client.h"
+#include "clients/cli/remote/remote_scene.h"
+#include "protocol/base/bytes.h"
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/sequence/carry.h"
+
+namespace gnomon::cli {
+namespace {
+
+void showFrame(int index, int first, int of, ProgressLine& progress) {
+  progress.share(static_cast<double>(index + 1 - first) / std::max(of - first, 1));
+}
+
+/// The same problems, pointing to the frame's place in the request.
+Problems placed(Problems problems, const std::string& place) {
+  for (Problem& problem : problems) problem.pointer.insert(0, place);
+  return problems;
+}
+
+} // namespace
+
+Result<std::string> sequenceHere(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
+                                 const TakeFrame& take, ProgressLine& progress) {
+  progress.stage("rendering");
+  const auto begun = std::chrono::steady_clock::now();
+  SequenceReport report;
+  report.renderer = renderer.info();
+  report.carried = sequence.carried;
+  for (int index = sequence.first; index < sequence.count; ++index) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string place = framePlace(sequence, index);
+    auto frame = renderer.render(scene, frameSpec(sequence, index, report.carried));
+    if (!frame) return placed(frame.problems(), place);
+    report.carried = carriedAfter(report.carried, carriedOf(frame->report));
+    auto encoded = encodePictures(*frame, frame->images.size());
+    if (!encoded) return placed(encoded.problems(), place);
+    std::vector<Picture> pictures;
+    for (EncodedPicture& picture : *encoded) pictures.push_back({std::move(picture.view), std::move(picture.file)});
+    if (auto taken = take(index, pictures); !taken) return taken.problems();
+    report.frames.push_back({index, millisecondsSince(start), std::move(frame->report.stages)});
+    for (std::string& warning : frame->report.warnings) {
+      const bool isNew = std::find(report.warnings.begin(), report.warnings.end(), warning) == report.warnings.end();
+      if (isNew) report.warnings.push_back(std::move(warning));
+    }
+    showFrame(index, sequence.first, sequence.count, progress);
+  }
+  report.milliseconds = millisecondsSince(begun);
+  return toJson(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+/// What an event `frame` brings; nothing where it is none.
+struct SentFrame {
+  int index = 0;
+  int of = 0;
+  std::vector<Picture> pictures;
+};
+
+std::optional<SentFrame> frameOf(const std::string& data) {
+  const Json json = Json::parse(data, nullptr, false);
+  if (!json.is_object() || !json.contains("index") || !json.contains("of") || !json.contains("images")) {
+    return std::nullopt;
+  }
+  if (!json["index"].is_number_integer() || !json["of"].is_number_integer()) return std::nullopt;
+  SentFrame frame{json["index"].get<int>(), json["of"].get<int>(), {}};
+  for (const Json& image : json["images"]) {
+    if (!image.is_object()) return std::nullopt;
+    auto file = base64Bytes(textAt(image, "data"));
+    if (!file) return std::nullopt;
+    frame.pictures.push_back({textAt(image, "view"), *std::move(file)});
+  }
+  return frame;
+}
+
+} // namespace
+
+Result<std::string> sequenceThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
+                                  const std::string& requestJson, const TakeFrame& take, ProgressLine& progress) {
+  EventReader reader;
+  std::optional<ServerEvent> last;
+  Status taken = Done{};
+  std::optional<int> first;
+  const auto hear = [&](ServerEvent& event) {
+    if (event.name == "result" || event.name == "problem") last = std::move(event);
+    if (event.name != "frame" || !taken) return;
+    const auto frame = frameOf(event.data);
+    if (!frame) {
+      taken = Problem{ProblemCode::internal, remote.url, "The reply is not a sequence.", "", ""};
+      return;
+    }
+    if (!first) first = frame->index;
+    taken = take(frame->index, frame->pictures);
+    showFrame(frame->index, *first, frame->of, progress);
+  };
+  const auto callOf = [&](const std::string& scene) {
+    reader = {};
+    HttpCall call;
+    call.method = "POST";
+    call.path = "/v1/scenes/" + scene + "/sequences";
+    call.headers = {{"Accept", "text/event-stream"}};
+    call.contentType = "application/json";
+    call.body = requestJson;
+    call.onReceived = [&](std::string_view bytes) {
+      for (ServerEvent& event : reader.read(bytes)) hear(event);
+    };
+    return call;
+  };
+  const auto reply = callAbout(remote, bundle, id, callOf, "rendering on the server", progress);
+  if (!taken) return taken.problems();
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
+  if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the sequence did.", "", ""};
+  if (last->name == "problem") return problemsOf(remote.url, {reply->status, "", last->data, 0});
+  return last->data + "\n";
+}
+
+} // namespace gnomon::cli
