@@ -155,10 +155,12 @@ Result<std::string> viewClass(const Scene& loaded, const FrameSpec& spec) {
   const double cell = std::max(glm::length(size) / 16.0, 1e-12);
   const glm::dvec3 place = glm::floor((frame->view.eye - anchorOf(view)) / cell);
   const glm::dvec3 way = glm::round(frame->view.forward * 3.0);
+  const glm::dvec2 beside = frame->view.center / frame->view.halfSize;
   std::ostringstream text;
   text << (frame->view.perspective ? "perspective" : "orthographic") << ' ' << place.x << ' ' << place.y << ' '
        << place.z << ' ' << way.x << ' ' << way.y << ' ' << way.z << ' '
-       << std::floor(std::log2(frame->view.halfSize.y));
+       << std::floor(std::log2(frame->view.halfSize.x)) << ' ' << std::floor(std::log2(frame->view.halfSize.y)) << ' '
+       << std::round(beside.x) << ' ' << std::round(beside.y);
   return text.str();
 }
 

@@ -22,18 +22,20 @@ std::span<const glm::vec3> verticesOf(const Scene& scene, const Instance& instan
   return std::span(scene.positions).subspan(primitive.baseVertex, primitive.vertexCount);
 }
 
-/// The node that an animation moves away from where it stands without, or whose mesh it deforms; -1 = there is none.
+/// A node that an animation moves away from where it stands without, hides, or whose mesh it deforms; -1 = there is none.
 int movedNode(const Scene& without, const Scene& with, int index) {
   const std::vector<Instance>& still = without.scenes[static_cast<std::size_t>(index)].instances;
   const std::vector<Instance>& moved = with.scenes[static_cast<std::size_t>(index)].instances;
   const bool deformed = without.positions != with.positions;
   const auto same = [&](const Instance& a, const Instance& b) {
+    if (a.node != b.node || a.primitive != b.primitive || a.copy != b.copy) return false;
     if (a.worldFromLocal != b.worldFromLocal || a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max)
       return false;
     return !deformed || std::ranges::equal(verticesOf(without, a), verticesOf(with, b));
   };
   const auto [a, b] = std::mismatch(still.begin(), still.end(), moved.begin(), moved.end(), same);
-  return b == moved.end() ? -1 : b->node;
+  if (b != moved.end()) return b->node;
+  return a == still.end() ? -1 : a->node;
 }
 
 std::string nameOf(const Scene& scene, int node) {

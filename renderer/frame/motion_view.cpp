@@ -34,11 +34,13 @@ std::vector<std::uint32_t> instancesThen(const SceneView& now, const SceneView& 
 }
 
 /// What settles the camera of the earlier frame, and which of the scenes it shows.
-FrameSpec frameThen(const FrameSpec& asked) {
+/// `now`: the frame's camera with nothing left open.
+FrameSpec frameThen(const FrameSpec& asked, const Camera& now) {
   FrameSpec then;
   then.width = asked.width;
   then.height = asked.height;
-  then.camera = asked.motionFrom->camera.value_or(asked.camera);
+  // A camera of the file moves with its node; one that is fitted to the scene stays as it is fitted now.
+  then.camera = asked.motionFrom->camera.value_or(asked.camera.node ? asked.camera : now);
   then.scene = asked.scene;
   then.materialVariant = asked.materialVariant;
   return then;
@@ -64,12 +66,12 @@ std::optional<glm::dvec2> placeBefore(const CameraView& camera, const glm::dvec3
 } // namespace
 
 Result<EarlierMoment> earlierMoment(const std::shared_ptr<const Scene>& loaded, const FrameSpec& asked,
-                                    const SceneView& view) {
+                                    const Camera& now, const SceneView& view) {
   const MotionFrom& from = *asked.motionFrom;
   const Pose pose{from.animation ? from.animation : asked.animation, from.nodes ? *from.nodes : asked.nodes};
   auto posed = posedScene(loaded, pose);
   if (!posed) return placedInMotion(posed.problems(), from);
-  const auto frame = resolveFrame(**posed, frameThen(asked));
+  const auto frame = resolveFrame(**posed, frameThen(asked, now));
   if (!frame) return placedInMotion(frame.problems(), from);
   const SceneView& then = (*posed)->scenes[static_cast<std::size_t>(frame->scene)];
   return EarlierMoment{*posed, frame->scene, frame->view, frame->spec.camera, instancesThen(view, then)};

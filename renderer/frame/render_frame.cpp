@@ -37,7 +37,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
   std::optional<EarlierMoment> earlier;
   if (shows(effective, View::motion)) {
-    auto moment = earlierMoment(loaded, spec, view);
+    auto moment = earlierMoment(loaded, spec, effective.camera, view);
     if (!moment) return moment.problems();
     earlier = *std::move(moment);
     resolved->spec.motionFrom->camera = earlier->settledCamera;

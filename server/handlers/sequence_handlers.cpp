@@ -41,6 +41,15 @@ HttpReply postSequence(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
   if (!services.store.use(id)) return problemReply({unknownScene(id)}, requestId);
+  const auto accept = headerValue(call.request.headers, "accept");
+  const auto form = preferred(accept, kSequenceForms);
+  if (!form) return problemReply({notAcceptable("A sequence", accept, kSequenceForms)}, requestId);
+  // Reading one may take seconds: it needs a place, too.
+  const Permit permit = permitOf(services.sequences);
+  if (!permit) {
+    return refusal({ProblemCode::busy, "", "The most sequences that may run at once are running.", "", ""},
+                   RefusalReason::permits, requestId);
+  }
   const SceneCounts counts = services.store.counts(id).value_or(SceneCounts());
   double ofAll = 0;
   double ofLongest = 0;
@@ -50,19 +59,11 @@ HttpReply postSequence(Services& services, RouteCall call) {
     ofLongest = std::max(ofLongest, estimate);
   });
   if (!sequence) return problemReply(sequence.problems(), requestId);
-  const auto accept = headerValue(call.request.headers, "accept");
-  const auto form = preferred(accept, kSequenceForms);
-  if (!form) return problemReply({notAcceptable("A sequence", accept, kSequenceForms)}, requestId);
   if (auto problem = tooMuchWork(services, ofAll, ofLongest)) {
     return refusal(*std::move(problem), RefusalReason::cost, requestId);
   }
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);
-  const Permit permit = permitOf(services.sequences);
-  if (!permit) {
-    return refusal({ProblemCode::busy, "", "The most sequences that may run at once are running.", "", ""},
-                   RefusalReason::permits, requestId);
-  }
   call.request.body = Bytes();
   Task task = taskFor(call, OrderKind::sequenceFrame, id, *std::move(bundle), {}, services.sequenceTimeout);
   task.lane = Lane::sequence;

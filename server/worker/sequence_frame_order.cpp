@@ -30,13 +30,17 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
   context.costs.learn(frameCost(*spec, sceneCounts(scene.summary)), report);
 
   const auto encoding = Clock::now();
-  const auto pictures = encodePictures(drawn->frame, drawn->frame.images.size(), call.goOn);
+  auto pictures = encodePictures(drawn->frame, drawn->frame.images.size(), call.goOn);
   if (!pictures) return {.problems = call.goOn() ? pictures.problems() : Problems{stoppedProblem("the frame", call)}};
   SequenceNews news;
   Answer answer{.contentType = "application/octet-stream", .stages = std::move(report.stages)};
-  for (const EncodedPicture& picture : *pictures) {
+  std::size_t bytes = 0;
+  for (const EncodedPicture& picture : *pictures) bytes += picture.file.size();
+  answer.body.reserve(bytes);
+  for (EncodedPicture& picture : *pictures) {
     news.pictures.push_back({picture.view, std::string(mediaTypeOf(spec->output.format)), picture.file.size()});
     answer.body += asText(picture.file);
+    picture.file = {};
   }
   call.event(kSequenceNews, textOf(news));
   answer.stages.insert(

@@ -16,6 +16,7 @@ ROUTES = [
     ("GET", "/v1/scenes", {"read"}),
     ("GET", f"/v1/scenes/{MISSING}", {"read"}),
     ("HEAD", f"/v1/scenes/{MISSING}", {"read"}),
+    ("GET", f"/v1/scenes/{MISSING}/nodes", {"read"}),
     ("GET", "/v1/capabilities", {"read"}),
     ("POST", f"/v1/scenes/{MISSING}/frames", {"render"}),
     ("GET", f"/v1/scenes/{MISSING}/frame", {"render"}),

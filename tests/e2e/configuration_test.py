@@ -23,6 +23,7 @@ OTHER = {
     "store": '"/var/lib/scenes and more"',
     "worker-program": '"/opt/choose gpu"',
     "device": '"gl"',
+    "drake-spec": '"/etc/gnomon/drake.json"',
     "backend": '"osmesa"',
     "require-gpu": "true",
 }

@@ -10,7 +10,8 @@ const kArguments = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-fir
 
 // Gives {origin, scene, stop}.
 export async function startServer(gnomon, demo) {
-  const { GNOMON_SLOWNESS, ...env } = process.env; // the server refuses variables of its name that it does not know
+  // The server refuses variables of its name that it does not know.
+  const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('GNOMON_')));
   const server = spawn(gnomon, ['serve', '--port', '0', '--device', 'cpu'], { env, stdio: ['ignore', 'pipe', 'ignore'] });
   const origin = await new Promise((resolve, reject) => {
     server.once('exit', () => reject(new Error('The server has ended.')));
