@@ -15,12 +15,18 @@ export function createMotionPanel(store) {
     { path: 'animation', label: 'Animation', options: () => [['', 'At rest'], ...clips().map(({ name }, i) => [String(i), name || `Animation ${i}`])], choose: chooseClip, needs: () => clips().length, value: () => String(store.state.spec.animation?.index ?? '') },
   ];
   const play = element('button', { type: 'button', 'aria-pressed': 'false', onclick: () => (playing ? stop() : start()) }, 'Play');
-  const time = element('input', { type: 'range', min: 0, max: 1, step: 0.001, 'aria-label': 'Time', oninput: () => (stop(), setTime(time.valueAsNumber)) });
+  const time = element('input', { type: 'range', min: 0, max: 1, step: 0.001, 'aria-label': 'Time', oninput: scrub });
   const readout = element('output', { class: 'readout' });
   const player = element('div', { class: 'pair player' }, play, time, readout);
   const none = element('p', { class: 'fact' }, 'This file has one scene, and no animations or variants.');
 
   const setTime = (seconds) => store.setSpec('animation.timeSeconds', Number(seconds.toFixed(4)));
+
+  function scrub() {
+    const seconds = time.valueAsNumber; // before the slider shows where it has stopped
+    stop();
+    setTime(seconds);
+  }
 
   function chooseClip(index) {
     stop();
