@@ -10,6 +10,7 @@ const kArguments = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-fir
 
 // Gives {origin, scene, stop}.
 export async function startServer(gnomon, demo) {
+  const body = fs.readFileSync(demo); // before there is a server that would have to be stopped
   // The server refuses variables of its name that it does not know.
   const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('GNOMON_')));
   const server = spawn(gnomon, ['serve', '--port', '0', '--device', 'cpu'], { env, stdio: ['ignore', 'pipe', 'ignore'] });
@@ -21,7 +22,7 @@ export async function startServer(gnomon, demo) {
     });
   });
   const headers = { 'Content-Type': 'model/gltf-binary' };
-  const reply = await fetch(`${origin}/v1/scenes`, { method: 'POST', headers, body: fs.readFileSync(demo) });
+  const reply = await fetch(`${origin}/v1/scenes`, { method: 'POST', headers, body });
   return { origin, scene: (await reply.json()).id, stop: () => server.kill('SIGTERM') };
 }
 
