@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import contextvars
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, AsyncIterator, Callable, List, Mapping, Optional, Sequence, TypeVar, Union
+from typing import Any, AsyncIterator, Callable, Generator, List, Mapping, Optional, Sequence, TypeVar, Union, cast
 
 from .bundle import Source
 from .frame import Frame
@@ -91,7 +92,7 @@ class AsyncSession:
                        keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                        **fields: Any) -> AsyncIterator[Frame]:
         cancel = Cancel()
-        made = self.session.sequence(scene, spec, frames=frames, keys=keys, count=count, stable=stable, **fields)
+        made = cast(Generator[Frame, None, None], self.session.sequence(scene, spec, frames=frames, keys=keys, count=count, stable=stable, **fields))
         try:
             while True:
                 frame = await self._run(lambda: next(made, None), cancel)
@@ -100,3 +101,5 @@ class AsyncSession:
                 yield frame
         finally:
             cancel.set()
+            with contextlib.suppress(ValueError):  # a thread is still in it, and leaves it now
+                made.close()

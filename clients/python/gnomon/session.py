@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from http.client import HTTPException
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Union, cast
 from urllib.parse import quote
@@ -12,15 +13,16 @@ from .bundle import Source
 from .frame import Frame, Redraw, read_frame
 from .json_form import Spec, encoded, frame_spec
 from .local_server import LocalServer
-from .problems import problem_from
+from .problems import ConnectionFailed
 from .progress import Progress
 from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary
 from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
-from .streams import events, parts
+from .streams import events, sequence_parts
 from .transport import Transport
 
 USUAL_VIEWS = ("color", "depth", "ids", "shadow")
+MOST_FAILURES = 3  # of a sequence, one after the other
 Patch = Mapping[str, Any]
 
 
@@ -123,27 +125,35 @@ class Session:
                  keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                  **fields: Any) -> Iterator[Frame]:
         """Frames as they are drawn: one for each merge patch of `frames` over the spec, or `count` of them between
-        `keys`. Leaving the loop stops the server's work."""
+        `keys`. Leaving the loop stops the server's work. A connection that is lost meanwhile is made again."""
         first: Dict[str, Any] = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
         first["output"] = {**first.get("output", {}), "format": "npz"}
         asked = {"spec": first, "frames": frames, "keys": keys, "count": count, "stable": stable}
-        body = encoded(given(asked))
-        of = count if frames is None else len(frames)
-        return self._frames(scene, body, of or 0)
+        return self._frames(scene, given(asked), (count if frames is None else len(frames)) or 0)
 
-    def _frames(self, scene: SceneLike, body: bytes, of: int) -> Iterator[Frame]:
+    def _frames(self, scene: SceneLike, asked: Dict[str, Any], of: int) -> Iterator[Frame]:
+        """The frames of a sequence. A reply that breaks off is gone on with behind its last whole frame, which gives the
+        same frames; not for ever, if no more of them come."""
         bar = Progress("rendering", self.progress)
-        done = 0
+        done, failures = 0, 0
         try:
-            with self._scenes.stream(scene, "POST", "/sequences", body, Accept="multipart/mixed") as response:
-                for part in parts(response, str(response.headers.get_param("boundary"))):
-                    kind = part.headers.get_content_type()
-                    if kind == "application/problem+json":
-                        raise problem_from(0, part.content)
-                    if kind == "application/zip":
-                        yield read_frame(part.content, self._redraw(scene), done)
-                        done += 1
-                        bar.at(done, of)
+            while True:
+                try:
+                    with self._scenes.stream(scene, "POST", "/sequences", encoded(asked), Accept="multipart/mixed") as reply:
+                        for part in sequence_parts(reply):
+                            frame = read_frame(part.content, self._redraw(scene), done)
+                            done, failures = done + 1, 0
+                            asked = {**asked, "first": done, "carried": json.loads(part.headers["Gnomon-Carried"])}
+                            yield frame
+                            bar.at(done, of)
+                    return
+                except (ConnectionError, HTTPException) as error:
+                    self._http.check_cancelled()
+                    failures += 1
+                    if isinstance(error, ConnectionFailed) or failures > MOST_FAILURES:
+                        raise
+                    if 0 < of <= done:
+                        return
         finally:
             bar.close()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from email.message import Message
 from email.parser import BytesHeaderParser
+from http.client import HTTPResponse
 from typing import Any, BinaryIO, Iterator, NamedTuple, Union
 
 from .problems import problem_from
@@ -79,3 +80,15 @@ def _exactly(stream: Union[BinaryIO, Any], length: int) -> bytes:
         pieces.append(piece)
         length -= len(piece)
     return b"".join(pieces)
+
+
+def sequence_parts(reply: HTTPResponse) -> Iterator[Part]:
+    """The frames of a sequence's multipart/mixed. Its problem is raised, and a ConnectionError without its end."""
+    for part in parts(reply, str(reply.headers.get_param("boundary"))):
+        kind = part.headers.get_content_type()
+        if kind == "application/problem+json":
+            raise problem_from(0, part.content)
+        if kind == "application/json":
+            return
+        yield part
+    raise ConnectionError("the sequence ended without its report")

@@ -91,6 +91,12 @@ class Transport:
         with self.stream(method, path, body, **headers) as response:
             return whole_reply(response)
 
+    @staticmethod
+    def check_cancelled() -> None:
+        cancel = CANCEL.get()
+        if cancel is not None:
+            cancel.check()
+
     @contextlib.contextmanager
     def stream(self, method: str, path: str, body: Optional[bytes] = None,
                **headers: str) -> Iterator[http.client.HTTPResponse]:

@@ -51,6 +51,7 @@ class Package(PackageTest):
         self.assertIn("(180, 320, 3)", said)
         self.assertIn("400 /width 1..16384", said)
         self.assertTrue((self.folder / "frame.png").exists())
+        self.assertEqual(len({path.read_bytes() for path in self.folder.glob("turn-*.png")}), 10)
 
     def test_it_installs_and_pytest_finds_its_fixtures(self):
         shutil.copytree(PACKAGE, self.folder / "source", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
