@@ -115,6 +115,13 @@ class Sequences(unittest.TestCase):
             next(self.session.sequence(self.scene, frames=[{}, {"shadow": {"cascadeCount": 99}}], **SMALL))
         self.assertIn("/frames/1/shadow/cascadeCount", [each.pointer for each in caught.exception.problems])
 
+    def test_a_problem_in_the_middle_comes_behind_its_frames(self):
+        frames = self.session.sequence(self.scene, frames=[{}, {}, {"camera": {"node": "nobody"}}], **SMALL)
+        self.assertEqual([next(frames).index, next(frames).index], [0, 1])
+        with self.assertRaises(gnomon.BadRequest) as caught:
+            next(frames)
+        self.assertEqual([each.pointer for each in caught.exception.problems], ["/frames/2/camera/node"])
+
     def test_a_broken_connection_is_gone_on_with(self):
         asked = {"keys": azimuths(0, 90), "count": 6, **SMALL}
         wanted = [*self.session.sequence(self.scene, **asked)]

@@ -12,7 +12,7 @@ import numpy as np
 from shipped_server import BINARY, EXR_MAGIC, SCENES, ServerTest
 
 import gnomon
-from gnomon import png
+from gnomon import png, transport
 
 BOX = SCENES / "box_on_plane.glb"
 SMALL = {"width": 64, "height": 48}
@@ -80,6 +80,38 @@ class Frames(SessionTest):
             camera = gnomon.camera.from_pose(gnomon.camera.pose(eye, target, axes=axes), axes, K)
             found = png.decode(self.session.picture(BOX, camera=camera, **SMALL))
             self.assertLess(np.abs(found.astype(int) - wanted).mean(), 0.5, axes)
+
+    def test_a_node_stands_where_a_matrix_puts_it(self):
+        place = np.eye(4)
+        place[:3, 3] = (1.5, 0, -2)
+        before = self.session.frame(BOX, views=["ids", "position"], **SMALL)
+        for matrix in (place, place.T.ravel(), place.astype(np.float32)):
+            node = gnomon.spec.NodeOptions(node=2, matrix=matrix)
+            after = self.session.frame(BOX, nodes=[node], views=["ids", "position"], **SMALL)
+            box = [frame.position[frame.ids == 2] for frame in (before, after)]
+            self.assertGreater(len(box[1]), 10)
+            for one, other in ((box[0].min(0), box[1].min(0)), (box[0].max(0), box[1].max(0))):
+                np.testing.assert_allclose(other - one, (1.5, 0, -2), atol=0.4)
+
+    def test_motion_is_that_of_the_camera(self):
+        old, new = (gnomon.camera.look_at((x, 5, 12), (x, 1, 0), fovYDegrees=40) for x in (0, 0.5))
+        still = self.session.frame(BOX, camera=new, views=["motion", "depth"], motionFrom={"camera": new}, **SMALL)
+        self.assertEqual((still.motion.dtype, still.motion.shape), (np.float32, (48, 64, 2)))
+        seen = np.isfinite(still.depth)
+        np.testing.assert_allclose(still.motion[seen], 0, atol=1e-3)
+        moved = self.session.frame(BOX, camera=new, views=["motion", "depth"], motionFrom={"camera": old}, **SMALL)
+        focal = 24 / np.tan(np.radians(20))
+        np.testing.assert_allclose(np.abs(moved.motion[seen][:, 0]), focal * 0.5 / moved.depth[seen], rtol=0.01)
+        np.testing.assert_allclose(moved.motion[seen][:, 1], 0, atol=0.01)
+
+    def test_the_digest_of_a_frame_is_checked(self):
+        scene = self.session.upload(BOX)
+        with mock.patch("gnomon.transport.check_digest", side_effect=transport.check_digest) as check:
+            self.session.picture(scene, **SMALL)
+        header, content = check.call_args.args
+        self.assertRegex(header, "^sha-256=:.{44}:$")
+        with self.assertRaises(gnomon.DigestMismatch):
+            transport.check_digest(header, content + b"x")
 
     def test_frames_are_saved_in_every_format(self):
         frame = self.session.frame(BOX, views=["color", "depth"], **SMALL)
