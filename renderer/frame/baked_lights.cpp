@@ -22,7 +22,8 @@ std::span<const glm::vec3> verticesOf(const Scene& scene, const Instance& instan
   return std::span(scene.positions).subspan(primitive.baseVertex, primitive.vertexCount);
 }
 
-/// A node that an animation moves away from where it stands without, hides, or whose mesh it deforms; -1 = there is none.
+/// A node that an animation moves away from where it stands without, hides, or whose mesh it deforms; -1 = there is
+/// none.
 int movedNode(const Scene& without, const Scene& with, int index) {
   const std::vector<Instance>& still = without.scenes[static_cast<std::size_t>(index)].instances;
   const std::vector<Instance>& moved = with.scenes[static_cast<std::size_t>(index)].instances;

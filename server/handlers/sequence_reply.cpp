@@ -28,9 +28,8 @@ std::string pictureName(const DoneFrame& frame, const PictureNews& picture) {
   const int length = std::snprintf(number.data(), number.size(), "frame-%05d", frame.index);
   std::string name(number.data(), static_cast<std::size_t>(length));
   if (frame.pictures.size() > 1) name += "-" + picture.view;
-  const auto traits = std::find_if(kFormatTraits.begin(), kFormatTraits.end(), [&](const FormatTraits& format) {
-    return format.mediaType == picture.contentType;
-  });
+  const auto traits = std::find_if(kFormatTraits.begin(), kFormatTraits.end(),
+                                   [&](const FormatTraits& format) { return format.mediaType == picture.contentType; });
   return traits == kFormatTraits.end() ? name : name.append(traits->suffix);
 }
 

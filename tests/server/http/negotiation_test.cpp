@@ -51,7 +51,8 @@ TEST(Negotiation, BrowsersGetWhatTheSpecSays) {
         "image/webp,image/avif,image/jxl,image/heic,image/heic-sequence,video/*;q=0.8,image/png,image/svg+xml,"
         "image/*;q=0.8,*/*;q=0.5",
         "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,image/apng,*/*;q=0.8"}) {
-    for (const FormatTraits& traits : kFormatTraits) EXPECT_EQ(chosen(accept, traits.format), traits.mediaType) << accept;
+    for (const FormatTraits& traits : kFormatTraits)
+      EXPECT_EQ(chosen(accept, traits.format), traits.mediaType) << accept;
   }
 }
 
