@@ -132,6 +132,17 @@ TEST(MotionFrames, TheEffectiveSpecGivesTheSameAgain) {
   EXPECT_TRUE(first.report.spec.motionFrom->camera->lookAt);
 }
 
+TEST(MotionFrames, ACameraThatIsFittedToTheSceneStandsStillWhenANodeMoves) {
+  testing::GlbBuilder builder = plate();
+  builder.addMeshNode(0);
+  Json spec = fromAbove({{"motionFrom", {{"nodes", {{{"node", 1}, {"translation", {30, 0, 40}}}}}}}});
+  spec["camera"] = {{"orbit", {{"azimuthDegrees", 180}, {"elevationDegrees", 90}}}};
+  const Frame frame = renderJson(sceneOf(builder), spec.dump());
+  std::size_t still = 0;
+  for (const float number : floatsOf(frame)) still += number == 0 ? 1 : 0;
+  EXPECT_GT(still, 1'000u);
+}
+
 TEST(MotionFrames, APictureShowsTheDirectionAsAHue) {
   Json spec =
       fromAbove({{"nodes", {{{"node", 0}, {"translation", {2, 0, 0}}}}}, {"motionFrom", {{"nodes", Json::array()}}}});

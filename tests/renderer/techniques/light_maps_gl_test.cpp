@@ -154,6 +154,17 @@ TEST(LightMaps, APoseThatBendsAMeshWithinItsBoundsIsRefusedAndNamesItsNode) {
   expectMovedNode(builder, "sail");
 }
 
+TEST(LightMaps, APoseThatHidesTheLastNodeIsRefusedAndNamesIt) {
+  testing::GlbBuilder builder = testing::plane();
+  builder.addMeshNode(0);
+  builder.json["nodes"][1]["name"] = "lid";
+  builder.json["extensionsUsed"] = {"KHR_animation_pointer", "KHR_node_visibility"};
+  const int values = builder.addAccessor(std::vector<std::uint8_t>{1, 0}, "SCALAR", 5121, 2);
+  addChannel(builder, pointerTarget("/nodes/1/extensions/KHR_node_visibility/visible"), {0, 1}, values, "STEP");
+  builder.json["animations"][0]["name"] = "Move";
+  expectMovedNode(builder, "lid");
+}
+
 /// The back of a panel on a wall: a micrometre before it, and turned away from the camera.
 TEST(LightMaps, SurfacesThatTouchDoNotShadowEachOther) {
   testing::GlbBuilder builder;
