@@ -76,8 +76,12 @@ HttpReply postBake(Services& services, RouteCall call) {
   const EventedWork work = [&services, permit, task = std::move(task), name = BakeName{id, bakeKey(id, *spec)},
                             spec = bakedParts(*spec)](const std::function<bool()>& gone, const TaskEvents& events) {
     const auto removed = services.bakeBook.begin(name, spec);
+    const auto tell = [&](const OrderEvent& event) {
+      if (event.name == "result") services.bakeBook.end(name, true); // who reads it may ask for the file at once
+      if (events) events(event);
+    };
     TaskResult result = runTask(
-        services, task, [&] { return *removed || gone(); }, events);
+        services, task, [&] { return *removed || gone(); }, tell);
     services.bakeBook.end(name, result.outcome.problems.empty());
     return result;
   };
