@@ -40,7 +40,8 @@ std::uint32_t crc32Of(std::span<const std::uint8_t> bytes) {
   for (; i + 8 <= bytes.size(); i += 8) {
     std::uint32_t next = 0;
     for (std::size_t k = 0; k < 8; ++k) {
-      const std::uint8_t byte = bytes[i + k] ^ (k < 4 ? static_cast<std::uint8_t>(crc >> (8 * k)) : std::uint8_t{0});
+      const std::uint32_t before = k < 4 ? crc >> (8 * k) : 0;
+      const std::size_t byte = (bytes[i + k] ^ before) & 0xff;
       next ^= kTables[7 - k][byte];
     }
     crc = next;
