@@ -11,7 +11,7 @@ constexpr std::uint16_t kZip64Version = 45;
 constexpr std::uint16_t kFirstDay = (1 << 5) | 1; ///< 1 January 1980
 
 void put(std::string& text, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+  for (int i = 0; i < bytes; ++i, value >>= 8) text += static_cast<char>(value & 0xff);
 }
 
 /// Eight tables, so that eight bytes are looked up at once.
