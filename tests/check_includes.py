@@ -8,7 +8,7 @@ Who may include whom, one way:
            <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
            <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/worker;
-  protocol <- server/system <- server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
+  protocol <- server/system <- server/redis, server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
            <- server/metrics <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
   only render.cpp knows them, by one header.
@@ -58,6 +58,7 @@ MAY_INCLUDE = {
     "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
     "server/system": ["protocol/base", "server/system"],
+    "server/redis": ["protocol/base", "server/system", "server/redis"],
     "server/wire": BOTH_PROCESSES,
     "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/parallel.h"],
     "server/http": BOTH_PROCESSES + ["server/http"],
@@ -85,7 +86,8 @@ ASSEMBLED = ["clients/cli", "clients/web"]
 # Third-party header (the first characters of its path) -> the only files or folders that may include it.
 KEPT_IN = {
     "httplib.h": ["clients/cli/remote/http_client.cpp"],
-    "openssl/": ["protocol/base"],
+    "openssl/": ["protocol/base", "server/redis"],
+    "hiredis/": ["server/redis"],
     "prometheus/": ["server/metrics"],
     "nlohmann/": [
         "protocol",

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "server/redis/redis.h"
+#include "server/system/file_descriptor.h"
+
+namespace gnomon::redis {
+
+/// What a channel tells, on a thread and a connection of its own, for as long as this exists. Where the connection
+/// ends, another is made: while a server is away, this is what finds it again.
+class Subscription {
+ public:
+  struct Listener {
+    std::function<void()> begun;                          ///< subscribed, again too: what was told before may be missed
+    std::function<void(const std::string& message)> told; ///< in the order of the channel
+  };
+
+  /// Both functions are called by the subscription's thread; what they throw is logged. `redis` outlives it.
+  Subscription(Redis& redis, std::string channel, Listener listener);
+  ~Subscription();
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+
+ private:
+  void run();
+  void listen(Connection& connection);
+
+  Redis& redis_;
+  const std::string channel_;
+  const Listener listener_;
+  StopSignal stop_;
+  std::thread thread_;
+};
+
+} // namespace gnomon::redis
