@@ -54,6 +54,7 @@ Status readHost(std::string_view text, Address& address) {
   std::string_view port;
   const bool isBracketed = text.starts_with('[');
   if (isBracketed) {
+    if (text.find(']') == text.npos) return refused("The host of the Redis address can't be read.");
     text.remove_prefix(1);
     address.host = takeUntil(text, ']');
     if (!text.empty() && !text.starts_with(':')) return refused("The host of the Redis address can't be read.");

@@ -83,7 +83,9 @@ bool ReplyReader::feed(std::string_view bytes) {
 }
 
 bool ReplyReader::isEmpty() const {
-  return reader_->pos == reader_->len && reader_->ridx == -1;
+  constexpr int kUnknown = -1; // the type of a reply whose first byte has not come
+  const bool isBetween = reader_->ridx == -1 || (reader_->ridx == 0 && reader_->rstack[0].type == kUnknown);
+  return reader_->pos == reader_->len && isBetween;
 }
 
 std::optional<Reply> ReplyReader::next() {

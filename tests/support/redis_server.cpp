@@ -33,7 +33,8 @@ void makeCertificates(const fs::path& directory, const std::string& name) {
   const std::string key = "-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes ";
   runCommand(in + "openssl req -x509 " + key + "-keyout ca.key -out ca.pem -days 2 -subj /CN=authority");
   runCommand(in + "openssl req " + key + "-keyout server.key -out server.csr -subj /CN=redis");
-  runCommand(in + "printf 'subjectAltName=" + name + "' > names && openssl x509 -req -in server.csr -CA ca.pem -CAkey " +
+  runCommand(in + "printf 'subjectAltName=" + name +
+             "' > names && openssl x509 -req -in server.csr -CA ca.pem -CAkey " +
              "ca.key -CAcreateserial -days 2 -extfile names -out server.pem");
 }
 
@@ -106,10 +107,10 @@ void RedisServer::start() {
                                ""};
   if (isEncrypted_) {
     const std::string at = directory_.string() + "/";
-    for (const std::string& more : {std::string("--port"), std::string("0"), std::string("--tls-cert-file"),
-                                    at + "server.pem", std::string("--tls-key-file"), at + "server.key",
-                                    std::string("--tls-ca-cert-file"), at + "ca.pem",
-                                    std::string("--tls-auth-clients"), std::string("no")}) {
+    for (const std::string& more :
+         {std::string("--port"), std::string("0"), std::string("--tls-cert-file"), at + "server.pem",
+          std::string("--tls-key-file"), at + "server.key", std::string("--tls-ca-cert-file"), at + "ca.pem",
+          std::string("--tls-auth-clients"), std::string("no")}) {
       all.push_back(more);
     }
   }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <sys/types.h>
@@ -27,7 +28,7 @@ class RedisServer {
   static std::unique_ptr<RedisServer> encrypted(const std::string& name);
 
   std::uint16_t port() const { return port_; }
-  std::string url(const std::string& userPart = "") const; ///< by its IPv4 address
+  std::string url(const std::string& userPart = "") const;                    ///< by its IPv4 address
   std::filesystem::path authorities() const { return directory_ / "ca.pem"; } ///< of an encrypted one
 
   void kill();    ///< at once: as after a crash
