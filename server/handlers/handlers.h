@@ -13,6 +13,7 @@
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
 #include "server/frames/shared_frames.h"
+#include "server/http/connection.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
 #include "server/scenes/scene_store.h"
@@ -23,10 +24,12 @@ namespace gnomon {
 struct Services {
   SceneStore& store;
   Dispatcher& workers;
+  ByteBudget& replyBytes; ///< that of the connections, for what handlers hold of replies before it is sent
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
   std::chrono::milliseconds sequenceTimeout{3'600'000}; ///< of all frames of a sequence
+  std::chrono::milliseconds replyRoom = ConnectionLimits().replyRoom;
   std::vector<StaticFile> page;
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same

@@ -24,14 +24,16 @@ struct DoneFrame {
   Problems problems{}; ///< with places in the request
   TaskResult result{}; ///< where there are problems: who refused
   std::vector<PictureNews> pictures{};
-  Bytes bytes{};     ///< of the pictures, one after the other
-  Carried carried{}; ///< for the next frame
+  Bytes bytes{};                     ///< of the pictures, one after the other
+  std::unique_ptr<ByteLease> room{}; ///< for the bytes, beside all replies that clients are taking
+  Carried carried{};                 ///< for the next frame
   std::vector<std::string> warnings{};
   double milliseconds = 0; ///< since its beginning
 };
 
 /// Has workers draw the frames of a sequence, each as a task of its own, at most two at once: a frame begins once the
 /// one before it is drawn, while that is encoded and sent. Who takes frames slowly holds up the frames after the next.
+/// A frame for whose bytes there is no room is dropped, and drawn again once there is: only the first one gives up.
 class SequenceFrames {
  public:
   /// `task`: what every frame's task begins with; its deadline is that of the whole sequence. `permit` is held as long
@@ -53,12 +55,19 @@ class SequenceFrames {
   struct FrameInWork {
     DoneFrame frame;
     bool isDrawn = false;
+    bool lacksRoom = false; ///< it was dropped, and waits
     bool isDone = false;
-    std::thread thread;
+    std::thread thread; ///< none where the system refused it
   };
 
   void begin();
-  void work(FrameInWork& inWork, Task task);
+  void work(FrameInWork& inWork, Task task, std::size_t expected);
+  void end(FrameInWork& inWork, Problems problems);
+  TaskResult runWithRoom(FrameInWork& inWork, Task& task, std::size_t expected);
+  bool awaitRoom(FrameInWork& inWork, std::size_t bytes);
+  bool takeRoom(FrameInWork& inWork, std::size_t bytes);
+  bool isNext(const FrameInWork& inWork) const;
+  bool gone() const { return stopped_ || clientGone_(); }
   TaskResult runPatiently(FrameInWork& inWork, const Task& task);
   void hear(FrameInWork& inWork, const OrderEvent& event);
   bool mayBegin() const;
@@ -70,8 +79,9 @@ class SequenceFrames {
   const Permit permit_;
   const std::function<bool()> clientGone_;
   std::atomic<bool> stopped_ = false;
-  int next_;        ///< the frame that begins next
-  Carried carried_; ///< of the last frame that was taken
+  int next_;                 ///< the frame that begins next
+  Carried carried_;          ///< of the last frame that was taken
+  std::size_t expected_ = 0; ///< bytes of the largest frame so far
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::unique_ptr<FrameInWork>> inWork_; ///< each frame's members are guarded by the mutex

@@ -106,17 +106,31 @@ class ZipForm final : public SequenceForm {
   ZipStream zip_;
 };
 
+/// Sends bytes as base64, a piece at a time: a client that reads slowly holds no copy of them all.
+bool sendBase64(const BodySink& sink, std::string_view bytes) {
+  constexpr std::size_t kPiece = 3 * 16'384; // whole groups, so that the texts join
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
+    if (!sink(base64Text(asBytes(bytes.substr(0, kPiece))))) return false;
+  }
+  return true;
+}
+
 class EventForm final : public SequenceForm {
  public:
   bool begin(const BodySink& sink) override { return sink(":\n\n"); }
   bool waiting(const BodySink& sink) override { return sink(":\n\n"); } // keeps proxies from closing the connection
   bool frame(const BodySink& sink, const DoneFrame& frame, int of) override {
     SequenceFrame told{.index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
-    eachPicture(frame, [&](const PictureNews& picture, const SentFile& file) {
-      told.images.push_back({picture.view, picture.contentType, base64Text(asBytes(file.bytes))});
-      return true;
+    for (const PictureNews& picture : frame.pictures) told.images.push_back({picture.view, picture.contentType, ""});
+    const std::string event = eventText("frame", jsonText(toJson(told)));
+    std::string_view rest = event;
+    const bool isThere = eachPicture(frame, [&](const PictureNews&, const SentFile& file) {
+      constexpr std::string_view kData = R"("data":")"; // no text of JSON holds it: its quotes would be escaped
+      const std::string_view before = rest.substr(0, rest.find(kData) + kData.size());
+      rest.remove_prefix(before.size());
+      return sink(before) && sendBase64(sink, file.bytes);
     });
-    return sink(eventText("frame", jsonText(toJson(told))));
+    return isThere && sink(rest);
   }
   bool report(const BodySink& sink, std::string_view json) override { return sink(eventText("result", json)); }
   bool problem(const BodySink& sink, std::string_view json) override { return sink(eventText("problem", json)); }

@@ -155,12 +155,8 @@ class Connection {
 
   /// For a reply beside those that other clients are taking; no longer than the server goes on.
   bool awaitRoom(ByteLease& lease, std::size_t bytes) {
-    constexpr std::chrono::milliseconds kPiece{100};
-    const auto deadline = Clock::now() + context_.limits.replyRoom;
-    while (!lease.growBy(bytes, std::min(deadline, Clock::now() + kPiece))) {
-      if (Clock::now() >= deadline || context_.cutBodies.raised()) return false;
-    }
-    return true;
+    return lease.growBy(bytes, Clock::now() + context_.limits.replyRoom,
+                        [this] { return context_.cutBodies.raised(); });
   }
 
   /// Sends a handler's reply, once there is room for it beside those that other clients are taking.
@@ -177,9 +173,7 @@ class Connection {
     ByteLease lease(context_.replyBytes);
     const std::size_t size = std::min(reply.body.size(), context_.replyBytes.total());
     if (!bodyless && size > kSmall && !awaitRoom(lease, size)) {
-      reply = problemReply({{ProblemCode::unavailable, "",
-                             "Replies that other clients are taking use all the memory for replies.", "", ""}},
-                           record.id);
+      reply = problemReply({noReplyRoom()}, record.id);
       reply.headers.emplace_back("Retry-After", "1");
       reply.refusal = RefusalReason::memory;
     }

@@ -55,7 +55,7 @@ struct ConnectionContext {
   HttpService service;
   ConnectionLimits limits;
   ByteBudget bodyBytes;                    ///< bodies that are read, or that their handlers work on
-  ByteBudget replyBytes;                   ///< bodies of replies that are being sent; one alone may be larger
+  ByteBudget& replyBytes;                  ///< bodies of replies that are being sent; one alone may be larger
   StopSignal stop;                         ///< once raised: no further request is read, the running one is answered
   StopSignal cutBodies{};                  ///< once raised: what is still to come of requests is not waited for: 503
   StopSignal cutReplies{};                 ///< once raised: no client that takes a reply is waited for

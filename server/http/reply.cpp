@@ -173,6 +173,11 @@ HttpReply problemReply(const Problems& problems, std::string_view instance, cons
   return reply;
 }
 
+Problem noReplyRoom() {
+  return {ProblemCode::unavailable, "", "Replies that other clients are taking use all the memory for replies.", "",
+          ""};
+}
+
 std::string eventText(std::string_view name, std::string_view data) {
   std::string text = "event: ";
   return text.append(name).append("\ndata: ").append(data).append("\n\n");

@@ -70,6 +70,9 @@ struct ProblemReplyOptions {
 /// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.
 HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options = {});
 
+/// Where a reply waited in vain for room beside those that other clients are taking.
+Problem noReplyRoom();
+
 /// One file of the web page.
 struct StaticFile {
   std::string_view path;        ///< of the URL, beginning with '/'

@@ -15,10 +15,11 @@ constexpr std::size_t kReplyBytes = 8 << 20;
 } // namespace
 
 AdminAddress::AdminAddress(const AdminAddressOptions& options, Services& services, RequestObserver& observer)
-    : context_{withOriginCheck(makeService(makeAdminRoutes(services)), {options.allowedHosts, {}, options.bind}),
+    : replyBytes_(kReplyBytes),
+      context_{withOriginCheck(makeService(makeAdminRoutes(services)), {options.allowedHosts, {}, options.bind}),
                {},
                ByteBudget(0),
-               ByteBudget(kReplyBytes),
+               replyBytes_,
                {},
                {},
                {},

@@ -30,6 +30,7 @@ class AdminAddress {
  private:
   AdminAddress(const AdminAddressOptions& options, Services& services, RequestObserver& observer);
 
+  ByteBudget replyBytes_;
   ConnectionContext context_;
   std::unique_ptr<HttpServer> server_;
   std::thread serving_;

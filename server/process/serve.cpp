@@ -214,8 +214,10 @@ int serve(const ServeOptions& options) {
   if (!workers) {
     return failed(workers.problems());
   }
+  ByteBudget replyBytes(options.replyMemoryBytes);
   Services services{.store = **store,
                     .workers = **workers,
+                    .replyBytes = replyBytes,
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
@@ -236,7 +238,7 @@ int serve(const ServeOptions& options) {
       withOriginCheck(std::move(service), {options.allowedHosts, options.allowedOrigins, options.bind}),
       connections,
       ByteBudget(options.uploadMemoryBytes),
-      ByteBudget(options.replyMemoryBytes),
+      replyBytes,
       {},
       {},
       {},

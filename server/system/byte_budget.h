@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 
 #include "server/system/clock.h"
@@ -66,6 +69,23 @@ class ByteLease {
     held_ += bytes;
     return true;
   }
+
+  /// The same for as long as they are wanted, which is asked ten times a second.
+  bool growBy(std::size_t bytes, Clock::time_point deadline, const std::function<bool()>& unwanted) {
+    constexpr std::chrono::milliseconds kPiece{100};
+    while (!growBy(bytes, std::min(deadline, Clock::now() + kPiece))) {
+      if (Clock::now() >= deadline || unwanted()) return false;
+    }
+    return true;
+  }
+
+  /// REQUIRES: bytes <= held().
+  void shrinkTo(std::size_t bytes) {
+    budget_->giveBack(held_ - bytes);
+    held_ = bytes;
+  }
+
+  std::size_t held() const { return held_; }
 
  private:
   ByteBudget* budget_;

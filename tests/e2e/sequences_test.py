@@ -10,7 +10,9 @@ import unittest
 import zipfile
 
 from evaluations_test import events_of
+from metrics_test import metrics_of, until
 from shipped_server import SLOW, SMALL, ServerTest, receive_all
+from triggers_http_test import large_picture
 
 SPEC = {"width": 64, "height": 48, "atlas": {"baseSize": 256}, "camera": {"eye": [6, 4, 6], "target": [0, 0.5, 0]}}
 SUN = [{"type": "directional", "direction": [-1, -1.5, -0.5]}]
@@ -295,6 +297,29 @@ class Leaving(SequenceTest):
             if line.startswith('gnomon_queue_wait_seconds_count{lane="sequence"}'):
                 return float(line.split()[-1])
         return 0
+
+
+class LittleRoom(SequenceTest):
+    flags = ("--device", "cpu", "--max-sequences", "3", "--reply-memory-bytes", "20MB", "--reply-cache-bytes", "0")
+
+    def test_sequences_that_nobody_reads_hold_no_more_than_replies_may(self):
+        request = {"spec": large_picture(1024, 512), "frames": [{"exposure": i / 10} for i in range(9)]}  # 8 MB a frame
+        held = lambda: metrics_of(self.server).value("gnomon_reply_memory_bytes")  # noqa: E731
+        idle = self.server.resident_bytes()
+        clients = [self.begin(request, form) for form in ("text/event-stream", "multipart/mixed", "text/event-stream")]
+        most = mostly = 0
+        end = time.monotonic() + 8 * SLOW  # slow clients are cut off soon after it
+        while time.monotonic() < end:
+            most = max(most, held())
+            mostly = max(mostly, self.server.resident_bytes() - idle)
+            time.sleep(0.05)
+        for client in clients:
+            client.close()
+        self.assertGreater(most, 8 << 20)
+        self.assertLessEqual(most, 20 << 20)
+        self.assertLess(mostly, 64 << 20)  # what is held, and a frame of each on its way
+        self.wait_until_free()
+        self.assertTrue(until(lambda: held() == 0))
 
 
 class LittleTime(SequenceTest):

@@ -51,7 +51,7 @@ inline HttpService echoService() {
 
 class ConnectionTest : public ::testing::Test {
  protected:
-  ConnectionTest() : context_{echoService(), {}, ByteBudget(1 << 20), ByteBudget(1 << 20), {}} {
+  ConnectionTest() : context_{echoService(), {}, ByteBudget(1 << 20), replyBytes_, {}} {
     int fds[2];
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     client_ = FileDescriptor(fds[0]);
@@ -83,6 +83,7 @@ class ConnectionTest : public ::testing::Test {
     return received;
   }
 
+  ByteBudget replyBytes_{1 << 20};
   ConnectionContext context_;
   FileDescriptor client_, server_;
 };
