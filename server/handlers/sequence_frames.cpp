@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
@@ -44,7 +45,9 @@ SequenceFrames::SequenceFrames(Services& services, Sequence sequence, SceneCount
 
 SequenceFrames::~SequenceFrames() {
   stopped_ = true;
-  for (const auto& inWork : inWork_) inWork->thread.join();
+  for (const auto& inWork : inWork_) {
+    if (inWork->thread.joinable()) inWork->thread.join();
+  }
 }
 
 /// With the mutex held.
@@ -72,8 +75,12 @@ void SequenceFrames::begin() {
   const std::size_t expected = inWork_.empty() ? expected_ : 0;
   inWork_.push_back(std::move(inWork));
   FrameInWork& begun = *inWork_.back();
-  begun.thread = std::thread(
-      [this, &begun, expected, task = std::move(task)]() mutable { work(begun, std::move(task), expected); });
+  try {
+    begun.thread = std::thread(
+        [this, &begun, expected, task = std::move(task)]() mutable { work(begun, std::move(task), expected); });
+  } catch (const std::system_error&) {
+    end(begun, {{ProblemCode::unavailable, "", "The system has no thread left for a frame of the sequence.", "", ""}});
+  }
 }
 
 /// With the mutex held.
@@ -207,7 +214,7 @@ DoneFrame SequenceFrames::next(const std::function<void()>& waiting) {
   inWork_.pop_front();
   carried_ = inWork->frame.carried;
   lock.unlock();
-  inWork->thread.join();
+  if (inWork->thread.joinable()) inWork->thread.join();
   return std::move(inWork->frame);
 }
 

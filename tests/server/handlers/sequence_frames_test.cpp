@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include "server/scenes/upload.h"
 #include "tests/support/glb_builder.h"
@@ -12,6 +13,28 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kFrameBytes = 64 * 64 * 12; ///< and the head of its file
+
+/// While it lives, the system refuses every further thread: none has room for such a stack.
+class NoThreads {
+ public:
+  NoThreads() {
+    pthread_getattr_default_np(&usual_);
+    pthread_attr_t vast;
+    pthread_attr_init(&vast);
+    pthread_attr_setstacksize(&vast, std::size_t{1} << 50);
+    EXPECT_EQ(pthread_setattr_default_np(&vast), 0);
+    pthread_attr_destroy(&vast);
+  }
+  ~NoThreads() {
+    pthread_setattr_default_np(&usual_);
+    pthread_attr_destroy(&usual_);
+  }
+  NoThreads(const NoThreads&) = delete;
+  NoThreads& operator=(const NoThreads&) = delete;
+
+ private:
+  pthread_attr_t usual_;
+};
 
 /// Real workers and frames of some 48 KiB, in little room.
 class SequenceFramesTest : public ::testing::Test {
@@ -117,6 +140,17 @@ TEST_F(SequenceFramesTest, OneThatFindsNoRoomIsDroppedAndDrawnAgainWithTheSameBy
   reader.join();
   EXPECT_EQ(drawn_, atFirst + 2);
   EXPECT_EQ(room_.used(), 0u);
+}
+
+TEST_F(SequenceFramesTest, AFrameForWhichThereIsNoThreadIsAProblem) {
+  const auto frames = sequence(2);
+  {
+    const NoThreads noThreads;
+    const DoneFrame frame = frames->next([] {});
+    EXPECT_EQ(problemOf(frame), "unavailable");
+    EXPECT_EQ(frame.problems.front().pointer, "/frames/0");
+  }
+  EXPECT_EQ(problemOf(sequence(1)->next([] {})), "") << "the next sequence is drawn";
 }
 
 } // namespace
