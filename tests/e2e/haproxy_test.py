@@ -1,10 +1,6 @@
 """docker/haproxy.cfg in front of the server, by the real program: TLS, the client's address, uploads, events."""
 
-import http.client
 import json
-import os
-import shutil
-import socket
 import ssl
 import subprocess
 import tempfile
@@ -12,58 +8,8 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import SCENES, SLOW, SMALL, TIMEOUT, Reply, Server
-
-CONFIGURATION = Path(__file__).resolve().parents[2] / "docker/haproxy.cfg"
-HAPROXY = shutil.which("haproxy", path=os.environ.get("PATH", "") + ":/usr/sbin")
-CLIENT = "127.0.0.5"  # another address than the proxy's own, 127.0.0.1
-
-
-def make_certificate(folder):
-    """A file with a key and a certificate for localhost, signed by itself."""
-    key, certificate = folder / "key.pem", folder / "certificate.pem"
-    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1", "-subj", "/CN=localhost",
-                    "-addext", "subjectAltName=DNS:localhost", "-keyout", key, "-out", certificate],
-                   check=True, capture_output=True)  # fmt: skip
-    both = folder / "both.pem"
-    both.write_bytes(key.read_bytes() + certificate.read_bytes())
-    return both
-
-
-class Proxy:
-    """haproxy with the shipped file, on a port of its own, before a server."""
-
-    def __init__(self, server, certificate):
-        listening = socket.create_server(("127.0.0.1", 0))  # inherited, so that no other program gets the port
-        self.port = listening.getsockname()[1]
-        variables = {"GNOMON_PROXY_CERTIFICATE": str(certificate), "GNOMON_PROXY_BIND": f"fd@{listening.fileno()}",
-                     "GNOMON_PROXY_SERVER": "{}:{}".format(*server.address)}  # fmt: skip
-        self.log = tempfile.TemporaryFile(mode="w+")
-        self.process = subprocess.Popen([HAPROXY, "-db", "-f", CONFIGURATION], env=os.environ | variables,
-                                        pass_fds=[listening.fileno()], stdout=self.log, stderr=self.log)  # fmt: skip
-        listening.close()
-        self.context = ssl.create_default_context(cafile=certificate)
-
-    def connect(self, context=None):
-        connection = http.client.HTTPSConnection("localhost", self.port, timeout=TIMEOUT, context=context or self.context,
-                                                 source_address=(CLIENT, 0))  # fmt: skip
-        raw = socket.create_connection(("127.0.0.1", self.port), TIMEOUT, (CLIENT, 0))
-        connection.sock = (context or self.context).wrap_socket(raw, server_hostname="localhost")
-        return connection
-
-    def ask(self, method, path, body=None, headers=None):
-        connection = self.connect()
-        try:
-            connection.request(method, path, body, headers or {})
-            reply = connection.getresponse()
-            return Reply(reply.status, reply.headers, reply.read())
-        finally:
-            connection.close()
-
-    def end(self):
-        self.process.kill()
-        self.process.wait(TIMEOUT)
-        self.log.close()
+from shipped_proxy import CLIENT, HAPROXY, Proxy, make_certificate
+from shipped_server import SCENES, SLOW, SMALL, TIMEOUT, Server
 
 
 @unittest.skipUnless(HAPROXY, "haproxy is not installed")
