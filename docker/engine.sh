@@ -1,20 +1,24 @@
 # shellcheck shell=bash
 # Sourced by docker/check: podman from Debian's packages, ready on a machine with no container engine and no systemd.
-# Offers ensureTools, which sets CONTAINERS_CONF, and ensureBase. Both write below $work, a folder of the caller's.
+# Offers needPackages, ensureTools, which sets CONTAINERS_CONF, and ensureBase. These write below $work, a folder of the caller's.
 
 : "${work:?}"
 engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl python3)
 base_image=localhost/debian:bookworm-slim
 
-ensureTools() {
+# usage: needPackages PACKAGE...      installs those that are missing
+needPackages() {
   local missing=() package
-  for package in "${engine_packages[@]}"; do
+  for package in "$@"; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
   done
-  if [ ${#missing[@]} -gt 0 ]; then
-    apt-get update -qq
-    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
-  fi
+  [ ${#missing[@]} -gt 0 ] || return 0
+  apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+ensureTools() {
+  needPackages "${engine_packages[@]}"
   # runc: Debian 12's crun refuses hybrid cgroups. ulimits: a root without CAP_SYS_RESOURCE can't raise its own.
   # netavark: without it podman falls back to CNI, whose plugins are not installed.
   cat >"$work/containers.conf" <<'CONF'

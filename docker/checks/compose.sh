@@ -1,0 +1,61 @@
+# shellcheck shell=bash
+# Sourced by docker/check: docker/compose.yaml as it stands, with the images of services.Dockerfile, brought up by
+# podman-compose on free ports.
+
+needPackages podman-compose
+
+buildServices haproxy prometheus
+
+project=gnomon-check-$$
+compose() {
+  GNOMON_IMAGE=$image HAPROXY_IMAGE=localhost/gnomon-haproxy:check \
+    PROMETHEUS_IMAGE=localhost/gnomon-prometheus:check PROXY_ADDRESS=127.0.0.1: PROMETHEUS_ADDRESS=127.0.0.1: \
+    podman-compose -f docker/compose.yaml -p "$project" "$@" >"$work/compose.log" 2>&1
+}
+removeProject() {
+  podman ps -aq --filter "label=com.docker.compose.project=$project" | xargs -r podman rm -f -v -t 3
+  podman volume ls -q --filter "label=com.docker.compose.project=$project" | xargs -r podman volume rm
+  podman network rm -f "${project}_default"
+}
+endings+=(removeProject)
+compose up -d || { tail -40 "$work/compose.log" >&2; fail "compose.yaml does not come up"; }
+
+url=http://$(podman port "${project}_haproxy_1" 8080/tcp)
+waitFor 60 hasReplicas "$url" 2 || { podman logs "${project}_gnomon_1" >&2; fail "HAProxy does not see two replicas"; }
+say "two replicas answer through HAProxy"
+
+id=$(upload "$url" "$(demoOf "${project}_gnomon_1")")
+draw "$url" "$id" '{}' "$work/compose.png"
+isPicture "$work/compose.png"
+say "a frame came through HAProxy"
+
+# The replica whose scene it is goes without a word, while frames are asked for.
+drawMany "$url" "$id" 60 >"$work/load" &
+load=$!
+waitFor 60 test -s "$work/load"
+killed=$(drewMost "${project}_gnomon_1" "${project}_gnomon_2")
+podman kill -s KILL "$killed" >/dev/null
+wait "$load"
+[ "$(grep -c '^200 ' "$work/load")" = 60 ] || { sort "$work/load" | uniq -c >&2; fail "frames failed as a replica was killed"; }
+[ "$(cut -d' ' -f2 "$work/load" | sort -u | wc -l)" = 2 ] || fail "the other replica never took over"
+say "a replica was killed among 60 frames: each was drawn"
+
+podman start "$killed" >/dev/null
+waitFor 60 hasReplicas "$url" 2 || fail "the replica does not come back"
+prometheus=http://$(podman port "${project}_prometheus_1" 9090/tcp)
+drawMany "$url" "$id" 60 >"$work/load" & # so that there are rates to tell
+load=$!
+python3 -B docker/checks/dashboard.py "$prometheus" --instances 2
+wait "$load"
+say "every query of the dashboard has an answer from Prometheus"
+
+# All of it stops and comes again, with its scenes.
+removeContainers() { podman ps -aq --filter "label=com.docker.compose.project=$project" | xargs -r podman rm -f -t 20 >/dev/null; }
+removeContainers
+compose up -d || { tail -40 "$work/compose.log" >&2; fail "compose.yaml does not come up again"; }
+url=http://$(podman port "${project}_haproxy_1" 8080/tcp)
+waitFor 60 hasReplicas "$url" 2 || fail "HAProxy does not see two replicas again"
+draw "$url" "$id" '{}' "$work/again.png"
+cmp "$work/compose.png" "$work/again.png" || fail "another picture of the same scene"
+say "after a restart of everything the scene is there, and its picture the same"
+removeProject >/dev/null 2>&1
