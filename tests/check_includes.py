@@ -28,7 +28,7 @@ DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
-FRONT = BOTH_PROCESSES + ["server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes",
+FRONT = BOTH_PROCESSES + ["server/redis", "server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes",
                           "server/metrics"]
 
 # Folder -> folders, or single headers, that its files may include.
@@ -63,7 +63,7 @@ MAY_INCLUDE = {
     "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/parallel.h"],
     "server/http": BOTH_PROCESSES + ["server/http"],
     "server/access": BOTH_PROCESSES + ["server/http", "server/access"],
-    "server/scenes": BOTH_PROCESSES + ["server/http", "server/scenes"],
+    "server/scenes": BOTH_PROCESSES + ["server/http", "server/redis", "server/scenes"],
     "server/dispatch": BOTH_PROCESSES + ["server/scenes", "server/dispatch"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],

@@ -18,18 +18,18 @@
 #include "server/dispatch/placement.h"
 #include "server/dispatch/task.h"
 #include "server/dispatch/worker_process.h"
-#include "server/scenes/light_map_directory.h"
+#include "server/scenes/stored_light_maps.h"
 
 namespace gnomon {
 
 struct DispatcherOptions {
-  std::string program = "/proc/self/exe";         ///< what workers run; see WorkerProcess
-  std::size_t workers = 1;                        ///< >= 1
-  std::size_t queueLimit = 64;                    ///< >= 1; tasks that may wait
-  WorkerOptions each{};                           ///< for every worker
-  std::chrono::milliseconds silence{10'000};      ///< a worker that says nothing for so long is killed
-  std::chrono::milliseconds stopping{1'000};      ///< and one that does not stop a task that was called off
-  std::shared_ptr<LightMapDirectory> lightMaps{}; ///< nullptr = light maps are not stored
+  std::string program = "/proc/self/exe";       ///< what workers run; see WorkerProcess
+  std::size_t workers = 1;                      ///< >= 1
+  std::size_t queueLimit = 64;                  ///< >= 1; tasks that may wait
+  WorkerOptions each{};                         ///< for every worker
+  std::chrono::milliseconds silence{10'000};    ///< a worker that says nothing for so long is killed
+  std::chrono::milliseconds stopping{1'000};    ///< and one that does not stop a task that was called off
+  std::shared_ptr<StoredLightMaps> lightMaps{}; ///< nullptr = light maps are not stored
 
   /// Told of each task that goes to a worker, and how long it waited. It must return at once.
   std::function<void(Lane, double seconds)> waited{};

@@ -51,7 +51,7 @@ BakeName nameOf(const RouteCall& call) {
 HttpReply postBake(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
-  if (!services.store.use(id)) return problemReply({unknownScene(id)}, requestId);
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), requestId);
   const auto spec = decodeFrameSpec(call.request.body.empty() ? "{}" : asText(call.request.body));
   if (!spec) return problemReply(spec.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
@@ -95,9 +95,7 @@ HttpReply postBake(Services& services, RouteCall call) {
 HttpReply getBake(Services& services, RouteCall call) {
   const std::string requestId = call.request.id;
   const BakeName name = nameOf(call);
-  if (!services.store.contains(name.scene)) {
-    return problemReply({unknownScene(name.scene)}, requestId);
-  }
+  if (const auto there = services.store.contains(name.scene); !there) return problemReply(there.problems(), requestId);
   const auto spec = services.bakeBook.find(name);
   if (!spec) {
     return problemReply({unknownBake(name)}, requestId);

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv",
 HttpReply postEvaluation(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
-  if (!services.store.use(id)) return problemReply({unknownScene(id)}, requestId);
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), requestId);
   std::string body(asText(call.request.body));
   const auto evaluation = decodeEvaluation(body);
   if (!evaluation) return problemReply(evaluation.problems(), requestId);

@@ -113,9 +113,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
 HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSpec> spec, std::string cacheControl,
                        std::string request = {}) {
   const std::string& id = call.values.at("id");
-  if (!services.store.use(id)) {
-    return problemReply({unknownScene(id)}, call.request.id);
-  }
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
   if (!spec) {
     return problemReply(spec.problems(), call.request.id);
   }
@@ -142,7 +140,8 @@ HttpReply getFrame(Services& services, RouteCall call) {
   if (request.method == "GET") {
     const auto accept = headerValue(request.headers, "accept");
     name = request.target + '\n' + std::string(accept.value_or("")) + '\n' + services.workers.info().fingerprint;
-    const bool isPlain = !headerValue(request.headers, "if-none-match") && services.store.use(call.values.at("id"));
+    const bool isPlain =
+        !headerValue(request.headers, "if-none-match") && static_cast<bool>(services.store.use(call.values.at("id")));
     if (auto kept = isPlain ? services.replies.findRequest(name) : std::nullopt) {
       return labelled(*kept->reply, kept->etag, kShared);
     }
@@ -153,7 +152,7 @@ HttpReply getFrame(Services& services, RouteCall call) {
 
 HttpReply postPlan(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
-  if (!services.store.use(id)) return problemReply({unknownScene(id)}, call.request.id);
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
   const std::string_view body = asText(call.request.body);
   const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
   if (!spec) return problemReply(spec.problems(), call.request.id);

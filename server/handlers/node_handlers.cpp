@@ -55,7 +55,7 @@ Result<NodePage> pageOf(const HttpRequest& request) {
 
 HttpReply getNodes(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
-  if (!services.store.use(id)) return problemReply({unknownScene(id)}, call.request.id);
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
   const auto page = pageOf(call.request);
   if (!page) return problemReply(page.problems(), call.request.id);
   auto bundle = services.store.bundle(id);

@@ -52,7 +52,9 @@ HttpReply getReadyz(Services& services, RouteCall call) {
   if (reason != nullptr) {
     return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
   }
-  return probeReply("ready\n");
+  // What is in memory is served without it.
+  const bool hasStore = services.store.state().isReachable;
+  return probeReply(hasStore ? "ready\n" : "ready, but for scenes that are not in memory: the store's Redis is away\n");
 }
 
 HttpReply getMetrics(Services& services, RouteCall) {

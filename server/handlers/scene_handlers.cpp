@@ -41,7 +41,11 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
                         call.request.id);
   }
   bool isNew = false;
-  const bool isKnown = services.store.use(pack->id);
+  const auto used = services.store.use(pack->id);
+  if (!used && used.problems().front().code != ProblemCode::notFound) {
+    return problemReply(used.problems(), call.request.id);
+  }
+  const bool isKnown = static_cast<bool>(used);
   auto summary = isKnown ? services.store.summary(pack->id) : std::nullopt;
   if (!isKnown) {
     if (const auto room = services.store.checkRoom(pack->bytes); !room) {
@@ -64,7 +68,7 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
 
 /// The scene's summary as it was stored, or as a worker makes it.
 HttpReply summaryOf(Services& services, const RouteCall& call, const std::string& id) {
-  if (!services.store.contains(id)) return problemReply({unknownScene(id)}, call.request.id);
+  if (const auto there = services.store.contains(id); !there) return problemReply(there.problems(), call.request.id);
   if (auto stored = services.store.summary(id)) return summaryReply(*std::move(stored));
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
@@ -128,11 +132,12 @@ HttpReply putScene(Services& services, RouteCall call) {
 HttpReply listScenes(Services& services, RouteCall call) {
   const auto query = pageQuery(call.request.query);
   if (!query) return problemReply(query.problems(), call.request.id);
-  const ScenePage page = services.store.page(query->after, query->limit);
+  const auto page = services.store.page(query->after, query->limit);
+  if (!page) return problemReply(page.problems(), call.request.id);
   std::string all;
   std::string last; // of those that the page has dealt with
-  bool hasMore = page.hasMore;
-  for (const std::string& id : page.ids) {
+  bool hasMore = page->hasMore;
+  for (const std::string& id : page->ids) {
     if (all.size() > kPageBytes) {
       hasMore = true;
       break;
@@ -159,7 +164,9 @@ HttpReply getScene(Services& services, RouteCall call) {
 
 HttpReply deleteScene(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
-  if (!services.store.remove(id)) return problemReply({unknownScene(id)}, call.request.id);
+  if (const auto removed = services.store.remove(id); !removed) {
+    return problemReply(removed.problems(), call.request.id);
+  }
   services.workers.forget(id);
   HttpReply reply;
   reply.status = 204;

@@ -40,7 +40,7 @@ std::optional<Problem> tooMuchWork(const Services& services, double ofAll, doubl
 HttpReply postSequence(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
-  if (!services.store.use(id)) return problemReply({unknownScene(id)}, requestId);
+  if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kSequenceForms);
   if (!form) return problemReply({notAcceptable("A sequence", accept, kSequenceForms)}, requestId);

@@ -174,7 +174,6 @@ class Connection {
     const std::size_t size = std::min(reply.body.size(), context_.replyBytes.total());
     if (!bodyless && size > kSmall && !awaitRoom(lease, size)) {
       reply = problemReply({noReplyRoom()}, record.id);
-      reply.headers.emplace_back("Retry-After", "1");
       reply.refusal = RefusalReason::memory;
     }
     return send(std::move(reply), record, keepAlive, bodyless);

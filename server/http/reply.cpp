@@ -166,7 +166,7 @@ HttpReply problemReply(const Problems& problems, std::string_view instance, cons
   reply.contentType = "application/problem+json";
   reply.body = problemJson(problems, reply.status, instance).dump();
   reply.headers.emplace_back("Cache-Control", "no-store");
-  if (reply.status == 429) {
+  if (reply.status == 429 || reply.status == 503) {
     reply.headers.emplace_back("Retry-After", std::to_string(options.retryAfterSeconds));
   }
   reply.problem = problems.front().detail;

@@ -64,7 +64,7 @@ int statusOf(ProblemCode code, RequestPart read = RequestPart::whole);
 
 struct ProblemReplyOptions {
   RequestPart read = RequestPart::whole;
-  int retryAfterSeconds = 1; ///< sent with status 429 only
+  int retryAfterSeconds = 1; ///< sent with status 429 and 503
 };
 
 /// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.

@@ -32,9 +32,6 @@ std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::st
   }
   told.reply = problemReply({*refusal}, record.id);
   told.reply.refusal = refusal->code == ProblemCode::busy ? RefusalReason::address : RefusalReason::threads;
-  if (told.reply.status != 429) { // which has it already
-    told.reply.headers.emplace_back("Retry-After", "1");
-  }
   return told;
 }
 

@@ -29,6 +29,7 @@ struct Snapshot {
   std::size_t cacheLimit = 0; ///< bytes
   std::uint64_t framesShared = 0;
   StoreSize store;
+  StoreState storeState;
   std::uint64_t logLinesDropped = 0;
   bool draining = false;
   ProcessUse process;

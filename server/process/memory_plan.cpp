@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/process/store_opening.h"
+
 namespace gnomon {
 
 ServeOptions fittedTo(std::uint64_t memoryBytes) {
@@ -32,7 +34,7 @@ std::size_t usualWorkers(int cores, std::uint64_t memoryBytes) {
 
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes) {
   constexpr std::uint64_t kListening = 64u << 20; ///< program, threads and heads of the process that listens
-  const std::uint64_t bundles = options.storeDirectory.empty() ? options.bundleMemoryBytes : 0;
+  const std::uint64_t bundles = keepsScenesInMemory(options) ? options.bundleMemoryBytes : 0;
   const std::uint64_t front =
       kListening + options.uploadMemoryBytes + options.replyMemoryBytes + options.replyCacheBytes + bundles;
   constexpr std::uint64_t kLeast = 256u << 20; ///< below it a worker can't draw at all

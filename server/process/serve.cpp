@@ -27,7 +27,7 @@
 #include "server/process/signals.h"
 #include "server/process/snapshot.h"
 #include "server/process/store_keeping.h"
-#include "server/scenes/light_map_directory.h"
+#include "server/process/store_opening.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/heaps.h"
 #include "server/system/log.h"
@@ -137,7 +137,7 @@ std::size_t workersOf(const ServeOptions& options) {
 }
 
 /// What all workers may keep together is shared out.
-DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<LightMapDirectory> lightMaps,
+DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<StoredLightMaps> lightMaps,
                                     metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
   const std::size_t workers = workersOf(options);
@@ -160,15 +160,16 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
           .waited = [&counted](Lane lane, double seconds) { counted.waited(lane, seconds); }};
 }
 
+/// A store in Redis is told of uses, and tells of what is too old, within a second.
+KeepingPeriod keepingOf(const ServeOptions& options) {
+  KeepingPeriod period{.age = std::chrono::seconds(options.storeAgeSeconds)};
+  if (redis::isAddress(options.store)) period.longest = std::chrono::seconds(1);
+  return period;
+}
+
 } // namespace
 
 int serve(const ServeOptions& options) {
-  if (options.storeDirectory.empty() && (options.storeBytes > 0 || options.storeAgeSeconds > 0)) {
-    return failed({{ProblemCode::invalidValue, "",
-                    "--store-bytes and --store-age are about scenes in a directory: "
-                    "--store has to name one.",
-                    "", ""}});
-  }
   std::shared_ptr<KeyRing> keys;
   const std::function<void()> reload = [&keys] {
     tellReloading();
@@ -191,31 +192,22 @@ int serve(const ServeOptions& options) {
   auto trusted = ipNetworks(options.trustedProxies);
   if (!trusted) return failed(trusted.problems());
   const auto descriptors =
-      planDescriptors(raiseDescriptorLimit(), options.httpThreads, workersOf(options), options.storeDirectory.empty());
+      planDescriptors(raiseDescriptorLimit(), options.httpThreads, workersOf(options), keepsScenesInMemory(options));
   if (!descriptors) return failed(descriptors.problems());
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
 
   Limits limits;
   limits.maxSceneBytes = options.maxSceneBytes;
-  std::shared_ptr<LightMapDirectory> lightMaps;
-  if (!options.storeDirectory.empty()) {
-    lightMaps =
-        std::make_shared<LightMapDirectory>(options.storeDirectory + "/light-maps", options.storedLightMapBytes);
-  }
-  const std::chrono::seconds storeAge(options.storeAgeSeconds);
-  auto store = SceneStore::open({options.storeDirectory, options.bundleMemoryBytes, descriptors->scenesInMemory,
-                                 options.storeBytes, storeAge, lightMaps});
-  if (!store) {
-    return failed(store.problems());
-  }
+  const auto store = openStore(options, descriptors->scenesInMemory);
+  if (!store) return failed(store.problems());
   metrics::RequestMetrics counted;
-  auto workers = Dispatcher::start(dispatcherOptions(options, lightMaps, counted));
+  auto workers = Dispatcher::start(dispatcherOptions(options, store->lightMaps, counted));
   if (!workers) {
     return failed(workers.problems());
   }
   ByteBudget replyBytes(options.replyMemoryBytes);
-  Services services{.store = **store,
+  Services services{.store = *store->scenes,
                     .workers = **workers,
                     .replyBytes = replyBytes,
                     .limits = limits,
@@ -228,7 +220,7 @@ int serve(const ServeOptions& options) {
                     .replies = ReplyCache(options.replyCacheBytes),
                     .drakeColors = *std::move(colors)};
   std::optional<StoreKeeping> keeping;
-  if (!options.storeDirectory.empty()) keeping.emplace(**store, **workers, storeAge);
+  if (!options.store.empty()) keeping.emplace(*store->scenes, **workers, keepingOf(options));
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
   connections.maxWaiting = descriptors->waitingConnections;

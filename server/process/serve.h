@@ -23,9 +23,12 @@ struct ServeOptions {
   int port = 8080;      ///< 0..65535; 0 = any free one, which is printed
   std::string adminBind = "127.0.0.1"; ///< address of adminPort
   std::optional<int> adminPort; ///< 0..65535: /metrics is served here alone, and probes; 0 = any free one, in the log
-  std::string storeDirectory;   ///< where scenes are kept over a restart; created where missing; empty = memory only
-  std::uint64_t storeBytes = 0; ///< of scenes in storeDirectory (507); 0 = as many as its disk takes
+  std::string store; ///< where scenes outlive a restart: a directory, created where missing, or the address of a Redis
+                     ///< server (redis/address.h); empty = memory only
+  std::uint64_t storeBytes = 0;     ///< of scenes in the store (507); 0 = as many as its disk or Redis takes
   std::int64_t storeAgeSeconds = 0; ///< scenes in it that nobody has used for so long are removed; 0 = never
+  std::string redisPasswordFile;    ///< file with the password of that Redis server; empty = that of its address
+  std::string redisAuthorities;     ///< PEM file of who may sign its certificate; empty = whom the system trusts
 
   // Workers and what draws in them
   std::size_t workers = 0;                      ///< processes that draw; 0 = a quarter of the cores, and at least two
@@ -35,12 +38,12 @@ struct ServeOptions {
   std::size_t tileCacheBytes = 1u << 28;      ///< bytes of shadow atlases kept for later frames; 0 = none
   std::size_t tracedSceneBytes = 1u << 30;    ///< bytes of ray-tracing structures of scenes
   std::size_t lightMapBytes = 1u << 28;       ///< bytes of baked light maps
-  std::size_t storedLightMapBytes = 1u << 30; ///< bytes of those in storeDirectory
+  std::size_t storedLightMapBytes = 1u << 30; ///< bytes of those in the store
 
   // Limits
   std::size_t queueLimit = 64;                       ///< >= 1; requests that may wait for a worker; 429 beyond it
   std::size_t sceneMemoryBytes = 2ull << 30;         ///< loaded scenes, the least recently used dropped first
-  std::size_t bundleMemoryBytes = 1ull << 30;        ///< uploads without storeDirectory, dropped in the same order
+  std::size_t bundleMemoryBytes = 1ull << 30;        ///< uploads without a directory, dropped in the same order
   std::size_t maxSceneBytes = kLimits.maxSceneBytes; ///< one upload
   std::size_t uploadMemoryBytes = 1ull << 30;        ///< bodies of all requests in progress together (429)
   std::size_t frameMemoryBytes =

@@ -12,7 +12,7 @@ namespace {
 constexpr int kDay = 86'400; // seconds
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 39);
+static_assert(memberCount<ServeOptions>() == 41);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -70,14 +70,15 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
       ->type_name("FILE")
       ->group("Address and storage");
   serve
-      .add_option("--store", options.storeDirectory,
-                  "Directory that keeps scenes over a restart; without it they are kept in memory")
+      .add_option("--store", options.store,
+                  "Directory that keeps scenes over a restart, or address of a Redis server that does, as "
+                  "redis://HOST:6379/0, or rediss:// for TLS; without it they are kept in memory")
       ->envname("GNOMON_STORE")
-      ->type_name("DIR")
+      ->type_name("DIR|ADDRESS")
       ->group("Address and storage");
   serve
       .add_option("--store-bytes", options.storeBytes,
-                  "Scenes kept in that directory; 507 beyond it. 0 = as many as the disk takes")
+                  "Scenes kept in that store; 507 beyond it. 0 = as many as its disk or Redis takes")
       ->envname("GNOMON_STORE_BYTES")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("BYTES")
@@ -85,12 +86,25 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
   const std::map<std::string, std::int64_t> units{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
   serve
       .add_option("--store-age", options.storeAgeSeconds,
-                  "Scenes in that directory that nobody has uploaded or drawn for so long are removed: seconds, or as "
+                  "Scenes in that store that nobody has uploaded or drawn for so long are removed: seconds, or as "
                   "12h, 30d. 0 = never")
       ->envname("GNOMON_STORE_AGE")
       ->transform(CLI::AsNumberWithUnit(units).description(""))
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{3'650} * kDay).description(""))
       ->type_name("SECONDS")
+      ->group("Address and storage");
+  serve
+      .add_option("--redis-password-file", options.redisPasswordFile,
+                  "File whose first line is the password of that Redis server, rather than its address")
+      ->envname("GNOMON_REDIS_PASSWORD_FILE")
+      ->type_name("FILE")
+      ->group("Address and storage");
+  serve
+      .add_option("--redis-authorities", options.redisAuthorities,
+                  "PEM file of the authorities that may sign that Redis server's certificate; without it those that "
+                  "the system trusts")
+      ->envname("GNOMON_REDIS_AUTHORITIES")
+      ->type_name("FILE")
       ->group("Address and storage");
 }
 

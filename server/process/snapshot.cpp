@@ -15,6 +15,7 @@ metrics::Snapshot snapshotOf(const ServeOptions& options, Services& services, co
           .cacheLimit = options.replyCacheBytes,
           .framesShared = services.shared.shared(),
           .store = services.store.size(),
+          .storeState = services.store.state(),
           .logLinesDropped = logLinesDropped(),
           .draining = services.draining,
           .process = metrics::processUse(),

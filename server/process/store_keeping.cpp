@@ -9,11 +9,11 @@
 namespace gnomon {
 namespace {
 
-/// A scene is removed when it is older than its age by less than a quarter, or than a minute.
-std::chrono::milliseconds periodOf(std::chrono::seconds age) {
-  constexpr std::chrono::milliseconds kLongest = std::chrono::minutes(1);
+/// A scene is removed when it is older than its age by less than a quarter, or than the longest period.
+std::chrono::milliseconds lengthOf(const KeepingPeriod& period) {
   constexpr std::chrono::milliseconds kShortest{500};
-  return age.count() > 0 ? std::clamp(std::chrono::milliseconds(age) / 4, kShortest, kLongest) : kLongest;
+  if (period.age.count() == 0) return period.longest;
+  return std::clamp(std::chrono::milliseconds(period.age) / 4, kShortest, period.longest);
 }
 
 void keepClean(SceneStore& store, Dispatcher& workers) {
@@ -26,18 +26,21 @@ void keepClean(SceneStore& store, Dispatcher& workers) {
 
 } // namespace
 
-StoreKeeping::StoreKeeping(SceneStore& store, Dispatcher& workers, std::chrono::seconds age)
-    : thread_([this, &store, &workers, period = periodOf(age)] {
+StoreKeeping::StoreKeeping(SceneStore& store, Dispatcher& workers, const KeepingPeriod& period)
+    : store_(store), thread_([this, &store, &workers, length = lengthOf(period)] {
         const auto stopped = [&] {
           pollfd waiting{stop_.fd(), POLLIN, 0};
-          return ::poll(&waiting, 1, static_cast<int>(period.count())) > 0;
+          return ::poll(&waiting, 1, static_cast<int>(length.count())) > 0;
         };
         do {
           keepClean(store, workers);
         } while (!stopped());
-      }) {}
+      }) {
+  store.tellRemoved([&workers](const std::string& id) { workers.forget(id); });
+}
 
 StoreKeeping::~StoreKeeping() {
+  store_.tellRemoved(nullptr);
   stop_.raise();
   thread_.join();
 }

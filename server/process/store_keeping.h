@@ -7,17 +7,24 @@
 
 namespace gnomon {
 
-/// Keeps a store clean for as long as it exists: ever so often removes what is too old, which workers then forget, and
-/// what servers that died have left.
+/// How often a store is kept clean.
+struct KeepingPeriod {
+  std::chrono::seconds age{};                                  ///< that of the store's options; 0 = scenes do not age
+  std::chrono::milliseconds longest = std::chrono::minutes(1); ///< between two times
+};
+
+/// Keeps a store clean for as long as it exists: ever so often removes what is too old, and what servers that died have
+/// left. Workers forget what is removed, by this server or another.
 class StoreKeeping {
  public:
-  /// `age`: that of the store's options. Both outlive it.
-  StoreKeeping(SceneStore& store, Dispatcher& workers, std::chrono::seconds age);
+  /// Store and workers outlive it.
+  StoreKeeping(SceneStore& store, Dispatcher& workers, const KeepingPeriod& period);
   ~StoreKeeping();
   StoreKeeping(const StoreKeeping&) = delete;
   StoreKeeping& operator=(const StoreKeeping&) = delete;
 
  private:
+  SceneStore& store_;
   StopSignal stop_;
   std::thread thread_;
 };

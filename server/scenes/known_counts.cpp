@@ -20,4 +20,9 @@ void KnownCounts::keep(const std::string& id, SceneCounts counts) {
   if (entries_.size() > kMost) entries_.pop_back();
 }
 
+bool KnownCounts::forget(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  return entries_.remove_if([&](const auto& entry) { return entry.first == id; }) > 0;
+}
+
 } // namespace gnomon

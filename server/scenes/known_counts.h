@@ -16,6 +16,7 @@ class KnownCounts {
  public:
   std::optional<SceneCounts> find(const std::string& id);
   void keep(const std::string& id, SceneCounts counts);
+  bool forget(const std::string& id); ///< false where it was not known
 
  private:
   static constexpr std::size_t kMost = 1024;       ///< scenes, a few kilobytes each at most

@@ -10,7 +10,6 @@
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"
 #include "server/system/memory_file.h"
-#include "server/wire/bundle.h"
 
 namespace gnomon {
 namespace {
@@ -23,13 +22,6 @@ std::vector<std::filesystem::directory_entry> mapsIn(const std::string& path) {
     if (entry->path().extension() == ".map") maps.push_back(*entry);
   }
   return maps;
-}
-
-/// What a worker names must not lead out of the directory.
-bool isLightMapKey(std::string_view key) {
-  constexpr std::size_t kId = 64;
-  return key.size() == 2 * kId + 1 && isSceneId(key.substr(0, kId)) && key[kId] == '-' &&
-         isSceneId(key.substr(kId + 1));
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "protocol/base/bytes.h"
 #include "server/scenes/file_use.h"
 #include "server/scenes/folder_names.h"
+#include "server/scenes/scene_backend.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
@@ -131,7 +132,7 @@ void SceneDirectory::setAside(const std::string& id) const {
 }
 
 std::optional<std::string> SceneDirectory::readSummary(const std::string& id) const {
-  const auto bytes = readWhole(pathOf(id, kSummary), kMaxSummaryBytes);
+  const auto bytes = readWhole(pathOf(id, kSummary), SceneBackend::kMaxSummaryBytes);
   if (!bytes) {
     return std::nullopt;
   }

@@ -20,8 +20,6 @@ namespace gnomon {
 /// agree on what is in use. Any thread, and any number of processes.
 class SceneDirectory {
  public:
-  static constexpr std::size_t kMaxSummaryBytes = 16 << 20;
-
   /// Makes the directory if need be, and cleans up. `age` is the least for which removeUnused() will be asked; 0 =
   /// never.
   static Result<SceneDirectory> open(const std::string& path, std::chrono::seconds age = {});
@@ -34,7 +32,7 @@ class SceneDirectory {
 
   /// Writes the bundle's bytes and its summary through to the disk. Problems: insufficientStorage where it is full,
   /// unavailable where it refuses otherwise; nothing is left of the scene then. REQUIRES: the summary has at most
-  /// kMaxSummaryBytes.
+  /// SceneBackend::kMaxSummaryBytes.
   Status write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const;
 
   /// Replaces the summary of a scene; what the disk refuses is logged only, since a summary can be made again.

@@ -29,6 +29,17 @@ bool SceneMemory::put(const std::string& id, BundlePtr bundle, std::uint64_t byt
   return true;
 }
 
+void SceneMemory::replaceSummary(const std::string& id, const std::string& summary) {
+  const std::lock_guard lock(mutex_);
+  const auto known = find(id);
+  if (known == entries_.end()) return;
+  entries_.splice(entries_.begin(), entries_, known);
+  Entry& entry = entries_.front();
+  bytes_ += summary.size() - entry.summary.size();
+  entry.bytes += summary.size() - entry.summary.size();
+  entry.summary = summary;
+}
+
 BundlePtr SceneMemory::bundle(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto known = find(id);

@@ -26,6 +26,7 @@ class SceneMemory {
   /// False where it was there already. The newest stays, whatever its size. `bytes`: of the bundle.
   bool put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);
 
+  void replaceSummary(const std::string& id, const std::string& summary); ///< where the scene is there
   BundlePtr bundle(const std::string& id); ///< and marks it as used; nullptr = there is none
   std::optional<std::string> summary(const std::string& id) const;
   bool contains(const std::string& id) const;

@@ -2,86 +2,79 @@
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
+#include "server/scenes/directory_backend.h"
+#include "server/scenes/memory_backend.h"
+#include "server/scenes/redis_backend.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {
+namespace {
 
-Problem unknownScene(std::string_view id) {
-  return {ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)};
+Result<std::unique_ptr<SceneBackend>> openBackend(const SceneStoreOptions& options) {
+  if (!options.directory.empty()) {
+    return DirectoryBackend::open(options.directory, options.storedBytes, options.age);
+  }
+  if (options.redis) {
+    return std::unique_ptr<SceneBackend>(std::make_unique<RedisBackend>(
+        options.redis,
+        RedisBackend::Options{options.memoryBytes, options.memoryScenes, options.storedBytes, options.age}));
+  }
+  return std::unique_ptr<SceneBackend>(std::make_unique<MemoryBackend>(options.memoryBytes, options.memoryScenes));
 }
 
-SceneStore::SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory)
-    : age_(options.age),
-      memory_(options.memoryBytes, options.memoryScenes),
-      directory_(std::move(directory)),
-      quota_(directory_ ? options.directoryBytes : 0, [this] { return directory_->size().bytes; }),
-      lightMaps_(options.lightMaps) {}
+} // namespace
+
+SceneStore::SceneStore(const SceneStoreOptions& options, std::unique_ptr<SceneBackend> backend)
+    : age_(options.age), backend_(std::move(backend)), lightMaps_(options.lightMaps) {}
 
 Result<std::unique_ptr<SceneStore>> SceneStore::open(const SceneStoreOptions& options) {
-  std::optional<SceneDirectory> directory;
-  if (!options.directory.empty()) {
-    auto opened = SceneDirectory::open(options.directory, options.age);
-    if (!opened) return std::move(opened).problems();
-    directory = *std::move(opened);
-  }
-  return std::unique_ptr<SceneStore>(new SceneStore(options, std::move(directory)));
+  auto backend = openBackend(options);
+  if (!backend) return std::move(backend).problems();
+  return std::unique_ptr<SceneStore>(new SceneStore(options, *std::move(backend)));
 }
 
 Status SceneStore::checkRoom(std::uint64_t bytes) {
-  return quota_.check(bytes);
+  return backend_->checkRoom(bytes);
 }
 
 Result<bool> SceneStore::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary) {
-  if (summary.size() > SceneDirectory::kMaxSummaryBytes) {
+  if (summary.size() > SceneBackend::kMaxSummaryBytes) {
     return Problem{ProblemCode::tooLarge, "",
                    "The scene's summary is larger than can be kept. It has fewer bytes with fewer cameras, lights and "
                    "animations, or shorter names.",
-                   std::to_string(SceneDirectory::kMaxSummaryBytes) + " bytes",
+                   std::to_string(SceneBackend::kMaxSummaryBytes) + " bytes",
                    std::to_string(summary.size()) + " bytes"};
   }
-  if (!directory_) return memory_.put(id, std::move(bundle), bytes, summary);
-  if (use(id)) return false;
-  const Status written = quota_.write(bytes, [&] { return directory_->write(id, *bundle, summary); });
-  if (!written) return written.problems();
-  return true;
+  return backend_->put(id, std::move(bundle), bytes, summary);
 }
 
 Result<StoredBundle> SceneStore::bundle(const std::string& id) {
   if (!isSceneId(id)) return unknownScene(id);
-  if (!directory_) {
-    BundlePtr file = memory_.bundle(id);
-    if (!file) return unknownScene(id);
-    return StoredBundle{std::move(file), false};
-  }
-  auto file = std::make_shared<FileDescriptor>(directory_->openBundle(id));
-  if (*file) return StoredBundle{std::move(file), true};
-  if (!directory_->contains(id)) return unknownScene(id);
-  return Problem{ProblemCode::unavailable, "", "The scene store can't read its disk.", "", ""};
+  return backend_->bundle(id);
 }
 
-bool SceneStore::contains(const std::string& id) const {
-  return isSceneId(id) && (directory_ ? directory_->contains(id) : memory_.contains(id));
+/// Passes on what was found. A scene that was known here, and is there no longer, was removed by another server.
+Status SceneStore::told(const std::string& id, Status found) {
+  if (found || found.problems().front().code != ProblemCode::notFound || !counts_.forget(id)) return found;
+  const std::lock_guard lock(telling_);
+  if (listener_) listener_(id);
+  return found;
 }
 
-bool SceneStore::use(const std::string& id) {
-  if (!isSceneId(id)) return false;
-  return directory_ ? static_cast<bool>(directory_->openBundle(id)) : memory_.bundle(id) != nullptr;
+Status SceneStore::contains(const std::string& id) {
+  if (!isSceneId(id)) return unknownScene(id);
+  return told(id, backend_->contains(id));
 }
 
-ScenePage SceneStore::page(std::string_view after, std::size_t limit) const {
-  return directory_ ? directory_->page(after, limit) : memory_.page(after, limit);
+Status SceneStore::use(const std::string& id) {
+  if (!isSceneId(id)) return unknownScene(id);
+  return told(id, backend_->use(id));
 }
 
-StoreSize SceneStore::size() const {
-  return directory_ ? directory_->size() : memory_.size();
-}
-
-std::optional<std::string> SceneStore::summary(const std::string& id) const {
-  if (!directory_) return memory_.summary(id);
-  auto text = directory_->readSummary(id);
+std::optional<std::string> SceneStore::summary(const std::string& id) {
+  auto text = backend_->summary(id);
   if (!text) return std::nullopt;
   const auto summary = decodeSceneSummary(*text);
   if (!summary || summary->id != id || jsonText(toJson(*summary)) != *text) { // damaged, or of another version
@@ -94,39 +87,33 @@ std::optional<std::string> SceneStore::summary(const std::string& id) const {
 std::optional<SceneCounts> SceneStore::counts(const std::string& id) {
   if (auto known = counts_.find(id)) return known;
   const auto text = summary(id);
-  const auto decoded = text ? decodeSceneSummary(*text) : Result<SceneSummary>(Problems{});
+  if (!text) return std::nullopt;
+  const auto decoded = decodeSceneSummary(*text);
   if (!decoded) return std::nullopt;
   counts_.keep(id, sceneCounts(*decoded));
   return counts_.find(id);
 }
 
-void SceneStore::keepSummary(const std::string& id, const std::string& summary) {
-  if (directory_) directory_->writeSummary(id, summary);
-}
-
-void SceneStore::setAside(const std::string& id) {
-  if (directory_) directory_->setAside(id);
-}
-
-bool SceneStore::remove(const std::string& id) {
-  if (!isSceneId(id)) return false;
-  const std::uint64_t bytes = directory_ ? directory_->bytesOf(id) : 0;
-  const bool removed = directory_ ? directory_->remove(id) : memory_.remove(id);
-  if (removed) quota_.giveBack(bytes);
+Status SceneStore::remove(const std::string& id) {
+  if (!isSceneId(id)) return unknownScene(id);
+  Status removed = backend_->remove(id);
   if (removed && lightMaps_) lightMaps_->removeScene(id);
   return removed;
 }
 
-void SceneStore::keepClean(const std::function<void(const std::string& id)>& removed) {
-  if (!directory_) return;
-  directory_->cleanUp();
-  if (lightMaps_) lightMaps_->cleanUp();
-  if (age_.count() == 0) return;
-  directory_->removeUnused(age_, [&](const std::string& id) {
+void SceneStore::keepClean(const SceneListener& removed) {
+  backend_->keepClean([&](const std::string& id) {
     if (lightMaps_) lightMaps_->removeScene(id);
     logEvent("store", "Scene " + id + " is removed: nobody has used it for " + std::to_string(age_.count()) + " s.");
     removed(id);
   });
+  if (lightMaps_) lightMaps_->cleanUp();
+}
+
+void SceneStore::tellRemoved(SceneListener listener) {
+  backend_->tellRemoved(listener);
+  const std::lock_guard lock(telling_);
+  listener_ = std::move(listener);
 }
 
 } // namespace gnomon

@@ -3,87 +3,84 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "protocol/base/result.h"
+#include "server/redis/redis.h"
 #include "server/scenes/known_counts.h"
-#include "server/scenes/light_map_directory.h"
-#include "server/scenes/scene_directory.h"
-#include "server/scenes/scene_memory.h"
-#include "server/scenes/store_quota.h"
+#include "server/scenes/scene_backend.h"
+#include "server/scenes/stored_light_maps.h"
 
 namespace gnomon {
 
 struct SceneStoreOptions {
-  std::string directory{};              ///< empty = scenes are in memory only, and the least recently used are dropped
-  std::size_t memoryBytes = 1ull << 30; ///< of their bundles, where there is no directory
-  std::size_t memoryScenes = 4'096;     ///< and as many of them at most: each has a descriptor
-  std::uint64_t directoryBytes = 0;     ///< of their bundles, where there is one; 0 = as many as the disk takes
-  std::chrono::seconds age{};           ///< scenes of a directory that nobody used for so long go; 0 = never
-  std::shared_ptr<LightMapDirectory> lightMaps{}; ///< those of a scene go with it; nullptr = there are none
-};
-
-/// The notFound problem of a route that names a scene.
-Problem unknownScene(std::string_view id);
-
-/// A bundle as it is sent to a worker.
-struct StoredBundle {
-  BundlePtr file;
-  bool isStored = false; ///< it comes from a disk, and may be damaged
+  std::string directory{};                      ///< where scenes are kept; empty = in Redis, or in memory only
+  std::size_t memoryBytes = 1ull << 30;         ///< of bundles in memory, where no directory keeps them
+  std::size_t memoryScenes = 4'096;             ///< and as many of them at most: each has a descriptor
+  std::uint64_t storedBytes = 0;                ///< of bundles in the directory or in Redis; 0 = as many as that takes
+  std::chrono::seconds age{};                   ///< scenes there that nobody used for so long go; 0 = never
+  std::shared_ptr<redis::Redis> redis{};        ///< nullptr = none
+  std::shared_ptr<StoredLightMaps> lightMaps{}; ///< those of a scene go with it; nullptr = there are none
 };
 
 /// Scenes by id: their bundles, and the summaries that workers made of them. Nothing here reads a scene. Any thread.
+///
+/// Where a directory or Redis keeps the scenes, each call may have the problem unavailable.
 class SceneStore {
  public:
   static Result<std::unique_ptr<SceneStore>> open(const SceneStoreOptions& options);
 
-  /// insufficientStorage where a bundle of so many bytes has no room now, by the directory's quota.
+  /// insufficientStorage where a bundle of so many bytes has no room now.
   Status checkRoom(std::uint64_t bytes);
 
   /// Keeps a scene that a worker could load. False where it is there already, and marks it as used. `bytes`: of the
-  /// bundle. Problems: insufficientStorage, unavailable where the disk refuses, tooLarge where the summary is.
+  /// bundle. Problems: insufficientStorage, and tooLarge where the summary is.
   Result<bool> put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);
 
-  /// notFound, or unavailable where the disk refuses.
-  Result<StoredBundle> bundle(const std::string& id);
+  Result<StoredBundle> bundle(const std::string& id); ///< or notFound
 
-  bool contains(const std::string& id) const;
-
-  /// The same, and marks the scene as used now.
-  bool use(const std::string& id);
+  Status contains(const std::string& id); ///< or notFound
+  Status use(const std::string& id);      ///< the same, and marks the scene as used now
 
   /// `limit` ids behind `after`, ascending.
-  ScenePage page(std::string_view after, std::size_t limit) const;
+  Result<ScenePage> page(std::string_view after, std::size_t limit) { return backend_->page(after, limit); }
 
-  StoreSize size() const;
+  StoreSize size() { return backend_->size(); }
+  StoreState state() { return backend_->state(); }
 
   /// What the scene holds, as JSON; nothing where it is missing, damaged, or of another version.
-  std::optional<std::string> summary(const std::string& id) const;
-  void keepSummary(const std::string& id, const std::string& summary);
+  std::optional<std::string> summary(const std::string& id);
+  void keepSummary(const std::string& id, const std::string& summary) { backend_->keepSummary(id, summary); }
 
   /// What the scene brings to its frames; nothing where its summary is missing.
   std::optional<SceneCounts> counts(const std::string& id);
 
   /// A worker found bytes that the id does not name: the scene is set aside.
-  void setAside(const std::string& id);
+  void setAside(const std::string& id) { backend_->setAside(id); }
 
-  bool remove(const std::string& id);
+  Status remove(const std::string& id); ///< or notFound
 
   /// Removes what nobody used for the age of the options, telling each scene, and what servers that died have left. To
   /// be called ever so often, by one thread.
-  void keepClean(const std::function<void(const std::string& id)>& removed);
+  void keepClean(const SceneListener& removed);
+
+  /// From now on tells of scenes that other servers have removed: at once, or when they are asked for next. nullptr =
+  /// nobody. Any thread may call it, until the next call of this has returned.
+  void tellRemoved(SceneListener listener);
 
  private:
-  SceneStore(const SceneStoreOptions& options, std::optional<SceneDirectory> directory);
+  SceneStore(const SceneStoreOptions& options, std::unique_ptr<SceneBackend> backend);
+  Status told(const std::string& id, Status found);
 
   const std::chrono::seconds age_;
-  SceneMemory memory_;
-  std::optional<SceneDirectory> directory_;
-  StoreQuota quota_;
-  std::shared_ptr<LightMapDirectory> lightMaps_;
+  const std::unique_ptr<SceneBackend> backend_;
+  const std::shared_ptr<StoredLightMaps> lightMaps_;
   KnownCounts counts_;
+  std::mutex telling_;
+  SceneListener listener_;
 };
 
 } // namespace gnomon

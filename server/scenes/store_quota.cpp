@@ -5,6 +5,13 @@
 
 namespace gnomon {
 
+Problem noRoom(std::uint64_t quota, std::uint64_t taken, std::uint64_t bytes) {
+  return {ProblemCode::insufficientStorage, "",
+          "The scene store has no room for this scene (--store-bytes). Delete scenes, or have more room.",
+          std::to_string(quota) + " bytes",
+          std::to_string(taken) + " bytes are taken, and these are " + std::to_string(bytes)};
+}
+
 /// With the mutex held, which only uploads and removals take.
 Status StoreQuota::room(std::uint64_t bytes) {
   constexpr int kShare = 20;
@@ -15,10 +22,7 @@ Status StoreQuota::room(std::uint64_t bytes) {
   }
   const std::uint64_t used = kept_ + writing_;
   if (used <= bytes_ && bytes <= bytes_ - used) return Done{};
-  return Problem{ProblemCode::insufficientStorage, "",
-                 "The scene store has no room for this scene (--store-bytes). Delete scenes, or have more room.",
-                 std::to_string(bytes_) + " bytes",
-                 std::to_string(used) + " bytes are taken, and these are " + std::to_string(bytes)};
+  return noRoom(bytes_, used, bytes);
 }
 
 Status StoreQuota::check(std::uint64_t bytes) {

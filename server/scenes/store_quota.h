@@ -9,6 +9,9 @@
 
 namespace gnomon {
 
+/// The insufficientStorage problem of a scene of so many bytes, where `taken` of a quota are taken.
+Problem noRoom(std::uint64_t quota, std::uint64_t taken, std::uint64_t bytes);
+
 /// How many bytes the scenes of a directory may take together, whoever writes them. What is there is counted anew ever
 /// so often, so that what other servers wrote or removed counts, too: as often as counting takes a twentieth of the
 /// time. Any thread.

@@ -47,6 +47,23 @@ class StoreCase(unittest.TestCase):
     def ids(self):
         return sorted(path.stem for path in self.store.glob("*.bundle"))
 
+    def stored_bytes(self):
+        return sum(path.stat().st_size for path in self.store.glob("*.bundle"))
+
+    def touch(self, scene):
+        (self.store / f"{scene}.bundle").touch()
+
+    def last_use(self, scene):
+        return (self.store / f"{scene}.bundle").stat().st_mtime
+
+    def make_old(self, scene):
+        os.utime(self.store / f"{scene}.bundle", (0, 0))
+
+    def assert_holds_only(self, scenes):
+        """Nothing but these scenes is there: nothing unfinished, no summary of others."""
+        names = [path.name for path in self.store.iterdir() if path.is_file()]
+        self.assertEqual(sorted(names), sorted(f"{scene}.{ending}" for scene in scenes for ending in ("bundle", "json")))
+
 
 class Quota(StoreCase):
     def test_what_does_not_fit_is_refused_with_the_number_and_the_flag(self):
@@ -61,7 +78,7 @@ class Quota(StoreCase):
             self.assertIn(str(len(scenes[2])), problem["actual"])
             self.assertEqual(upload(server, scenes[0]).status, 200, "what is there already needs no room")
             self.assertEqual(server.frame(id_of(scenes[0]), SMALL).status, 200)
-            self.assertEqual(len(list(self.store.glob("*.*"))), 4, "nothing is left of the refused one")
+            self.assert_holds_only([id_of(glb) for glb in scenes[:2]])
             self.assertEqual(server.ask("DELETE", f"/v1/scenes/{id_of(scenes[0])}").status, 204)
             self.assertEqual(upload(server, scenes[2]).status, 201)
 
@@ -76,7 +93,7 @@ class Quota(StoreCase):
                 thread.join()
         self.assertEqual(set(statuses), {201, 507})
         self.assertEqual(statuses.count(201), len(self.ids()))
-        self.assertLessEqual(sum(path.stat().st_size for path in self.store.glob("*.bundle")), MEGABYTE)
+        self.assertLessEqual(self.stored_bytes(), MEGABYTE)
 
     def test_scenes_of_another_server_count(self):
         with Server(*self.flags) as other, Server(*self.flags, "--store-bytes", "500kB") as server:
@@ -86,7 +103,7 @@ class Quota(StoreCase):
             self.assertEqual(other.ask("DELETE", f"/v1/scenes/{self.ids()[0]}").status, 204)
             self.assertTrue(until(lambda: upload(server, own).status == 201))
 
-    def test_it_needs_a_directory(self):
+    def test_it_needs_a_store(self):
         for flag, value in (("--store-bytes", "1GB"), ("--store-age", "30d")):
             done = subprocess.run([BINARY, "serve", "--port", "0", flag, value], capture_output=True, text=True,
                                   timeout=TIMEOUT, env=environment())  # fmt: skip
@@ -105,13 +122,13 @@ class Age(StoreCase):
                 # Both servers keep what either of them uses: pictures from memory and known uploads, too.
                 self.assertEqual(other.frame(drawn, SMALL).status, 200)
                 self.assertEqual(upload(server, (SCENES / "box_on_plane.glb").read_bytes()).status in (200, 201), True)
-                (self.store / f"{sent}.bundle").touch()
+                self.touch(sent)
                 time.sleep(0.1)
             self.assertGreater(time.monotonic() - begin, 2.5)
             self.assertEqual(server.get(f"/v1/scenes/{unused}").status, 404)
             self.assertEqual(server.frame(unused, SMALL).status, 404)
             self.assertEqual(other.frame(unused, SMALL).status, 404)
-            self.assertFalse((self.store / f"{unused}.json").exists())
+            self.assert_holds_only(self.ids())
             self.assertEqual(server.frame(drawn, SMALL).status, 200)
             self.assertTrue(server.log_has(unused) if unused in server.log_text() else other.log_has(unused))
 
@@ -160,10 +177,10 @@ class Age(StoreCase):
         glb = padded(100, "old")
         with Server(*self.flags) as server:
             scene = upload(server, glb).json()["id"]
-            os.utime(self.store / f"{scene}.bundle", (0, 0))
+            self.make_old(scene)
         with Server(*self.flags) as server:
             self.assertEqual(server.frame(scene, SMALL).status, 200)
-        self.assertGreater((self.store / f"{scene}.bundle").stat().st_mtime, time.time() - TIMEOUT, "drawing marks it")
+        self.assertTrue(until(lambda: self.last_use(scene) > time.time() - TIMEOUT), "drawing marks it")
 
 
 class Orphans(StoreCase):
@@ -216,6 +233,26 @@ class Orphans(StoreCase):
             os.utime(path, (time.time() - 100,) * 2)
         with Server(*self.flags):
             self.assertEqual(list(self.store.glob(".writing-*")), [])
+
+
+class Shared(StoreCase):
+    def test_what_one_server_does_the_other_sees_within_a_second(self):
+        glb = padded(100, "shared")
+        scene, target = id_of(glb), f"/v1/scenes/{id_of(glb)}/frame?width=64&height=48"
+        with Server(*self.flags) as one, Server(*self.flags) as other:
+            self.assertEqual(upload(one, glb).status, 201)
+            self.assertEqual(upload(other, glb).status, 200)
+            drawn = other.get(target)  # which is then in the memory of its front and of its worker
+            self.assertEqual((drawn.status, one.get(target).body), (200, drawn.body))
+            self.assertEqual(one.ask("DELETE", f"/v1/scenes/{scene}").status, 204)
+            begin = time.monotonic()
+            self.assertTrue(until(lambda: other.get(target).status == 404))
+            self.assertLess(time.monotonic() - begin, 1 * SLOW)
+            self.assertEqual(other.frame(scene, SMALL).status, 404)
+            self.assertEqual(other.get("/v1/scenes").json(), {"scenes": []})
+            self.assert_holds_only([])
+            self.assertEqual(upload(other, glb).status, 201)
+            self.assertTrue(until(lambda: one.get(target).body == drawn.body))
 
 
 class Pages(ServerTest):

@@ -63,7 +63,7 @@ TEST_F(SceneStoreTest, KeepsBundlesInMemoryOrInADirectory) {
     EXPECT_EQ(readFile(*bundle->file, 100), Bytes(10, 1));
     EXPECT_EQ(bundle->isStored, !directory.empty());
     EXPECT_EQ(store->summary(scene(1).id), summaryOf(scene(1)));
-    EXPECT_EQ(store->page("", 10).ids, std::vector{scene(1).id});
+    EXPECT_EQ(store->page("", 10)->ids, std::vector{scene(1).id});
     EXPECT_EQ(store->bundle(scene(2).id).problems()[0].code, ProblemCode::notFound);
   }
 }
@@ -71,7 +71,7 @@ TEST_F(SceneStoreTest, KeepsBundlesInMemoryOrInADirectory) {
 TEST_F(SceneStoreTest, FindsItsScenesAgain) {
   put(*open(directory_), scene(1));
   const auto store = open(directory_);
-  EXPECT_EQ(store->page("", 10).ids, std::vector{scene(1).id});
+  EXPECT_EQ(store->page("", 10)->ids, std::vector{scene(1).id});
   EXPECT_EQ(store->summary(scene(1).id), summaryOf(scene(1)));
   EXPECT_FALSE(put(*store, scene(1)));
 }
@@ -108,7 +108,7 @@ TEST_F(SceneStoreTest, CleansUpAfterAnInterruptedWrite) {
   std::ofstream(directory_ / "not a scene.bundle") << "x";
   const auto store = open(directory_);
   EXPECT_FALSE(fs::exists(directory_ / ".writing-1-1"));
-  EXPECT_TRUE(store->page("", 10).ids.empty());
+  EXPECT_TRUE(store->page("", 10)->ids.empty());
   EXPECT_TRUE(fs::exists(directory_ / ".writing-2-1"));
   EXPECT_FALSE(fs::exists(directory_ / (std::string(64, 'a') + ".json")));
 }
@@ -154,19 +154,19 @@ TEST_F(SceneStoreTest, PagesFollowEachOtherInBothKinds) {
       std::vector<std::string> found;
       ScenePage page{{}, true};
       while (page.hasMore) {
-        page = store->page(found.empty() ? "" : found.back(), limit);
+        page = *store->page(found.empty() ? "" : found.back(), limit);
         ASSERT_LE(page.ids.size(), limit);
         ASSERT_TRUE(!page.hasMore || page.ids.size() == limit);
         found.insert(found.end(), page.ids.begin(), page.ids.end());
       }
       EXPECT_EQ(found, all) << limit;
     }
-    EXPECT_EQ(store->page(all[2] + "0", 2).ids, (std::vector{all[3], all[4]}));
+    EXPECT_EQ(store->page(all[2] + "0", 2)->ids, (std::vector{all[3], all[4]}));
   }
 }
 
 TEST_F(SceneStoreTest, AQuotaCountsWhatIsThereAndWhatGoes) {
-  auto store = *SceneStore::open({.directory = directory_, .directoryBytes = 25});
+  auto store = *SceneStore::open({.directory = directory_, .storedBytes = 25});
   EXPECT_TRUE(put(*store, scene(1)));
   EXPECT_TRUE(store->checkRoom(15));
   EXPECT_FALSE(store->checkRoom(16));

@@ -1,0 +1,298 @@
+#include "server/scenes/redis_backend.h"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+
+#include "server/scenes/redis_scripts.h"
+#include "server/scenes/store_quota.h"
+#include "server/system/log.h"
+#include "server/wire/bundle.h"
+
+namespace gnomon {
+namespace {
+
+constexpr const char* kScenes = "gnomon:scenes";
+constexpr const char* kUsed = "gnomon:used";
+constexpr const char* kBytes = "gnomon:bytes";
+constexpr const char* kWriting = "gnomon:writing";
+
+std::string sceneKey(const std::string& id) {
+  return "gnomon:scene:" + id;
+}
+
+std::string summaryKey(const std::string& id) {
+  return "gnomon:summary:" + id;
+}
+
+redis::Call soon(std::size_t bytes = 1 << 20) {
+  constexpr std::chrono::seconds kPatience{3};
+  return {Clock::now() + kPatience, {.bytes = bytes}};
+}
+
+constexpr std::size_t kSummaryReply = SceneBackend::kMaxSummaryBytes + 1024;
+
+/// The reply, or what its error means.
+Result<redis::Reply> good(Result<redis::Reply> reply) {
+  if (reply && reply->isError()) return problemOf(*reply);
+  return reply;
+}
+
+} // namespace
+
+RedisBackend::RedisBackend(std::shared_ptr<redis::Redis> redis, Options options)
+    : redis_(std::move(redis)),
+      options_(options),
+      channel_("gnomon:removed:" + std::to_string(redis_->address().database)), // channels know no databases
+      memory_(options.memoryBytes, options.memoryScenes),
+      removals_(*redis_, channel_,
+                {[this] { checkMemory(); },
+                 [this](const std::string& id) {
+                   if (isSceneId(id)) forget(id);
+                 }}) {}
+
+/// Of these scenes, those that are not there; the others are used now.
+Result<std::vector<std::string>> RedisBackend::missing(const std::vector<std::string>& ids) {
+  std::vector<std::string> missing;
+  if (ids.empty()) return missing;
+  auto reply = good(redis_->run(redis_scripts::use(), {}, ids, soon()));
+  if (!reply) return std::move(reply).problems();
+  for (redis::Reply& id : reply->elements) missing.push_back(std::move(id.text));
+  return missing;
+}
+
+/// A scene was removed, by whomever.
+void RedisBackend::forget(const std::string& id) {
+  memory_.remove(id);
+  const std::lock_guard lock(telling_);
+  if (listener_) listener_(id);
+}
+
+/// After a time in which removals may not have been told.
+void RedisBackend::checkMemory() {
+  const auto ids = memory_.page("", options_.memoryScenes).ids;
+  constexpr std::size_t kAtOnce = 1'000;
+  for (std::size_t first = 0; first < ids.size(); first += kAtOnce) {
+    const auto last = std::min(ids.size(), first + kAtOnce);
+    std::vector<redis::Command> commands;
+    for (std::size_t i = first; i < last; ++i) commands.push_back({"EXISTS", sceneKey(ids[i])});
+    const auto replies = redis_->pipeline(commands, soon());
+    if (!replies) return;
+    for (std::size_t i = first; i < last; ++i) {
+      const redis::Reply& reply = (*replies)[i - first];
+      if (reply.isInteger() && reply.integer == 0) forget(ids[i]);
+    }
+  }
+}
+
+Status RedisBackend::contains(const std::string& id) {
+  if (memory_.contains(id)) return Done{};
+  const auto reply = good(redis_->ask({"EXISTS", sceneKey(id)}, soon()));
+  if (!reply) return reply.problems();
+  if (reply->integer == 0) return unknownScene(id);
+  return Done{};
+}
+
+Status RedisBackend::use(const std::string& id) {
+  if (memory_.bundle(id)) {
+    const std::lock_guard lock(mutex_);
+    used_.insert(id);
+    return Done{};
+  }
+  const auto gone = missing({id});
+  if (!gone) return gone.problems();
+  if (!gone->empty()) return unknownScene(id);
+  return Done{};
+}
+
+Status RedisBackend::checkRoom(std::uint64_t bytes) {
+  const auto reply =
+      good(redis_->run(redis_scripts::begin(), {sceneKey(""), kUsed, kBytes, kWriting},
+                       {"", "", std::to_string(bytes), std::to_string(options_.quotaBytes), "0"}, soon()));
+  if (!reply) return reply.problems();
+  if (reply->elements.size() == 2 && reply->elements[0].integer == 2) {
+    return noRoom(options_.quotaBytes, static_cast<std::uint64_t>(reply->elements[1].integer), bytes);
+  }
+  return Done{};
+}
+
+Result<bool> RedisBackend::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
+                               const std::string& summary) {
+  const RedisParts parts = newParts(bytes);
+  const std::string entry = parts.token + ":" + std::to_string(bytes);
+  const std::string expires = std::to_string(std::chrono::milliseconds(kPartsExpire).count());
+  const auto begun =
+      good(redis_->run(redis_scripts::begin(), {sceneKey(id), kUsed, kBytes, kWriting},
+                       {id, entry, std::to_string(bytes), std::to_string(options_.quotaBytes), expires}, soon()));
+  if (!begun) return begun.problems();
+  const auto answer = begun->elements.size() == 2 ? begun->elements[0].integer : -1;
+  if (answer == 1) return false;
+  if (answer == 2) {
+    return noRoom(options_.quotaBytes, static_cast<std::uint64_t>(begun->elements[1].integer), bytes);
+  }
+  const std::string count = std::to_string(parts.count());
+  Status done = writeParts(*redis_, parts, *bundle, kForScene);
+  bool isNew = false;
+  if (done) {
+    const auto committed =
+        good(redis_->run(redis_scripts::commit(), {sceneKey(id), kUsed, kBytes, kWriting, kScenes, summaryKey(id)},
+                         {id, entry, parts.token, std::to_string(bytes), count, summary}, soon()));
+    if (!committed) done = committed.problems();
+    isNew = committed && committed->integer == 1;
+  }
+  if (!done) { // while Redis is away, they expire by themselves
+    (void)redis_->run(redis_scripts::abandon(), {kWriting}, {entry, parts.token, count}, soon());
+    return done.problems();
+  }
+  (void)keepInMemory(id, std::move(bundle), bytes, summary); // it may be removed by now
+  return isNew;
+}
+
+/// Whoever removes a scene tells it after that: what is in memory first, and found in Redis then, is told of.
+Status RedisBackend::keepInMemory(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
+                                  const std::string& summary) {
+  memory_.put(id, std::move(bundle), bytes, summary);
+  const auto reply = good(redis_->ask({"EXISTS", sceneKey(id)}, soon()));
+  if (reply && reply->integer == 1) return Done{};
+  memory_.remove(id);
+  if (!reply) return reply.problems();
+  return unknownScene(id);
+}
+
+Result<StoredBundle> RedisBackend::bundle(const std::string& id) {
+  if (BundlePtr kept = memory_.bundle(id)) {
+    ++hits_;
+    const std::lock_guard lock(mutex_);
+    used_.insert(id);
+    return StoredBundle{std::move(kept), false};
+  }
+  const std::lock_guard lock(fetching_[std::hash<std::string>()(id) % fetching_.size()]);
+  if (BundlePtr kept = memory_.bundle(id)) return StoredBundle{std::move(kept), false};
+  ++misses_;
+  return fetch(id);
+}
+
+/// Reads a scene into memory. Its bytes are those that its id names.
+Result<StoredBundle> RedisBackend::fetch(const std::string& id) {
+  redis::Command fields{"HMGET", sceneKey(id)};
+  fields.insert(fields.end(), kPartsFields.begin(), kPartsFields.end());
+  auto replies = redis_->pipeline({std::move(fields), {"GET", summaryKey(id)}}, soon(kSummaryReply));
+  if (!replies) return std::move(replies).problems();
+  for (const redis::Reply& reply : *replies) {
+    if (reply.isError()) return problemOf(reply);
+  }
+  const auto parts = partsFrom(replies->front());
+  if (!parts) return unknownScene(id);
+  if (parts->bytes > options_.memoryBytes) {
+    return Problem{ProblemCode::tooLarge, "",
+                   "The stored scene is larger than the server's memory for bundles (--bundle-memory-bytes).",
+                   std::to_string(options_.memoryBytes) + " bytes", std::to_string(parts->bytes) + " bytes"};
+  }
+  auto read = readParts(*redis_, *parts, kForScene);
+  if (!read) return std::move(read).problems();
+  if (!read->file || read->sha256 != id) {
+    if (const Status there = contains(id); !there) return there.problems(); // removed meanwhile
+    setAside(id);
+    return Problem{ProblemCode::notFound, "id", "The stored bytes of this scene were damaged. Upload it again.", "",
+                   id};
+  }
+  const auto file = std::make_shared<const FileDescriptor>(*std::move(read->file));
+  const Status kept = keepInMemory(id, file, parts->bytes, replies->back().text);
+  if (!kept) return kept.problems();
+  return StoredBundle{file, false};
+}
+
+Result<ScenePage> RedisBackend::page(std::string_view after, std::size_t limit) {
+  const std::string from = after.empty() ? "-" : "(" + std::string(after);
+  auto reply = good(redis_->ask({"ZRANGEBYLEX", kScenes, from, "+", "LIMIT", "0", std::to_string(limit + 1)},
+                                soon(128 * (limit + 2))));
+  if (!reply) return std::move(reply).problems();
+  ScenePage page;
+  for (redis::Reply& id : reply->elements) {
+    if (isSceneId(id.text)) page.ids.push_back(std::move(id.text));
+  }
+  page.hasMore = page.ids.size() > limit;
+  page.ids.resize(std::min(page.ids.size(), limit));
+  return page;
+}
+
+StoreSize RedisBackend::size() {
+  const auto replies = redis_->pipeline({{"ZCARD", kScenes}, {"GET", kBytes}}, soon());
+  const std::lock_guard lock(mutex_);
+  if (!replies) return size_;
+  const std::string& bytes = replies->back().text;
+  size_.scenes = static_cast<std::size_t>(replies->front().integer);
+  size_.bytes = 0;
+  std::from_chars(bytes.data(), bytes.data() + bytes.size(), size_.bytes);
+  return size_;
+}
+
+StoreState RedisBackend::state() {
+  const redis::Use use = redis_->use();
+  return {use.isReachable, use.connections, use.calls, use.failures, memory_.size(), hits_, misses_};
+}
+
+std::optional<std::string> RedisBackend::summary(const std::string& id) {
+  if (auto kept = memory_.summary(id); kept && !kept->empty()) return kept;
+  auto reply = redis_->ask({"GET", summaryKey(id)}, soon(kSummaryReply));
+  if (!reply || !reply->isText()) return std::nullopt;
+  return std::move(reply->text);
+}
+
+void RedisBackend::keepSummary(const std::string& id, const std::string& summary) {
+  memory_.replaceSummary(id, summary);
+  const auto kept = good(redis_->run(redis_scripts::keepSummary(), {sceneKey(id), summaryKey(id)}, {summary}, soon()));
+  if (!kept) logEvent("store", "A summary could not be written.");
+}
+
+void RedisBackend::setAside(const std::string& id) {
+  logEvent("store", "The stored bytes of scene " + id + " do not match its id. They are removed.");
+  (void)remove(id);
+}
+
+Status RedisBackend::remove(const std::string& id) {
+  const auto reply = good(redis_->run(redis_scripts::remove(), {}, {id, channel_}, soon()));
+  if (!reply) return reply.problems();
+  memory_.remove(id);
+  if (reply->integer == 0) return unknownScene(id);
+  return Done{};
+}
+
+/// What was served from memory is used in Redis, too.
+void RedisBackend::markUsed() {
+  constexpr std::size_t kAtOnce = 1'000;
+  std::set<std::string> used;
+  {
+    const std::lock_guard lock(mutex_);
+    used.swap(used_);
+  }
+  std::vector<std::string> ids(used.begin(), used.end());
+  while (!ids.empty()) {
+    const std::size_t count = std::min(kAtOnce, ids.size());
+    const auto gone = missing({ids.end() - static_cast<std::ptrdiff_t>(count), ids.end()});
+    if (!gone) break;
+    for (const std::string& id : *gone) forget(id);
+    ids.resize(ids.size() - count);
+  }
+  const std::lock_guard lock(mutex_);
+  used_.insert(ids.begin(), ids.end()); // next time
+}
+
+void RedisBackend::keepClean(const SceneListener& removed) {
+  markUsed();
+  if (options_.age.count() == 0) return;
+  const std::string age = std::to_string(std::chrono::milliseconds(options_.age).count());
+  const auto reply = good(redis_->run(redis_scripts::removeUnused(), {}, {age, channel_, "100"}, soon()));
+  if (!reply) return;
+  for (const redis::Reply& id : reply->elements) {
+    memory_.remove(id.text);
+    removed(id.text);
+  }
+}
+
+void RedisBackend::tellRemoved(SceneListener listener) {
+  const std::lock_guard lock(telling_);
+  listener_ = std::move(listener);
+}
+
+} // namespace gnomon

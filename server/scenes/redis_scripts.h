@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+
+#include "server/redis/script.h"
+
+/// What a store in Redis is made of, and the steps that change it, each of which happens whole or not at all.
+///
+///   gnomon:scene:ID      hash: `parts` (token of its parts), `bytes`, `count` (of parts)
+///   gnomon:summary:ID    its summary's text
+///   gnomon:part:TOKEN:N  the N-th piece of a bundle or light map, from 0; until all are there, they expire
+///   gnomon:scenes        sorted set: every id, all of one score
+///   gnomon:used          sorted set: every id by the time of its last use, milliseconds
+///   gnomon:bytes         bytes of all bundles
+///   gnomon:writing       sorted set: "TOKEN:BYTES" of what is being written, by when it expires, milliseconds
+///   gnomon:map:KEY       hash of a light map, as that of a scene
+///   gnomon:maps          sorted set: every light map's key by the time of its last use
+///   gnomon:maps:bytes    bytes of all light maps
+///
+/// Times are those of the Redis server. A channel tells the id of each scene that is removed.
+namespace gnomon::redis_scripts {
+
+/// KEYS: scene, used, bytes, writing. ARGV: id, "TOKEN:BYTES" or nothing, bytes, quota (0 = none), milliseconds.
+/// {1, taken}: the scene is there, and used now. {2, taken}: there is no room. {0, taken}: its parts may be written.
+const redis::Script& begin();
+
+/// KEYS: scene, used, bytes, writing, scenes, summary. ARGV: id, "TOKEN:BYTES", token, bytes, count, summary. 1: the
+/// scene is there now. 0: it was there, and the parts are removed. An error GONE: parts have expired.
+const redis::Script& commit();
+
+/// KEYS: writing. ARGV: "TOKEN:BYTES", token, count. Removes the parts.
+const redis::Script& abandon();
+
+/// KEYS: scene, summary. ARGV: summary. Replaces it where the scene is there.
+const redis::Script& keepSummary();
+
+/// ARGV: ids. Marks them as used now. The ids that are not there.
+const redis::Script& use();
+
+/// ARGV: id, channel. 1, or 0 where it was not there.
+const redis::Script& remove();
+
+/// ARGV: milliseconds, channel, the most ids. Removes scenes that were not used for so long. Their ids.
+const redis::Script& removeUnused();
+
+/// KEYS: light map. ARGV: key, token, bytes, count, budget. Keeps a light map, and drops those that were not used for
+/// longest, down to the budget. Where it is there already, or its parts have expired, the parts are removed.
+const redis::Script& commitMap();
+
+/// ARGV: key. Marks a light map as used now.
+const redis::Script& useMap();
+
+/// ARGV: scene's id. Removes the light maps of a scene.
+const redis::Script& removeMaps();
+
+} // namespace gnomon::redis_scripts

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "server/system/file_descriptor.h"
+#include "server/wire/bundle.h"
+
+namespace gnomon {
+
+/// Baked light maps by key, within a budget of bytes: the least recently used go first. What the store refuses is
+/// otherwise passed over, since a map can be baked again. Any thread.
+class StoredLightMaps {
+ public:
+  virtual ~StoredLightMaps() = default;
+
+  /// The map, for reading, and marks it as used; empty where there is none.
+  virtual FileDescriptor open(const std::string& key) = 0;
+
+  /// Keeps the bytes of a file as the map of this key.
+  virtual void write(const std::string& key, const FileDescriptor& lightMap) = 0;
+
+  /// Removes the maps of a scene.
+  virtual void removeScene(const std::string& sceneId) = 0;
+
+  /// Removes what writes of servers that died have left.
+  virtual void cleanUp() = 0;
+};
+
+/// "<scene's id>-<64 lower-case hexadecimal digits>": what a worker names must not lead out of its store.
+inline bool isLightMapKey(std::string_view key) {
+  constexpr std::size_t kId = 64;
+  return key.size() == 2 * kId + 1 && isSceneId(key.substr(0, kId)) && key[kId] == '-' &&
+         isSceneId(key.substr(kId + 1));
+}
+
+} // namespace gnomon
