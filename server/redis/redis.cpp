@@ -118,7 +118,13 @@ Result<std::vector<Reply>> Redis::call(Pool& pool, const std::vector<Command>& c
     place.connection = *std::move(opened);
   }
   auto replies = place.connection->exchange(commands, call);
-  if (replies) return replies;
+  if (replies) {
+    const auto isOfReplica = [](const Reply& reply) { return reply.isError("READONLY"); };
+    if (std::any_of(replies->begin(), replies->end(), isOfReplica)) {
+      place.connection.reset(); // another server has become the one to write to
+    }
+    return replies;
+  }
   place.connection.reset();
   const bool isCut = call.cut != nullptr && call.cut->raised();
   return failed(isCut ? away() : lost(replies.problems().front()));

@@ -166,7 +166,8 @@ Result<StoredBundle> RedisBackend::bundle(const std::string& id) {
     used_.insert(id);
     return StoredBundle{std::move(kept), false};
   }
-  const std::lock_guard lock(fetching_[std::hash<std::string>()(id) % fetching_.size()]);
+  std::unique_lock lock(fetching_[std::hash<std::string>()(id) % fetching_.size()], kForScene);
+  if (!lock) return Problem{ProblemCode::unavailable, "", "The server's Redis is too slow for this scene.", "", ""};
   if (BundlePtr kept = memory_.bundle(id)) return StoredBundle{std::move(kept), false};
   ++misses_;
   return fetch(id);

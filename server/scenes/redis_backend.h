@@ -54,7 +54,7 @@ class RedisBackend : public SceneBackend {
   const Options options_;
   const std::string channel_;
   SceneMemory memory_;
-  std::array<std::mutex, 16> fetching_; ///< by id: one that many ask for is read once
+  std::array<std::timed_mutex, 16> fetching_; ///< by id: one that many ask for is read once
   std::mutex mutex_;
   std::set<std::string> used_; ///< in memory, since they were last marked so in Redis
   StoreSize size_;             ///< as last known

@@ -28,7 +28,7 @@ inline const std::vector<std::string> kPartsFields{"parts", "bytes", "count"};
 
 /// After so long a part that no scene or light map holds is removed by Redis.
 constexpr std::chrono::minutes kPartsExpire{10};
-constexpr std::chrono::minutes kForScene{5}; ///< the patience for a bundle: well before its first part expires
+constexpr std::chrono::minutes kForScene{1}; ///< the patience for a bundle: well before its first part expires
 
 /// Writes the parts of a file, which expire. Problems: unavailable, also where it takes longer than `patience`, and
 /// insufficientStorage where Redis is full; some parts may be there then.

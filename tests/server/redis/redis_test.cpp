@@ -1,7 +1,11 @@
 #include "server/redis/redis.h"
 
+#include <arpa/inet.h>
+#include <array>
 #include <atomic>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <thread>
 
 #include "tests/support/redis_server.h"
@@ -194,6 +198,63 @@ TEST(RedisPassword, IsAskedForAndTaken) {
   for (const char* user : {"", ":wrong@", "nobody:se%3Acret@"}) {
     Redis wrong({.address = *parseAddress(server.url(user))});
     EXPECT_FALSE(wrong.ask({"PING"}, within(5s))) << user;
+  }
+}
+
+/// Answers whoever connects with these bytes, over and over where `isEndless`, whatever it is asked.
+class HostileServer {
+ public:
+  HostileServer(std::string answer, bool isEndless) : listening_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* const general = reinterpret_cast<sockaddr*>(&address);
+    EXPECT_EQ(::bind(listening_.get(), general, size), 0);
+    EXPECT_EQ(::listen(listening_.get(), 8), 0);
+    ::getsockname(listening_.get(), general, &size);
+    port_ = ::ntohs(address.sin_port);
+    thread_ = std::thread([this, answer = std::move(answer), isEndless] { serve(answer, isEndless); });
+  }
+  ~HostileServer() {
+    ::shutdown(listening_.get(), SHUT_RDWR);
+    thread_.join();
+  }
+
+  std::string url() const { return "redis://127.0.0.1:" + std::to_string(port_); }
+
+ private:
+  void serve(const std::string& answer, bool isEndless) const {
+    while (true) {
+      const FileDescriptor client(::accept(listening_.get(), nullptr, nullptr));
+      if (!client) return;
+      while (::send(client.get(), answer.data(), answer.size(), MSG_NOSIGNAL) > 0 && isEndless) {
+      }
+      std::array<char, 256> ignored;
+      while (::recv(client.get(), ignored.data(), ignored.size(), 0) > 0) {
+      }
+    }
+  }
+
+  FileDescriptor listening_;
+  std::uint16_t port_ = 0;
+  std::thread thread_;
+};
+
+TEST(RedisHostile, NoAnswerCostsMoreThanTheLimits) {
+  for (const auto& [answer, isEndless] : {std::pair<std::string, bool>("+" + std::string(1'000, 'x'), true),
+                                          {"$2147483647\r\n" + std::string(1'000, 'x'), true},
+                                          {"*1\r\n", true},
+                                          {"*2147483647\r\n:1\r\n", true},
+                                          {"+PONG\r\n", true},
+                                          {"HTTP/1.1 400 Bad Request\r\n\r\n", false},
+                                          {std::string(64, '\0'), false},
+                                          {"", false}}) {
+    const HostileServer server(answer, isEndless);
+    Redis redis({.address = *parseAddress(server.url()), .connectPatience = 500ms});
+    const auto begun = Clock::now();
+    EXPECT_FALSE(redis.ask({"GET", "key"}, within(1s))) << answer.substr(0, 20);
+    EXPECT_LT(Clock::now() - begun, 10s);
   }
 }
 
