@@ -21,6 +21,7 @@ template const ValueType& typeOf<FrameReport>();
 template const ValueType& typeOf<NodeList>();
 template const ValueType& typeOf<NodePage>();
 template const ValueType& typeOf<PlanReport>();
+template const ValueType& typeOf<QualityReport>();
 template const ValueType& typeOf<RendererInfo>();
 template const ValueType& typeOf<SceneList>();
 template const ValueType& typeOf<SceneSummary>();

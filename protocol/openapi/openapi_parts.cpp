@@ -36,9 +36,11 @@ constexpr std::array kRefusals{
     Refusal{"422", "The scene is not valid glTF, needs a feature that Gnomon does not have, or does not match the id."},
     Refusal{"429", "The server is busy, or the key has used up its share; Retry-After says when to try again."},
     Refusal{"500", "An internal error, or a failure of the graphics context."},
-    Refusal{"503", "The server is starting or shutting down."},
+    Refusal{"503",
+            "The server is starting or shutting down, or what keeps its scenes is away; Retry-After says "
+            "when to try again."},
     Refusal{"504", "The request's deadline passed before its work was done."},
-    Refusal{"507", "The scene store's disk is full."},
+    Refusal{"507", "The scene store is full."},
 };
 
 Json header(const char* description) {
@@ -91,7 +93,7 @@ Json responses() {
     if (std::string_view(refusal.status) == "401") {
       response["headers"]["WWW-Authenticate"] = {{"$ref", "#/components/headers/WWW-Authenticate"}};
     }
-    if (std::string_view(refusal.status) == "429") {
+    if (std::string_view(refusal.status) == "429" || std::string_view(refusal.status) == "503") {
       response["headers"]["Retry-After"] = {{"$ref", "#/components/headers/Retry-After"}};
     }
     result[refusal.status] = std::move(response);

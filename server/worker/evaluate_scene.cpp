@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/bytes.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/json/quality_json.h"
+#include "renderer/core/parallel.h"
 #include "server/worker/frame_memory.h"
 
 namespace gnomon {
@@ -13,6 +16,24 @@ std::string keyOf(const std::string& sceneId, const std::string& viewClass, Fram
   spec.camera = Camera{};
   spec.motionFrom.reset();
   return sceneId + "\n" + viewClass + "\n" + jsonText(toJson(spec));
+}
+
+/// The key by which a choice is stored for all who draw alike, with as many cores.
+std::string storedKey(const std::string& sceneId, const std::string& key, const RendererInfo& renderer) {
+  Sha256 hash;
+  hash.add("quality\n" + renderer.renderer + "\n" + renderer.fingerprint + "\n" + std::to_string(coresToUse()) + "\n" +
+           key);
+  return sceneId + "-" + hash.hex();
+}
+
+std::optional<QualityReport> storedChoice(LightMapStore& store, const std::string& key) {
+  const auto bytes = store.read(key);
+  return bytes ? readQualityReport(asText(*bytes)) : std::nullopt;
+}
+
+void storeChoice(LightMapStore& store, const std::string& key, const QualityReport& report) {
+  const std::string text = jsonText(toJson(report));
+  store.write(key, Bytes(text.begin(), text.end()));
 }
 
 } // namespace
@@ -48,9 +69,16 @@ Result<QualityReport> settleQuality(WorkContext& context, const LoadedScene& sce
     known->cached = true;
     return *std::move(known);
   }
+  const std::string stored = storedKey(scene.summary.id, key, context.renderer.info());
+  if (auto known = context.stored ? storedChoice(*context.stored, stored) : std::nullopt) {
+    context.choices.keep(key, *known);
+    known->cached = true;
+    return *std::move(known);
+  }
   auto report = chooseQuality(
       spec, [&](const Evaluation& evaluation) { return evaluateScene(context, scene, evaluation, call); });
   if (report) context.choices.keep(key, *report);
+  if (report && context.stored) storeChoice(*context.stored, stored, *report);
   return report;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct WorkContext {
   SceneLoader& scenes;
   ByteBudget frameMemory; ///< of pictures that are being drawn or encoded
   QualityChoices choices;
-  CostModel costs; ///< learned from the frames drawn here
+  CostModel costs;                         ///< learned from the frames drawn here
+  std::shared_ptr<LightMapStore> stored{}; ///< choices that outlive the worker, beside light maps; nullptr = none do
 };
 
 /// An order as it arrived.

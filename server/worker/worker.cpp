@@ -107,8 +107,12 @@ class Worker {
     }
     renderer_ = *std::move(renderer);
     scenes_ = std::make_unique<SceneLoader>(options.sceneMemoryBytes, limits);
-    context_ = std::unique_ptr<WorkContext>(
-        new WorkContext{*renderer_, *scenes_, ByteBudget(options.frameMemoryBytes), {}, {}});
+    context_ = std::unique_ptr<WorkContext>(new WorkContext{*renderer_,
+                                                            *scenes_,
+                                                            ByteBudget(options.frameMemoryBytes),
+                                                            {},
+                                                            {},
+                                                            options.keepsLightMaps ? lightMaps_ : nullptr});
     const bool drivers = options.loadsDrivers || renderer_->info().device == DeviceChoice::gl;
     if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
       say({.refusal = Refusal{sealed.problems()}});

@@ -255,6 +255,18 @@ class Shared(StoreCase):
             self.assertTrue(until(lambda: one.get(target).body == drawn.body))
 
 
+    def test_a_choice_of_settings_is_made_once_for_all(self):
+        spec = SMALL | {"quality": {"maxError": 0.0}}
+        glb = padded(100, "chosen")
+        with Server(*self.flags) as one:
+            scene = upload(one, glb).json()["id"]
+            made = one.frame(scene, spec, "application/json").json()["report"]["quality"]
+        with Server(*self.flags) as other:
+            kept = other.frame(scene, spec, "application/json").json()["report"]["quality"]
+        self.assertEqual((made["cached"], kept["cached"]), (False, True))
+        self.assertEqual((kept["chosen"], kept["tried"]), (made["chosen"], made["tried"]))
+
+
 class Pages(ServerTest):
     flags = ("--device", "cpu", "--workers", "1")
 
