@@ -213,6 +213,12 @@ FrameSpec drakeFrame(const DrakeForm& form, const FrameSpec& colors) {
   return spec;
 }
 
+SceneCounts likelyCounts(std::size_t sceneBytes) {
+  // Of a closed mesh: three indices, and half a vertex of position and normal, 24 bytes, in base64.
+  constexpr std::size_t kTriangleBytes = 32;
+  return {.triangles = std::min(sceneBytes / kTriangleBytes, kLimits.maxTriangles)};
+}
+
 Result<FrameSpec> readDrakeSpec(std::string_view json) {
   auto spec = decodeFrameSpec(json);
   if (!spec) return spec;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/cost/frame_cost.h"
 #include "protocol/report/sensor_range.h"
 #include "protocol/spec/frame_spec.h"
 #include "server/http/multipart.h"
@@ -33,6 +34,9 @@ FrameSpec drakeDefaults();
 
 /// The frame that the form asks for, seen from the node that Drake names "Camera Node". `colors`: how those are drawn.
 FrameSpec drakeFrame(const DrakeForm& form, const FrameSpec& colors);
+
+/// What the form's scene brings to its frame, by its bytes alone: as many triangles as VTK's exporter fits into them.
+SceneCounts likelyCounts(std::size_t sceneBytes);
 
 /// A spec for colors as an operator writes it: a FrameSpec without what each form brings itself.
 Result<FrameSpec> readDrakeSpec(std::string_view json);

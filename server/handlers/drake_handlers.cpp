@@ -39,7 +39,8 @@ HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pa
                std::string_view mediaType) {
   const FrameSpec spec = drakeFrame(form, services.drakeColors);
   if (const Problems problems = validate(spec); !problems.empty()) return refused(problems, call);
-  const double estimate = services.workers.milliseconds(frameCost(spec, SceneCounts()));
+  const SceneCounts counts = services.store.counts(pack.id).value_or(likelyCounts(pack.bytes));
+  const double estimate = services.workers.milliseconds(frameCost(spec, counts));
   const bool hasTarget = spec.quality.has_value();
   if (!hasTarget) {
     if (auto problem = tooMuchWork(services, estimate)) {

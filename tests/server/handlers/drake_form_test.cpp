@@ -97,6 +97,18 @@ TEST(DrakeForm, NumbersAreWholeTextsWithinTheirBounds) {
   }
 }
 
+TEST(DrakeForm, AScenesBytesTellItsWork) {
+  const Fields fields = good();
+  const FrameSpec spec = drakeFrame(*read(fields), drakeDefaults());
+  const auto work = [&](std::size_t bytes) {
+    const FrameCost cost = frameCost(spec, likelyCounts(bytes));
+    return cost[FramePart::survey] + cost[FramePart::shadow];
+  };
+  EXPECT_EQ(likelyCounts(10'000'000).triangles, 312'500u);
+  EXPECT_GT(work(10'000'000), work(1'000) + 1e6) << "nanoseconds";
+  EXPECT_EQ(likelyCounts(std::size_t{1} << 40).triangles, kLimits.maxTriangles);
+}
+
 TEST(DrakeSpec, BringsNothingThatTheFormBrings) {
   EXPECT_TRUE(readDrakeSpec(R"({"lights":[{"direction":[0,0,-1]}],"shadow":{"technique":"rayTraced"}})"));
   for (const auto& [json, pointer] : std::map<std::string, std::string>{{R"({"width":64})", "/width"},
