@@ -2,7 +2,12 @@
 
 import { createControl } from './controls.mjs';
 import { element } from './dom.mjs';
-import { wrappedTime } from './clip_time.mjs';
+
+// Where a clip stands that goes round.
+export function wrappedTime(fromSeconds, milliseconds, durationSeconds) {
+  if (!(durationSeconds > 0)) return 0;
+  return (((fromSeconds + milliseconds / 1000) % durationSeconds) + durationSeconds) % durationSeconds;
+}
 
 export function createMotionPanel(store) {
   let playing = 0; // of requestAnimationFrame

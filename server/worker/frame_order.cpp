@@ -6,9 +6,29 @@
 #include "server/worker/frame_file.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"
-#include "server/worker/sensor_file.h"
 
 namespace gnomon {
+namespace {
+
+/// Whether an order wants what a sensor sees instead of a frame's picture.
+bool wantsSensor(const Order& order) {
+  return order.depthRange.has_value() || order.labels;
+}
+
+/// That file: depths, or the colors of labels. REQUIRES: the frame has floats of view depth or materials alone.
+Result<FrameFile> sensorFile(const ScenePtr& scene, Frame frame, const Order& order, const GoOn& goOn) {
+  const auto start = Clock::now();
+  auto file = [&]() -> Result<Bytes> {
+    if (order.labels) return labelPng(*scene, frame, goOn);
+    if (order.mediaType == "image/png") return depthPng(frame, *order.depthRange, goOn);
+    return depthTiff(frame, *order.depthRange, goOn);
+  }();
+  if (!file) return std::move(file).problems();
+  frame.report.stages.push_back({"encode", millisecondsSince(start)});
+  return FrameFile{order.mediaType, std::string(asText(*file)), std::move(frame.report.stages)};
+}
+
+} // namespace
 
 Answer frameOrder(WorkContext& context, const OrderCall& call) {
   auto decoded = decodeFrameSpec(call.request);

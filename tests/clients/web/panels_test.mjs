@@ -4,13 +4,13 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { decades, placeOf, pointsOf } from '../../../clients/web/chart_math.mjs';
-import { wrappedTime } from '../../../clients/web/clip_time.mjs';
 import { differenceOf } from '../../../clients/web/difference.mjs';
 import { measuredNumbers, percent, predictedNumbers } from '../../../clients/web/error_numbers.mjs';
 import { kSections } from '../../../clients/web/fields.mjs';
 import { steered } from '../../../clients/web/frame_loop.mjs';
 import { lightsInForce, newLight, retyped, withShadow } from '../../../clients/web/light_list.mjs';
 import { merged } from '../../../clients/web/merge_patch.mjs';
+import { wrappedTime } from '../../../clients/web/motion_panel.mjs';
 import { found, ownSwitch, switchInForce, treeOf, withSwitch } from '../../../clients/web/node_tree.mjs';
 import { boxOfTile, containedRect, hull, inverse, seenSegment, sliceOfView, transformed, viewOf } from '../../../clients/web/plan_math.mjs';
 import { cliCommand, frameAddress, imageTag, pythonCode } from '../../../clients/web/snippets.mjs';
