@@ -73,13 +73,16 @@ class Sample:
     status: int  # 0 = the reply was cut off, or there was none
     replica: str
     load_ms: float  # the stage `load`
-    work_ms: float  # all other stages of its own work, without waiting
+    work_ms: float  # all other stages but waiting
+    queue_ms: float  # waiting
     scene: int
 
 
-def drive(connect, scenes, mix, clients, spec, pause=0.0, start=0):
-    """Frames of `mix`, which names one of `scenes` for each, asked for by some clients, each on a kept connection and
-    after a pause; every frame has an exposure of its own, so that no picture is kept for it."""
+def drive(connect, scenes, mix, clients, spec, start=0, seconds=None):
+    """Frames of `mix`, which names one of `scenes` for each, asked for by some clients, each on a kept connection, as soon as
+    one of them is free, or at `seconds` from now; every frame has an exposure of its own, so that no picture is kept for
+    it."""
+    zero = time.monotonic()
     samples, lock, numbers = [], threading.Lock(), iter(enumerate(mix, start))
 
     def client():
@@ -90,6 +93,8 @@ def drive(connect, scenes, mix, clients, spec, pause=0.0, start=0):
             if number is None:
                 return connection.close()
             body = json.dumps(spec | {"exposure": 1 + number / 1e6})
+            if seconds:
+                time.sleep(max(0.0, zero + seconds[number - start] - time.monotonic()))
             begun, status, replica, stages = time.monotonic(), 0, "", {}
             try:
                 connection.request("POST", f"/v1/scenes/{scenes[index]}/frames", body, {"Content-Type": "application/json"})
@@ -100,10 +105,8 @@ def drive(connect, scenes, mix, clients, spec, pause=0.0, start=0):
             except (OSError, http.client.HTTPException):
                 connection.close()
             stages = {name: float(each) for name, each in stages.items()}
-            samples.append(Sample(begun, time.monotonic() - begun, status, replica, stages.get("load", 0),
-                                  sum(stages.values()) - stages.get("load", 0) - stages.get("queue", 0), index))  # fmt: skip
-            if pause:
-                time.sleep(pause)
+            samples.append(Sample(begun, time.monotonic() - begun, status, replica, stages.pop("load", 0),
+                                  queue_ms=stages.pop("queue", 0), work_ms=sum(stages.values()), scene=index))  # fmt: skip
 
     threads = [threading.Thread(target=client) for _ in range(clients)]
     for thread in threads:
@@ -133,10 +136,6 @@ def load_counts(servers):
         found += float(re.search(r'^gnomon_stage_duration_seconds_bucket\{stage="load",le="0.001"\} (\S+)', text, re.M)[1])
         frames += float(re.search(r'^gnomon_stage_duration_seconds_count\{stage="load"\} (\S+)', text, re.M)[1])
     return numpy.array([found, frames])
-
-
-def percentile(values, share):
-    return float(numpy.quantile(values, share)) if len(values) else float("nan")
 
 
 def median(values):
