@@ -28,7 +28,7 @@ DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
 BOTH_PROCESSES = ["protocol", "server/system", "server/wire"]
-FRONT = BOTH_PROCESSES + ["server/redis", "server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes",
+FRONT = BOTH_PROCESSES + ["server/redis", "server/http", "server/access", "server/scenes", "server/dispatch", "server/frames", "server/bakes", "server/jobs",
                           "server/metrics"]
 
 # Folder -> folders, or single headers, that its files may include.
@@ -67,6 +67,7 @@ MAY_INCLUDE = {
     "server/dispatch": BOTH_PROCESSES + ["server/scenes", "server/dispatch"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],
+    "server/jobs": BOTH_PROCESSES + ["server/jobs"],
     "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/metrics"],
     "server/handlers": FRONT + ["server/handlers"],
     "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],

@@ -54,6 +54,7 @@ BROKEN = [
     ("server/http/bad.cpp", "#include <hiredis/hiredis.h>\n", "belongs to server/redis alone"),
     ("server/redis/bad.cpp", '#include "server/http/http_server.cpp"\n', "not below server/redis"),
     ("server/http/bad.cpp", "#include <prometheus/counter.h>\n", "belongs to server/metrics alone"),
+    ("server/jobs/bad.cpp", '#include "server/http/http_server.cpp"\n', "not below server/jobs"),
     ("server/bad.cpp", '#include "clients/cli/commands.h"\n', "not below server"),
     ("server/bad.cpp", '  #  include "httplib.h"\n', "belongs to clients/cli/remote/http_client.cpp"),
     ("clients/cli/bad.cpp", '#include "server/http/http_server.cpp"\n', "not below clients/cli"),

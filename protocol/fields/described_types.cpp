@@ -1,6 +1,7 @@
 #include "protocol/bake/bake_rows.h"
 #include "protocol/evaluation/evaluation_rows.h"
 #include "protocol/fields/type_tables.h"
+#include "protocol/job/job_rows.h"
 #include "protocol/report/node_rows.h"
 #include "protocol/report/reply_rows.h"
 #include "protocol/sequence/sequence_rows.h"
@@ -33,6 +34,9 @@ template const ValueType& typeOf<EvaluationReport>();
 template const ValueType& typeOf<EvaluationRequest>();
 template const ValueType& typeOf<EvaluationRow>();
 template const ValueType& typeOf<EvaluationStep>();
+
+template const ValueType& typeOf<Job>();
+template const ValueType& typeOf<JobList>();
 
 template const ValueType& typeOf<Carried>();
 template const ValueType& typeOf<SequenceFrame>();

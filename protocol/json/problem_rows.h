@@ -37,7 +37,7 @@ static_assert(spellsAll<ProblemCode>());
 
 template <>
 inline constexpr auto kRows<Problem> =
-    rows("Problem", "One thing that is wrong.", field("code", &Problem::code, {.says = "What kind of thing."}),
+    rows("ProblemEntry", "One thing that is wrong.", field("code", &Problem::code, {.says = "What kind of thing."}),
          field("pointer", &Problem::pointer, {.says = "Where: a JSON pointer, a query key or the name of a part."}),
          field("detail", &Problem::detail, {.says = "One sentence for people."}),
          field("limit", &Problem::limit, {.says = "What would have been accepted."}),

@@ -200,6 +200,13 @@ Json evaluationsRoute() {
   return {{"post", withBody(withScene(std::move(post)), body)}};
 }
 
+Json sequenceForms() {
+  const Json events = {{"anyOf", {reference("schemas/SequenceFrame"), reference("schemas/SequenceReport")}}};
+  return {{"multipart/mixed", bytesContent()},
+          {"application/zip", bytesContent()},
+          {"text/event-stream", {{"schema", events}}}};
+}
+
 Json sequencesRoute() {
   const char* description =
       "Frames in order, sent as they are drawn, and at last a SequenceReport. multipart/mixed = a part for each "
@@ -208,15 +215,64 @@ Json sequencesRoute() {
       "the sequence goes on there), and last report.json, or problem.json; application/zip = the same files; "
       "text/event-stream = an event `frame` (SequenceFrame) for each, and at last `result` (SequenceReport) or "
       "`problem` (Problem). Whoever closes the connection ends the sequence.";
-  const Json events = {{"anyOf", {reference("schemas/SequenceFrame"), reference("schemas/SequenceReport")}}};
-  const Json content = {{"multipart/mixed", bytesContent()},
-                        {"application/zip", bytesContent()},
-                        {"text/event-stream", {{"schema", events}}}};
-  Json post = operation("renderSequence", "Render many frames in order",
-                        replies({{"200", success(description, content)}},
-                                {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  Json post =
+      operation("renderSequence", "Render many frames in order",
+                replies({{"200", success(description, sequenceForms())},
+                         {"202", success("A job that draws them.", {{"application/json", schemaContent("Job")}},
+                                         {"Location", "Preference-Applied"})}},
+                        {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
   const Json body = {{"required", true}, {"content", {{"application/json", schemaContent("SequenceRequest")}}}};
-  return {{"post", withBody(withScene(std::move(post)), body)}};
+  post = withBody(withScene(std::move(post)), body);
+  post["parameters"].push_back(
+      {{"name", "Prefer"},
+       {"in", "header"},
+       {"description", "respond-async (RFC 7240): a job draws the frames, and the reply says where it is."},
+       {"schema", {{"type", "string"}}}});
+  return {{"post", std::move(post)}};
+}
+
+Json jobRoute() {
+  const char* description =
+      "What it is doing. text/event-stream = an event `progress` (Job) for all that happens to it, and at last "
+      "`result` "
+      "(Job), whatever became of it.";
+  const Json content = {{"application/json", schemaContent("Job")},
+                        {"text/event-stream", {{"schema", reference("schemas/Job")}}}};
+  Json get = withJob(operation("getJob", "How far a job is",
+                               replies({{"200", success(description, content)}}, {"400", "404", "406", "503"})));
+  get["parameters"].push_back(
+      {{"name", "wait"},
+       {"in", "query"},
+       {"description", "Seconds to wait for its end, at most --request-timeout; Prefer: wait= does the same."},
+       {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  Json remove = operation("deleteJob", "End a job and remove its pictures",
+                          replies({{"204", success("It is gone.", Json())}}, {"404", "503"}));
+  return {{"get", std::move(get)}, {"delete", withJob(std::move(remove))}};
+}
+
+Json jobResultRoute() {
+  const char* description =
+      "All frames in order, in the forms of a sequence; those that are not drawn yet are sent when they are.";
+  Json get = operation("getJobResult", "The pictures of a job",
+                       replies({{"200", success(description, sequenceForms())}},
+                               {"400", "404", "406", "413", "422", "429", "500", "503", "504", "507"}));
+  return {{"get", withJob(std::move(get))}};
+}
+
+Json jobFrameRoute() {
+  Json content = {{"multipart/mixed", bytesContent()}};
+  for (const FormatTraits& format : kFormatTraits) content[std::string(format.mediaType)] = bytesContent();
+  Json get =
+      withJob(operation("getJobFrame", "A frame of a job",
+                        replies({{"200", success("Its picture; of several views multipart/mixed.", content, {"ETag"})}},
+                                {"304", "404", "406", "503"})));
+  get["parameters"].push_back({{"name", "index"},
+                               {"in", "path"},
+                               {"required", true},
+                               {"description", "Index of the frame."},
+                               {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  get["parameters"].push_back(reference("parameters/ifNoneMatch"));
+  return {{"get", std::move(get)}};
 }
 
 Json bakesRoute() {
@@ -311,6 +367,11 @@ Json paths() {
   paths["/v1/scenes/{id}/plan"] = planRoute();
   paths["/v1/scenes/{id}/evaluations"] = evaluationsRoute();
   paths["/v1/scenes/{id}/sequences"] = sequencesRoute();
+  paths["/v1/jobs"] = getRoute("listJobs", "The jobs of the client's key, the newest first",
+                               replies(jsonReply("All of them.", "JobList"), {"503"}));
+  paths["/v1/jobs/{id}"] = jobRoute();
+  paths["/v1/jobs/{id}/result"] = jobResultRoute();
+  paths["/v1/jobs/{id}/frames/{index}"] = jobFrameRoute();
   paths["/v1/scenes/{id}/bakes"] = bakesRoute();
   paths["/v1/scenes/{id}/bakes/{key}"] = bakeRoute();
   paths["/v1/render"] = renderRoute();

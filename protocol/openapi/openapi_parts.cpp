@@ -7,6 +7,7 @@
 #include "protocol/bake/bake_report.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
+#include "protocol/job/job.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/openapi/openapi_access.h"
 #include "protocol/report/node_list.h"
@@ -37,10 +38,10 @@ constexpr std::array kRefusals{
     Refusal{"429", "The server is busy, or the key has used up its share; Retry-After says when to try again."},
     Refusal{"500", "An internal error, or a failure of the graphics context."},
     Refusal{"503",
-            "The server is starting or shutting down, or what keeps its scenes is away; Retry-After says "
+            "The server is starting or shutting down, or what keeps its scenes and jobs is away; Retry-After says "
             "when to try again."},
     Refusal{"504", "The request's deadline passed before its work was done."},
-    Refusal{"507", "The scene store is full."},
+    Refusal{"507", "The scene store is full, or jobs have as much as they may."},
 };
 
 Json header(const char* description) {
@@ -58,7 +59,8 @@ Json headers() {
                                "one.")},
       {"Retry-After", header("Seconds.")},
       {"WWW-Authenticate", header("Bearer: that a key is asked for.")},
-      {"Location", header("Where the scene is.")},
+      {"Location", header("Where the scene, or the job, is.")},
+      {"Preference-Applied", header("respond-async (RFC 7240).")},
       {"Link", header("The next page, where there is one, as rel=next (RFC 8288).")}};
 }
 
@@ -69,6 +71,12 @@ Json parameters() {
             {"required", true},
             {"description", "SHA-256 of the upload, as 64 lower-case hexadecimal digits."},
             {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
+          {"jobId",
+           {{"name", "id"},
+            {"in", "path"},
+            {"required", true},
+            {"description", "The job's id, from the reply that made it."},
+            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{32}$"}}}}},
           {"bakeKey",
            {{"name", "key"},
             {"in", "path"},
@@ -117,6 +125,8 @@ Json schemas() {
   schemaOf<SequenceRequest>(Notes{}, components);
   schemaOf<SequenceFrame>(Notes{}, components);
   schemaOf<SequenceReport>(Notes{}, components);
+  schemaOf<Job>(Notes{}, components);
+  schemaOf<JobList>(Notes{}, components);
   schemaOf<BakeReport>(Notes{}, components);
   schemaOf<BakeStep>(Notes{}, components);
   components["Problem"] = problemSchema();
@@ -162,6 +172,11 @@ Json withScene(Json operation) {
 
 Json withBake(Json operation) {
   operation["parameters"] = Json::array({reference("parameters/sceneId"), reference("parameters/bakeKey")});
+  return operation;
+}
+
+Json withJob(Json operation) {
+  operation["parameters"] = Json::array({reference("parameters/jobId")});
   return operation;
 }
 

@@ -20,6 +20,7 @@ Json replies(Json good, std::initializer_list<const char*> statuses);
 Json operation(const char* id, const char* summary, Json responses);
 Json withScene(Json operation); ///< of a route with {id}
 Json withBake(Json operation);  ///< of a route with {id} and {key}
+Json withJob(Json operation);   ///< of a route with the {id} of a job
 Json withBody(Json operation, Json body);
 
 /// The schemas, responses, headers and parameters that the routes refer to.

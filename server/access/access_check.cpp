@@ -101,6 +101,7 @@ class AccessCheck {
       if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
       if (isSigned) dropSignature(asked);
       asked.client = key.name;
+      asked.key = key.name;
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
       keepPrivate(reply);

@@ -16,6 +16,7 @@
 #include "server/http/connection.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
+#include "server/jobs/job_queue.h"
 #include "server/scenes/scene_store.h"
 
 namespace gnomon {
@@ -25,6 +26,8 @@ struct Services {
   SceneStore& store;
   Dispatcher& workers;
   ByteBudget& replyBytes; ///< that of the connections, for what handlers hold of replies before it is sent
+  JobQueue& jobs;
+  JobLimits jobLimits{};
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
@@ -59,6 +62,12 @@ HttpReply renderDrake(Services& services, RouteCall call); ///< POST /render
 HttpReply postEvaluation(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/evaluations
 
 HttpReply postSequence(Services& services, RouteCall call); ///< POST /v1/scenes/{id}/sequences
+
+HttpReply listJobs(Services& services, RouteCall call);     ///< GET /v1/jobs
+HttpReply getJob(Services& services, RouteCall call);       ///< GET /v1/jobs/{id}
+HttpReply deleteJob(Services& services, RouteCall call);    ///< DELETE /v1/jobs/{id}
+HttpReply getJobResult(Services& services, RouteCall call); ///< GET /v1/jobs/{id}/result
+HttpReply getJobFrame(Services& services, RouteCall call);  ///< GET /v1/jobs/{id}/frames/{index}
 
 HttpReply postBake(Services& services, RouteCall call);   ///< POST /v1/scenes/{id}/bakes
 HttpReply getBake(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}/bakes/{key}

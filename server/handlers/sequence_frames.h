@@ -6,54 +6,46 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
-#include "protocol/cost/frame_cost.h"
-#include "protocol/sequence/sequence_json.h"
-#include "server/handlers/handlers.h"
-#include "server/handlers/work.h"
-#include "server/wire/sequence_news.h"
+#include "server/handlers/sequence_frame.h"
 
 namespace gnomon {
 
-/// A frame of a sequence, or why there is none.
-struct DoneFrame {
-  int index = 0;
-  Problems problems{}; ///< with places in the request
-  TaskResult result{}; ///< where there are problems: who refused
-  std::vector<PictureNews> pictures{};
-  Bytes bytes{};                     ///< of the pictures, one after the other
-  std::unique_ptr<ByteLease> room{}; ///< for the bytes, beside all replies that clients are taking
-  Carried carried{};                 ///< for the next frame
-  std::vector<std::string> warnings{};
-  double milliseconds = 0; ///< since its beginning
+/// Frames of a sequence, in order, as a reply sends them.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  virtual bool atEnd() const = 0;
+  virtual int count() const = 0; ///< of the whole sequence
+
+  /// The next frame. `waiting` is called every few seconds until it is there. After one with problems there is none.
+  /// REQUIRES: not atEnd().
+  virtual DoneFrame next(const std::function<void()>& waiting) = 0;
 };
 
 /// Has workers draw the frames of a sequence, each as a task of its own, at most two at once: a frame begins once the
 /// one before it is drawn, while that is encoded and sent. Who takes frames slowly holds up the frames after the next.
 /// A frame for whose bytes there is no room is dropped, and drawn again once there is: only the first one gives up.
-class SequenceFrames {
+class SequenceFrames final : public FrameSource {
  public:
   /// `task`: what every frame's task begins with; its deadline is that of the whole sequence. `permit` is held as long
   /// as this lives.
   SequenceFrames(Services& services, Sequence sequence, SceneCounts counts, Task task, Permit permit,
                  std::function<bool()> clientGone);
-  ~SequenceFrames(); ///< stops what is in work, and waits for it
+  ~SequenceFrames() override; ///< stops what is in work, and waits for it
   SequenceFrames(const SequenceFrames&) = delete;
   SequenceFrames& operator=(const SequenceFrames&) = delete;
 
-  bool atEnd() const { return inWork_.empty() && next_ == sequence_.count; }
-  int count() const { return sequence_.count; }
-
-  /// The next frame. `waiting` is called every few seconds until it is there. After one with problems there is none.
-  /// REQUIRES: not atEnd().
-  DoneFrame next(const std::function<void()>& waiting);
+  bool atEnd() const override { return inWork_.empty() && next_ == sequence_.count; }
+  int count() const override { return sequence_.count; }
+  DoneFrame next(const std::function<void()>& waiting) override;
 
  private:
   struct FrameInWork {
     DoneFrame frame;
+    std::unique_ptr<ByteLease> room;
+    std::size_t expected = 0; ///< bytes for which there has to be room before it is drawn
     bool isDrawn = false;
     bool lacksRoom = false; ///< it was dropped, and waits
     bool isDone = false;
@@ -61,15 +53,12 @@ class SequenceFrames {
   };
 
   void begin();
-  void work(FrameInWork& inWork, Task task, std::size_t expected);
-  void end(FrameInWork& inWork, Problems problems);
-  TaskResult runWithRoom(FrameInWork& inWork, Task& task, std::size_t expected);
-  bool awaitRoom(FrameInWork& inWork, std::size_t bytes);
+  void work(FrameInWork& inWork, FrameToDraw call);
+  void end(FrameInWork& inWork, DoneFrame frame);
+  bool awaitRoom(FrameInWork& inWork);
   bool takeRoom(FrameInWork& inWork, std::size_t bytes);
   bool isNext(const FrameInWork& inWork) const;
   bool gone() const { return stopped_ || clientGone_(); }
-  TaskResult runPatiently(FrameInWork& inWork, const Task& task);
-  void hear(FrameInWork& inWork, const OrderEvent& event);
   bool mayBegin() const;
 
   Services& services_;

@@ -3,11 +3,15 @@
 
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
+#include "protocol/job/job_json.h"
 #include "protocol/sequence/sequence_json.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/job_reply.h"
 #include "server/handlers/sequence_reply.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
+#include "server/jobs/job_id.h"
+#include "server/jobs/job_problems.h"
 
 namespace gnomon {
 namespace {
@@ -20,19 +24,73 @@ HttpReply refusal(Problem problem, RefusalReason reason, const std::string& requ
   return reply;
 }
 
-/// Why the frames can't be done in time.
-std::optional<Problem> tooMuchWork(const Services& services, double ofAll, double ofLongest) {
-  const auto all = static_cast<double>(services.sequenceTimeout.count());
+/// A sequence that was asked for, and an estimate of its work.
+struct AskedSequence {
+  Sequence sequence{};
+  SceneCounts counts{};
+  double ofAll = 0;     ///< milliseconds
+  double ofLongest = 0; ///< milliseconds
+  bool isChained = false;
+};
+
+/// Whether the frame's shadows may depend on the frame before it: the scene's own lights may be directional, too.
+bool mayCarry(const FrameSpec& spec) {
+  return !spec.lights || std::any_of(spec.lights->begin(), spec.lights->end(),
+                                     [](const Light& light) { return light.type == LightType::directional; });
+}
+
+Result<AskedSequence> read(Services& services, const RouteCall& call) {
+  AskedSequence asked{.counts = services.store.counts(call.values.at("id")).value_or(SceneCounts())};
+  auto sequence = decodeSequence(asText(call.request.body), [&](const FrameSpec& spec) {
+    const double estimate = services.workers.milliseconds(frameCost(spec, asked.counts));
+    asked.ofAll += estimate;
+    asked.ofLongest = std::max(asked.ofLongest, estimate);
+    asked.isChained = asked.isChained || mayCarry(spec);
+  });
+  if (!sequence) return sequence.problems();
+  asked.sequence = *std::move(sequence);
+  asked.isChained = asked.isChained && asked.sequence.stable;
+  return asked;
+}
+
+/// Why a frame can't be done in time.
+std::optional<Problem> tooLongFrame(const Services& services, const AskedSequence& asked) {
   const auto each = static_cast<double>(services.requestTimeout.count());
-  if (ofLongest > each * kDoubt) {
-    return Problem{ProblemCode::tooLarge, "",
-                   "One of the frames is more work than can be done in the time of a frame (--request-timeout).",
-                   secondsText(each), "about " + secondsText(ofLongest)};
-  }
-  if (ofAll <= all * kDoubt) return std::nullopt;
+  if (asked.ofLongest <= each * kDoubt) return std::nullopt;
+  return Problem{ProblemCode::tooLarge, "",
+                 "One of the frames is more work than can be done in the time of a frame (--request-timeout).",
+                 secondsText(each), "about " + secondsText(asked.ofLongest)};
+}
+
+/// Why the frames can't be done in time.
+std::optional<Problem> tooMuchWork(const Services& services, const AskedSequence& asked) {
+  if (auto problem = tooLongFrame(services, asked)) return problem;
+  const auto all = static_cast<double>(services.sequenceTimeout.count());
+  if (asked.ofAll <= all * kDoubt) return std::nullopt;
   return Problem{ProblemCode::tooLarge, "",
                  "The frames are more work together than can be done in the time of a sequence (--sequence-timeout).",
-                 secondsText(all), "about " + secondsText(ofAll)};
+                 secondsText(all), "about " + secondsText(asked.ofAll)};
+}
+
+/// A job for the sequence, and where it is.
+HttpReply putJob(Services& services, const RouteCall& call, const AskedSequence& asked) {
+  const NewJob job{.id = newJobId(),
+                   .key = call.request.key,
+                   .client = call.request.client,
+                   .scene = call.values.at("id"),
+                   .request = std::string(asText(call.request.body)),
+                   .first = asked.sequence.first,
+                   .count = asked.sequence.count,
+                   .isChained = asked.isChained,
+                   .carried = asked.sequence.carried};
+  if (const auto kept = services.jobs.put(job); !kept) return jobProblem(kept.problems(), call);
+  const Job told = jobOf(queuedProgress(job), services.jobLimits.age);
+  HttpReply reply = jsonReply(toJson(told), 202);
+  reply.headers = {{"Location", told.address},
+                   {"Preference-Applied", "respond-async"},
+                   {"Vary", "Prefer"},
+                   {"Cache-Control", "no-store"}};
+  return reply;
 }
 
 } // namespace
@@ -50,25 +108,20 @@ HttpReply postSequence(Services& services, RouteCall call) {
     return refusal({ProblemCode::busy, "", "The most sequences that may run at once are running.", "", ""},
                    RefusalReason::permits, requestId);
   }
-  const SceneCounts counts = services.store.counts(id).value_or(SceneCounts());
-  double ofAll = 0;
-  double ofLongest = 0;
-  auto sequence = decodeSequence(asText(call.request.body), [&](const FrameSpec& spec) {
-    const double estimate = services.workers.milliseconds(frameCost(spec, counts));
-    ofAll += estimate;
-    ofLongest = std::max(ofLongest, estimate);
-  });
-  if (!sequence) return problemReply(sequence.problems(), requestId);
-  if (auto problem = tooMuchWork(services, ofAll, ofLongest)) {
+  auto asked = read(services, call);
+  if (!asked) return problemReply(asked.problems(), requestId);
+  const bool isJob = prefersAsync(call.request);
+  if (auto problem = isJob ? tooLongFrame(services, *asked) : tooMuchWork(services, *asked)) {
     return refusal(*std::move(problem), RefusalReason::cost, requestId);
   }
+  if (isJob) return putJob(services, call, *asked);
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);
   call.request.body = Bytes();
   Task task = taskFor(call, OrderKind::sequenceFrame, id, *std::move(bundle), {}, services.sequenceTimeout);
   task.lane = Lane::sequence;
-  auto frames = std::make_shared<SequenceFrames>(services, *std::move(sequence), counts, std::move(task), permit,
-                                                 call.clientGone);
+  auto frames = std::make_shared<SequenceFrames>(services, std::move(asked->sequence), asked->counts, std::move(task),
+                                                 permit, call.clientGone);
   std::optional<DoneFrame> first;
   if (kSequenceForms[*form] != kEventStream) { // what the scene can't meet is then a refusal with its own status
     first = frames->next([] {});

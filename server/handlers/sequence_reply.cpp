@@ -60,18 +60,20 @@ class MultipartForm final : public SequenceForm {
   explicit MultipartForm(std::string boundary) : boundary_(std::move(boundary)) {}
 
   bool frame(const BodySink& sink, const DoneFrame& frame, int) override {
-    const std::string carried = jsonText(toJson(frame.carried));
+    return pictures(sink, frame, "\r\nGnomon-Carried: " + jsonText(toJson(frame.carried)));
+  }
+  bool pictures(const BodySink& sink, const DoneFrame& frame, const std::string& more) const {
     return eachPicture(frame, [&](const PictureNews& picture, const SentFile& file) {
       return part(sink, file,
-                  "\r\nGnomon-Frame: " + std::to_string(frame.index) + "\r\nGnomon-View: " + picture.view +
-                      "\r\nGnomon-Carried: " + carried);
+                  "\r\nGnomon-Frame: " + std::to_string(frame.index) + "\r\nGnomon-View: " + picture.view + more);
     });
   }
+  bool end(const BodySink& sink) const { return sink("--" + boundary_ + "--\r\n"); }
   bool report(const BodySink& sink, std::string_view json) override {
-    return part(sink, {"report.json", "application/json", json}, "") && sink("--" + boundary_ + "--\r\n");
+    return part(sink, {"report.json", "application/json", json}, "") && end(sink);
   }
   bool problem(const BodySink& sink, std::string_view json) override {
-    return part(sink, {"problem.json", "application/problem+json", json}, "") && sink("--" + boundary_ + "--\r\n");
+    return part(sink, {"problem.json", "application/problem+json", json}, "") && end(sink);
   }
 
  private:
@@ -142,6 +144,12 @@ std::unique_ptr<SequenceForm> formOf(std::string_view mediaType, const std::stri
   return std::make_unique<MultipartForm>(boundary);
 }
 
+std::string boundaryFor(const RouteCall& call) {
+  Sha256 hash; // of what no picture holds by chance
+  hash.add(call.request.id + call.request.trace.traceId);
+  return "gnomon-" + hash.hex().substr(0, 32);
+}
+
 /// Adds a frame to the report.
 void note(const DoneFrame& frame, SequenceReport& report) {
   constexpr std::size_t kMostWarnings = 32;
@@ -154,7 +162,7 @@ void note(const DoneFrame& frame, SequenceReport& report) {
 }
 
 /// Sends everything. Returns what became of it.
-StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, SequenceFrames& frames,
+StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, FrameSource& frames,
                            std::optional<DoneFrame> first, SequenceReport report, const std::string& requestId) {
   const auto start = Clock::now();
   const double before = first ? first->milliseconds : 0;
@@ -181,11 +189,28 @@ StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, SequenceFra
 
 } // namespace
 
-HttpReply sequenceReply(std::string_view form, const RouteCall& call, std::shared_ptr<SequenceFrames> frames,
+HttpReply frameReply(const DoneFrame& frame, const RouteCall& call) {
+  HttpReply reply;
+  if (frame.pictures.size() == 1) {
+    reply.contentType = frame.pictures.front().contentType;
+    reply.body = asText(frame.bytes);
+    return reply;
+  }
+  const std::string boundary = boundaryFor(call);
+  reply.contentType = "multipart/mixed; boundary=" + boundary;
+  const BodySink sink = [&](std::string_view piece) {
+    reply.body += piece;
+    return true;
+  };
+  MultipartForm form(boundary);
+  form.pictures(sink, frame, "");
+  form.end(sink);
+  return reply;
+}
+
+HttpReply sequenceReply(std::string_view form, const RouteCall& call, std::shared_ptr<FrameSource> frames,
                         std::optional<DoneFrame> first, RendererInfo renderer) {
-  Sha256 hash; // of what no picture holds by chance
-  hash.add(call.request.id + call.request.trace.traceId);
-  const std::string boundary = "gnomon-" + hash.hex().substr(0, 32);
+  const std::string boundary = boundaryFor(call);
   HttpReply reply;
   reply.contentType = form;
   if (form == "multipart/mixed") reply.contentType += "; boundary=" + boundary;

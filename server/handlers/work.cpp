@@ -14,18 +14,8 @@
 namespace gnomon {
 namespace {
 
-/// Seconds of "wait=SECONDS" in a Prefer header; nothing where there is none.
-std::optional<int> preferredWait(const HttpRequest& request) {
-  constexpr std::string_view kWait = "wait=";
-  const auto prefer = headerValue(request.headers, "prefer");
-  for (const std::string& preference : splitTrimmed(prefer.value_or(""), ',')) {
-    if (!preference.starts_with(kWait)) continue;
-    int seconds = 0;
-    const char* const end = preference.data() + preference.size();
-    const auto [rest, error] = std::from_chars(preference.data() + kWait.size(), end, seconds);
-    if (error == std::errc() && rest == end && seconds > 0) return seconds;
-  }
-  return std::nullopt;
+std::vector<std::string> preferences(const HttpRequest& request) {
+  return splitTrimmed(headerValue(request.headers, "prefer").value_or(""), ',');
 }
 
 RefusalReason refusalOf(TaskRefusal refusal) {
@@ -35,6 +25,24 @@ RefusalReason refusalOf(TaskRefusal refusal) {
 }
 
 } // namespace
+
+std::optional<int> preferredWait(const HttpRequest& request) {
+  constexpr std::string_view kWait = "wait=";
+  for (const std::string& preference : preferences(request)) {
+    if (!preference.starts_with(kWait)) continue;
+    int seconds = 0;
+    const char* const end = preference.data() + preference.size();
+    const auto [rest, error] = std::from_chars(preference.data() + kWait.size(), end, seconds);
+    if (error == std::errc() && rest == end && seconds > 0) return seconds;
+  }
+  return std::nullopt;
+}
+
+bool prefersAsync(const HttpRequest& request) {
+  const auto all = preferences(request);
+  return std::any_of(all.begin(), all.end(),
+                     [](const std::string& preference) { return lowerCase(preference) == "respond-async"; });
+}
 
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
              std::chrono::milliseconds timeout) {

@@ -15,6 +15,12 @@
 /// How handlers have workers do the work.
 namespace gnomon {
 
+/// Seconds of "wait=SECONDS" in a Prefer header (RFC 7240); nothing where there is none.
+std::optional<int> preferredWait(const HttpRequest& request);
+
+/// Whether a Prefer header has "respond-async".
+bool prefersAsync(const HttpRequest& request);
+
 /// A task for the scene of a bundle, which ends `timeout` after the request's first byte, or earlier where the client's
 /// Prefer: wait=SECONDS (RFC 7240) says so.
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,

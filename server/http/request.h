@@ -67,6 +67,7 @@ struct HttpRequest {
   Bytes body;
   TraceContext trace;
   std::string client;                       ///< its address (client_address.h), or the name of its key
+  std::string key;                          ///< the name of its key; empty = the server has none
   Clock::time_point arrived = Clock::now(); ///< its first byte
 };
 

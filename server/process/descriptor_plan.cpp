@@ -14,6 +14,7 @@ constexpr std::size_t kPerWorker = 8;  ///< its channel and process, and those o
 constexpr std::size_t kLeastLeft = 64;
 constexpr std::size_t kMostConnections = 2'048;
 constexpr std::size_t kMostScenes = 65'536;
+constexpr std::size_t kMostJobs = 256;
 
 } // namespace
 
@@ -36,9 +37,10 @@ Result<DescriptorPlan> planDescriptors(std::size_t descriptors, std::size_t http
                        std::to_string(least) + ".",
                    std::to_string(least), std::to_string(descriptors)};
   }
-  const std::size_t left = descriptors - atWork;
+  const std::size_t jobs = std::min((descriptors - atWork) / 8, kMostJobs);
+  const std::size_t left = descriptors - atWork - jobs;
   const std::size_t scenes = keepsScenesInMemory ? std::min(left / 2, kMostScenes) : 0;
-  return DescriptorPlan{std::min(left - scenes, kMostConnections), scenes};
+  return DescriptorPlan{std::min(left - scenes, kMostConnections), scenes, jobs};
 }
 
 } // namespace gnomon

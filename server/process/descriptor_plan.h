@@ -10,6 +10,7 @@ namespace gnomon {
 struct DescriptorPlan {
   std::size_t waitingConnections = 0; ///< those that have no request to serve (ConnectionLimits::maxWaiting)
   std::size_t scenesInMemory = 0;     ///< each is a file in memory; 0 where a directory keeps them
+  std::size_t jobs = 0;               ///< each has a file for its pictures
 };
 
 /// Asks the system for as many descriptors as it allows. How many that are.

@@ -16,9 +16,11 @@
 #include "server/access/access_check.h"
 #include "server/access/key_ring.h"
 #include "server/handlers/drake_form.h"
+#include "server/handlers/job_takers.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
+#include "server/jobs/local_jobs.h"
 #include "server/metrics/metrics_text.h"
 #include "server/process/admin_address.h"
 #include "server/process/descriptor_plan.h"
@@ -207,9 +209,16 @@ int serve(const ServeOptions& options) {
     return failed(workers.problems());
   }
   ByteBudget replyBytes(options.replyMemoryBytes);
+  const JobLimits jobLimits{.jobs = descriptors->jobs,
+                            .jobsOfClient = options.jobsPerClient,
+                            .bytes = options.jobBytes,
+                            .age = std::chrono::seconds(options.jobAgeSeconds)};
+  LocalJobs jobs(jobLimits, redis::isAddress(options.store) ? "" : options.store);
   Services services{.store = *store->scenes,
                     .workers = **workers,
                     .replyBytes = replyBytes,
+                    .jobs = jobs,
+                    .jobLimits = jobLimits,
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
@@ -250,6 +259,7 @@ int serve(const ServeOptions& options) {
     if (!opened) return failed(opened.problems());
     admin = *std::move(opened);
   }
+  const JobTakers takers(services, options.jobFrames > 0 ? options.jobFrames : workersOf(options));
   const std::string address = addressOf(options.bind, (*server)->port());
   logEvent("listening", address);
   std::printf("listening on %s\n", address.c_str());

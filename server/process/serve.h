@@ -56,6 +56,12 @@ struct ServeOptions {
   int maxSequences = 2;                      ///< >= 1; sequences that may run at once (429)
   std::string drakeSpecFile; ///< a FrameSpec (drake_form.h) for the color pictures of POST /render; empty = the default
 
+  // Jobs
+  std::size_t jobFrames = 0;           ///< frames of jobs that are drawn at once; 0 = as many as there are workers
+  std::size_t jobsPerClient = 16;      ///< >= 1; jobs that are kept for one client (429)
+  std::uint64_t jobBytes = 1ull << 30; ///< requests and pictures of all jobs (507)
+  std::int64_t jobAgeSeconds = 86'400; ///< >= 1; a job is removed so long after its last frame
+
   // Timeouts
   int requestTimeoutSeconds = 60;     ///< >= 1; from the arrival of a request to its frame (504)
   int evaluationTimeoutSeconds = 600; ///< >= 1; from the arrival of an evaluation to its report (504)

@@ -10,9 +10,10 @@ namespace gnomon {
 namespace {
 
 constexpr int kDay = 86'400; // seconds
+const std::map<std::string, std::int64_t> kTimeUnits{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 41);
+static_assert(memberCount<ServeOptions>() == 45);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -83,13 +84,12 @@ void addWhere(CLI::App& serve, ServeOptions& options) {
       ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("BYTES")
       ->group("Address and storage");
-  const std::map<std::string, std::int64_t> units{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
   serve
       .add_option("--store-age", options.storeAgeSeconds,
                   "Scenes in that store that nobody has uploaded or drawn for so long are removed: seconds, or as "
                   "12h, 30d. 0 = never")
       ->envname("GNOMON_STORE_AGE")
-      ->transform(CLI::AsNumberWithUnit(units).description(""))
+      ->transform(CLI::AsNumberWithUnit(kTimeUnits).description(""))
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{3'650} * kDay).description(""))
       ->type_name("SECONDS")
       ->group("Address and storage");
@@ -217,6 +217,36 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
       ->group("Limits");
 }
 
+void addJobs(CLI::App& serve, ServeOptions& options) {
+  serve
+      .add_option("--job-frames", options.jobFrames,
+                  "Frames of jobs that are drawn at once; 0 = as many as there are workers")
+      ->envname("GNOMON_JOB_FRAMES")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{512}))
+      ->group("Jobs");
+  serve
+      .add_option("--max-jobs", options.jobsPerClient,
+                  "Jobs that are kept for one client, whatever their state; 429 beyond it")
+      ->envname("GNOMON_MAX_JOBS")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{256}))
+      ->group("Jobs");
+  serve
+      .add_option("--job-bytes", options.jobBytes,
+                  "Requests and pictures of all jobs, kept in the directory of --store or in memory; 507 beyond it")
+      ->envname("GNOMON_JOB_BYTES")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("BYTES")
+      ->group("Jobs");
+  serve
+      .add_option("--job-age", options.jobAgeSeconds,
+                  "A job is removed with its pictures so long after its last frame: seconds, or as 12h, 7d")
+      ->envname("GNOMON_JOB_AGE")
+      ->transform(CLI::AsNumberWithUnit(kTimeUnits).description(""))
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{3'650} * kDay).description(""))
+      ->type_name("SECONDS")
+      ->group("Jobs");
+}
+
 void addHowLong(CLI::App& serve, ServeOptions& options) {
   const auto add = [&](const char* flag, const char* variable, int& seconds, int least, const char* says) {
     serve.add_option(flag, seconds, says)
@@ -246,6 +276,7 @@ void addServeFlags(CLI::App& command, ServeOptions& options) {
   addWhere(command, options);
   addWhatDraws(command, options);
   addHowMuch(command, options);
+  addJobs(command, options);
   addHowLong(command, options);
 }
 

@@ -23,6 +23,11 @@ ROUTES = [
     ("POST", f"/v1/scenes/{MISSING}/plan", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/evaluations", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/sequences", {"render"}),
+    ("GET", "/v1/jobs", {"render"}),
+    ("GET", f"/v1/jobs/{MISSING}", {"render"}),
+    ("DELETE", f"/v1/jobs/{MISSING}", {"render"}),
+    ("GET", f"/v1/jobs/{MISSING}/result", {"render"}),
+    ("GET", f"/v1/jobs/{MISSING}/frames/x", {"render"}),
     ("POST", f"/v1/scenes/{MISSING}/bakes", {"render"}),
     ("GET", f"/v1/scenes/{MISSING}/bakes/x", {"render"}),
     ("DELETE", f"/v1/scenes/{MISSING}/bakes/x", {"render"}),
@@ -87,7 +92,7 @@ class Access(unittest.TestCase):
         for path, operations in server.get("/openapi.json").json()["paths"].items():
             for method, operation in operations.items():
                 keys = [set(each["key"]) for each in operation.get("security", []) if "key" in each]
-                published[method.upper(), path.replace("{id}", MISSING).replace("{key}", "x")] = keys
+                published[method.upper(), path.replace("{id}", MISSING).replace("{key}", "x").replace("{index}", "x")] = keys
         for method, path, needed in ROUTES:
             self.assertEqual(published.pop((method, path)), [needed], path)
         for (method, path), keys in published.items():

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 
+#include "server/jobs/local_jobs.h"
 #include "server/scenes/upload.h"
 #include "tests/support/glb_builder.h"
 
@@ -83,7 +84,9 @@ class SequenceFramesTest : public ::testing::Test {
   std::unique_ptr<SceneStore> store_ = *SceneStore::open({});
   std::unique_ptr<Dispatcher> workers_ = start();
   ByteBudget room_{5 * kFrameBytes / 2};
-  Services services_{.store = *store_, .workers = *workers_, .replyBytes = room_, .limits = kLimits, .page = {}};
+  LocalJobs jobs_{{}, ""};
+  Services services_{
+      .store = *store_, .workers = *workers_, .replyBytes = room_, .jobs = jobs_, .limits = kLimits, .page = {}};
 };
 
 TEST_F(SequenceFramesTest, ThoseThatNobodyTakesHoldNoMoreThanThereIs) {

@@ -13,6 +13,7 @@ TEST(DescriptorPlan, WhatIsAtWorkAndWhatWaitsNeverNeedMoreThanThereAre) {
       ASSERT_TRUE(plan) << descriptors;
       EXPECT_LT(plan->waitingConnections + plan->scenesInMemory + 128 * 5, descriptors);
       EXPECT_GE(plan->waitingConnections, 32u);
+      EXPECT_GE(plan->jobs, 16u);
       EXPECT_EQ(plan->scenesInMemory > 0, inMemory);
     }
   }

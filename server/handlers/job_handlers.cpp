@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/text.h"
+#include "protocol/job/job_json.h"
+#include "server/handlers/event_reply.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/job_frames.h"
+#include "server/handlers/job_reply.h"
+#include "server/handlers/sequence_reply.h"
+#include "server/handlers/work.h"
+#include "server/http/negotiation.h"
+#include "server/jobs/job_problems.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::array<std::string_view, 2> kJobForms{"application/json", kEventStream};
+
+/// A whole number of a query or a path; nothing where it is none.
+std::optional<int> wholeNumber(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+/// How long the client wants to wait for the job's end: by ?wait=, or by Prefer: wait=, which may ask for more than it
+/// gets.
+Result<std::chrono::seconds> waitOf(const Services& services, const HttpRequest& request) {
+  const auto most = std::chrono::duration_cast<std::chrono::seconds>(services.requestTimeout);
+  std::optional<std::chrono::seconds> asked;
+  for (const auto& [key, value] : request.query) {
+    if (key != "wait" || asked) {
+      return Problem{ProblemCode::invalidValue, "/" + asciiExcerpt(key),
+                     asked ? "The query key is repeated." : "There is no query key of this name.", "wait", ""};
+    }
+    const auto seconds = wholeNumber(value);
+    if (!seconds || std::chrono::seconds(*seconds) > most) {
+      return Problem{ProblemCode::invalidValue, "/wait", "This is no time for which a job can be waited for.",
+                     "0.." + std::to_string(most.count()) + " seconds", asciiExcerpt(value)};
+    }
+    asked = std::chrono::seconds(*seconds);
+  }
+  const std::chrono::seconds preferred(preferredWait(request).value_or(0));
+  return asked.value_or(std::min(preferred, most));
+}
+
+HttpReply replyOfJob(const Services& services, const JobProgress& progress) {
+  HttpReply reply = jsonReply(toJson(jobOf(progress, services.jobLimits.age)));
+  reply.headers = {{"Cache-Control", "no-store"}, {"Vary", "Accept"}};
+  return reply;
+}
+
+/// An event for each frame that is drawn, and at last one for the end.
+HttpReply eventsOfJob(Services& services, const RouteCall& call, JobProgress job) {
+  return eventReply(call,
+                    [&services, job = std::move(job), until = call.request.arrived + services.sequenceTimeout,
+                     requestId = call.request.id](const std::function<bool()>& gone, EventStream& events) mutable {
+                      const auto text = [&] { return jsonText(toJson(jobOf(job, services.jobLimits.age))); };
+                      const auto isOver = [&] { return job.isEnded() || job.state == JobState::cancelled; };
+                      events.put("progress", text());
+                      while (!isOver() && !gone() && !services.draining && Clock::now() < until) {
+                        auto news = newsOf(services, job, until, gone);
+                        if (!news) {
+                          events.put("problem", problemText(news.problems(), requestId));
+                          return StreamResult{.problem = news.problems().front().detail};
+                        }
+                        job = *std::move(news);
+                        if (!isOver()) events.put("progress", text());
+                      }
+                      if (isOver()) events.put("result", text());
+                      return StreamResult{};
+                    });
+}
+
+} // namespace
+
+HttpReply listJobs(Services& services, RouteCall call) {
+  const auto found = services.jobs.list(call.request.key);
+  if (!found) return jobProblem(found.problems(), call);
+  JobList list;
+  for (const JobProgress& progress : *found) list.jobs.push_back(jobOf(progress, services.jobLimits.age));
+  HttpReply reply = jsonReply(toJson(list));
+  reply.headers = {{"Cache-Control", "no-store"}};
+  return reply;
+}
+
+HttpReply getJob(Services& services, RouteCall call) {
+  const auto accept = headerValue(call.request.headers, "accept");
+  const auto form = preferred(accept, kJobForms);
+  if (!form) return problemReply({notAcceptable("A job", accept, kJobForms)}, call.request.id);
+  const auto wait = waitOf(services, call.request);
+  if (!wait) return problemReply(wait.problems(), call.request.id);
+  auto job = jobAt(services, call);
+  if (!job) return jobProblem(job.problems(), call);
+  if (kJobForms[*form] == kEventStream) return eventsOfJob(services, call, *std::move(job));
+  const auto until = Clock::now() + *wait;
+  while (!job->isEnded() && job->state != JobState::cancelled && Clock::now() < until && !call.clientGone() &&
+         !services.draining) {
+    job = newsOf(services, *job, until, call.clientGone);
+    if (!job) return jobProblem(job.problems(), call);
+  }
+  return replyOfJob(services, *job);
+}
+
+HttpReply deleteJob(Services& services, RouteCall call) {
+  const auto job = jobAt(services, call);
+  if (!job) return jobProblem(job.problems(), call);
+  const auto removed = services.jobs.remove(job->id);
+  if (!removed) return jobProblem(removed.problems(), call);
+  if (!*removed) return problemReply({unknownJob(job->id)}, call.request.id);
+  HttpReply reply;
+  reply.status = 204;
+  return reply;
+}
+
+HttpReply getJobResult(Services& services, RouteCall call) {
+  const auto accept = headerValue(call.request.headers, "accept");
+  const auto form = preferred(accept, kSequenceForms);
+  if (!form) return problemReply({notAcceptable("A job's result", accept, kSequenceForms)}, call.request.id);
+  auto job = jobAt(services, call);
+  if (!job) return jobProblem(job.problems(), call);
+  if (job->state == JobState::failed && job->done == 0) return jobProblem(job->problems, call);
+  auto frames = std::make_shared<JobFrames>(services, *std::move(job), call.request.arrived + services.sequenceTimeout,
+                                            call.clientGone);
+  return sequenceReply(kSequenceForms[*form], call, std::move(frames), std::nullopt, services.workers.info());
+}
+
+HttpReply getJobFrame(Services& services, RouteCall call) {
+  const auto job = jobAt(services, call);
+  if (!job) return jobProblem(job.problems(), call);
+  const std::string& asked = call.values.at("index");
+  const auto index = wholeNumber(asked);
+  if (!index || *index < job->first || *index >= job->count) {
+    return problemReply({{ProblemCode::notFound, "index", "The job has no frame of this index.",
+                          std::to_string(job->first) + ".." + std::to_string(job->count - 1), asciiExcerpt(asked)}},
+                        call.request.id);
+  }
+  const auto note = services.jobs.note(job->id, *index);
+  if (!note) return jobProblem(note.problems(), call);
+  const Problem notDrawn{ProblemCode::notFound, "index", "This frame is not drawn yet.", "", asciiExcerpt(asked)};
+  if (!*note) return problemReply({notDrawn}, call.request.id);
+  const std::vector<PictureNews>& pictures = (*note)->pictures;
+  const std::array<std::string_view, 1> offers{pictures.size() == 1 ? std::string_view(pictures[0].contentType)
+                                                                    : "multipart/mixed"};
+  const auto accept = headerValue(call.request.headers, "accept");
+  if (!preferred(accept, offers)) return problemReply({notAcceptable("The frame", accept, offers)}, call.request.id);
+  const std::string etag = '"' + (*note)->contentKey + '"';
+  const auto known = headerValue(call.request.headers, "if-none-match");
+  HttpReply reply;
+  if (known && etagMatches(*known, etag)) {
+    reply.status = 304;
+  } else {
+    auto frame = services.jobs.frame(job->id, *index);
+    if (!frame) return jobProblem(frame.problems(), call);
+    if (!*frame) return problemReply({notDrawn}, call.request.id);
+    reply = frameReply({.index = *index, .pictures = pictures, .bytes = std::move((*frame)->bytes)}, call);
+  }
+  reply.headers.emplace_back("ETag", etag);
+  reply.headers.emplace_back("Cache-Control", "private, no-cache");
+  reply.headers.emplace_back("Gnomon-Frame", std::to_string(*index));
+  return reply;
+}
+
+} // namespace gnomon

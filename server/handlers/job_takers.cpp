@@ -1,0 +1,168 @@
+#include "server/handlers/job_takers.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+
+#include "protocol/json/json_codec.h"
+#include "server/handlers/sequence_frame.h"
+#include "server/system/log.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::chrono::milliseconds kShortest{100}; ///< pause where the queue can't be reached
+constexpr std::chrono::milliseconds kLongest{5'000};
+
+/// Whether the frame may be drawn another time.
+bool passes(const Problem& problem) {
+  return problem.code == ProblemCode::unavailable || problem.code == ProblemCode::busy ||
+         problem.code == ProblemCode::deadlineExceeded;
+}
+
+/// SHA-256 of all that the pictures depend on.
+std::string contentKey(const FrameTurn& turn, const Sequence& sequence, const RendererInfo& renderer) {
+  Sha256 hash;
+  for (const std::string& part : {turn.scene, renderer.fingerprint}) hash.add(part + "\n");
+  hash.add(jsonText(toJson(frameSpec(sequence, turn.index, turn.before))));
+  return hash.hex();
+}
+
+} // namespace
+
+Result<std::shared_ptr<const Sequence>> JobSequences::of(const std::string& job) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.job == job; });
+    if (known != entries_.end()) {
+      entries_.splice(entries_.begin(), entries_, known);
+      return entries_.front().sequence;
+    }
+  }
+  const auto request = jobs_.request(job);
+  if (!request) return request.problems();
+  auto read = *request ? decodeSequence(**request) : Result<Sequence>(Problem{});
+  if (!read) return std::shared_ptr<const Sequence>();
+  auto sequence = std::make_shared<const Sequence>(*std::move(read));
+  const std::lock_guard lock(mutex_);
+  entries_.push_front({job, sequence});
+  if (entries_.size() > kMost) entries_.pop_back();
+  return sequence;
+}
+
+JobTakers::JobTakers(Services& services, std::size_t threads) : services_(services), sequences_(services.jobs) {
+  for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { takeFrames(); });
+}
+
+JobTakers::~JobTakers() {
+  stop_.raise();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void JobTakers::pause(std::chrono::milliseconds time) const {
+  pollfd waiting{stop_.fd(), POLLIN, 0};
+  ::poll(&waiting, 1, static_cast<int>(time.count()));
+}
+
+void JobTakers::takeFrames() {
+  constexpr std::chrono::milliseconds kPatience{250};
+  auto pauseAfter = kShortest;
+  while (!stopping()) {
+    try {
+      const auto turn = services_.jobs.take(kPatience);
+      if (!turn) {
+        logEvent("jobs", turn.problems().front().detail);
+        pause(pauseAfter);
+        pauseAfter = std::min(pauseAfter * 2, kLongest);
+        continue;
+      }
+      pauseAfter = kShortest;
+      if (*turn) draw(**turn);
+    } catch (const std::exception& error) {
+      logEvent("jobs", error.what()); // out of memory: the frame is given to others once this one is silent
+      pause(kLongest);
+    }
+  }
+}
+
+void JobTakers::draw(const FrameTurn& turn) {
+  const auto sequence = sequences_.of(turn.job);
+  if (!sequence) return giveBack(turn, false);
+  if (*sequence == nullptr) return;
+  auto bundle = services_.store.bundle(turn.scene);
+  if (!bundle) {
+    const bool isPassing = passes(bundle.problems().front()) && turn.deliveries < services_.jobLimits.deliveries;
+    if (isPassing) return giveBack(turn, true);
+    return fail(turn, bundle.problems());
+  }
+  services_.store.use(turn.scene);
+  bool isWanted = true;
+  auto renewed = Clock::now();
+  const auto gone = [&] {
+    if (Clock::now() - renewed > services_.jobLimits.silence / 4) {
+      const auto told = services_.jobs.renew(turn);
+      isWanted = !told || *told;
+      renewed = Clock::now();
+    }
+    return !isWanted || stop_.raised();
+  };
+  ByteLease room(services_.replyBytes);
+  const auto takeRoom = [&](std::size_t bytes) {
+    return room.growBy(std::min(bytes, services_.replyBytes.total()), Clock::time_point::max(), gone) || gone();
+  };
+  Task task;
+  task.order.kind = OrderKind::sequenceFrame;
+  task.order.scene = turn.scene;
+  task.order.isStored = bundle->isStored;
+  task.bundle = std::move(bundle->file);
+  task.client = turn.client;
+  task.lane = Lane::sequence;
+  task.deadline = Clock::time_point::max();
+  DoneFrame frame = drawSequenceFrame(services_, {.sequence = **sequence,
+                                                  .index = turn.index,
+                                                  .before = turn.before,
+                                                  .counts = services_.store.counts(turn.scene).value_or(SceneCounts()),
+                                                  .task = std::move(task),
+                                                  .isPatient = true,
+                                                  .gone = gone,
+                                                  .takeRoom = takeRoom});
+  if (!isWanted) return;
+  if (frame.problems.empty()) {
+    return keep(turn, {.note = {.contentKey = contentKey(turn, **sequence, services_.workers.info()),
+                                .carried = std::move(frame.own),
+                                .warnings = std::move(frame.warnings),
+                                .stages = std::move(frame.result.outcome.stages),
+                                .milliseconds = frame.milliseconds,
+                                .pictures = std::move(frame.pictures)},
+                       .bytes = std::move(frame.bytes)});
+  }
+  if (stopping()) return giveBack(turn, false);
+  if (passes(frame.problems.front()) && turn.deliveries < services_.jobLimits.deliveries) return giveBack(turn, true);
+  fail(turn, frame.problems);
+}
+
+/// What was drawn is not thrown away because the queue can't be reached for a while.
+void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
+  for (auto wait = kShortest;; wait = std::min(wait * 2, kLongest)) {
+    const auto kept = services_.jobs.finish(turn, frame);
+    if (kept || stop_.raised()) return;
+    logEvent("jobs", kept.problems().front().detail);
+    pause(wait);
+  }
+}
+
+/// Where that can't be told, the frame is silent and goes to others.
+void JobTakers::fail(const FrameTurn& turn, const Problems& problems) {
+  const auto told = services_.jobs.fail(turn, problems);
+  if (!told) logEvent("jobs", told.problems().front().detail);
+}
+
+/// The same.
+void JobTakers::giveBack(const FrameTurn& turn, bool isTried) {
+  const auto told = services_.jobs.giveBack(turn, isTried);
+  if (!told) logEvent("jobs", told.problems().front().detail);
+  if (!stopping()) pause(kShortest);
+}
+
+} // namespace gnomon

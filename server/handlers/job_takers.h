@@ -1,0 +1,60 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/sequence/sequence_json.h"
+#include "server/handlers/handlers.h"
+#include "server/system/file_descriptor.h"
+
+namespace gnomon {
+
+/// The requests of the jobs that are drawn, read once each.
+class JobSequences {
+ public:
+  explicit JobSequences(JobQueue& jobs) : jobs_(jobs) {}
+
+  /// nullptr where the job is gone. Problem: unavailable.
+  Result<std::shared_ptr<const Sequence>> of(const std::string& job);
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  struct Entry {
+    std::string job;
+    std::shared_ptr<const Sequence> sequence;
+  };
+
+  JobQueue& jobs_;
+  std::mutex mutex_;
+  std::list<Entry> entries_; ///< the last used first
+};
+
+/// Threads that take frames of jobs and have workers draw them, until the server drains.
+class JobTakers {
+ public:
+  /// `threads`: frames at once. `services` outlives them.
+  JobTakers(Services& services, std::size_t threads);
+  ~JobTakers(); ///< gives back what is in work
+  JobTakers(const JobTakers&) = delete;
+  JobTakers& operator=(const JobTakers&) = delete;
+
+ private:
+  void takeFrames();
+  void draw(const FrameTurn& turn);
+  void keep(const FrameTurn& turn, const JobFrame& frame);
+  void fail(const FrameTurn& turn, const Problems& problems);
+  void giveBack(const FrameTurn& turn, bool isTried);
+  bool stopping() const { return stop_.raised() || services_.draining; }
+  void pause(std::chrono::milliseconds time) const;
+
+  Services& services_;
+  JobSequences sequences_;
+  StopSignal stop_;
+  std::vector<std::thread> threads_;
+};
+
+} // namespace gnomon

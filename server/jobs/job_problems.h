@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "server/jobs/job_queue.h"
+
+/// What every queue says alike.
+namespace gnomon {
+
+std::int64_t unixMilliseconds();
+
+/// A job that nobody has begun.
+JobProgress queuedProgress(const NewJob& job);
+
+Problem tooManyJobs(std::size_t most);            ///< busy: of one client
+Problem noRoomForJobs(std::uint64_t bytes);       ///< insufficientStorage: for a new job
+Problem noRoomForFrame(std::uint64_t bytes);      ///< insufficientStorage: for the pictures of one in work
+Problem poisonProblem(int index, int deliveries); ///< internal: whoever took the frame was heard of no more
+Problem unknownJob(std::string_view id);          ///< notFound
+
+} // namespace gnomon

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/bytes.h"
+#include "protocol/job/job.h"
+#include "protocol/sequence/sequence.h"
+#include "server/wire/sequence_news.h"
+
+/// Frames of sequences that wait for whoever can draw them, and what was drawn.
+namespace gnomon {
+
+/// How much jobs may keep, and for how long.
+struct JobLimits {
+  std::size_t jobs = 256;           ///< of all clients, where each has a descriptor (insufficientStorage)
+  std::size_t jobsOfClient = 16;    ///< that are kept for one client, in any state (busy)
+  std::uint64_t bytes = 1ull << 30; ///< of all jobs: requests and pictures (insufficientStorage)
+  std::chrono::seconds age{86'400}; ///< a job goes so long after its last frame
+  int deliveries = 5;               ///< >= 1; a frame that was taken more often fails its job
+  std::chrono::milliseconds silence{
+      15'000}; ///< a frame of whose taker nothing was heard for so long is given to others
+};
+
+/// A job as it was asked for.
+struct NewJob {
+  std::string id{};
+  std::string key{};      ///< name of the key that made it; empty = the server has no keys
+  std::string client{};   ///< takes turns with other clients
+  std::string scene{};    ///< its id
+  std::string request{};  ///< a SequenceRequest that passed its checks, as JSON
+  int first = 0;          ///< index of the first frame
+  int count = 1;          ///< > first; frames, those before `first` included
+  bool isChained = false; ///< a frame takes what the one before it left, and so waits for it
+  Carried carried{};      ///< for frame `first`
+};
+
+/// What became of a job so far.
+struct JobProgress {
+  std::string id{};
+  std::string key{};
+  std::string scene{};
+  JobState state = JobState::queued;
+  int first = 0;
+  int count = 0;
+  int done = 0;
+  std::uint64_t bytes = 0; ///< of its pictures
+  Carried carried{};       ///< for frame `first`
+  Problems problems{};
+  // Milliseconds since 1970; 0 = not yet
+  std::int64_t created = 0;
+  std::int64_t started = 0;
+  std::int64_t changed = 0; ///< the last time that a frame was drawn or the state changed
+  std::int64_t ended = 0;
+
+  /// Nothing more happens to it.
+  bool isEnded() const { return state == JobState::done || state == JobState::failed; }
+};
+
+/// A frame that somebody is to draw.
+struct FrameTurn {
+  std::string job{};
+  int index = 0;
+  std::string client{};
+  std::string scene{};
+  Carried before{};      ///< what the frame takes from the one before it
+  int deliveries = 1;    ///< how often it was taken, this time included
+  std::string receipt{}; ///< the queue's own
+};
+
+/// All about a drawn frame but its pictures.
+struct FrameNote {
+  std::string contentKey{}; ///< of scene, specification and renderer: what the pictures depend on
+  Carried carried{};        ///< of this frame alone
+  std::vector<std::string> warnings{};
+  std::vector<StageTime> stages{};
+  double milliseconds = 0;
+  std::vector<PictureNews> pictures{}; ///< in the order of their bytes
+};
+
+struct JobFrame {
+  FrameNote note{};
+  Bytes bytes{}; ///< of the pictures, one after the other
+};
+
+/// Any thread; any number of processes, where what is behind it is shared. Every function may give the problem
+/// unavailable, where what is behind it can't be reached; nothing is half done then, or it is done whole.
+class JobQueue {
+ public:
+  virtual ~JobQueue() = default;
+
+  /// Keeps a job and queues its frames: all, or, where they are chained, the first. Problems: busy where the client has
+  /// as many as it may, insufficientStorage where there is no room.
+  virtual Status put(const NewJob& job) = 0;
+
+  /// A frame whose turn it is: clients take turns, and so do the jobs of each. Waits for one as long as `patience`;
+  /// nothing = none came.
+  virtual Result<std::optional<FrameTurn>> take(std::chrono::milliseconds patience) = 0;
+
+  /// The request of a job; nothing where the job is gone.
+  virtual Result<std::optional<std::string>> request(const std::string& job) = 0;
+
+  /// Tells that the frame is still being drawn. False = nobody wants it any more.
+  virtual Result<bool> renew(const FrameTurn& turn) = 0;
+
+  /// Keeps what was drawn, once: the second to come with the same frame changes nothing, and neither does a job that is
+  /// gone or failed. In the same step the next frame of a chained job is queued, with `carried`. Where there is no room
+  /// the job fails.
+  virtual Status finish(const FrameTurn& turn, const JobFrame& frame) = 0;
+
+  /// The job fails, and its other frames are not drawn any more. Problems are placed in the job's request.
+  virtual Status fail(const FrameTurn& turn, const Problems& problems) = 0;
+
+  /// Somebody else may take it, at once. `isTried`: it counts as one of the deliveries.
+  virtual Status giveBack(const FrameTurn& turn, bool isTried) = 0;
+
+  virtual Result<std::optional<JobProgress>> find(const std::string& job) = 0;
+
+  /// Jobs of a key, the newest first.
+  virtual Result<std::vector<JobProgress>> list(const std::string& key) = 0;
+
+  /// All about a frame but its pictures; nothing where it is not drawn yet.
+  virtual Result<std::optional<FrameNote>> note(const std::string& job, int index) = 0;
+
+  /// The same with its pictures.
+  virtual Result<std::optional<JobFrame>> frame(const std::string& job, int index) = 0;
+
+  /// Ends a job and forgets it with all of its frames. False where there was none.
+  virtual Result<bool> remove(const std::string& job) = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,238 @@
+"""Sequences as jobs: asked for, looked at, waited for, taken and removed, by whom they belong to."""
+
+import hashlib
+import io
+import json
+import tempfile
+import threading
+import time
+import unittest
+import zipfile
+from pathlib import Path
+
+from evaluations_test import events_of
+from sequences_test import SPEC, named, orbit, parts_of
+from shipped_server import SCENES, SLOW, TIMEOUT, Server, ServerTest
+
+LAMP = [{"type": "point", "position": [1, 3, 2], "intensity": 400}]
+HEAVY = {"width": 4096, "height": 2160, "lights": LAMP * 250, "shadow": {"technique": "rayTraced", "raySamples": 1024}}
+LONG = {"spec": SPEC | {"width": 480, "height": 270}, "frames": [{"exposure": i / 500} for i in range(1000)]}
+
+
+def ask_for(server, scene, request, **headers):
+    headers = {"Content-Type": "application/json", "Prefer": "respond-async"} | headers
+    return server.ask("POST", f"/v1/scenes/{scene}/sequences", json.dumps(request), headers)
+
+
+class JobTest(ServerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.scene = cls.server.upload("box_on_plane")
+
+    def tearDown(self):
+        for job in self.server.get("/v1/jobs").json()["jobs"]:
+            self.server.ask("DELETE", job["address"])
+        super().tearDown()
+
+    def submit(self, request):
+        reply = ask_for(self.server, self.scene, request)
+        self.assertEqual(reply.status, 202, reply.body)
+        return reply.json()
+
+    def ended(self, job):
+        """The job once it has ended."""
+        end = time.monotonic() + TIMEOUT
+        while time.monotonic() < end:
+            reply = self.server.get(job["address"] + "?wait=5")
+            self.assertEqual(reply.status, 200, reply.body)
+            if reply.json()["state"] not in ("queued", "running"):
+                return reply.json()
+        raise AssertionError("the job does not end")
+
+    def at_once(self, request, accept="multipart/mixed"):
+        """The same as a sequence that is waited for."""
+        headers = {"Content-Type": "application/json", "Accept": accept}
+        return self.server.ask("POST", f"/v1/scenes/{self.scene}/sequences", json.dumps(request), headers)
+
+
+class Jobs(JobTest):
+    def test_a_job_is_asked_for_waited_for_and_taken(self):
+        reply = ask_for(self.server, self.scene, orbit(4), Prefer="respond-async, wait=10")
+        self.assertEqual(reply.status, 202, reply.body)
+        self.assertEqual(reply.headers["Preference-Applied"], "respond-async")
+        job = reply.json()
+        self.assertRegex(job["id"], "^[0-9a-f]{32}$")
+        self.assertEqual(reply.headers["Location"], f"/v1/jobs/{job['id']}")
+        self.assertEqual((job["state"], job["done"], job["of"], job["scene"]), ("queued", 0, 4, self.scene))
+        done = self.ended(job)
+        self.assertEqual((done["state"], done["done"], done["of"], done["problems"]), ("done", 4, 4, []))
+        self.assertLessEqual(done["created"], done["started"])
+        self.assertLessEqual(done["started"], done["ended"])
+        self.assertLess(done["ended"], done["expires"])
+        self.assertEqual(done["result"], job["address"] + "/result")
+        self.assertIn(job["id"], [each["id"] for each in self.server.get("/v1/jobs").json()["jobs"]])
+
+    def test_the_result_has_the_bytes_of_the_sequence_that_is_waited_for(self):
+        chained = orbit(4, ["color", "depth"])
+        alone = orbit(4) | {"stable": False}
+        lamps = orbit(3)
+        lamps["spec"] = lamps["spec"] | {"lights": LAMP}
+        for request in (chained, alone, lamps, chained | {"carried": {"depthRanges": [{"light": 0, "near": 1, "far": 9}]}}):
+            job = self.submit(request)
+            self.assertEqual(self.ended(job)["state"], "done")
+            expected, told = parts_of(self.at_once(request)), parts_of(self.server.get(job["result"]))
+            self.assertEqual(list(named(told)), list(named(expected)))
+            for (headers, content), (own_headers, own) in zip(expected[:-1], told[:-1]):
+                self.assertEqual(own, content)
+                self.assertEqual(own_headers, headers)
+            report, own_report = json.loads(expected[-1][1]), json.loads(told[-1][1])
+            for name in ("carried", "warnings", "renderer"):
+                self.assertEqual(own_report[name], report[name])
+            self.assertEqual(len(own_report["frames"]), len(report["frames"]))
+
+    def test_the_result_comes_in_every_form_of_a_sequence(self):
+        job = self.submit(orbit(2))
+        zipped = self.server.get(job["result"], Accept="application/zip")  # which waits for what is not drawn yet
+        files = named(parts_of(self.at_once(orbit(2))))
+        with zipfile.ZipFile(io.BytesIO(zipped.body)) as archive:
+            self.assertEqual(archive.namelist(), list(files))
+            for name in archive.namelist()[:-1]:
+                self.assertEqual(archive.read(name), files[name])
+        events = events_of(self.server.get(job["result"], Accept="text/event-stream").body.decode())
+        self.assertEqual([name for name, _ in events], ["frame", "frame", "result"])
+        self.assert_problem(self.server.get(job["result"], Accept="video/mp4"), 406)
+
+    def test_one_frame_is_a_picture_and_several_views_are_parts(self):
+        job = self.submit(orbit(2))
+        self.ended(job)
+        files = named(parts_of(self.at_once(orbit(2))))
+        reply = self.server.get(job["frames"].replace("{index}", "1"))
+        self.assertEqual((reply.status, reply.headers["Content-Type"]), (200, "image/png"))
+        self.assertEqual(reply.body, files["frame-00001.png"])
+        again = self.server.get(job["address"] + "/frames/1", If_None_Match=reply.headers["ETag"])
+        self.assertEqual((again.status, again.body), (304, b""))
+        self.assertNotEqual(self.server.get(job["address"] + "/frames/0").headers["ETag"], reply.headers["ETag"])
+        self.assert_problem(self.server.get(job["address"] + "/frames/1", Accept="image/jpeg"), 406)
+        for index in ("2", "-1", "x", "99999999999"):
+            self.assert_problem(self.server.get(f"{job['address']}/frames/{index}"), 404, "index")
+        several = self.submit(orbit(1, ["color", "depth"]))
+        self.ended(several)
+        parts = parts_of(self.server.get(several["address"] + "/frames/0"))
+        self.assertEqual([headers["Gnomon-View"] for headers, _ in parts], ["color", "depth"])
+
+    def test_progress_is_told_as_events(self):
+        job = self.submit(orbit(5))
+        events = events_of(self.server.get(job["address"], Accept="text/event-stream").body.decode())
+        self.assertEqual({name for name, _ in events[:-1]}, {"progress"})
+        self.assertEqual((events[-1][0], events[-1][1]["state"], events[-1][1]["done"]), ("result", "done", 5))
+        counts = [told["done"] for _, told in events]
+        self.assertEqual(counts, sorted(counts))
+
+    def test_a_job_whose_frame_can_not_be_drawn_fails_and_keeps_what_it_has(self):
+        nobody = {"camera": {"node": "nobody", "eye": None, "target": None}}
+        job = self.submit({"spec": SPEC, "frames": [{}, {}, nobody, {}]})
+        failed = self.ended(job)
+        self.assertEqual((failed["state"], failed["done"]), ("failed", 2))
+        self.assertEqual(failed["problems"][0]["pointer"], "/frames/2/camera/node")
+        parts = named(parts_of(self.server.get(job["result"])))
+        self.assertEqual(list(parts), ["frame-00000.png", "frame-00001.png", "problem.json"])
+        self.assert_problem(self.server.get(job["address"] + "/frames/3"), 404, "index")
+        first = self.submit({"spec": SPEC, "frames": [nobody]})
+        self.ended(first)
+        self.assert_problem(self.server.get(first["result"]), 400, "/frames/0/camera/node")
+
+    def test_a_job_of_a_scene_that_was_deleted_fails(self):
+        scene = self.server.upload("coplanar")
+        reply = ask_for(self.server, scene, LONG)
+        self.assertEqual(self.server.ask("DELETE", f"/v1/scenes/{scene}").status, 204)
+        failed = self.ended(reply.json())
+        self.assertEqual((failed["state"], failed["problems"][0]["code"]), ("failed", "notFound"))
+
+    def test_frames_of_jobs_stand_before_nobody(self):
+        job = self.submit(LONG)
+        events = self.server.get(job["address"] + "?wait=0").json()
+        self.assertIn(events["state"], ("queued", "running"))
+        for _ in range(3):
+            start = time.monotonic()
+            self.assertEqual(self.server.frame(self.scene, {"width": 64, "height": 48}).status, 200)
+            self.assertLess(time.monotonic() - start, 20 * SLOW)
+
+    def test_whoever_waits_for_a_job_that_is_removed_is_told(self):
+        job = self.submit(LONG)
+        told = []
+        waiting = [threading.Thread(target=lambda path=path, accept=accept: told.append(
+            self.server.get(path, Accept=accept).body.decode()))
+            for path, accept in [(job["address"] + "?wait=30", "*/*"), (job["address"], "text/event-stream"),
+                                 (job["result"], "text/event-stream")]]
+        for thread in waiting:
+            thread.start()
+        while self.server.get(job["address"]).json()["done"] == 0:
+            time.sleep(0.01)
+        self.assertEqual(self.server.ask("DELETE", job["address"]).status, 204)
+        for thread in waiting:
+            thread.join(TIMEOUT)
+        self.assertEqual(len(told), 3)
+        for text in told:
+            self.assertTrue('"cancelled"' in text or "event: problem" in text, text[-500:])
+        for method, path in [("GET", ""), ("DELETE", ""), ("GET", "/result"), ("GET", "/frames/0")]:
+            self.assert_problem(self.server.ask(method, job["address"] + path), 404, "id")
+
+    def test_what_is_wrong_is_said_at_once(self):
+        self.assert_problem(ask_for(self.server, self.scene, {"frames": [{}, {"width": 0}]}), 400, "/frames/1/width")
+        self.assert_problem(ask_for(self.server, "0" * 64, {"frames": [{}]}), 404)
+        self.assert_problem(self.server.get("/v1/jobs/" + "0" * 32), 404, "id")
+        job = self.submit(orbit(1))
+        for query, pointer in (("wait=-1", "/wait"), ("wait=61", "/wait"), ("wait=x", "/wait"), ("wait=1&wait=2", "/wait"),
+                               ("until=5", "/until")):
+            self.assert_problem(self.server.get(f"{job['address']}?{query}"), 400, pointer)
+
+
+class Bounds(JobTest):
+    flags = ("--max-jobs", "2", "--job-bytes", "100KB", "--job-age", "2s", "--job-frames", "1", "--request-timeout", "5")
+
+    def test_a_client_has_only_so_many_jobs_and_old_ones_go(self):
+        first = self.submit(orbit(1))
+        self.submit(orbit(1))
+        refused = ask_for(self.server, self.scene, orbit(1))
+        self.assert_problem(refused, 429)
+        self.assertGreaterEqual(int(refused.headers["Retry-After"]), 1)
+        end = time.monotonic() + TIMEOUT
+        while self.server.get(first["address"]).status == 200 and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(self.server.get(first["address"]).status, 404)
+
+    def test_a_frame_that_is_too_much_work_is_refused(self):
+        self.assert_problem(ask_for(self.server, self.scene, {"spec": HEAVY, "frames": [{}, {}]}), 413)
+
+    def test_a_job_without_room_fails(self):
+        spec = SPEC | {"width": 256, "height": 256, "output": {"format": "png", "pngCompression": 0}}
+        failed = self.ended(self.submit({"spec": spec, "frames": [{}]}))
+        self.assertEqual((failed["state"], failed["problems"][0]["code"]), ("failed", "insufficientStorage"))
+        self.assert_problem(self.server.get(failed["result"]), 507)
+
+
+class Owners(unittest.TestCase):
+    def test_a_job_belongs_to_the_key_that_made_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            keys = Path(folder, "keys")
+            names = ("ann", "bob")
+            keys.write_text("".join(f"name={name} sha256={hashlib.sha256(name.encode()).hexdigest()} "
+                                    "scopes=read,render,upload\n" for name in names))
+            keys.chmod(0o600)
+            ann, bob = ({"Authorization": f"Bearer {name}"} for name in names)
+            with Server("--device", "cpu", "--keys", str(keys), "--store", folder + "/store") as server:
+                body = (SCENES / "box_on_plane.glb").read_bytes()
+                scene = server.ask("POST", "/v1/scenes", body, {"Content-Type": "model/gltf-binary"} | ann).json()["id"]
+                job = ask_for(server, scene, orbit(2), **ann).json()
+                for method, path in [("GET", ""), ("DELETE", ""), ("GET", "/result"), ("GET", "/frames/0")]:
+                    self.assertEqual(server.ask(method, job["address"] + path, headers=bob).status, 404, path)
+                self.assertEqual(server.ask("GET", "/v1/jobs", headers=bob).json(), {"jobs": []})
+                listed = server.ask("GET", "/v1/jobs", headers=ann).json()["jobs"]
+                self.assertEqual([each["id"] for each in listed], [job["id"]])
+                self.assertEqual(server.ask("GET", job["result"], headers=ann).status, 200)
+                self.assertEqual(list(Path(folder, "store").glob("*job*")), [], "pictures have no names")
+
+
+if __name__ == "__main__":
+    unittest.main()

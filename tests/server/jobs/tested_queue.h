@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+
+#include "server/jobs/job_queue.h"
+
+namespace gnomon {
+
+/// A queue that the suite runs over. Every call of `open` gives the queue of another process, where it can be shared.
+struct TestedQueue {
+  std::string name;
+  bool isShared = false;
+  std::function<std::unique_ptr<JobQueue>(const JobLimits&)> open; ///< nullptr = what it needs is not installed
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const TestedQueue& queue) {
+  return stream << queue.name;
+}
+
+/// A job of `count` frames.
+inline NewJob jobOfFrames(const std::string& id, int count, const std::string& client = "ann") {
+  return {.id = id, .key = client, .client = client, .scene = "scene", .request = "{}", .count = count};
+}
+
+/// What a frame might look like.
+inline JobFrame drawnFrame(const std::string& picture, Carried carried = {}) {
+  return {.note = {.contentKey = "key of " + picture,
+                   .carried = std::move(carried),
+                   .warnings = {"a warning"},
+                   .stages = {{"shade", 1.5}},
+                   .milliseconds = 2.5,
+                   .pictures = {{"color", "image/png", picture.size()}}},
+          .bytes = Bytes(picture.begin(), picture.end())};
+}
+
+} // namespace gnomon
