@@ -15,7 +15,7 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 ROOTS = {"spec.py": ["FrameSpec", "EvaluationRequest", "SequenceRequest"],
          "reports.py": ["FrameReport", "PlanReport", "SceneSummary", "Capabilities", "EvaluationReport", "BakeReport",
-                        "SequenceReport"]}
+                        "SequenceReport", "Job"]}
 PRIMITIVES = {"string": "str", "integer": "int", "number": "float", "boolean": "bool"}
 NOTE = "# Written by generate.py from /openapi.json; change the server's rows and run it again.\n"
 

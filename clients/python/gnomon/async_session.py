@@ -10,8 +10,10 @@ from typing import Any, AsyncIterator, Callable, Generator, List, Mapping, Optio
 
 from .bundle import Source
 from .frame import Frame
+from .jobs import Job
 from .json_form import Spec
 from .reports import BakeReport, Capabilities, PlanReport, SceneSummary
+from .reports import Job as JobReport
 from .rows import Rows
 from .scene_calls import Scene, SceneLike
 from .session import Patch, Session
@@ -87,6 +89,13 @@ class AsyncSession:
     async def baked(self, scene: SceneLike, key: str, media_type: str = "model/gltf-binary",
                     light: Optional[int] = None) -> bytes:
         return await self._run(lambda: self.session.baked(scene, key, media_type, light))
+
+    async def submit(self, scene: SceneLike, spec: Optional[Spec] = None, **options: Any) -> Job:
+        return await self._run(lambda: self.session.submit(scene, spec, **options))
+
+    async def wait(self, job: Job, timeout: Optional[float] = None) -> JobReport:
+        """That of the job; cancelling it leaves the job as it is."""
+        return await self._run(lambda: job.wait(timeout))
 
     async def sequence(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                        keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,

@@ -51,7 +51,7 @@ class Refused(Problem):
 
 
 class NotFound(Problem):
-    """404: there is no such scene or bake."""
+    """404: there is no such scene, bake, job or frame of a job."""
 
 
 class TooLarge(Problem):
@@ -68,6 +68,21 @@ class TimedOut(Problem):
 
 class ServerFault(Problem):
     """500 and 507: a fault of the server, or a full disk."""
+
+
+class JobFailed(Exception):
+    """A frame of a job could not be drawn; `problems` says which and why."""
+
+    def __init__(self, problems: List[Item]):
+        super().__init__(problems)
+        self.problems = problems
+
+    def __str__(self) -> str:
+        return "\n".join(["the job failed", *(f"  {each}" for each in self.problems)])
+
+
+class JobCancelled(Exception):
+    """Somebody removed the job."""
 
 
 class ConnectionFailed(ConnectionError):

@@ -928,3 +928,84 @@ class SequenceReport(TypedDict, total=False):
     carried: Dict[str, Any]
     warnings: List[str]
     renderer: "RendererInfo"
+
+
+class ProblemEntry(TypedDict, total=False):
+    """One thing that is wrong.
+
+    code:
+        What kind of thing. malformed = Malformed Request; invalidValue = Invalid Value; notFound = Not Found;
+        methodNotAllowed = Method Not Allowed; unauthorized = Unauthorized; forbidden = Forbidden; misdirected =
+        Misdirected Request; notAcceptable = Not Acceptable; lengthRequired = Length Required; tooLarge = Content
+        Too Large; unsupportedMediaType = Unsupported Media Type; invalidScene = Invalid Scene; unsupportedFeature =
+        Unsupported Feature; hashMismatch = Hash Mismatch; busy = Too Many Requests; deadlineExceeded = Deadline
+        Exceeded; unavailable = Service Unavailable; insufficientStorage = Insufficient Storage; backend = Graphics
+        Backend Failure; internal = Internal Server Error. Default: "internal".
+    pointer:
+        Where: a JSON pointer, a query key or the name of a part.
+    detail:
+        One sentence for people.
+    limit:
+        What would have been accepted.
+    actual:
+        What came, shortened.
+    """
+
+    code: Literal["malformed", "invalidValue", "notFound", "methodNotAllowed", "unauthorized", "forbidden", "misdirected", "notAcceptable", "lengthRequired", "tooLarge", "unsupportedMediaType", "invalidScene", "unsupportedFeature", "hashMismatch", "busy", "deadlineExceeded", "unavailable", "insufficientStorage", "backend", "internal"]
+    pointer: str
+    detail: str
+    limit: str
+    actual: str
+
+
+class Job(TypedDict, total=False):
+    """A sequence that is drawn while nobody waits for it.
+
+    id:
+        Names the job; nobody can guess it.
+    state:
+        What it is doing. queued = no frame was begun; running = some frames were begun; done = all frames are
+        drawn; failed = a frame could not be drawn; cancelled = it was removed while somebody waited for it.
+    scene:
+        Id of its scene.
+    first:
+        Index of the first frame that is drawn.
+    done:
+        Frames that are drawn.
+    of:
+        Frames that are to be drawn; the last index is `first` + `of` - 1.
+    bytes:
+        Size of the pictures so far. Unit: bytes.
+    created:
+        When it was asked for; RFC 3339, in UTC, as all its times.
+    started:
+        When its first frame was begun; absent = not yet.
+    ended:
+        When it was done or failed; absent = not yet.
+    expires:
+        When it is removed with its pictures, if no further frame is drawn.
+    problems:
+        Why it failed; pointers are places in the request for the sequence.
+    address:
+        Where it is.
+    result:
+        Where all frames are, in the forms of a sequence.
+    frames:
+        Where one frame is, with its index for `{index}`.
+    """
+
+    id: str
+    state: Literal["queued", "running", "done", "failed", "cancelled"]
+    scene: str
+    first: int
+    done: int
+    of: int
+    bytes: int
+    created: str
+    started: str
+    ended: str
+    expires: str
+    problems: List["ProblemEntry"]
+    address: str
+    result: str
+    frames: str

@@ -6,16 +6,18 @@ import json
 import os
 from http.client import HTTPException
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Union, cast
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
 from urllib.parse import quote
 
 from .bundle import Source
 from .frame import Frame, Redraw, read_frame
 from .json_form import Spec, encoded, frame_spec
+from .jobs import Job
 from .local_server import LocalServer
 from .problems import ConnectionFailed
 from .progress import Progress
 from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary
+from .reports import Job as JobReport
 from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
 from .streams import events, sequence_parts
@@ -126,10 +128,27 @@ class Session:
                  **fields: Any) -> Iterator[Frame]:
         """Frames as they are drawn: one for each merge patch of `frames` over the spec, or `count` of them between
         `keys`. Leaving the loop stops the server's work. A connection that is lost meanwhile is made again."""
-        first: Dict[str, Any] = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
-        first["output"] = {**first.get("output", {}), "format": "npz"}
-        asked = {"spec": first, "frames": frames, "keys": keys, "count": count, "stable": stable}
-        return self._frames(scene, given(asked), (count if frames is None else len(frames)) or 0)
+        asked = sequence_request(spec, frames, keys, count, stable, fields)
+        return self._frames(scene, asked, (count if frames is None else len(frames)) or 0)
+
+    def submit(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
+               keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
+               **fields: Any) -> Job:
+        """The same frames as those of `sequence`, drawn while nobody waits."""
+        asked = sequence_request(spec, frames, keys, count, stable, fields)
+        reply = self._scenes.request(scene, "POST", "/sequences", asked, Prefer="respond-async")
+        return self._job(json.loads(reply.body))
+
+    def job(self, name: str) -> Job:
+        """A job by its id."""
+        return self._job(json.loads(self._http.request("GET", f"/v1/jobs/{quote(name)}").body))
+
+    def jobs(self) -> List[Job]:
+        """The jobs of the session's key, the newest first."""
+        return [self._job(report) for report in json.loads(self._http.request("GET", "/v1/jobs").body)["jobs"]]
+
+    def _job(self, report: JobReport) -> Job:
+        return Job(self._http, report, self._redraw(report["scene"]), self.progress)
 
     def _frames(self, scene: SceneLike, asked: Dict[str, Any], of: int) -> Iterator[Frame]:
         """The frames of a sequence. A reply that breaks off is gone on with behind its last whole frame, which gives the
@@ -175,6 +194,14 @@ class Session:
     def _redraw(self, scene: SceneLike) -> Redraw:
         name = self._scenes.id_of(scene)
         return lambda spec, media_type: self.picture(name, spec, media_type)
+
+
+def sequence_request(spec: Optional[Spec], frames: Optional[Sequence[Patch]], keys: Optional[Sequence[Patch]],
+                     count: Optional[int], stable: bool, fields: Mapping[str, Any]) -> Dict[str, Any]:
+    """A sequence whose frames are arrays."""
+    first: Dict[str, Any] = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
+    first["output"] = {**first.get("output", {}), "format": "npz"}
+    return given({"spec": first, "frames": frames, "keys": keys, "count": count, "stable": stable})
 
 
 def given(fields: Mapping[str, Any]) -> Dict[str, Any]:
