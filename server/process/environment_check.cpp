@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "protocol/base/text.h"
-#include "server/process/nearest_name.h"
+#include "protocol/base/nearest_name.h"
 
 namespace gnomon {
 namespace {

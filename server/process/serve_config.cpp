@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "protocol/base/text.h"
-#include "server/process/config_text.h"
-#include "server/process/nearest_name.h"
+#include "protocol/base/config_text.h"
+#include "protocol/base/nearest_name.h"
 #include "server/process/serve_flags.h"
 #include "server/scenes/whole_file.h"
 

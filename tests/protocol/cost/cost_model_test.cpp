@@ -9,7 +9,7 @@ namespace {
 
 const SceneCounts kCity{300'000, {LightType::directional}};
 
-FrameSpec anySpec(std::mt19937& random) {
+FrameSpec randomSpec(std::mt19937& random) {
   const auto among = [&](std::initializer_list<int> values) {
     return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
   };
@@ -60,11 +60,11 @@ TEST(CostModel, AfterTwentyFramesItTellsTheTimeOfOthersWithinAFifth) {
   Machine machine;
   CostModel model;
   for (int i = 0; i < 20; ++i) {
-    const FrameCost cost = frameCost(anySpec(random), kCity);
+    const FrameCost cost = frameCost(randomSpec(random), kCity);
     model.learn(cost, machine.report(cost));
   }
   for (int i = 0; i < 50; ++i) {
-    const FrameCost cost = frameCost(anySpec(random), kCity);
+    const FrameCost cost = frameCost(randomSpec(random), kCity);
     EXPECT_NEAR(model.milliseconds(cost), machine.milliseconds(cost), 0.2 * machine.milliseconds(cost));
   }
 }
@@ -114,7 +114,7 @@ TEST(CostModel, TheSameFramesTeachTheSame) {
     Machine machine;
     CostModel model;
     for (int i = 0; i < 10; ++i) {
-      const FrameCost cost = frameCost(anySpec(random), kCity);
+      const FrameCost cost = frameCost(randomSpec(random), kCity);
       model.learn(cost, machine.report(cost));
     }
     return model.milliseconds(frameCost(FrameSpec{}, kCity));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/process/nearest_name.h"
+#include "protocol/base/nearest_name.h"
 
 namespace gnomon {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/process/nearest_name.h"
+#include "protocol/base/nearest_name.h"
 
 #include <algorithm>
 #include <numeric>

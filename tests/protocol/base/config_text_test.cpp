@@ -1,4 +1,4 @@
-#include "server/process/config_text.h"
+#include "protocol/base/config_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,6 +48,35 @@ TEST(ConfigText, AFaultHasItsLine) {
   EXPECT_EQ(placeOfFault("hosts = ['a',\n'b'\n", "began in line 1"), "a.conf:3");
   EXPECT_EQ(placeOfFault("a b = 1", "no key"), "a.conf:1");
   EXPECT_EQ(placeOfFault(std::string_view("a = \0", 5), "UTF-8"), "a.conf");
+}
+
+TEST(ConfigText, SectionsHaveNamesAndKeysOfTheirOwn) {
+  const auto parsed = parseSections("a = 1\n[ preset.small ] # first\na = 2\nb = 3\n[empty]\n", "f");
+  ASSERT_TRUE(parsed);
+  ASSERT_EQ(parsed->size(), 3u);
+  EXPECT_EQ((*parsed)[0].name, "");
+  EXPECT_THAT((*parsed)[0].entries.at(0).values, ElementsAre("1"));
+  EXPECT_EQ((*parsed)[1].name, "preset.small");
+  EXPECT_EQ((*parsed)[1].line, 2);
+  EXPECT_EQ((*parsed)[1].entries.size(), 2u);
+  EXPECT_EQ((*parsed)[2].name, "empty");
+  EXPECT_TRUE((*parsed)[2].entries.empty());
+}
+
+TEST(ConfigText, AFaultOfASectionHasItsLine) {
+  const auto placeOf = [](std::string_view text, const char* says) {
+    const auto parsed = parseSections(text, "f");
+    if (parsed) return std::string("no fault");
+    EXPECT_THAT(parsed.problems().front().detail, HasSubstr(says));
+    return parsed.problems().front().pointer;
+  };
+  EXPECT_EQ(placeOf("\n[a\n]", "no closing"), "f:2");
+  EXPECT_EQ(placeOf("[a", "no closing"), "f:1");
+  EXPECT_EQ(placeOf("[]", "no section's name"), "f:1");
+  EXPECT_EQ(placeOf("[a..b]", "no section's name"), "f:1");
+  EXPECT_EQ(placeOf("[a] b = 1", "follows the name"), "f:1");
+  EXPECT_EQ(placeOf("[a]\n[b]\n[a]", "first in line 1"), "f:3");
+  EXPECT_EQ(placeOf("[a]\nx = 1\nx = 2", "first in line 2"), "f:3");
 }
 
 TEST(ConfigText, ManyFaultsAreToldTogetherButNotWithoutEnd) {

@@ -1,4 +1,4 @@
-#include "server/process/config_text.h"
+#include "protocol/base/config_text.h"
 
 #include <algorithm>
 #include <optional>
@@ -20,14 +20,14 @@ class ConfigReader {
  public:
   ConfigReader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
-  Result<std::vector<ConfigEntry>> read() {
+  Result<std::vector<ConfigSection>> read() {
     while (at_ < text_.size() && problems_.size() < kMostProblems) {
       skipSpaces();
-      if (!atLineEnd()) readEntry();
+      if (!atLineEnd()) text_[at_] == '[' ? readName() : readEntry();
       skipLine();
     }
     if (!problems_.empty()) return std::move(problems_);
-    return std::move(entries_);
+    return std::move(sections_);
   }
 
  private:
@@ -57,10 +57,28 @@ class ConfigReader {
     return false;
   }
 
+  bool readName() {
+    const std::size_t end = text_.find_first_of("]\n", at_);
+    if (end == std::string_view::npos || text_[end] != ']') return fail("The name of the section has no closing ].");
+    const std::string name(trimmed(text_.substr(at_ + 1, end - at_ - 1)));
+    const auto parts = split(name, '.');
+    if (!std::all_of(parts.begin(), parts.end(), isKey))
+      return fail("This is no section's name: " + asciiExcerpt(name) + ".");
+    at_ = end + 1;
+    skipSpaces();
+    if (!atLineEnd()) return fail("Something follows the name of the section.");
+    const auto known =
+        std::find_if(sections_.begin(), sections_.end(), [&](const ConfigSection& each) { return each.name == name; });
+    if (known != sections_.end()) {
+      return fail("The section " + name + " begins twice; first in line " + std::to_string(known->line) + ".");
+    }
+    sections_.push_back({line_, name, {}});
+    return true;
+  }
+
   bool readEntry() {
     const std::size_t end = std::min(text_.find_first_of("=\n#", at_), text_.size());
     const std::string key(trimmed(text_.substr(at_, end - at_)));
-    if (key.starts_with("[")) return fail("There are no sections: keys are the flags of gnomon serve.");
     if (end == text_.size() || text_[end] != '=') return fail("This is not KEY = VALUE.");
     if (!isKey(key)) return fail("This is no key: " + asciiExcerpt(key) + ".");
     at_ = end + 1;
@@ -77,10 +95,11 @@ class ConfigReader {
     }
     skipSpaces();
     if (!atLineEnd()) return fail("Something follows the value of " + key + ". Texts with spaces need quotes.");
+    auto& entries = sections_.back().entries;
     const auto known =
-        std::find_if(entries_.begin(), entries_.end(), [&](const ConfigEntry& each) { return each.key == key; });
-    if (known != entries_.end()) return fail(key + " is set twice; first in line " + std::to_string(known->line) + ".");
-    entries_.push_back(std::move(entry));
+        std::find_if(entries.begin(), entries.end(), [&](const ConfigEntry& each) { return each.key == key; });
+    if (known != entries.end()) return fail(key + " is set twice; first in line " + std::to_string(known->line) + ".");
+    entries.push_back(std::move(entry));
     return true;
   }
 
@@ -143,17 +162,29 @@ class ConfigReader {
   std::string_view file_;
   std::size_t at_ = 0;
   int line_ = 1;
-  std::vector<ConfigEntry> entries_;
+  std::vector<ConfigSection> sections_{1};
   Problems problems_;
 };
 
 } // namespace
 
-Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_view file) {
+Result<std::vector<ConfigSection>> parseSections(std::string_view text, std::string_view file) {
   if (!isUtf8(text) || text.find('\0') != std::string_view::npos) {
     return Problem{ProblemCode::invalidValue, std::string(file), "This is no text in UTF-8.", "", ""};
   }
   return ConfigReader(text, file).read();
+}
+
+Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_view file) {
+  auto sections = parseSections(text, file);
+  if (!sections) return sections.problems();
+  if (sections->size() == 1) return std::move(sections->front().entries);
+  Problems problems;
+  for (const ConfigSection& section : std::span(*sections).subspan(1)) {
+    problems.push_back({ProblemCode::invalidValue, std::string(file) + ":" + std::to_string(section.line),
+                        "There are no sections here: every line is KEY = VALUE.", "", ""});
+  }
+  return problems;
 }
 
 std::string configValue(std::string_view value) {
