@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
       "gnomon COMMAND --help lists the options of a command.");
   std::vector<cli::Subcommand> commands{addServeCommand(app), addWorkerCommand(app)};
   for (cli::Subcommand& command : cli::addClientCommands(app)) commands.push_back(std::move(command));
+  if (const auto exit = cli::takeConfiguration(app, {argv + 1, argv + argc})) return *exit;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

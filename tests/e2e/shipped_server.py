@@ -18,9 +18,10 @@ TIMEOUT = 60 * SLOW  # seconds
 
 
 def environment(**more):
-    """That of the tests without their own GNOMON_ variables, of which the server would know none, and with further
-    ones."""
-    return {name: value for name, value in os.environ.items() if not name.startswith("GNOMON_")} | more
+    """That of the tests without their own GNOMON_ variables, of which the server would know none, without what a user
+    has configured, and with further ones."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GNOMON_")}
+    return kept | {"XDG_CONFIG_HOME": "/nonexistent"} | more
 
 
 class Reply:

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/config_flags.h"
 #include "clients/cli/terminal/messages.h"
 
 namespace gnomon::cli {
@@ -27,26 +28,14 @@ void addMannerFlags(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--problems",
-          [&command](const std::string& form) {
-            const auto* quiet = command.get_option_no_throw("--quiet");
-            setManners({form == "json" ? ProblemForm::json : ProblemForm::lines, quiet && quiet->count() > 0});
-          },
+          [](const std::string& form) { tellProblemsAs(form == "json" ? ProblemForm::json : ProblemForm::lines); },
           "How problems are told on standard error: for people, or as one line of JSON")
       ->check(CLI::IsMember({"lines", "json"}))
       ->type_name("")
       ->default_str("lines")
       ->group("Messages");
   if (command.get_option_no_throw("--server") == nullptr) return; // shows no progress
-  command
-      .add_flag_callback(
-          "--quiet",
-          [&command] {
-            const auto* problems = command.get_option("--problems");
-            const bool isJson = problems->count() > 0 && problems->results().back() == "json";
-            setManners({isJson ? ProblemForm::json : ProblemForm::lines, true});
-          },
-          "Show no progress")
-      ->group("Messages");
+  command.add_flag_callback("--quiet", showNoProgress, "Show no progress")->group("Messages");
 }
 
 } // namespace
@@ -63,6 +52,7 @@ std::vector<Subcommand> addClientCommands(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     if (std::find(before.begin(), before.end(), command) != before.end()) continue;
     addMannerFlags(*command);
+    addConfigFlags(*command);
     command->final_callback([command] { refuseSharedInput(*command); });
   }
   return commands;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -22,6 +24,10 @@ struct Subcommand {
   std::function<bool()> chosen;
   std::function<int()> run; ///< gives an ExitCode
 };
+
+/// Sets the flags that the client's configuration says, and that `arguments` (a command line without the program's
+/// name) leaves open, before `app` parses them. Tells what is wrong and gives an ExitCode where there is no way on.
+std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::string>& arguments);
 
 /// Every command that needs no server in the process. `app` outlives them: some tell what it holds.
 std::vector<Subcommand> addClientCommands(CLI::App& app);

@@ -37,7 +37,11 @@ int runHealth(const HealthOptions& options) {
 Subcommand addHealthCommand(CLI::App& app) {
   auto options = std::make_shared<HealthOptions>();
   auto* command = app.add_subcommand("health", "Ask a server whether it is ready: exit code 0 if it is, else 1");
-  command->add_option("--url", options->url, "The server's address")->envname("GNOMON_URL")->capture_default_str();
+  command->add_option("--server,--url", options->url, "The server's address")
+      ->type_name("URL")
+      ->envname("GNOMON_URL")
+      ->capture_default_str()
+      ->group("Server");
   command->add_option("--timeout", options->timeoutSeconds, "Seconds to wait for an answer")
       ->check(CLI::Range(1, 600))
       ->capture_default_str();

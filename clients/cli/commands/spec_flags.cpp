@@ -109,6 +109,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
       .add_option_function<std::vector<std::string>>(
           "--set",
           [&arguments, refuse](const std::vector<std::string>& texts) {
+            arguments.sets.clear(); // `texts` are all that there are, a configuration's first
             for (const std::string& text : texts) {
               const auto equals = text.find('=');
               if (equals == std::string::npos || equals == 0)

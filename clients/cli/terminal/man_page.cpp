@@ -66,7 +66,11 @@ std::string manPage(std::span<const CommandRow> commands, const std::string& ver
          ".TP\n2\nThe command line is wrong.\n"
          ".SH ENVIRONMENT\n"
          ".TP\n.B GNOMON_KEY\nThe key that a server is shown where no \\-\\-key\\-file is given.\n"
-         ".TP\n.B GNOMON_URL\nThe server of the commands that need one.\n";
+         ".TP\n.B GNOMON_URL\nThe server of the commands that need one.\n"
+         ".TP\n.B GNOMON_CLIENT_CONFIG\nThe configuration where no \\-\\-config is given.\n"
+         ".SH FILES\n"
+         ".TP\n.I ~/.config/gnomon/config\nThe configuration of the commands that draw or call a server: defaults of\n"
+         "their flags as KEY = VALUE, and named sets of them below [preset.NAME].\n";
 }
 
 } // namespace gnomon::cli

@@ -14,6 +14,24 @@ namespace gnomon::cli {
 
 namespace {
 
+/// The one thing that all commands share and none passes on: how to talk to whoever has started this process.
+struct Manners {
+  ProblemForm problems = ProblemForm::lines;
+  bool quiet = false;
+  std::map<std::string, std::string> places; ///< of flags that a configuration sets
+};
+
+Manners& manners() {
+  static Manners ours;
+  return ours;
+}
+
+/// Of a flag that nobody has typed; empty of others.
+std::string placeOf(const std::string& flag) {
+  const auto place = manners().places.find(flag);
+  return place == manners().places.end() ? "" : place->second;
+}
+
 /// The flag that set this place or something that holds it.
 std::string originOf(std::string pointer, const FlagOrigins& origins) {
   while (!pointer.empty()) {
@@ -30,7 +48,8 @@ std::string originOf(std::string pointer, const FlagOrigins& origins) {
 std::string problemLine(const Problem& problem, const FlagOrigins& origins) {
   std::string line;
   const std::string flag = originOf(problem.pointer, origins);
-  if (!flag.empty()) line += flag + " (" + problem.pointer + "): ";
+  const std::string place = placeOf(flag);
+  if (!flag.empty()) line += flag + (place.empty() ? "" : " of " + place) + " (" + problem.pointer + "): ";
   if (flag.empty() && !problem.pointer.empty()) line += problem.pointer + ": ";
   line += problem.detail;
   if (!problem.limit.empty()) line += " Allowed: " + problem.limit + ".";
@@ -43,18 +62,16 @@ Problems about(const std::string& what, Problems problems) {
   return problems;
 }
 
-namespace {
-
-/// The one thing that all commands share and none passes on: how to talk to whoever has started this process.
-Manners& manners() {
-  static Manners ours;
-  return ours;
+void tellProblemsAs(ProblemForm form) {
+  manners().problems = form;
 }
 
-} // namespace
+void showNoProgress() {
+  manners().quiet = true;
+}
 
-void setManners(const Manners& ours) {
-  manners() = ours;
+void tellPlacesOf(std::map<std::string, std::string> flags) {
+  manners().places = std::move(flags);
 }
 
 std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins) {
@@ -63,6 +80,7 @@ std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins)
   for (std::size_t i = 0; i < problems.size() && i < json["problems"].size(); ++i) {
     const std::string flag = originOf(problems[i].pointer, origins);
     if (!flag.empty()) json["problems"][i]["flag"] = flag;
+    if (const std::string place = placeOf(flag); !place.empty()) json["problems"][i]["place"] = place;
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -24,14 +24,14 @@ Problems about(const std::string& what, Problems problems);
 /// How problems are told.
 enum class ProblemForm { lines, json };
 
-/// How this process talks. To be set once, before any command runs.
-struct Manners {
-  ProblemForm problems = ProblemForm::lines;
-  bool quiet = false; ///< no progress
-};
-void setManners(const Manners& manners);
+/// How this process talks. To be set before any command runs.
+void tellProblemsAs(ProblemForm form);
+void showNoProgress();
+/// Where the values of flags stand that nobody has typed: a problem with one names its place, too.
+void tellPlacesOf(std::map<std::string, std::string> flags);
 
-/// As an RFC 9457 body of one line, each problem with the flag that set its place.
+/// As an RFC 9457 body of one line, each problem with the flag that set its pointer, and where that flag
+/// stands if nobody has typed it.
 std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins = {});
 
 /// Every problem on its line on stderr, each after "gnomon: "; or all as JSON on one line. Gives kExitProblem.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/config_text.h"
+#include "protocol/base/result.h"
+
+/// The file in which people keep the flags that they would type every time.
+namespace gnomon::cli {
+
+/// Flags and their values, from one part of the file: KEY is the flag without its dashes.
+struct ConfigLayer {
+  std::string preset; ///< empty = what stands above all sections: defaults
+  std::vector<ConfigEntry> entries;
+};
+
+struct ClientConfig {
+  std::string file;                ///< empty = there is none
+  std::vector<ConfigLayer> layers; ///< the defaults, then every preset
+};
+
+/// $XDG_CONFIG_HOME/gnomon/config, or ~/.config/gnomon/config where that variable is unset or no absolute path; empty
+/// without a home. Either variable may be null.
+std::string usualConfigFile(const char* xdgConfigHome, const char* home);
+
+/// A file's defaults, and its [preset.NAME] sections. Problems: FILE:LINE for each line that can't be read, each other
+/// section, and each key that is not one of `keys`.
+Result<ClientConfig> parseClientConfig(std::string_view text, const std::string& file,
+                                       std::span<const std::string> keys);
+
+/// The defaults and then these presets, in this order. Problems: a preset that there is none of.
+Result<std::vector<ConfigLayer>> layersOf(const ClientConfig& config, std::span<const std::string> presets);
+
+/// A file's name as it stands in a configuration: ~/ is the home, and what is relative begins in the file's folder.
+std::string fileNamedIn(const std::string& configFile, const std::string& name, const char* home);
+
+} // namespace gnomon::cli
