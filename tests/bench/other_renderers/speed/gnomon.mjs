@@ -11,7 +11,8 @@ const kTechniques = [
   { name: 'shadow map', says: 'defaults', shadow: {} },
 ];
 
-async function startServer(program, device) {
+// A server on a free port of this machine.
+export async function startServer(program, device) {
   const child = start(program, ['serve', '--port', '0', '--device', device], { stdio: ['ignore', 'pipe', 'ignore'] });
   const lines = readline.createInterface({ input: child.stdout });
   for await (const line of lines) {
@@ -21,7 +22,8 @@ async function startServer(program, device) {
   throw new Error(`no server for ${device}`);
 }
 
-function post(agent, url, type, body) {
+// The body of the reply.
+export function post(agent, url, type, body) {
   return new Promise((done, fail) => {
     const headers = { 'content-type': type, 'content-length': body.length, accept: 'image/png' };
     const request = http.request(url, { method: 'POST', agent, headers }, (response) => {

@@ -14,11 +14,30 @@ const kEngines = [
 const kHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><canvas></canvas>';
 
 // Each engine with what its page needs of it, in one file, as a page that is to load fast has it.
-async function bundle(folder) {
+export async function bundleEngines(folder) {
   await build({
     entryPoints: [...new Set(kEngines.map(({ page }) => path.join(import.meta.dirname, `${page}.mjs`)))],
     outdir: folder, bundle: true, minify: true, format: 'iife', logLevel: 'error',
   });
+}
+
+// What an engine's page and the scene come from: `bundles` is what `bundleEngines` has filled.
+export const serveEngines = (bundles, scene) => (
+  serve(kHtml, { '/pages/': bundles, '/scenes/': path.dirname(scene.file) }));
+
+// A page of an engine with the scene loaded. `script`: of the engine, as 'threejs'.
+export async function openEngine(server, browser, { name, script, variant, scene, antialias }) {
+  const page = await newPage(browser, name);
+  await page.goto(server.origin);
+  await page.addScriptTag({ url: `/pages/${script}.js` });
+  const setup = setupOf(scene, { url: `/scenes/${path.basename(scene.file)}`, antialias, variant });
+  return { page, about: await page.evaluate((given) => window.speed.open(given), setup) };
+}
+
+// The frame, drawn and written as PNG.
+export async function savePicture(page, frame, file) {
+  const url = await page.evaluate((given) => window.speed.picture(given), frame);
+  fs.writeFileSync(file, Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));
 }
 
 const milliseconds = (begin) => performance.now() - begin;
@@ -26,17 +45,11 @@ const milliseconds = (begin) => performance.now() - begin;
 // Gives what makes the contestants for a scene.
 export async function chromiumContestants({ executable, work }) {
   const bundles = path.join(work, 'bundles');
-  await bundle(bundles);
+  await bundleEngines(bundles);
 
   function contestant({ name, says, page: script, variant }, scene, antialias) {
-    async function openPage(server, browser) {
-      const page = await newPage(browser, name);
-      await page.goto(server.origin);
-      await page.addScriptTag({ url: `/pages/${script}.js` });
-      const setup = setupOf(scene, { url: `/scenes/${path.basename(scene.file)}`, antialias, variant });
-      return { page, about: await page.evaluate((given) => window.speed.open(given), setup) };
-    }
-    const serving = () => serve(kHtml, { '/pages/': bundles, '/scenes/': path.dirname(scene.file) });
+    const openPage = (server, browser) => openEngine(server, browser, { name, script, variant, scene, antialias });
+    const serving = () => serveEngines(bundles, scene);
 
     async function open() {
       const server = await serving();
@@ -45,10 +58,7 @@ export async function chromiumContestants({ executable, work }) {
       return {
         about: { ...about, chromium: browser.version() },
         turn: (turn) => page.evaluate((given) => window.speed.turn(given), turn),
-        async picture(file) {
-          const url = await page.evaluate(() => window.speed.picture(0));
-          fs.writeFileSync(file, Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));
-        },
+        picture: (file) => savePicture(page, 0, file),
         async close() {
           await browser.close();
           server.close();

@@ -1,4 +1,5 @@
-// In the browser: three.js, with cascades by its add-on CSM or its add-on SunLight.
+// In the browser: three.js, with cascades by its add-on CSM or its add-on SunLight, or with one map of the whole scene that
+// is drawn once.
 import * as THREE from 'three';
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLight } from 'three/addons/lights/SunLight.js';
@@ -33,6 +34,23 @@ function sunLight(scene, setup) {
   return () => {};
 }
 
+function keptMap(scene, model, renderer, setup) {
+  const { center, radius } = new THREE.Box3().setFromObject(model).getBoundingSphere(new THREE.Sphere());
+  const light = new THREE.DirectionalLight(0xffffff, setup.sunIntensity);
+  light.position.set(...setup.towardsSun).normalize().multiplyScalar(2 * radius).add(center);
+  light.target.position.copy(center);
+  light.castShadow = true;
+  light.shadow.mapSize.set(setup.mapSize, setup.mapSize);
+  light.shadow.normalBias = kTexelsOfBias * 2 * radius / setup.mapSize;
+  Object.assign(light.shadow.camera, {
+    left: -radius, right: radius, bottom: -radius, top: radius, near: radius, far: 3 * radius,
+  });
+  scene.add(light, light.target);
+  renderer.shadowMap.autoUpdate = false;
+  renderer.shadowMap.needsUpdate = true;
+  return () => {};
+}
+
 async function open(canvas, setup) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: setup.antialias });
   renderer.setPixelRatio(1);
@@ -51,7 +69,11 @@ async function open(canvas, setup) {
   const { fovYDegrees, near, far, target, up } = setup.camera;
   const camera = new THREE.PerspectiveCamera(fovYDegrees, setup.width / setup.height, near, far);
   camera.up.set(...up);
-  const follow = setup.variant === 'CSM' ? cascadedLights(scene, camera, setup) : sunLight(scene, setup);
+  const follow = {
+    CSM: () => cascadedLights(scene, camera, setup),
+    SunLight: () => sunLight(scene, setup),
+    kept: () => keptMap(scene, model, renderer, setup),
+  }[setup.variant]();
   function draw(eye) {
     camera.position.set(...eye);
     camera.lookAt(...target);

@@ -2,8 +2,8 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import readline from 'node:readline';
-import { start, stop } from './children.mjs';
+import { startAnswering } from './answering.mjs';
+import { openDisplay } from './display.mjs';
 import { setupOf } from './scenes.mjs';
 
 const kPythons = ['python3', '/usr/bin/python3'];
@@ -11,68 +11,45 @@ const kScript = path.join(import.meta.dirname, 'vtk_frames.py');
 
 const hasVtk = (python) => spawnSync(python, ['-c', 'import vtkmodules.vtkIOImport'], { stdio: 'ignore' }).status === 0;
 
-// A display of its own, since Debian's VTK draws through X even where no window is to be seen. Gives its name.
-async function startDisplay() {
-  const child = start('Xvfb', ['-displayfd', '3', '-screen', '0', '1280x1024x24'], {
-    stdio: ['ignore', 'ignore', 'ignore', 'pipe'],
-  });
-  const number = await new Promise((done, fail) => {
-    child.once('error', () => fail(new Error('neither DISPLAY nor Xvfb')));
-    child.once('exit', () => fail(new Error('Xvfb ended')));
-    child.stdio[3].once('data', (text) => done(String(text).trim()));
-  });
-  return { name: `:${number}`, close: () => child.kill() };
+// A Python that has VTK. Throws where there is none.
+export function pythonWithVtk() {
+  const python = kPythons.find(hasVtk);
+  if (!python) throw new Error('Python has no VTK (Debian package `python3-vtk9`)');
+  return python;
 }
 
-// The script, which answers a line by a line.
-async function startFrames(python, display, setup) {
-  const child = start(python, [kScript, setup], {
-    stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, DISPLAY: display },
-  });
-  const lines = readline.createInterface({ input: child.stdout })[Symbol.asyncIterator]();
-  async function answer() {
-    const { value, done } = await lines.next();
-    if (done) throw new Error('VTK ended');
-    return JSON.parse(value);
-  }
-  const about = await answer();
-  return {
-    about,
-    ask(...words) {
-      child.stdin.write(`${words.join(' ')}\n`);
-      return answer();
-    },
-    close: () => stop(child),
-  };
+// The script with its scene loaded.
+export function startVtk(python, display, { scene, antialias, work }) {
+  const file = path.join(work, `vtk_${scene.name}${antialias ? '_4x' : ''}.json`);
+  fs.writeFileSync(file, JSON.stringify(setupOf(scene, { url: scene.file, antialias })));
+  return startAnswering(python, [kScript, file], { env: { DISPLAY: display } });
 }
 
 // Gives what makes the contestants for a scene. Without VTK there is none, and `absent` says why.
 export async function vtkContestants({ work }) {
-  const none = (absent) => ({ make: () => [], absent, close() {} });
-  const python = kPythons.find(hasVtk);
-  if (!python) return none('Python has no VTK (Debian package `python3-vtk9`)');
+  let python;
   let display;
   try {
-    display = process.env.DISPLAY ? { name: process.env.DISPLAY, close() {} } : await startDisplay();
+    python = pythonWithVtk();
+    display = await openDisplay();
   } catch (problem) {
-    return none(problem.message);
+    return { make: () => [], absent: problem.message, close() {} };
   }
 
   function make(scene, antialias) {
-    const file = path.join(work, `vtk_${scene.name}${antialias ? '_4x' : ''}.json`);
-    fs.writeFileSync(file, JSON.stringify(setupOf(scene, { url: scene.file, antialias })));
+    const startFrames = () => startVtk(python, display.name, { scene, antialias, work });
     async function open() {
-      const frames = await startFrames(python, display.name, file);
+      const frames = await startFrames();
       return {
         about: frames.about,
         turn: ({ first, count }) => frames.ask('turn', first, count),
-        picture: (png) => frames.ask('picture', png),
+        picture: (png) => frames.ask('picture', 0, png),
         close: frames.close,
       };
     }
     async function cold() {
       const begin = performance.now();
-      const frames = await startFrames(python, display.name, file);
+      const frames = await startFrames();
       await frames.ask('first');
       const fromProcess = performance.now() - begin;
       await frames.close();

@@ -5,7 +5,8 @@ usage: vtk_frames.py SETUP
 
 SETUP is a file of JSON as scenes.mjs makes it; its `url` is the GLB's path. Prints {"version", "window"} as one line once
 the scene is loaded, then answers each line of its input by one line: `turn FIRST COUNT` by the milliseconds of these
-frames as an array, `first` by true once all pixels of the first frame were read, `picture FILE` by true.
+frames as an array, `first` by true once all pixels of the first frame were read, `picture FRAME FILE` by true once that
+frame is in the file, as PNG.
 """
 
 import json
@@ -113,8 +114,8 @@ class Frames:
         self.read(1, 1)
         return 1e3 * (time.perf_counter() - begin)
 
-    def picture(self, file):
-        self.draw(0)
+    def picture(self, frame, file):
+        self.draw(int(frame))
         shot = vtkWindowToImageFilter()
         shot.SetInput(self.window)
         shot.ReadFrontBufferOff()
@@ -142,7 +143,7 @@ def main(setup):
     about = {"version": vtkVersion.GetVTKVersion(), "window": frames.window.GetClassName()}
     print(json.dumps(about), flush=True)
     for line in sys.stdin:
-        print(json.dumps(frames.answer(*line.split())), flush=True)
+        print(json.dumps(frames.answer(*line.rstrip("\n").split(" ", 2))), flush=True)
 
 
 if __name__ == "__main__":
