@@ -85,11 +85,6 @@ def set_engine(setup):
     eevee.taa_render_samples = SAMPLES
     eevee.shadow_cascade_size = str(setup["mapSize"])
     eevee.use_soft_shadows = False
-    shading = scene.display.shading
-    shading.show_shadows = True
-    shading.color_type = "TEXTURE"
-    scene.display.light_direction = Vector(setup["towardsSun"])
-    scene.display.render_aa = "5"  # the fewest that it has
 
 
 def picture(setup, frame, file):

@@ -17,7 +17,6 @@ const kThree = [
 const kBlender = [
   { engine: 'CYCLES', name: 'Cycles', shadows: 'exact, 4 samples' },
   { engine: 'BLENDER_EEVEE', name: 'Eevee', shadows: '4 cascades, 4 samples' },
-  { engine: 'BLENDER_WORKBENCH', name: 'Workbench', shadows: 'stencil volumes, no materials' },
 ];
 const kBlenderScript = path.join(import.meta.dirname, 'blender_frames.py');
 
