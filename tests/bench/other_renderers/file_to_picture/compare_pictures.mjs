@@ -12,8 +12,8 @@ import { markdownOf } from './tables.mjs';
 
 const [build, executable, work, output, ...names] = process.argv.slice(2);
 const kRounds = Number(process.env.ROUNDS ?? 3);
-const kUncounted = 2; // further pictures of each round
-const kCounted = 4;
+const kFurther = 4; // pictures of a round that count
+const kLongest = 5000; // ms, after which no further one begins
 
 const readJson = (file) => JSON.parse(fs.readFileSync(file));
 
@@ -27,29 +27,37 @@ function sceneOf(name) {
   return { ...scene, file: path.join(build, scene.glb) };
 }
 
+// The mean of the frames from this one on. They have names of their own, so that none is written over another.
+async function drawFurther(draw, from, fileOf) {
+  const begin = performance.now();
+  let count = 0;
+  const { wall, processor } = await measured(async () => {
+    for (; count < kFurther && performance.now() - begin < kLongest; ++count) {
+      await draw(from + count, fileOf(from + count));
+    }
+  });
+  return { wall: wall / count, processor: processor / count };
+}
+
 // A round of a contestant: `cold` from the program's start to the first picture on disk, `running` the part of it that a
 // program took that ran already, `further` the mean of the further pictures. Each has `wall` and `processor`, in
 // milliseconds.
-async function drawRound({ once, start, startsWithScene }, scene, file) {
-  if (once) return { cold: await measured(() => once(scene, file)) };
+async function drawRound({ once, start, startsWithScene }, scene, fileOf) {
+  if (once) return { cold: await measured(() => once(scene, fileOf(0))) };
   const started = await measured(start);
   const program = started.value;
   try {
     const first = await measured(async () => {
       const draw = await program.open(scene);
-      await draw(0, file);
+      await draw(0, fileOf(0));
       return draw;
     });
     const draw = first.value;
-    for (let frame = 1; frame <= kUncounted; ++frame) await draw(frame, file);
-    const further = await measured(async () => {
-      for (let frame = 1; frame <= kCounted; ++frame) await draw(kUncounted + frame, file);
-    });
-    await draw(0, file); // the one to look at
+    await draw(1, fileOf(1)); // does not count: programs still prepare themselves
     return {
       cold: { wall: started.wall + first.wall, processor: started.processor + first.processor },
       running: startsWithScene ? undefined : first,
-      further: { wall: further.wall / kCounted, processor: further.processor / kCounted },
+      further: await drawFurther(draw, 2, fileOf),
     };
   } finally {
     await program.close();
@@ -68,9 +76,9 @@ async function compare(scene, contestants, absent) {
   for (let round = 0; round < kRounds; ++round) {
     for (const [contestant, done] of rounds) {
       console.error(`${scene.name}, round ${round + 1} of ${kRounds}: ${contestant.name}`);
-      const file = path.join(work, `${scene.name}_${contestant.name.replace(/[ ,.]+/g, '_')}.png`);
+      const name = `${scene.name}_${contestant.name.replace(/[ ,.]+/g, '_')}`;
       try {
-        done.push(await drawRound(contestant, scene, file));
+        done.push(await drawRound(contestant, scene, (frame) => path.join(work, `${name}_${frame}.png`)));
       } catch ({ message }) {
         absent[contestant.name] = message.split('\n')[0];
         rounds.delete(contestant);
@@ -104,7 +112,7 @@ const scenes = names.map(sceneOf);
 const display = await openDisplay();
 const absent = {};
 const report = {
-  machine: os.cpus()[0].model.trim(), cores: os.cpus().length, rounds: kRounds, counted: kCounted,
+  machine: os.cpus()[0].model.trim(), cores: os.cpus().length, rounds: kRounds, further: kFurther,
   loadBefore: os.loadavg()[0],
 };
 try {

@@ -11,7 +11,6 @@ import { runOnce } from './once.mjs';
 
 const kThree = [
   { variant: 'CSM', shadows: '4 cascades' },
-  { variant: 'SunLight', shadows: '2 cascades' },
   { variant: 'kept', shadows: '1 map, drawn once' },
 ];
 const kBlender = [
@@ -47,10 +46,10 @@ async function startChromium({ executable, work }, variant) {
 
 export async function threeContestants(where) {
   await bundleEngines(path.join(where.work, 'bundles'));
-  const version = versionOf(where.executable, 'chromium');
-  return kThree.map(({ variant, shadows }) => ({
-    name: `three.js, ${variant}`, shadows, version: `Chromium ${version}`, start: () => startChromium(where, variant),
-  }));
+  const three = JSON.parse(fs.readFileSync(path.join(where.work, '../node_modules/three/package.json'))).version;
+  const version = `three.js ${three}, Chromium ${versionOf(where.executable, 'chromium')}`;
+  return kThree.map(({ variant, shadows }) => (
+    { name: `three.js, ${variant}`, shadows, version, start: () => startChromium(where, variant) }));
 }
 
 // A program that is started with its scene: its first picture can't be told apart from its start.
@@ -67,8 +66,11 @@ async function startScript(startFrames) {
 
 export function vtkContestants({ work, display }) {
   const python = pythonWithVtk();
+  const asked = 'from vtkmodules.vtkCommonCore import vtkVersion; print(vtkVersion.GetVTKVersion())';
+  const version = `VTK ${spawnSync(python, ['-c', asked], { encoding: 'utf8' }).stdout.trim()}`;
   const startFrames = (scene) => startVtk(python, display, { scene, antialias: true, work });
-  return [{ name: 'VTK', shadows: '1 map, drawn once', startsWithScene: true, start: () => startScript(startFrames) }];
+  const start = () => startScript(startFrames);
+  return [{ name: 'VTK', shadows: '1 map, drawn once', version, startsWithScene: true, start }];
 }
 
 export function blenderContestants({ work, display }) {

@@ -49,7 +49,7 @@ function details(scenes) {
 }
 
 export function markdownOf(report) {
-  const { machine, cores, rounds, counted, loadBefore, loadAfter, versions, absent, scenes } = report;
+  const { machine, cores, rounds, further, loadBefore, loadAfter, versions, absent, scenes } = report;
   const { width, height } = scenes[0];
   const missing = Object.entries(absent).map(([name, reason]) => `\n\n${name} is not in the table: ${reason}.`).join('');
   return `# From a file to a picture
@@ -70,9 +70,8 @@ ${details(scenes)}
 <!-- /readme -->
 
 \`first picture\`: from the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it
-after the program was ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of \
-${counted} pictures
-a round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
+after the program was ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of up to ${further}
+pictures a round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
 the others; \`x processor\` compares the seconds that all processes of the program spent on all cores together, which other
 work on the machine changes little. How each is set up: [the method](../../other_renderers/README.md#pictures).
 `;

@@ -16,7 +16,7 @@ const rowsOf = (factor) => [
   { name: 'F3D', shadows: 'none', cold: time(500, 600) },
 ];
 const kReport = {
-  machine: 'A processor', cores: 2, rounds: 3, counted: 4, loadBefore: 0.5, loadAfter: 1.25, versions: ['Chromium 9'],
+  machine: 'A processor', cores: 2, rounds: 3, further: 4, loadBefore: 0.5, loadAfter: 1.25, versions: ['Chromium 9'],
   absent: { Blender: 'there is no `blender`' },
   scenes: [{ scene: 'truck', width: 1280, height: 720, rows: rowsOf(1) }, { scene: 'city', rows: rowsOf(2) }],
 };
