@@ -118,7 +118,7 @@ constexpr const char* kMeanings =
     "view through OpenGL, "
     "without shading, shadows or PNG, with as many samples.\n\n"
     "To measure again, on a quiet machine:\n\n```sh\nbuild/release/bin/bench_devices --output FOLDER\n"
-    "tests/bench/to_readme.py devices FOLDER/devices.md README.md\n```";
+    "tests/bench/to_readme.py devices FOLDER/devices.md renderer/SPEED.md\n```";
 
 int bench(DeviceRun run, const std::vector<BenchScene>& scenes, const FactScenes& factScenes, bool facts,
           const fs::path& folder) {

@@ -4,7 +4,7 @@
 usage: to_readme.py NAME RESULT [PAGE...]      exit status 1 and one line where markers are missing
 
 RESULT is the Markdown that a benchmark wrote. What stands there between <!-- readme --> and <!-- /readme --> goes
-between <!-- NAME --> and <!-- /NAME --> of each PAGE (default: README.md and renderer/ACCURACY.md), its links changed
+between <!-- NAME --> and <!-- /NAME --> of each PAGE (default: renderer/ACCURACY.md), its links changed
 so that they work from there. Between <!-- NAME: A | B --> and <!-- /NAME --> goes the table alone, with columns
 A and B.
 """
@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = (ROOT / "README.md", ROOT / "renderer/ACCURACY.md")
+PAGE = ROOT / "renderer/ACCURACY.md"
 RELATIVE_LINK = re.compile(r"(\]\()(?![a-z]+:|#|/)")
 
 
@@ -53,7 +53,7 @@ def put(name, result, folder, page):
 
 def main(name, result, *pages):
     result = Path(result).resolve()
-    for page in [Path(page).resolve() for page in pages] or PAGES:
+    for page in [Path(page).resolve() for page in pages] or [PAGE]:
         folder = Path(os.path.relpath(result.parent, page.parent)).as_posix()
         try:
             page.write_text(put(name, result.read_text(), folder, page.read_text()))

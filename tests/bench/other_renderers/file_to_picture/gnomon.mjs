@@ -39,7 +39,7 @@ async function serve({ program, shadow }) {
 
 export function gnomonContestants({ program, work }) {
   return kTechniques.flatMap(({ name, shadows, shadow }) => [
-    { name: `gnomon render, ${name}`, shadows, once: (...of) => once({ program, work, shadow }, ...of) },
-    { name: `gnomon serve, ${name}`, shadows, start: () => serve({ program, shadow }) },
-  ]);
+    { name: `gnomon render, ${name}`, once: (...of) => once({ program, work, shadow }, ...of) },
+    { name: `gnomon serve, ${name}`, start: () => serve({ program, shadow }) },
+  ].map((each) => ({ ...each, program: `Gnomon, ${name}`, shadows })));
 }

@@ -18,19 +18,22 @@ export function ratioOf(scene, row, what, kind) {
   return row[what] && row[what][kind] / unitOf(scene, what)[kind];
 }
 
-// Both ends of the ratios over all scenes that have the row.
-function rangeOf(scenes, name, what) {
-  const ratios = scenes.flatMap((scene) => scene.rows.filter((row) => row.name === name && row[what])
-    .map((row) => ratioOf(scene, row, what, 'wall')));
+// Both ends of the ratios over all scenes.
+function rangeOf(scenes, program, what) {
+  const ratios = scenes.flatMap((scene) => {
+    const row = scene.rows.find((each) => each.program === program && each[what]);
+    return row ? [ratioOf(scene, row, what, 'wall')] : [];
+  });
   if (!ratios.length) return '';
   const [low, high] = [Math.min(...ratios), Math.max(...ratios)].map(ratioText);
   return low === high ? low : `${low} to ${high}`;
 }
 
+// A row a program; where it is there in two forms, each figure is that of the first form that has it.
 function summary(scenes) {
-  const rows = new Map(scenes.flatMap((scene) => scene.rows.map((row) => [row.name, row.shadows])));
-  const lines = [...rows].map(([name, shadows]) => (
-    `| ${name} | ${shadows} | ${kWhat.map((what) => rangeOf(scenes, name, what)).join(' | ')} |`));
+  const programs = new Map(scenes.flatMap((scene) => scene.rows.map(({ program, shadows }) => [program, shadows])));
+  const lines = [...programs].map(([program, shadows]) => (
+    `| ${program} | ${shadows} | ${kWhat.map((what) => rangeOf(scenes, program, what)).join(' | ')} |`));
   return ['| program | shadows | first picture | first, program running | each further picture |',
     '|---|---|---|---|---|', ...lines].join('\n');
 }
@@ -69,7 +72,7 @@ ${details(scenes)}
 
 <!-- /readme -->
 
-\`first picture\`: from the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it
+Gnomon's first picture is \`gnomon render\`'s in the first table, its others \`gnomon serve\`'s. \`first picture\`: from the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it
 after the program was ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of up to ${further}
 pictures a round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
 the others; \`x processor\` compares the seconds that all processes of the program spent on all cores together, which other

@@ -7,13 +7,16 @@ import { markdownOf, ratioOf } from './tables.mjs';
 
 const time = (wall, processor) => ({ wall, processor });
 const rowsOf = (factor) => [
-  { name: 'gnomon render, exact', shadows: 'exact', cold: time(100, 150) },
-  { name: 'gnomon serve, exact', shadows: 'exact', cold: time(120, 170), running: time(90, 130), further: time(50, 80) },
+  { name: 'gnomon render, exact', program: 'Gnomon, exact', shadows: 'exact', cold: time(100, 150) },
   {
-    name: 'three.js, CSM', shadows: '4 cascades', cold: time(1500 * factor, 3000), running: time(900 * factor, 1300),
-    further: time(600 * factor, 800),
+    name: 'gnomon serve, exact', program: 'Gnomon, exact', shadows: 'exact', cold: time(120, 170), running: time(90, 130),
+    further: time(50, 80),
   },
-  { name: 'F3D', shadows: 'none', cold: time(500, 600) },
+  {
+    name: 'three.js, CSM', program: 'three.js, CSM', shadows: '4 cascades', cold: time(1500 * factor, 3000),
+    running: time(900 * factor, 1300), further: time(600 * factor, 800),
+  },
+  { name: 'F3D', program: 'F3D', shadows: 'none', cold: time(500, 600) },
 ];
 const kReport = {
   machine: 'A processor', cores: 2, rounds: 3, further: 4, loadBefore: 0.5, loadAfter: 1.25, versions: ['Chromium 9'],
@@ -32,6 +35,7 @@ test('a first picture is compared with the command, the others with the server',
 
 test('the page has both ends of all scenes, a row a program and scene, and names what is missing', () => {
   const page = markdownOf(kReport);
+  assert.match(page, /\| Gnomon, exact \| exact \| 1\.0 \| 1\.0 \| 1\.0 \|/);
   assert.match(page, /\| three\.js, CSM \| 4 cascades \| 15 to 30 \| 10 to 20 \| 12 to 24 \|/);
   assert.match(page, /\| F3D \| none \| 5\.0 \|  \|  \|/);
   assert.match(page, /\| city \| three\.js, CSM \| 3000 \| 30 \| 20 \| 1800 \| 20 \| 10 \| 1200 \| 24 \| 10 \|/);
