@@ -19,11 +19,11 @@ const kBlender = [
 ];
 const kBlenderScript = path.join(import.meta.dirname, 'blender_frames.py');
 
-// The first line that the program says of itself. Throws with the package to install where there is none.
+// Throws with the package to install where the program is missing.
 function versionOf(program, debianPackage) {
   const { status, stdout } = spawnSync(program, ['--version'], { encoding: 'utf8' });
   if (status !== 0) throw new Error(`there is no \`${program}\` (Debian package \`${debianPackage}\`)`);
-  return stdout.split('\n').filter((line) => /\d/.test(line))[0].replace(/^\D+/, '');
+  return stdout.match(/\d+(\.\d+)+/)[0];
 }
 
 async function startChromium({ executable, work }, variant) {
