@@ -25,10 +25,12 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
+#include "renderer/image/i420_encode.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/image/png_encode.h"
 #include "renderer/scene/known_content.h"
+#include "renderer/video/video_file.h"
 #include "renderer/volume/vdb_file.h"
 
 /// The only door into the renderer.

@@ -55,7 +55,8 @@ MAY_INCLUDE = {
     "renderer/gl": VALUES + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": DEVICE + ["renderer/techniques", "renderer/shaders", "renderer/gl", "renderer/passes"],
     "renderer/charts": ["protocol", "renderer/charts"],
-    "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
+    "renderer/video": ["protocol", "renderer/core", "renderer/video"],
+    "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/video", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
     "server/system": ["protocol/base", "server/system"],
     "server/redis": ["protocol/base", "server/system", "server/redis"],
@@ -69,7 +70,7 @@ MAY_INCLUDE = {
     "server/bakes": ["protocol", "server/bakes"],
     "server/jobs": BOTH_PROCESSES + ["server/jobs"],
     "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/metrics"],
-    "server/handlers": FRONT + ["server/handlers"],
+    "server/handlers": FRONT + ["server/handlers", "renderer/video"],
     "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],
     "clients/cli": ["protocol", "clients/cli"],
@@ -118,6 +119,7 @@ KEPT_IN = {
     "openvdb/": ["renderer/volume/vdb"],
     "systemd/": ["server/process/service_manager.cpp"],
     "tbb/": ["renderer/core/parallel.cpp"],
+    "vpx/": ["renderer/video"],
 }
 
 
