@@ -108,7 +108,7 @@ KEPT_IN = {
     "OpenImageIO/": ["renderer/image"],
     "OpenEXR/": ["renderer/image"],
     "isa-l/": ["renderer/image"],
-    "libdeflate.h": ["renderer/image"],
+    "libdeflate.h": ["protocol/base", "renderer/image"],
     "tiffio.h": ["renderer/image"],
     "zlib.h": ["renderer/image"],
     "glad/": ["renderer/gl", "renderer/passes"],

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
@@ -21,17 +21,9 @@ class ZipWriter {
   Result<Bytes> finish() &&;
 
  private:
-  struct Entry {
-    std::string name;
-    std::uint32_t checksum = 0; ///< CRC-32 of the content
-    std::uint32_t packedBytes = 0;
-    std::uint32_t bytes = 0;
-    std::uint32_t offset = 0; ///< of its header in the file
-    bool deflated = false;
-  };
-
   Bytes file_;
-  std::vector<Entry> entries_;
+  std::string directory_;
+  std::size_t files_ = 0;
 };
 
 } // namespace gnomon
