@@ -99,7 +99,7 @@ KEPT_IN = {
         "renderer/export",
         "renderer/frame_encoding.cpp",
         "renderer/scene/checks",
-        "renderer/scene/container/model_container.h",
+        "renderer/scene/container/json_text.h",
         "renderer/scene/document",
     ],
     "tiny_gltf.h": ["tests"],

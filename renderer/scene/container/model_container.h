@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
-#include "protocol/spec/limits.h"
 
 namespace gnomon {
 
@@ -20,9 +18,5 @@ struct ModelContainer {
 
 /// Tells a GLB from glTF JSON by its first bytes and checks every length of a GLB.
 Result<ModelContainer> openContainer(const Bytes& model);
-
-/// Parses JSON whose root is an object. Nesting and the number of values are counted on the bytes first, so that
-/// no parser meets a text that would exhaust its stack or the memory.
-Result<nlohmann::json> parseJsonText(std::string_view text, const Limits& limits);
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_schema.h"
+#include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
 #include "renderer/scene/container/resources.h"
 #include "renderer/scene/decode/meshopt.h"

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <tiny_gltf.h>
 
+#include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
 #include "tests/renderer/scene/load.h"
 
