@@ -16,6 +16,7 @@ constexpr std::string_view kHexDigits = "0123456789abcdef";
 constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 constexpr std::uint8_t kNoDigit = 0xFF;
+constexpr std::uint32_t kLastDigit = 63;
 
 /// What each character is worth as a base64 digit.
 constexpr std::array<std::uint8_t, 256> kBase64Values = [] {
@@ -74,20 +75,27 @@ std::optional<Bytes> base64Bytes(std::string_view text, Base64Padding padding) {
     return std::nullopt;
   }
   if (text.size() % 4 == 1) return std::nullopt;
-  Bytes bytes;
-  bytes.reserve(text.size() / 4 * 3 + 2);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::uint8_t value = kBase64Values[static_cast<unsigned char>(c)];
-    if (value == kNoDigit) return std::nullopt;
-    bits = (bits << 6 | value) & 0xFFFF; // at most 13 bits are still to be written
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes.push_back(static_cast<std::uint8_t>(bits >> count & 0xFF));
-    }
+  const auto digit = [&](std::size_t at) -> std::uint32_t {
+    return kBase64Values[static_cast<unsigned char>(text[at])];
+  };
+  Bytes bytes(text.size() * 3 / 4);
+  std::uint8_t* out = bytes.data();
+  std::uint32_t seen = 0; // the bits of all digits: one check for all of them
+  std::size_t at = 0;
+  for (; at + 4 <= text.size(); at += 4) {
+    const std::uint32_t a = digit(at), b = digit(at + 1), c = digit(at + 2), d = digit(at + 3);
+    seen |= a | b | c | d;
+    *out++ = static_cast<std::uint8_t>(a << 2 | b >> 4);
+    *out++ = static_cast<std::uint8_t>(b << 4 | c >> 2);
+    *out++ = static_cast<std::uint8_t>(c << 6 | d);
   }
+  for (std::uint32_t before = 0, i = 0; at < text.size(); ++at, ++i) { // of two or three
+    const std::uint32_t next = digit(at);
+    seen |= next;
+    if (i > 0) *out++ = static_cast<std::uint8_t>(before << (2 * i) | next >> (6 - 2 * i));
+    before = next;
+  }
+  if (seen > kLastDigit) return std::nullopt;
   return bytes;
 }
 
