@@ -13,16 +13,6 @@
 namespace gnomon {
 namespace {
 
-/// The rules across fields of the spec that stands at /spec.
-std::vector<BrokenRule> rulesOfSpec(const FrameSpec& spec) {
-  std::vector<BrokenRule> rules = brokenRules(spec);
-  for (BrokenRule& rule : rules) {
-    rule.problem.pointer.insert(0, "/spec");
-    for (std::string& read : rule.reads) read.insert(0, "/spec");
-  }
-  return rules;
-}
-
 /// What is wrong with a path besides its values.
 void checkPath(const CameraPath& path, ProblemList& problems) {
   if (path.cameras.has_value() == path.step.has_value()) {
@@ -61,9 +51,7 @@ class VariantReader {
     merged.merge_patch(patch);
     const Result<FrameSpec> spec = decodeFrameSpec(merged.dump());
     if (!spec) {
-      for (const Problem& problem : spec.problems()) {
-        if (!isKnown("/spec" + problem.pointer)) problems_.add(within({problem}, place).front());
-      }
+      addPatchProblems(spec.problems(), known_, place, problems_);
     } else if (spec->quality) {
       if (!spec_.contains("quality")) problems_.add(targetProblem(place + "/quality"));
     } else {
@@ -72,20 +60,10 @@ class VariantReader {
   }
 
  private:
-  bool isKnown(const std::string& pointer) const {
-    return std::any_of(known_.begin(), known_.end(),
-                       [&](const Problem& problem) { return problem.pointer == pointer; });
-  }
-
   const Json& spec_;
   ProblemList& problems_;
   const Problems known_;
 };
-
-/// The spec as it was written, or of nothing where it is no object.
-Json specOf(const Json& request) {
-  return request.contains("spec") && request["spec"].is_object() ? request["spec"] : Json::object();
-}
 
 std::vector<Variant> readVariants(const EvaluationRequest& request, const Json& spec, ProblemList& problems) {
   std::vector<Variant> variants;
@@ -132,9 +110,7 @@ Result<Evaluation> decodeEvaluation(std::string_view json) {
   if (!root) return std::move(problems).take();
   EvaluationRequest request;
   decodeValue(*root, Notes{}, Place(), problems, request);
-  for (Problem& problem : problemsBeyond(problems.problems(), rulesOfSpec(request.spec))) {
-    problems.add(std::move(problem));
-  }
+  checkSpecRules(request.spec, problems);
   const bool goodPath = std::none_of(problems.problems().begin(), problems.problems().end(),
                                      [](const Problem& problem) { return pointsInto(problem.pointer, "/path"); });
   if (request.path && goodPath) checkPath(*request.path, problems);
@@ -149,7 +125,7 @@ Result<Evaluation> decodeEvaluation(std::string_view json) {
                   .limit = "variants | sweep",
                   .actual = given[0] ? "both" : "neither"});
   } else if (request.variants || request.sweep) {
-    evaluation.variants = readVariants(request, specOf(document), problems);
+    evaluation.variants = readVariants(request, writtenSpec(document), problems);
   }
   if (problems.empty()) return evaluation;
   return std::move(problems).take();

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "protocol/fields/field_list.h"
+#include "protocol/spec/rules.h"
+#include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {
@@ -37,6 +39,29 @@ Problems within(Problems problems, const std::string& place) {
 
 void checkRemovals(const Json& patch, ProblemList& problems) {
   checkRemovalsAt(patch, "", Place(), problems);
+}
+
+void checkSpecRules(const FrameSpec& spec, ProblemList& problems) {
+  std::vector<BrokenRule> rules = brokenRules(spec);
+  for (BrokenRule& rule : rules) {
+    rule.problem.pointer.insert(0, "/spec");
+    for (std::string& read : rule.reads) read.insert(0, "/spec");
+  }
+  for (Problem& problem : problemsBeyond(problems.problems(), rules)) problems.add(std::move(problem));
+}
+
+Json writtenSpec(const Json& request) {
+  const auto spec = request.find("spec");
+  return spec != request.end() && spec->is_object() ? *spec : Json::object();
+}
+
+void addPatchProblems(const Problems& found, const Problems& known, const std::string& place, ProblemList& problems) {
+  for (const Problem& problem : found) {
+    const bool isKnown = std::any_of(known.begin(), known.end(), [&](const Problem& earlier) {
+      return earlier.pointer == "/spec" + problem.pointer;
+    });
+    if (!isKnown) problems.add(within({problem}, place).front());
+  }
 }
 
 } // namespace gnomon

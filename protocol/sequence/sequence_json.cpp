@@ -122,12 +122,7 @@ void checkFrames(const Sequence& sequence, const std::function<void(const FrameS
     const auto frame = decodeFrameTree(nodeOf(writtenFrame(sequence, index)), {});
     const std::string place = framePlace(sequence, index);
     if (!frame) {
-      for (const Problem& problem : frame.problems()) {
-        const bool isKnown = std::any_of(known.begin(), known.end(), [&](const Problem& earlier) {
-          return earlier.pointer == "/spec" + problem.pointer;
-        });
-        if (!isKnown) problems.add(within({problem}, place).front());
-      }
+      addPatchProblems(frame.problems(), known, place, problems);
     } else if (frame->quality) {
       if (!sequence.spec.contains("quality")) problems.add(invalid(place + "/quality", kTarget));
     } else if (index >= sequence.first && each) {
@@ -152,20 +147,14 @@ Result<Sequence> decodeSequence(std::string_view json, const std::function<void(
   decodeValue(*root, Notes{}, Place(), problems, request);
   const Json document = jsonOf(*root);
   if (!document.is_object()) return std::move(problems).take();
-  for (BrokenRule& rule : brokenRules(request.spec)) {
-    const std::string pointer = "/spec" + rule.problem.pointer;
-    for (std::string& read : rule.reads) read.insert(0, "/spec");
-    rule.problem.pointer = pointer;
-    for (Problem& problem : problemsBeyond(problems.problems(), {rule})) problems.add(std::move(problem));
-  }
+  checkSpecRules(request.spec, problems);
   checkMembers(request, document, problems);
 
   Sequence sequence{.isKeyed = request.keys.has_value(),
                     .stable = request.stable,
                     .first = request.first,
                     .carried = request.carried.value_or(Carried())};
-  const bool hasSpec = document.contains("spec") && document["spec"].is_object();
-  sequence.spec = hasSpec ? document["spec"] : Json::object();
+  sequence.spec = writtenSpec(document);
   const bool isWhole = sequence.isKeyed ? !request.frames && request.count.has_value() : request.frames.has_value();
   if (!isWhole) {
     if (problems.empty()) problems.add(invalid("", "A sequence is of frames or of keys.", "frames | keys"));
