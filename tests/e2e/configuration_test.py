@@ -21,6 +21,8 @@ OTHER = {
     "allowed-origins": '["https://page.example"]',
     "keys": r'"/etc/a \"quoted\" # place\\with everything"',
     "store": '"/var/lib/scenes and more"',
+    "redis-password-file": '"/run/secrets/password"',
+    "redis-authorities": '"/etc/ssl/redis.pem"',
     "worker-program": '"/opt/choose gpu"',
     "device": '"gl"',
     "drake-spec": '"/etc/gnomon/drake.json"',
