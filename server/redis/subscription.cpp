@@ -4,6 +4,7 @@
 #include <exception>
 #include <poll.h>
 
+#include "server/redis/backoff.h"
 #include "server/redis/dial.h"
 #include "server/system/log.h"
 
@@ -33,37 +34,44 @@ Subscription::~Subscription() {
 }
 
 void Subscription::run() {
-  constexpr std::chrono::milliseconds kLeast{20};
+  int failures = 0; // in a row
   while (!stop_.raised()) {
+    ++failures;
     try {
       auto connection = redis_.connect({Clock::now() + kPatience, {}, &stop_});
-      if (connection) listen(**connection);
+      if (connection && listen(**connection)) failures = 1;
     } catch (const std::exception& error) {
       logEvent("redis", error.what()); // out of memory: again, later
     }
-    waitFor(stop_.fd(), POLLIN, std::max(redis_.nextAttempt(), Clock::now() + kLeast), nullptr);
+    waitFor(stop_.fd(), POLLIN, std::max(redis_.nextAttempt(), Clock::now() + backoffDelay(failures, 0)), nullptr);
   }
 }
 
-/// Until the connection ends, or does not answer.
-void Subscription::listen(Connection& connection) {
+/// Until the connection ends, or does not answer. False where it was not subscribed.
+bool Subscription::listen(Connection& connection) {
   const auto call = [this](std::chrono::seconds patience) { return Call{Clock::now() + patience, {}, &stop_}; };
-  if (!connection.tell({"SUBSCRIBE", channel_}, call(kPatience))) return;
+  if (!connection.tell({"SUBSCRIBE", channel_}, call(kPatience))) return false;
+  bool isSubscribed = false;
   bool isAsked = true;
   while (!stop_.raised()) {
     auto heard = connection.hear(call(isAsked ? kPatience : kQuiet));
-    if (!heard || (!*heard && isAsked)) return;
+    if (!heard || (!*heard && isAsked)) return isSubscribed;
     if (!*heard) {
-      if (!connection.tell({"PING"}, call(kPatience))) return;
+      if (!connection.tell({"PING"}, call(kPatience))) return isSubscribed;
       isAsked = true;
       continue;
     }
     isAsked = false;
     const std::vector<Reply>& parts = (*heard)->elements;
-    if (parts.empty()) return; // an error
-    if (parts[0].text == "subscribe") callSafely(listener_.begun);
+    if ((*heard)->isError()) logEvent("redis", "A subscription is refused: " + (*heard)->text);
+    if (parts.empty()) return isSubscribed;
+    if (parts[0].text == "subscribe") {
+      isSubscribed = true;
+      callSafely(listener_.begun);
+    }
     if (parts[0].text == "message" && parts.size() == 3) callSafely(listener_.told, parts[2].text);
   }
+  return isSubscribed;
 }
 
 } // namespace gnomon::redis

@@ -27,7 +27,7 @@ class Subscription {
 
  private:
   void run();
-  void listen(Connection& connection);
+  bool listen(Connection& connection);
 
   Redis& redis_;
   const std::string channel_;

@@ -92,6 +92,17 @@ TEST_F(SubscriptionTest, NoticesAServerThatHangs) {
   EXPECT_TRUE(redis_->use().isReachable);
 }
 
+TEST_F(SubscriptionTest, OneThatIsRefusedIsTriedEverMoreRarely) {
+  ASSERT_TRUE(
+      redis_->ask({"ACL", "SETUSER", "deaf", "on", ">word", "~*", "resetchannels", "+@all"}, {Clock::now() + 5s}));
+  Redis deaf({.address = *parseAddress(server_->url("deaf:word@"))});
+  const auto begun = Clock::now();
+  const Subscription subscription(deaf, "news", heard_.listener());
+  while (deaf.use().connected < 4) std::this_thread::sleep_for(5ms);
+  EXPECT_GE(Clock::now() - begun, 25ms + 50ms + 100ms);
+  EXPECT_TRUE(deaf.ask({"PING"}, {Clock::now() + 5s})) << "which other calls do not feel";
+}
+
 TEST_F(SubscriptionTest, EndsWhileNobodyAnswers) {
   server_->kill();
   const auto begun = Clock::now();
