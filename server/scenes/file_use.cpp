@@ -30,6 +30,13 @@ void lockShared(int fd) {
   }
 }
 
+/// For an exclusive lock, which NFS gives on what may be written only.
+FileDescriptor openToLock(const std::string& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+  if (file || errno != EACCES) return file;
+  return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+}
+
 } // namespace
 
 FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution) {
@@ -50,7 +57,7 @@ FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resol
 bool removeIfUnused(const std::string& path, std::chrono::seconds age) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || !isOlder(status, age)) return false;
-  const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW)); // NFS locks no other
+  const FileDescriptor file = openToLock(path);
   if (!file || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return false;
   // Nobody can begin to use it now; but somebody may have, before the lock.
   if (::fstat(file.get(), &status) != 0 || status.st_nlink == 0 || !isOlder(status, age)) return false;

@@ -5,37 +5,19 @@
 #include <functional>
 
 #include "server/scenes/redis_scripts.h"
-#include "server/scenes/store_quota.h"
+#include "server/scenes/redis_upload.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {
 namespace {
 
-constexpr const char* kScenes = "gnomon:scenes";
-constexpr const char* kUsed = "gnomon:used";
-constexpr const char* kBytes = "gnomon:bytes";
-constexpr const char* kWriting = "gnomon:writing";
-
-std::string sceneKey(const std::string& id) {
-  return "gnomon:scene:" + id;
-}
-
-std::string summaryKey(const std::string& id) {
-  return "gnomon:summary:" + id;
-}
-
-redis::Call soon(std::size_t bytes = 1 << 20) {
-  constexpr std::chrono::seconds kPatience{3};
-  return {Clock::now() + kPatience, {.bytes = bytes}};
-}
-
 constexpr std::size_t kSummaryReply = SceneBackend::kMaxSummaryBytes + 1024;
 
-/// The reply, or what its error means.
-Result<redis::Reply> good(Result<redis::Reply> reply) {
-  if (reply && reply->isError()) return problemOf(*reply);
-  return reply;
+Problem tooLargeForMemory(std::size_t limit, std::uint64_t bytes) {
+  return {ProblemCode::tooLarge, "",
+          "The scene is larger than the server's memory for bundles (--bundle-memory-bytes).",
+          std::to_string(limit) + " bytes", std::to_string(bytes) + " bytes"};
 }
 
 } // namespace
@@ -55,7 +37,7 @@ RedisBackend::RedisBackend(std::shared_ptr<redis::Redis> redis, Options options)
 Result<std::vector<std::string>> RedisBackend::missing(const std::vector<std::string>& ids) {
   std::vector<std::string> missing;
   if (ids.empty()) return missing;
-  auto reply = good(redis_->run(redis_scripts::use(), {}, ids, soon()));
+  auto reply = answered(redis_->run(redis_scripts::use(), {}, ids, storeCall()));
   if (!reply) return std::move(reply).problems();
   for (redis::Reply& id : reply->elements) missing.push_back(std::move(id.text));
   return missing;
@@ -76,7 +58,7 @@ void RedisBackend::checkMemory() {
     const auto last = std::min(ids.size(), first + kAtOnce);
     std::vector<redis::Command> commands;
     for (std::size_t i = first; i < last; ++i) commands.push_back({"EXISTS", sceneKey(ids[i])});
-    const auto replies = redis_->pipeline(commands, soon());
+    const auto replies = redis_->pipeline(commands, storeCall());
     if (!replies) return;
     for (std::size_t i = first; i < last; ++i) {
       const redis::Reply& reply = (*replies)[i - first];
@@ -87,7 +69,7 @@ void RedisBackend::checkMemory() {
 
 Status RedisBackend::contains(const std::string& id) {
   if (memory_.contains(id)) return Done{};
-  const auto reply = good(redis_->ask({"EXISTS", sceneKey(id)}, soon()));
+  const auto reply = answered(redis_->ask({"EXISTS", sceneKey(id)}, storeCall()));
   if (!reply) return reply.problems();
   if (reply->integer == 0) return unknownScene(id);
   return Done{};
@@ -106,45 +88,14 @@ Status RedisBackend::use(const std::string& id) {
 }
 
 Status RedisBackend::checkRoom(std::uint64_t bytes) {
-  const auto reply =
-      good(redis_->run(redis_scripts::begin(), {sceneKey(""), kUsed, kBytes, kWriting},
-                       {"", "", std::to_string(bytes), std::to_string(options_.quotaBytes), "0"}, soon()));
-  if (!reply) return reply.problems();
-  if (reply->elements.size() == 2 && reply->elements[0].integer == 2) {
-    return noRoom(options_.quotaBytes, static_cast<std::uint64_t>(reply->elements[1].integer), bytes);
-  }
-  return Done{};
+  return checkRedisRoom(*redis_, options_.quotaBytes, bytes);
 }
 
 Result<bool> RedisBackend::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
                                const std::string& summary) {
-  const RedisParts parts = newParts(bytes);
-  const std::string entry = parts.token + ":" + std::to_string(bytes);
-  const std::string expires = std::to_string(std::chrono::milliseconds(kPartsExpire).count());
-  const auto begun =
-      good(redis_->run(redis_scripts::begin(), {sceneKey(id), kUsed, kBytes, kWriting},
-                       {id, entry, std::to_string(bytes), std::to_string(options_.quotaBytes), expires}, soon()));
-  if (!begun) return begun.problems();
-  const auto answer = begun->elements.size() == 2 ? begun->elements[0].integer : -1;
-  if (answer == 1) return false;
-  if (answer == 2) {
-    return noRoom(options_.quotaBytes, static_cast<std::uint64_t>(begun->elements[1].integer), bytes);
-  }
-  const std::string count = std::to_string(parts.count());
-  Status done = writeParts(*redis_, parts, *bundle, kForScene);
-  bool isNew = false;
-  if (done) {
-    const auto committed =
-        good(redis_->run(redis_scripts::commit(), {sceneKey(id), kUsed, kBytes, kWriting, kScenes, summaryKey(id)},
-                         {id, entry, parts.token, std::to_string(bytes), count, summary}, soon()));
-    if (!committed) done = committed.problems();
-    isNew = committed && committed->integer == 1;
-  }
-  if (!done) { // while Redis is away, they expire by themselves
-    (void)redis_->run(redis_scripts::abandon(), {kWriting}, {entry, parts.token, count}, soon());
-    return done.problems();
-  }
-  (void)keepInMemory(id, std::move(bundle), bytes, summary); // it may be removed by now
+  if (bytes > options_.memoryBytes) return tooLargeForMemory(options_.memoryBytes, bytes); // nobody could read it
+  auto isNew = uploadToRedis(*redis_, options_.quotaBytes, {id, *bundle, bytes, summary});
+  if (isNew && *isNew) (void)keepInMemory(id, std::move(bundle), bytes, summary); // it may be removed by now
   return isNew;
 }
 
@@ -152,7 +103,7 @@ Result<bool> RedisBackend::put(const std::string& id, BundlePtr bundle, std::uin
 Status RedisBackend::keepInMemory(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
                                   const std::string& summary) {
   memory_.put(id, std::move(bundle), bytes, summary);
-  const auto reply = good(redis_->ask({"EXISTS", sceneKey(id)}, soon()));
+  const auto reply = answered(redis_->ask({"EXISTS", sceneKey(id)}, storeCall()));
   if (reply && reply->integer == 1) return Done{};
   memory_.remove(id);
   if (!reply) return reply.problems();
@@ -177,18 +128,14 @@ Result<StoredBundle> RedisBackend::bundle(const std::string& id) {
 Result<StoredBundle> RedisBackend::fetch(const std::string& id) {
   redis::Command fields{"HMGET", sceneKey(id)};
   fields.insert(fields.end(), kPartsFields.begin(), kPartsFields.end());
-  auto replies = redis_->pipeline({std::move(fields), {"GET", summaryKey(id)}}, soon(kSummaryReply));
+  auto replies = redis_->pipeline({std::move(fields), {"GET", summaryKey(id)}}, storeCall(kSummaryReply));
   if (!replies) return std::move(replies).problems();
   for (const redis::Reply& reply : *replies) {
     if (reply.isError()) return problemOf(reply);
   }
   const auto parts = partsFrom(replies->front());
   if (!parts) return unknownScene(id);
-  if (parts->bytes > options_.memoryBytes) {
-    return Problem{ProblemCode::tooLarge, "",
-                   "The stored scene is larger than the server's memory for bundles (--bundle-memory-bytes).",
-                   std::to_string(options_.memoryBytes) + " bytes", std::to_string(parts->bytes) + " bytes"};
-  }
+  if (parts->bytes > options_.memoryBytes) return tooLargeForMemory(options_.memoryBytes, parts->bytes);
   auto read = readParts(*redis_, *parts, kForScene);
   if (!read) return std::move(read).problems();
   if (!read->file || read->sha256 != id) {
@@ -205,8 +152,8 @@ Result<StoredBundle> RedisBackend::fetch(const std::string& id) {
 
 Result<ScenePage> RedisBackend::page(std::string_view after, std::size_t limit) {
   const std::string from = after.empty() ? "-" : "(" + std::string(after);
-  auto reply = good(redis_->ask({"ZRANGEBYLEX", kScenes, from, "+", "LIMIT", "0", std::to_string(limit + 1)},
-                                soon(128 * (limit + 2))));
+  auto reply = answered(redis_->ask({"ZRANGEBYLEX", kScenesKey, from, "+", "LIMIT", "0", std::to_string(limit + 1)},
+                                    storeCall(128 * (limit + 2))));
   if (!reply) return std::move(reply).problems();
   ScenePage page;
   for (redis::Reply& id : reply->elements) {
@@ -218,7 +165,7 @@ Result<ScenePage> RedisBackend::page(std::string_view after, std::size_t limit) 
 }
 
 StoreSize RedisBackend::size() {
-  const auto replies = redis_->pipeline({{"ZCARD", kScenes}, {"GET", kBytes}}, soon());
+  const auto replies = redis_->pipeline({{"ZCARD", kScenesKey}, {"GET", kBytesKey}}, storeCall());
   const std::lock_guard lock(mutex_);
   if (!replies) return size_;
   const std::string& bytes = replies->back().text;
@@ -235,14 +182,15 @@ StoreState RedisBackend::state() {
 
 std::optional<std::string> RedisBackend::summary(const std::string& id) {
   if (auto kept = memory_.summary(id); kept && !kept->empty()) return kept;
-  auto reply = redis_->ask({"GET", summaryKey(id)}, soon(kSummaryReply));
+  auto reply = redis_->ask({"GET", summaryKey(id)}, storeCall(kSummaryReply));
   if (!reply || !reply->isText()) return std::nullopt;
   return std::move(reply->text);
 }
 
 void RedisBackend::keepSummary(const std::string& id, const std::string& summary) {
   memory_.replaceSummary(id, summary);
-  const auto kept = good(redis_->run(redis_scripts::keepSummary(), {sceneKey(id), summaryKey(id)}, {summary}, soon()));
+  const auto kept =
+      answered(redis_->run(redis_scripts::keepSummary(), {sceneKey(id), summaryKey(id)}, {summary}, storeCall()));
   if (!kept) logEvent("store", "A summary could not be written.");
 }
 
@@ -252,7 +200,7 @@ void RedisBackend::setAside(const std::string& id) {
 }
 
 Status RedisBackend::remove(const std::string& id) {
-  const auto reply = good(redis_->run(redis_scripts::remove(), {}, {id, channel_}, soon()));
+  const auto reply = answered(redis_->run(redis_scripts::remove(), {}, {id, channel_}, storeCall()));
   if (!reply) return reply.problems();
   memory_.remove(id);
   if (reply->integer == 0) return unknownScene(id);
@@ -283,9 +231,10 @@ void RedisBackend::keepClean(const SceneListener& removed) {
   markUsed();
   if (options_.age.count() == 0) return;
   const std::string age = std::to_string(std::chrono::milliseconds(options_.age).count());
-  const auto reply = good(redis_->run(redis_scripts::removeUnused(), {}, {age, channel_, "100"}, soon()));
+  const auto reply = answered(redis_->run(redis_scripts::removeUnused(), {}, {age, channel_, "100"}, storeCall()));
   if (!reply) return;
   for (const redis::Reply& id : reply->elements) {
+    if (!isSceneId(id.text)) continue;
     memory_.remove(id.text);
     removed(id.text);
   }

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::chrono::seconds kForMap{8}; ///< a worker waits little longer, and then bakes it
 
-std::string mapKey(const std::string& key) {
-  return "gnomon:map:" + key;
-}
-
 redis::Call mapCall() {
   constexpr std::chrono::seconds kPatience{2};
   return {Clock::now() + kPatience};
@@ -23,7 +19,7 @@ redis::Call mapCall() {
 
 FileDescriptor RedisLightMaps::open(const std::string& key) {
   if (!isLightMapKey(key)) return {};
-  redis::Command fields{"HMGET", mapKey(key)};
+  redis::Command fields{"HMGET", lightMapKey(key)};
   fields.insert(fields.end(), kPartsFields.begin(), kPartsFields.end());
   const auto reply = redis_->ask(fields, mapCall());
   const auto parts = reply ? partsFrom(*reply) : std::nullopt;
@@ -41,10 +37,10 @@ void RedisLightMaps::write(const std::string& key, const FileDescriptor& lightMa
   if (parts.bytes > budgetBytes_) return;
   const std::string count = std::to_string(parts.count());
   if (writeParts(*redis_, parts, lightMap, kForMap)) {
-    (void)redis_->run(redis_scripts::commitMap(), {mapKey(key)},
+    (void)redis_->run(redis_scripts::commitMap(), {lightMapKey(key)},
                       {key, parts.token, std::to_string(parts.bytes), count, std::to_string(budgetBytes_)}, mapCall());
   } else {
-    (void)redis_->run(redis_scripts::abandon(), {"gnomon:writing"}, {"", parts.token, count}, mapCall());
+    (void)redis_->run(redis_scripts::abandon(), {kWritingKey}, {"", parts.token, count}, mapCall());
   }
 }
 

@@ -127,4 +127,14 @@ Problem problemOf(const redis::Reply& error) {
   return {ProblemCode::unavailable, "", "The server's Redis can't read or write now.", "", ""};
 }
 
+Result<redis::Reply> answered(Result<redis::Reply> reply) {
+  if (reply && reply->isError()) return problemOf(*reply);
+  return reply;
+}
+
+redis::Call storeCall(std::size_t bytes) {
+  constexpr std::chrono::seconds kStorePatience{3};
+  return {Clock::now() + kStorePatience, {.bytes = bytes}};
+}
+
 } // namespace gnomon

@@ -46,4 +46,10 @@ Result<ReadParts> readParts(redis::Redis& redis, const RedisParts& parts, Clock:
 /// What an error of Redis means: insufficientStorage where it is full, else unavailable, and a line in the log.
 Problem problemOf(const redis::Reply& error);
 
+/// The reply, or what its error means.
+Result<redis::Reply> answered(Result<redis::Reply> reply);
+
+/// A call of a store, other than those that move parts. `bytes`: of its reply.
+redis::Call storeCall(std::size_t bytes = 1 << 20);
+
 } // namespace gnomon

@@ -18,6 +18,25 @@
 ///   gnomon:maps:bytes    bytes of all light maps
 ///
 /// Times are those of the Redis server. A channel tells the id of each scene that is removed.
+namespace gnomon {
+
+inline const std::string kScenesKey = "gnomon:scenes";
+inline const std::string kUsedKey = "gnomon:used";
+inline const std::string kBytesKey = "gnomon:bytes";
+inline const std::string kWritingKey = "gnomon:writing";
+
+inline std::string sceneKey(const std::string& id) {
+  return "gnomon:scene:" + id;
+}
+inline std::string summaryKey(const std::string& id) {
+  return "gnomon:summary:" + id;
+}
+inline std::string lightMapKey(const std::string& key) {
+  return "gnomon:map:" + key;
+}
+
+} // namespace gnomon
+
 namespace gnomon::redis_scripts {
 
 /// KEYS: scene, used, bytes, writing. ARGV: id, "TOKEN:BYTES" or nothing, bytes, quota (0 = none), milliseconds.

@@ -215,6 +215,8 @@ TEST_F(RedisBackendTest, MemoryIsBounded) {
   EXPECT_EQ(scenes->size().scenes, 6u);
   for (int i = 0; i < 6; ++i) EXPECT_TRUE(scenes->bundle(bundleOf(i, 1'000'000).id));
   EXPECT_LE(scenes->state().inMemory.bytes, 3'000'000u);
+  const PackedBundle large = bundleOf(7, 3'000'001);
+  EXPECT_EQ(scenes->put(large.id, large.file, large.bytes, "{}").problems().front().code, ProblemCode::tooLarge);
 }
 
 class RedisLightMapsTest : public RedisBackendTest {
