@@ -68,7 +68,7 @@ MAY_INCLUDE = {
     "server/dispatch": BOTH_PROCESSES + ["server/scenes", "server/dispatch"],
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],
-    "server/jobs": BOTH_PROCESSES + ["server/jobs"],
+    "server/jobs": BOTH_PROCESSES + ["server/redis", "server/jobs"],
     "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/metrics"],
     "server/handlers": FRONT + ["server/handlers", "renderer/video"],
     "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],

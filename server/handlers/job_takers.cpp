@@ -66,7 +66,7 @@ void JobTakers::pause(std::chrono::milliseconds time) const {
 }
 
 void JobTakers::takeFrames() {
-  constexpr std::chrono::milliseconds kPatience{250};
+  constexpr std::chrono::milliseconds kPatience{500};
   auto pauseAfter = kShortest;
   while (!stopping()) {
     try {

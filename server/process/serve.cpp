@@ -20,7 +20,6 @@
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
-#include "server/jobs/local_jobs.h"
 #include "server/metrics/metrics_text.h"
 #include "server/process/admin_address.h"
 #include "server/process/descriptor_plan.h"
@@ -138,6 +137,10 @@ std::size_t workersOf(const ServeOptions& options) {
   return options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memoryLimit());
 }
 
+std::size_t jobFramesOf(const ServeOptions& options) {
+  return options.jobFrames > 0 ? options.jobFrames : workersOf(options);
+}
+
 /// What all workers may keep together is shared out.
 DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<StoredLightMaps> lightMaps,
                                     metrics::RequestMetrics& counted) {
@@ -213,11 +216,12 @@ int serve(const ServeOptions& options) {
                             .jobsOfClient = options.jobsPerClient,
                             .bytes = options.jobBytes,
                             .age = std::chrono::seconds(options.jobAgeSeconds)};
-  LocalJobs jobs(jobLimits, redis::isAddress(options.store) ? "" : options.store);
+  auto jobs = openJobs(options, jobLimits, store->redis);
+  if (!jobs) return failed(jobs.problems());
   Services services{.store = *store->scenes,
                     .workers = **workers,
                     .replyBytes = replyBytes,
-                    .jobs = jobs,
+                    .jobs = **jobs,
                     .jobLimits = jobLimits,
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
@@ -259,7 +263,7 @@ int serve(const ServeOptions& options) {
     if (!opened) return failed(opened.problems());
     admin = *std::move(opened);
   }
-  const JobTakers takers(services, options.jobFrames > 0 ? options.jobFrames : workersOf(options));
+  const JobTakers takers(services, jobFramesOf(options));
   const std::string address = addressOf(options.bind, (*server)->port());
   logEvent("listening", address);
   std::printf("listening on %s\n", address.c_str());

@@ -57,6 +57,7 @@ struct ServeOptions {
   std::string drakeSpecFile; ///< a FrameSpec (drake_form.h) for the color pictures of POST /render; empty = the default
 
   // Jobs
+  std::string jobsAddress;             ///< of a Redis that keeps jobs for all servers that name it; empty = own ones
   std::size_t jobFrames = 0;           ///< frames of jobs that are drawn at once; 0 = as many as there are workers
   std::size_t jobsPerClient = 16;      ///< >= 1; jobs that are kept for one client (429)
   std::uint64_t jobBytes = 1ull << 30; ///< requests and pictures of all jobs (507)

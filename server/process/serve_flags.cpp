@@ -13,7 +13,7 @@ constexpr int kDay = 86'400; // seconds
 const std::map<std::string, std::int64_t> kTimeUnits{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 45);
+static_assert(memberCount<ServeOptions>() == 46);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -218,6 +218,14 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
 }
 
 void addJobs(CLI::App& serve, ServeOptions& options) {
+  serve
+      .add_option(
+          "--jobs", options.jobsAddress,
+          "Redis that keeps jobs, as redis://HOST:PORT/DATABASE, for all servers that name it and share a store; "
+          "without it they are in the Redis of --store, or else end with the server")
+      ->envname("GNOMON_JOBS")
+      ->type_name("ADDRESS")
+      ->group("Jobs");
   serve
       .add_option("--job-frames", options.jobFrames,
                   "Frames of jobs that are drawn at once; 0 = as many as there are workers")

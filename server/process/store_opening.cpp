@@ -1,5 +1,7 @@
 #include "server/process/store_opening.h"
 
+#include "server/jobs/local_jobs.h"
+#include "server/jobs/redis_jobs.h"
 #include "server/scenes/light_map_directory.h"
 #include "server/scenes/redis_light_maps.h"
 
@@ -17,23 +19,28 @@ std::optional<Problem> contradiction(const ServeOptions& options) {
         "--store-bytes and --store-age are about scenes that are stored: --store has to name a directory or "
         "Redis.");
   }
-  if (!redis::isAddress(options.store) && !(options.redisPasswordFile.empty() && options.redisAuthorities.empty())) {
-    return refused("--redis-password-file and --redis-authorities need a --store that is Redis.");
+  const bool isRedis = redis::isAddress(options.store) || !options.jobsAddress.empty();
+  if (!isRedis && !(options.redisPasswordFile.empty() && options.redisAuthorities.empty())) {
+    return refused("--redis-password-file and --redis-authorities need a --store or --jobs that is Redis.");
+  }
+  if (!options.jobsAddress.empty() && options.store.empty()) {
+    return refused("Jobs of --jobs are drawn by every server that names it: --store has to name what they share.");
   }
   return std::nullopt;
 }
 
-Result<redis::Address> addressOf(const ServeOptions& options) {
-  auto address = redis::parseAddress(options.store);
+/// `flag` has the text.
+Result<redis::Address> addressOf(const ServeOptions& options, const std::string& flag, const std::string& text) {
+  auto address = redis::parseAddress(text);
   if (!address) return address;
   if (!options.redisPasswordFile.empty()) {
-    if (!address->password.empty()) return refused("--store has a password, and --redis-password-file, too.");
+    if (!address->password.empty()) return refused(flag + " has a password, and --redis-password-file, too.");
     auto password = redis::passwordFrom(options.redisPasswordFile);
     if (!password) return std::move(password).problems();
     address->password = *std::move(password);
   }
   if (!options.redisAuthorities.empty() && !address->isEncrypted) {
-    return refused("--redis-authorities is about TLS: --store has to begin with rediss://.");
+    return refused("--redis-authorities is about TLS: " + flag + " has to begin with rediss://.");
   }
   address->authorities = options.redisAuthorities;
   return address;
@@ -53,7 +60,7 @@ Result<OpenedStore> openStore(const ServeOptions& options, std::size_t scenesInM
                            .storedBytes = options.storeBytes,
                            .age = std::chrono::seconds(options.storeAgeSeconds)};
   if (redis::isAddress(options.store)) {
-    auto address = addressOf(options);
+    auto address = addressOf(options, "--store", options.store);
     if (!address) return std::move(address).problems();
     opened.redis = std::make_shared<redis::Redis>(redis::Options{.address = *std::move(address), .connections = 16});
     opened.lightMaps = std::make_shared<RedisLightMaps>(opened.redis, options.storedLightMapBytes);
@@ -67,6 +74,22 @@ Result<OpenedStore> openStore(const ServeOptions& options, std::size_t scenesInM
   if (!store) return std::move(store).problems();
   opened.scenes = *std::move(store);
   return opened;
+}
+
+Result<std::unique_ptr<JobQueue>> openJobs(const ServeOptions& options, const JobLimits& limits,
+                                           std::shared_ptr<redis::Redis> redis) {
+  if (!options.jobsAddress.empty()) {
+    auto address = addressOf(options, "--jobs", options.jobsAddress);
+    if (!address) return std::move(address).problems();
+    redis = std::make_shared<redis::Redis>(redis::Options{.address = *std::move(address), .connections = 16});
+  }
+  std::unique_ptr<JobQueue> queue;
+  if (redis) {
+    queue = std::make_unique<RedisJobs>(limits, std::move(redis));
+  } else {
+    queue = std::make_unique<LocalJobs>(limits, options.store);
+  }
+  return queue;
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "server/jobs/job_queue.h"
 #include "server/process/serve.h"
 #include "server/redis/redis.h"
 #include "server/scenes/scene_store.h"
@@ -21,5 +22,9 @@ bool keepsScenesInMemory(const ServeOptions& options);
 
 /// Opens the store. Redis may be away then. `scenesInMemory`: at most, where any are.
 Result<OpenedStore> openStore(const ServeOptions& options, std::size_t scenesInMemory);
+
+/// Opens the queue of jobs: that of --jobs, else in the store's Redis, where it is one, else of this process.
+Result<std::unique_ptr<JobQueue>> openJobs(const ServeOptions& options, const JobLimits& limits,
+                                           std::shared_ptr<redis::Redis> redis);
 
 } // namespace gnomon

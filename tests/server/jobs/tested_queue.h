@@ -13,6 +13,7 @@ namespace gnomon {
 struct TestedQueue {
   std::string name;
   bool isShared = false;
+  std::function<void()> clear;                                     ///< before each test
   std::function<std::unique_ptr<JobQueue>(const JobLimits&)> open; ///< nullptr = what it needs is not installed
 };
 

@@ -1,0 +1,199 @@
+#include "server/jobs/job_scripts.h"
+
+#include <string>
+
+namespace gnomon::job_scripts {
+namespace {
+
+constexpr const char* kCommon = R"lua(
+local P = 'gnomon:jobs:'
+local call = redis.call
+local function now()
+  local time = call('TIME')
+  return time[1] * 1000 + math.floor(time[2] / 1000)
+end
+local function text(number) return string.format('%d', number) end
+local function touch(id)
+  local time = text(now())
+  call('HSET', P .. 'job:' .. id, 'changed', time)
+  call('ZADD', P .. 'changed', time, id)
+  return time
+end
+local function leaveRing(id, client)
+  call('LREM', P .. 'ring:' .. client, 0, id)
+  if call('LLEN', P .. 'ring:' .. client) == 0 then call('LREM', P .. 'ring', 0, client) end
+end
+local function finishJob(id, state, problems)
+  local time = touch(id)
+  call('HSET', P .. 'job:' .. id, 'state', state, 'ended', time, 'problems', problems)
+  leaveRing(id, call('HGET', P .. 'job:' .. id, 'client'))
+  call('UNLINK', P .. 'stream:' .. id)
+end
+local function removeJob(id)
+  local job = call('HMGET', P .. 'job:' .. id, 'client', 'key', 'first', 'count', 'bytes', 'requestBytes')
+  call('ZREM', P .. 'changed', id)
+  if not job[1] then return 0 end
+  leaveRing(id, job[1])
+  call('SREM', P .. 'client:' .. job[1], id)
+  call('ZREM', P .. 'key:' .. job[2], id)
+  call('DECRBY', P .. 'bytes', text(job[5] + job[6]))
+  call('UNLINK', P .. 'job:' .. id, P .. 'stream:' .. id)
+  for index = tonumber(job[3]), job[4] - 1 do call('UNLINK', P .. 'frame:' .. id .. ':' .. index) end
+  return 1
+end
+local function removeOld(age)
+  local old = call('ZRANGEBYSCORE', P .. 'changed', '-inf', '(' .. text(now() - age), 'LIMIT', 0, 4)
+  for _, id in ipairs(old) do removeJob(id) end
+end
+local function isOpen(id)
+  local state = call('HGET', P .. 'job:' .. id, 'state')
+  return state == 'queued' or state == 'running'
+end
+local function settle(id, entry)
+  call('XACK', P .. 'stream:' .. id, 'takers', entry)
+  call('XDEL', P .. 'stream:' .. id, entry)
+end
+local function fieldsOf(id)
+  local fields = call('HMGET', P .. 'job:' .. id, 'key', 'scene', 'state', 'first', 'count', 'done', 'bytes', 'carried',
+                      'problems', 'created', 'started', 'changed', 'ended')
+  if not fields[1] then return false end
+  table.insert(fields, 1, id)
+  return fields
+end
+)lua";
+
+redis::Script script(const char* own) {
+  return redis::Script(std::string(kCommon) + own);
+}
+
+} // namespace
+
+const redis::Script kPut = script(R"lua(
+local id, key, client, scene, request, first, count, chained, carried, ofClient, jobs, bytes, age = unpack(ARGV)
+removeOld(tonumber(age))
+if call('SCARD', P .. 'client:' .. client) >= tonumber(ofClient) then return 'client' end
+if call('ZCARD', P .. 'changed') >= tonumber(jobs) then return 'room' end
+if tonumber(call('GET', P .. 'bytes') or 0) + #request > tonumber(bytes) then return 'room' end
+local time = touch(id)
+call('HSET', P .. 'job:' .. id, 'key', key, 'client', client, 'scene', scene, 'request', request, 'requestBytes', #request,
+     'first', first, 'count', count, 'chained', chained, 'carried', carried, 'state', 'queued', 'done', 0, 'bytes', 0,
+     'problems', '{"problems":[]}', 'created', time, 'started', 0, 'ended', 0)
+call('INCRBY', P .. 'bytes', #request)
+call('SADD', P .. 'client:' .. client, id)
+call('ZADD', P .. 'key:' .. key, call('INCR', P .. 'count'), id)
+call('XGROUP', 'CREATE', P .. 'stream:' .. id, 'takers', '0', 'MKSTREAM')
+local last = chained == '1' and tonumber(first) or count - 1
+for index = tonumber(first), last do call('XADD', P .. 'stream:' .. id, '*', 'index', index, 'carried', carried) end
+if call('LLEN', P .. 'ring:' .. client) == 0 then call('RPUSH', P .. 'ring', client) end
+call('RPUSH', P .. 'ring:' .. client, id)
+return 'ok'
+)lua");
+
+const redis::Script kTake = script(R"lua(
+local consumer, silence, deliveries, age, poison = unpack(ARGV)
+removeOld(tonumber(age))
+local function silentEntry(stream)
+  local cursor = '0-0'
+  repeat
+    local claimed = call('XAUTOCLAIM', stream, 'takers', consumer, silence, cursor, 'COUNT', 1)
+    if claimed[2][1] then return claimed[2][1] end
+    cursor = claimed[1]
+  until cursor == '0-0'
+end
+local function nextEntry(id)
+  local stream = P .. 'stream:' .. id
+  if call('EXISTS', stream) == 0 then return end
+  local entry = silentEntry(stream)
+  if entry then return entry end
+  local read = call('XREADGROUP', 'GROUP', 'takers', consumer, 'COUNT', 1, 'STREAMS', stream, '>')
+  return read and read[1][2][1]
+end
+for _ = 1, call('LLEN', P .. 'ring') do
+  local client = call('LMOVE', P .. 'ring', P .. 'ring', 'LEFT', 'RIGHT')
+  for _ = 1, client and call('LLEN', P .. 'ring:' .. client) or 0 do
+    local id = call('LMOVE', P .. 'ring:' .. client, P .. 'ring:' .. client, 'LEFT', 'RIGHT')
+    local entry = nextEntry(id)
+    if entry then
+      local times = call('XPENDING', P .. 'stream:' .. id, 'takers', entry[1], entry[1], 1)[1][4]
+      if times > tonumber(deliveries) then
+        finishJob(id, 'failed', (poison:gsub('INDEX', entry[2][2])))
+      else
+        if call('HGET', P .. 'job:' .. id, 'state') == 'queued' then
+          call('HSET', P .. 'job:' .. id, 'state', 'running', 'started', touch(id))
+        end
+        return {id, entry[2][2], entry[2][4], client, call('HGET', P .. 'job:' .. id, 'scene'), times, entry[1]}
+      end
+    end
+  end
+end
+return false
+)lua");
+
+const redis::Script kRenew = script(R"lua(
+local id, entry, consumer = unpack(ARGV)
+if not isOpen(id) then return 0 end
+local pending = call('XPENDING', P .. 'stream:' .. id, 'takers', entry, entry, 1)[1]
+if not pending then return 0 end
+if pending[2] == consumer then call('XCLAIM', P .. 'stream:' .. id, 'takers', consumer, 0, entry, 'JUSTID') end
+return 1
+)lua");
+
+const redis::Script kFinish = script(R"lua(
+local id, entry, index, note, pictures, carried, limit, problems = unpack(ARGV)
+local frame = P .. 'frame:' .. id .. ':' .. index
+if not isOpen(id) then return 'closed' end
+settle(id, entry)
+if call('EXISTS', frame) == 1 then return 'known' end
+if tonumber(call('GET', P .. 'bytes') or 0) + #pictures > tonumber(limit) then
+  finishJob(id, 'failed', problems)
+  return 'room'
+end
+call('HSET', frame, 'note', note, 'pictures', pictures)
+call('INCRBY', P .. 'bytes', #pictures)
+call('HINCRBY', P .. 'job:' .. id, 'bytes', #pictures)
+local done = call('HINCRBY', P .. 'job:' .. id, 'done', 1)
+local job = call('HMGET', P .. 'job:' .. id, 'first', 'count', 'chained')
+touch(id)
+if job[1] + done == tonumber(job[2]) then
+  finishJob(id, 'done', '{"problems":[]}')
+elseif job[3] == '1' then
+  call('XADD', P .. 'stream:' .. id, '*', 'index', index + 1, 'carried', carried)
+end
+return 'kept'
+)lua");
+
+const redis::Script kFail = script(R"lua(
+local id, index, problems = unpack(ARGV)
+if isOpen(id) and call('EXISTS', P .. 'frame:' .. id .. ':' .. index) == 0 then finishJob(id, 'failed', problems) end
+return 'ok'
+)lua");
+
+const redis::Script kGiveBack = script(R"lua(
+local id, entry, silence, times, consumer = unpack(ARGV)
+if not isOpen(id) then return 0 end
+local pending = call('XPENDING', P .. 'stream:' .. id, 'takers', entry, entry, 1)[1]
+if not pending or pending[2] ~= consumer then return 0 end
+call('XCLAIM', P .. 'stream:' .. id, 'takers', consumer, 0, entry, 'IDLE', silence, 'RETRYCOUNT', times, 'JUSTID')
+return 1
+)lua");
+
+const redis::Script kFind = script(R"lua(
+removeOld(tonumber(ARGV[2]))
+return fieldsOf(ARGV[1])
+)lua");
+
+const redis::Script kList = script(R"lua(
+removeOld(tonumber(ARGV[2]))
+local jobs = {}
+for _, id in ipairs(call('ZREVRANGE', P .. 'key:' .. ARGV[1], 0, -1)) do
+  local fields = fieldsOf(id)
+  if fields then table.insert(jobs, fields) end
+end
+return jobs
+)lua");
+
+const redis::Script kRemove = script(R"lua(
+return removeJob(ARGV[1])
+)lua");
+
+} // namespace gnomon::job_scripts

@@ -1,0 +1,220 @@
+#include "server/jobs/redis_jobs.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <thread>
+
+#include "protocol/fields/fields.h"
+#include "protocol/job/job_rows.h"
+#include "protocol/sequence/carry.h"
+#include "server/jobs/job_id.h"
+#include "server/jobs/job_problems.h"
+#include "server/jobs/job_scripts.h"
+#include "server/jobs/job_text.h"
+#include "server/system/clock.h"
+#include "server/system/log.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::chrono::seconds kPatience{10};
+constexpr std::size_t kMostText = 512u << 20; ///< of one value in Redis
+constexpr const char* kPrefix = "gnomon:jobs:";
+
+std::string frameKey(const std::string& job, int index) {
+  return kPrefix + ("frame:" + job + ':') + std::to_string(index);
+}
+
+Problem refused(const std::string& why) {
+  logEvent("jobs", why);
+  return {ProblemCode::unavailable, "", "What keeps the jobs does not take them now.", "", ""};
+}
+
+Problem damaged() {
+  return {ProblemCode::internal, "", "What was kept of this job can't be read.", "", ""};
+}
+
+template <class Number>
+Number numberOf(const redis::Reply& reply) {
+  Number number = 0;
+  const std::string& text = reply.text;
+  if (reply.isInteger()) return static_cast<Number>(reply.integer);
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+std::optional<JobState> stateOf(std::string_view word) {
+  const auto& all = kSpellings<JobState>;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Spelling& each) { return each.name == word; });
+  if (found == all.end()) return std::nullopt;
+  return static_cast<JobState>(found->value);
+}
+
+/// From fieldsOf() of the scripts.
+std::optional<JobProgress> progressOf(const redis::Reply& reply) {
+  const auto& fields = reply.elements;
+  if (fields.size() != 14) return std::nullopt;
+  const auto state = stateOf(fields[3].text);
+  auto carried = readCarried(fields[8].text);
+  auto problems = readProblems(fields[9].text);
+  if (!state || !carried || !problems) return std::nullopt;
+  return JobProgress{.id = fields[0].text,
+                     .key = fields[1].text,
+                     .scene = fields[2].text,
+                     .state = *state,
+                     .first = numberOf<int>(fields[4]),
+                     .count = numberOf<int>(fields[5]),
+                     .done = numberOf<int>(fields[6]),
+                     .bytes = numberOf<std::uint64_t>(fields[7]),
+                     .carried = *std::move(carried),
+                     .problems = *std::move(problems),
+                     .created = numberOf<std::int64_t>(fields[10]),
+                     .started = numberOf<std::int64_t>(fields[11]),
+                     .changed = numberOf<std::int64_t>(fields[12]),
+                     .ended = numberOf<std::int64_t>(fields[13])};
+}
+
+} // namespace
+
+RedisJobs::RedisJobs(JobLimits limits, std::shared_ptr<redis::Redis> redis)
+    : limits_(limits), redis_(std::move(redis)), consumer_(newJobId()) {}
+
+Result<redis::Reply> RedisJobs::run(const redis::Script& script, const std::vector<std::string>& arguments) const {
+  constexpr std::size_t kMostReply = 16u << 20; // a list of jobs, each with its problems
+  auto reply =
+      redis_->run(script, {}, arguments, {.deadline = Clock::now() + kPatience, .limits = {.bytes = kMostReply}});
+  if (reply && reply->isError()) return refused(reply->text);
+  return reply;
+}
+
+Result<redis::Reply> RedisJobs::ask(const redis::Command& command, std::size_t mostBytes) const {
+  redis::Call call{.deadline = Clock::now() + kPatience};
+  call.limits.bytes = mostBytes + (1 << 20);
+  auto reply = redis_->ask(command, call);
+  if (reply && reply->isError()) return refused(reply->text);
+  return reply;
+}
+
+Status RedisJobs::put(const NewJob& job) {
+  const auto reply =
+      run(job_scripts::kPut,
+          {job.id, job.key, job.client, job.scene, job.request, std::to_string(job.first), std::to_string(job.count),
+           job.isChained ? "1" : "0", textOf(job.carried), std::to_string(limits_.jobsOfClient),
+           std::to_string(limits_.jobs), std::to_string(limits_.bytes), age()});
+  if (!reply) return reply.problems();
+  if (reply->text == "client") return tooManyJobs(limits_.jobsOfClient);
+  if (reply->text == "room") return noRoomForJobs(limits_.bytes);
+  return Done{};
+}
+
+Result<std::optional<FrameTurn>> RedisJobs::take(std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kShortest{20}; ///< between two looks
+  constexpr std::chrono::milliseconds kLongest{250};
+  const auto until = Clock::now() + patience;
+  Problem poison = poisonProblem(0, limits_.deliveries);
+  poison.detail.replace(poison.detail.find('0'), 1, "INDEX");
+  for (auto pause = kShortest;; pause = std::min(pause * 2, kLongest)) {
+    const auto reply = run(job_scripts::kTake,
+                           {consumer_, silence(), std::to_string(limits_.deliveries), age(), textOf(Problems{poison})});
+    if (!reply) return reply.problems();
+    if (reply->elements.size() == 7) {
+      const auto& fields = reply->elements;
+      auto carried = readCarried(fields[2].text);
+      if (!carried) return damaged();
+      return std::optional(FrameTurn{.job = fields[0].text,
+                                     .index = numberOf<int>(fields[1]),
+                                     .client = fields[3].text,
+                                     .scene = fields[4].text,
+                                     .before = *std::move(carried),
+                                     .deliveries = numberOf<int>(fields[5]),
+                                     .receipt = fields[6].text});
+    }
+    if (Clock::now() >= until) return std::optional<FrameTurn>();
+    std::this_thread::sleep_until(std::min(Clock::now() + pause, until));
+  }
+}
+
+Result<std::optional<std::string>> RedisJobs::request(const std::string& job) {
+  auto reply = ask({"HGET", kPrefix + ("job:" + job), "request"}, limits_.bytes);
+  if (!reply) return reply.problems();
+  return reply->isText() ? std::optional(std::move(reply->text)) : std::nullopt;
+}
+
+Result<bool> RedisJobs::renew(const FrameTurn& turn) {
+  const auto reply = run(job_scripts::kRenew, {turn.job, turn.receipt, consumer_});
+  if (!reply) return reply.problems();
+  return reply->integer == 1;
+}
+
+Status RedisJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
+  if (frame.bytes.size() > kMostText) {
+    return fail(turn, {{ProblemCode::tooLarge, "", "The pictures of a frame are too large to be kept.",
+                        std::to_string(kMostText) + " bytes", std::to_string(frame.bytes.size()) + " bytes"}});
+  }
+  const auto reply = run(job_scripts::kFinish,
+                         {turn.job, turn.receipt, std::to_string(turn.index), textOf(frame.note),
+                          std::string(asText(frame.bytes)), textOf(carriedAfter(turn.before, frame.note.carried)),
+                          std::to_string(limits_.bytes), textOf(Problems{noRoomForFrame(limits_.bytes)})});
+  if (!reply) return reply.problems();
+  return Done{};
+}
+
+Status RedisJobs::fail(const FrameTurn& turn, const Problems& problems) {
+  const auto reply = run(job_scripts::kFail, {turn.job, std::to_string(turn.index), textOf(problems)});
+  if (!reply) return reply.problems();
+  return Done{};
+}
+
+Status RedisJobs::giveBack(const FrameTurn& turn, bool isTried) {
+  const int times = isTried ? turn.deliveries : turn.deliveries - 1;
+  const auto reply = run(job_scripts::kGiveBack, {turn.job, turn.receipt, silence(), std::to_string(times), consumer_});
+  if (!reply) return reply.problems();
+  return Done{};
+}
+
+Result<std::optional<JobProgress>> RedisJobs::find(const std::string& job) {
+  const auto reply = run(job_scripts::kFind, {job, age()});
+  if (!reply) return reply.problems();
+  if (reply->isNil()) return std::optional<JobProgress>();
+  auto progress = progressOf(*reply);
+  if (!progress) return damaged();
+  return progress;
+}
+
+Result<std::vector<JobProgress>> RedisJobs::list(const std::string& key) {
+  const auto reply = run(job_scripts::kList, {key, age()});
+  if (!reply) return reply.problems();
+  std::vector<JobProgress> jobs;
+  for (const redis::Reply& each : reply->elements) {
+    if (auto progress = progressOf(each)) jobs.push_back(*std::move(progress));
+  }
+  return jobs;
+}
+
+Result<std::optional<FrameNote>> RedisJobs::note(const std::string& job, int index) {
+  const auto reply = ask({"HGET", frameKey(job, index), "note"}, 0);
+  if (!reply) return reply.problems();
+  if (reply->isNil()) return std::optional<FrameNote>();
+  auto note = readFrameNote(reply->text);
+  if (!note) return damaged();
+  return note;
+}
+
+Result<std::optional<JobFrame>> RedisJobs::frame(const std::string& job, int index) {
+  const auto reply = ask({"HMGET", frameKey(job, index), "note", "pictures"}, kMostText);
+  if (!reply) return reply.problems();
+  if (reply->elements.size() != 2 || !reply->elements[1].isText()) return std::optional<JobFrame>();
+  auto note = readFrameNote(reply->elements[0].text);
+  if (!note) return damaged();
+  const std::string& pictures = reply->elements[1].text;
+  return std::optional(JobFrame{*std::move(note), Bytes(pictures.begin(), pictures.end())});
+}
+
+Result<bool> RedisJobs::remove(const std::string& job) {
+  const auto reply = run(job_scripts::kRemove, {job});
+  if (!reply) return reply.problems();
+  return reply->integer == 1;
+}
+
+} // namespace gnomon
