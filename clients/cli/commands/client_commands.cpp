@@ -43,10 +43,10 @@ void addMannerFlags(CLI::App& command) {
 std::vector<Subcommand> addClientCommands(CLI::App& app) {
   std::vector<Subcommand> commands;
   const auto before = app.get_subcommands([](const CLI::App*) { return true; });
-  for (const auto add : {addRenderCommand, addSequenceCommand, addTurntableCommand, addWatchCommand, addPlanCommand,
-                         addBakeCommand, addEvaluateCommand, addInspectCommand, addCompareCommand, addUploadCommand,
-                         addLsCommand, addRmCommand, addCapabilitiesCommand, addHealthCommand, addSignCommand,
-                         addOpenApiCommand, addCompletionCommand, addManCommand}) {
+  for (const auto add : {addRenderCommand, addSequenceCommand, addTurntableCommand, addJobsCommand, addWatchCommand,
+                         addPlanCommand, addBakeCommand, addEvaluateCommand, addInspectCommand, addCompareCommand,
+                         addUploadCommand, addLsCommand, addRmCommand, addCapabilitiesCommand, addHealthCommand,
+                         addSignCommand, addOpenApiCommand, addCompletionCommand, addManCommand}) {
     commands.push_back(add(app));
   }
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {

@@ -39,6 +39,7 @@ Subcommand addCompletionCommand(CLI::App& app);
 Subcommand addEvaluateCommand(CLI::App& app);
 Subcommand addHealthCommand(CLI::App& app);
 Subcommand addInspectCommand(CLI::App& app);
+Subcommand addJobsCommand(CLI::App& app);
 Subcommand addLsCommand(CLI::App& app);
 Subcommand addManCommand(CLI::App& app);
 Subcommand addOpenApiCommand(CLI::App& app);

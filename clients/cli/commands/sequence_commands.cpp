@@ -12,9 +12,12 @@
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
+#include "clients/cli/remote/http_client.h"
+#include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
+#include "protocol/job/job_json.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/sequence_json.h"
 
@@ -28,7 +31,8 @@ struct SequenceOptions {
   std::string spec;    ///< of a turntable; empty = none
   int frames = 36;     ///< of a turntable
   std::string output;  ///< with {frame}
-  std::string report;  ///< a file, "-" = standard output, empty = none
+  bool isAsync = false;
+  std::string report; ///< a file, "-" = standard output, empty = none
   SpecArguments arguments;
   WhereOptions where;
 };
@@ -69,6 +73,33 @@ Status openScene(const SequenceOptions& options, const FrameSpec& spec, FrameMak
   return maker.open(*std::move(bundle), progress);
 }
 
+/// Leaves the frames to a job of the server, and prints its id.
+int submitJob(const SequenceOptions& options, const std::string& requestJson, const Sequence& sequence,
+              const FlagOrigins& origins) {
+  const auto remote = remoteOf(options.where);
+  if (!remote) return printProblems(remote.problems());
+  const auto bundle = readSceneFile(options.scene, frameSpec(sequence, sequence.first, sequence.carried).volumes);
+  if (!bundle) return printProblems(bundle.problems());
+  auto progress = ProgressLine::onTerminal();
+  std::string id;
+  const auto callOf = [&](const std::string& scene) {
+    HttpCall call;
+    call.method = "POST";
+    call.path = "/v1/scenes/" + scene + "/sequences";
+    call.headers = {{"Prefer", "respond-async"}};
+    call.contentType = "application/json";
+    call.body = requestJson;
+    return call;
+  };
+  const auto reply = callAbout(*remote, *bundle, id, callOf, "asking for a job", progress);
+  progress.finish();
+  if (!reply) return printProblems(reply.problems(), origins);
+  const auto job = reply->status == 202 ? readJob(reply->body) : std::nullopt;
+  if (!job) return printProblems(problemsOf(remote->url, *reply), origins);
+  std::cout << printable(job->id) << '\n';
+  return kExitOk;
+}
+
 int runSequence(SequenceOptions options) {
   options.arguments.format = formatOf(options.output);
   const auto text = specText(options.request);
@@ -86,6 +117,7 @@ int runSequence(SequenceOptions options) {
   }
   const auto sequence = decodeSequence(requestJson);
   if (!sequence) return printProblems(sequence.problems());
+  if (options.isAsync) return submitJob(options, requestJson, *sequence, origins);
   auto maker = makerFor(options.where);
   if (!maker) return printProblems(maker.problems());
   auto progress = ProgressLine::onTerminal();
@@ -209,6 +241,16 @@ Subcommand addSequenceCommand(CLI::App& app) {
           "fields of its spec")
       ->required();
   addFrameOutput(*command, *options);
+  command->get_option("--output")->required(false);
+  command
+      ->add_flag("--async", options->isAsync,
+                 "Leave the frames to a job of the server, and print its id, for gnomon jobs")
+      ->needs("--server")
+      ->excludes("--output")
+      ->excludes("--report");
+  command->parse_complete_callback([options] {
+    if (options->output.empty() && !options->isAsync) throw CLI::RequiredError("--output");
+  });
   return {[command] { return command->parsed(); }, [options] { return runSequence(*options); }};
 }
 

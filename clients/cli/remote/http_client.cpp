@@ -38,17 +38,19 @@ httplib::ContentProvider bodyProvider(std::string_view body, const std::function
   };
 }
 
-/// A POST whose reply is given away piece by piece.
+/// A GET or POST whose reply is given away piece by piece.
 httplib::Result sendAndStream(httplib::Client& client, const std::string& path, httplib::Headers headers,
                               const HttpCall& call) {
   int status = 0;
   std::string refusal;
   httplib::Request request;
-  request.method = "POST";
+  request.method = call.method;
   request.path = path;
   request.headers = std::move(headers);
-  request.set_header("Content-Type", call.contentType);
-  request.body = call.body;
+  if (call.method == "POST") {
+    request.set_header("Content-Type", call.contentType);
+    request.body = call.body;
+  }
   request.response_handler = [&](const httplib::Response& reply) {
     status = reply.status;
     return true;
@@ -69,10 +71,10 @@ httplib::Result sendAndStream(httplib::Client& client, const std::string& path, 
 httplib::Result send(httplib::Client& client, const std::string& path, const HttpCall& call) {
   httplib::Headers headers;
   for (const auto& [name, value] : call.headers) headers.emplace(name, value);
+  if (call.onReceived) return sendAndStream(client, path, std::move(headers), call);
   if (call.method == "HEAD") return client.Head(path, headers);
   if (call.method == "GET") return client.Get(path, headers);
   if (call.method == "DELETE") return client.Delete(path, headers);
-  if (call.onReceived) return sendAndStream(client, path, std::move(headers), call);
   return client.Post(path, headers, call.body.size(), bodyProvider(call.body, call.onSent), call.contentType);
 }
 

@@ -20,7 +20,7 @@ struct HttpCall {
   std::string_view body;              ///< POST only; must live as long as the call
   std::chrono::seconds patience{0};   ///< for each wait on the network; 0 = the caller's
   std::function<void(double)> onSent; ///< told the share of the body that is on its way, 0..1
-  /// Given each piece of the body of a 200 as it comes; the reply is then without it.
+  /// Of a GET or POST: given each piece of the body of a 200 as it comes; the reply is then without it.
   std::function<void(std::string_view)> onReceived;
 };
 
