@@ -25,6 +25,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"
 #include "renderer/frame/plan_frame.h"
+#include "renderer/image/exr_decode.h"
 #include "renderer/image/i420_encode.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
