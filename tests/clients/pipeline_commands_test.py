@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
+from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
 from shipped_server import BINARY, SCENES, TIMEOUT, environment, png_size
 
 CAMERAS = str(SCENES / "cameras.glb")
@@ -99,6 +99,40 @@ class Compare(CommandLine):
             self.assert_ends(gnomon("compare", str(self.output), str(other), *passes), OK)
         self.assert_ends(gnomon("compare", str(self.output), str(other), "--threshold", "2"), USAGE)
 
+    def test_floats_are_compared_layer_by_layer(self):
+        files = [self.folder / "a.exr", self.folder / "b.exr"]
+        views = ["--view", "color", "--view", "depth", "--view", "shadow", "--view", "reference"]
+        for file, more in zip(files, ([], ["--exposure", "1"])):
+            self.assert_ends(gnomon("render", BOX, "-o", str(file), *SMALL, *views, *more), OK)
+        run = gnomon("compare", *map(str, files))
+        self.assert_ends(run, PROBLEM)
+        told = dict(line.split(": largest ") for line in run.stdout.decode().splitlines())
+        self.assertEqual(list(told), ["color", "depth", "reference", "shadow"])
+        self.assertGreater(float(told["color"].split()[0]), 0.1)
+        self.assertTrue(told["depth"].startswith("0 at 0,0"), told)
+        self.assert_ends(gnomon("compare", *map(str, files), "--layer", "depth", "--layer", "shadow"), OK)
+        self.assert_ends(gnomon("compare", *map(str, files), "--threshold", "1000"), OK)
+        crossed = gnomon("compare", *map(str, files), "--layer", "shadow=reference", "--diff", str(self.folder / "d.png"))
+        self.assert_ends(crossed, PROBLEM)
+        self.assertIn(b"shadow=reference: largest ", crossed.stdout)
+        self.assertEqual(png_size((self.folder / "d.png").read_bytes()), (64, 48))
+        self.assert_ends(gnomon("compare", *map(str, files), "--diff", str(self.folder / "e.png")), PROBLEM)
+        self.assertTrue((self.folder / "e.depth.png").exists())
+        self.assert_ends(gnomon("compare", *map(str, files), "--layer", "dept"), PROBLEM, "--layer", "color, depth, reference, shadow", "dept")
+
+    def test_what_can_not_be_compared_is_told(self):
+        self.render()
+        other = self.folder / "other.exr"
+        self.assert_ends(gnomon("render", BOX, "-o", str(other), *SMALL), OK)
+        self.assert_ends(gnomon("compare", str(self.output), str(other)), PROBLEM, "kind", "8 bits", "linear floats")
+        two = self.folder / "two.exr"
+        self.assert_ends(gnomon("render", BOX, "-o", str(two), *SMALL, "--view", "color", "--view", "depth"), OK)
+        self.assert_ends(gnomon("compare", str(two), str(other)), PROBLEM, "no such layer", "depth")
+        self.assert_ends(gnomon("render", BOX, "-o", str(two), "--size", "32x48"), OK)
+        self.assert_ends(gnomon("compare", str(two), str(other)), PROBLEM, "64x48", "32x48")
+        two.write_bytes(two.read_bytes()[:300])
+        self.assert_ends(gnomon("compare", str(two), str(other)), PROBLEM, "two.exr")
+
     def test_sizes_that_differ_are_told(self):
         self.render()
         other = self.folder / "other.png"
@@ -111,20 +145,50 @@ class Watch(CommandLine):
         super().setUp()
         self.scene = self.folder / "scene.glb"
         shutil.copy(BOX, self.scene)
-        self.process = subprocess.Popen([BINARY, "watch", str(self.scene), "-o", str(self.output), *SMALL],
+
+    def watch(self, scene, *more):
+        """Begins to watch; gives the first picture."""
+        self.process = subprocess.Popen([BINARY, "watch", str(scene), "-o", str(self.output), *more],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment())  # fmt: skip
         self.addCleanup(self.process.communicate)
         self.addCleanup(self.process.kill)
-        self.assertIn(b"frame.png", self.process.stdout.readline())
+        return self.next()
 
-    def replace(self, content):
+    def next(self):
+        self.assertIn(b"frame.png", self.process.stdout.readline())
+        return self.output.read_bytes()
+
+    def replace(self, content, target=None):
         """As editors save: a new file is renamed over the old one."""
         new = self.folder / "new"
         new.write_bytes(content)
-        new.rename(self.scene)
+        new.rename(target or self.scene)
+
+    def test_a_request_that_changes_is_a_new_picture(self):
+        spec = self.folder / "spec.json"
+        spec.write_text('{"width": 64, "height": 48}')
+        first = self.watch(self.scene, "--spec", str(spec), "--sun", "135,40")
+        spec.write_text('{"width": 32, "height": 48}')  # in place
+        self.assertEqual(png_size(self.next()), (32, 48))
+        self.replace(b'{"width": 32, "height": 0}', spec)
+        self.assertIn(b"/height", self.process.stderr.readline())
+        self.replace(b'{"width": 64, "height": 48}', spec)
+        self.assertEqual(self.next(), first)
+
+    def test_files_that_the_scene_names_are_watched(self):
+        scene = split_glb(Path(BOX).read_bytes(), self.folder)
+        buffer = self.folder / "parts/buffer 0.bin"
+        whole = buffer.read_bytes()
+        first = self.watch(scene, *SMALL)
+        self.replace(bytes(len(whole)), buffer)  # every corner in one place: nothing is left to see
+        self.assertNotEqual(self.next(), first)
+        buffer.unlink()
+        self.assertIn(b"buffer 0.bin", self.process.stderr.readline())
+        self.replace(whole, buffer)
+        self.assertEqual(self.next(), first)
 
     def test_it_renders_again_and_outlives_broken_files(self):
-        first = self.output.read_bytes()
+        first = self.watch(self.scene, *SMALL)
         self.replace(Path(CAMERAS).read_bytes())
         self.assertIn(b"frame.png", self.process.stdout.readline())
         self.assertNotEqual(self.output.read_bytes(), first)

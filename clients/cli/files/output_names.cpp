@@ -6,14 +6,14 @@
 #include <filesystem>
 
 namespace gnomon::cli {
-namespace {
 
-/// What a client or a scene calls something, as a part of a file's name.
 std::string asFileName(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 0x20 || c == 0x7f; }, '_');
   return name.empty() || name == "." || name == ".." ? "_" : name;
 }
+
+namespace {
 
 std::string listOf(const Placeholders& values) {
   std::string list = "{view}";

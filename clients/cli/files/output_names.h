@@ -13,6 +13,9 @@ namespace gnomon::cli {
 /// Placeholder without its braces -> what stands for it.
 using Placeholders = std::map<std::string, std::string>;
 
+/// What a client or a scene calls something, as a part of a file's name.
+std::string asFileName(std::string name);
+
 /// The pattern with every {placeholder} of `values` filled in; {view}, which is filled in when the pictures are there,
 /// stays. Problems: a placeholder that there is none of here.
 Result<std::string> filledIn(const std::string& pattern, const Placeholders& values);

@@ -1,6 +1,7 @@
 #include "clients/cli/compare/picture_difference.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace gnomon::cli {
 namespace {
@@ -51,7 +52,79 @@ TEST(PictureDifference, ItsPictureIsBlackWhereNothingDiffersAndRedBeyondTheThres
   ASSERT_TRUE(file);
   const auto picture = decodePicture(*file, "diff");
   ASSERT_TRUE(picture);
-  EXPECT_EQ(std::get<0>(picture->pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+  EXPECT_EQ(std::get<0>(picture->front().image.pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+}
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+Image depths(std::vector<float> pixels) {
+  return {static_cast<int>(pixels.size()), 1, {"Z"}, std::move(pixels)};
+}
+
+TEST(PictureDifference, FloatsDifferByWhatTheyDiffer) {
+  const auto difference = differenceOf(depths({1, 20, kInfinite, kNone}), depths({1.5f, 17, kInfinite, kNone}), 0.5);
+  ASSERT_TRUE(difference);
+  EXPECT_DOUBLE_EQ(difference->largest, 3);
+  EXPECT_EQ(difference->worstX, 1);
+  EXPECT_EQ(difference->beyond, 1);
+  EXPECT_DOUBLE_EQ(difference->mean, 3.5 / 4);
+}
+
+TEST(PictureDifference, ANumberAndNoneDifferWithoutEnd) {
+  for (const float other : {kInfinite, -kInfinite, kNone}) {
+    const auto difference = differenceOf(depths({1, 1}), depths({1, other}), 1e30);
+    ASSERT_TRUE(difference);
+    EXPECT_EQ(difference->largest, kInfinite);
+    EXPECT_EQ(difference->beyond, 1);
+    const auto file = differencePicture(depths({1, 1}), depths({1, other}), 0);
+    ASSERT_TRUE(file);
+    const auto picture = decodePicture(*file, "diff");
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(std::get<0>(picture->front().image.pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+  }
+}
+
+TEST(PictureDifference, KindsAndChannelsThatDifferAreAProblem) {
+  const auto kind = differenceOf(depths({1, 1}), blackBut(2, 1, 0, 0), 0);
+  ASSERT_FALSE(kind);
+  EXPECT_EQ(kind.problems().front().limit, "linear floats");
+  Image other = depths({1, 1});
+  other.channels = {"Y"};
+  const auto channels = differenceOf(depths({1, 1}), other, 0);
+  ASSERT_FALSE(channels);
+  EXPECT_EQ(channels.problems().front().actual, "Y");
+}
+
+std::vector<ExrLayer> layersNamed(std::initializer_list<const char*> names) {
+  std::vector<ExrLayer> layers;
+  for (const char* name : names) layers.push_back({name, depths({1})});
+  return layers;
+}
+
+TEST(LayerPairs, AreThoseOfOneNameOrThoseAskedFor) {
+  const auto a = layersNamed({"color", "depth"}), b = layersNamed({"depth", "color"});
+  const auto pairs = layerPairs(a, b, {});
+  ASSERT_TRUE(pairs);
+  ASSERT_EQ(pairs->size(), 2u);
+  EXPECT_EQ((*pairs)[0].second, 1u);
+  const std::vector<std::string> crossed{"color=depth"};
+  const auto asked = layerPairs(a, b, crossed);
+  ASSERT_TRUE(asked);
+  ASSERT_EQ(asked->size(), 1u);
+  EXPECT_EQ((*asked)[0].second, 0u);
+  EXPECT_TRUE(layerPairs(layersNamed({"main"}), layersNamed({"rgb"}), {})); // the only ones
+}
+
+TEST(LayerPairs, ALayerThatOneOfThemLacksIsAProblem) {
+  const auto both = layersNamed({"color", "depth"}), one = layersNamed({"color"});
+  const auto missing = layerPairs(both, one, {});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.problems().front().limit, "color");
+  EXPECT_EQ(missing.problems().front().actual, "depth");
+  EXPECT_FALSE(layerPairs(one, both, {}));
+  const std::vector<std::string> unknown{"dept"};
+  EXPECT_FALSE(layerPairs(both, both, unknown));
 }
 
 } // namespace
