@@ -184,6 +184,32 @@ class Render(CommandLine):
         self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--spec", str(spec)), OK)
         self.assertEqual(self.output.read_bytes(), first)
 
+    def test_a_reference_stands_beside_the_frame(self):
+        report = self.folder / "report.json"
+        flags = ["--sun", "135,40", "--view", "shadow", "--set", "shadow.filter.type=hard", "--set", "shadow.size=XSmall"]
+        run = self.render(*flags, "--reference", "--report", str(report))
+        *names, error = run.stdout.decode().splitlines()
+        reference = self.folder / "frame.reference.png"
+        self.assertEqual(names, [str(self.output), str(reference)])
+        told = json.loads(report.read_text())
+        metrics = told["reference"]["metrics"]
+        self.assertGreater(metrics["misclassified"], 0)
+        self.assertTrue(error.startswith("wrong {:.4f} % ".format(100 * metrics["misclassified"])), error)
+        self.assertEqual(told["spec"]["shadow"]["technique"], "shadowMap")
+        frame, truth = self.output.read_bytes(), reference.read_bytes()
+        self.assertNotEqual(frame, truth)
+        self.render(*flags)
+        self.assertEqual(self.output.read_bytes(), frame)
+        self.render(*flags, "--set", "shadow.technique=rayTraced")
+        self.assertEqual(self.output.read_bytes(), truth)
+        self.render("--set", "shadow.technique=rayTraced", "--reference", "--report", "-")
+        self.assertEqual(self.output.read_bytes(), reference.read_bytes())
+
+    def test_a_reference_that_can_not_be_is_told(self):
+        run = gnomon("render", BOX, "-o", str(self.output), *SMALL, "--reference", "--set", "shadow.enabled=false")
+        self.assert_ends(run, PROBLEM, "(error)", "shadow")
+        self.assert_ends(gnomon("render", BOX, "-o", "-", "--format", "png", "--reference"), USAGE, "--reference")
+
     def test_a_gltf_finds_the_files_beside_it(self):
         gltf = split_glb(Path(BOX).read_bytes(), self.folder)
         self.render()
@@ -260,6 +286,13 @@ class WithServer(CommandLine):
         ):
             here, there = self.both(*arguments)
             self.assertEqual(here, there)
+
+    def test_the_same_reference_here_and_there(self):
+        said = []
+        for where in ([], ["--server", self.url]):
+            run = self.render("--sun", "135,40", "--reference", *where)
+            said.append((run.stdout, self.output.read_bytes(), (self.folder / "frame.reference.png").read_bytes()))
+        self.assertEqual(*said)
 
     def test_the_same_exr_here_and_there(self):
         self.output = self.folder / "frame.exr"

@@ -9,9 +9,11 @@
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/frame_maker.h"
+#include "clients/cli/render/reference.h"
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
+#include "clients/cli/terminal/result_text.h"
 
 namespace gnomon::cli {
 namespace {
@@ -20,30 +22,57 @@ struct RenderOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> cameras;
   std::string output;
-  std::string spec;   // a file, "-" = standard input, empty = none
-  std::string report; // a file, "-" = standard output, empty = none
+  std::string spec;       // a file, "-" = standard input, empty = none
+  std::string report;     // a file, "-" = standard output, empty = none
+  bool reference = false; // beside each frame the one with exact shadows, and the error
   SpecArguments arguments;
   WhereOptions where;
 };
+
+/// Writes the report, and says which files there are where one name does not tell.
+Status tell(const BatchItem& item, const std::string& reportJson, const std::vector<std::string>& names,
+            ProgressLine& progress) {
+  if (!item.report.empty()) {
+    if (auto done = writeFile(item.report, asBytes(reportJson)); !done) return done;
+  }
+  progress.finish();
+  if (names.size() > 1 && item.report != "-") {
+    for (const std::string& name : names) std::cout << name << '\n';
+  }
+  return Done{};
+}
 
 Status writeAll(const BatchItem& item, const Rendered& rendered, ProgressLine& progress) {
   progress.stage("writing");
   const auto names = writePictures(rendered.pictures, item.output);
   if (!names) return names.problems();
-  if (!item.report.empty()) {
-    if (auto done = writeFile(item.report, asBytes(rendered.reportJson)); !done) return done;
-  }
-  progress.finish();
-  if (names->size() > 1) {
-    for (const std::string& name : *names) std::cout << name << '\n';
-  }
+  return tell(item, rendered.reportJson, *names, progress);
+}
+
+/// The same, and the frame with exact shadows beside it, and how wrong the frame's own are.
+Status writeWithReference(const BatchItem& item, const Rendered& rendered, FrameMaker& maker, ProgressLine& progress) {
+  const auto spec = drawnSpec(rendered.reportJson);
+  if (!spec) return spec.problems();
+  auto names = writePictures(rendered.pictures, item.output);
+  if (!names) return names.problems();
+  const auto exact = maker.draw(withExactShadows(*spec), progress);
+  if (!exact) return about("reference", exact.problems());
+  const auto others = writePictures(exact->pictures, referenceName(item.output));
+  if (!others) return others.problems();
+  names->insert(names->end(), others->begin(), others->end());
+  const auto report = maker.measure(errorRequest(*spec), progress);
+  const auto metrics = report ? metricsOf(*report) : Result<ErrorMetrics>(report.problems());
+  if (!metrics) return about("error", metrics.problems());
+  if (auto told = tell(item, withMetrics(rendered.reportJson, *report), *names, progress); !told) return told;
+  if (item.report != "-") std::cout << errorText(*metrics) << '\n';
   return Done{};
 }
 
 /// The pictures of one scene.
 class SceneRun {
  public:
-  SceneRun(FrameMaker& maker, ProgressLine& progress) : maker_(maker), progress_(progress) {}
+  SceneRun(FrameMaker& maker, bool reference, ProgressLine& progress)
+      : maker_(maker), reference_(reference), progress_(progress) {}
 
   /// Opens the scene of the item unless it is open already, and makes its pictures.
   Status make(const BatchItem& item, const FrameSpec& spec) {
@@ -54,6 +83,7 @@ class SceneRun {
     if (!opened_) return opened_;
     const auto rendered = maker_.draw(spec, progress_);
     if (!rendered) return rendered.problems();
+    if (reference_) return writeWithReference(item, *rendered, maker_, progress_);
     return writeAll(item, *rendered, progress_);
   }
 
@@ -66,6 +96,7 @@ class SceneRun {
   }
 
   FrameMaker& maker_;
+  bool reference_;
   ProgressLine& progress_;
   std::string scene_;
   Status opened_ = Done{};
@@ -77,9 +108,10 @@ std::string nameOf(const BatchItem& item) {
 }
 
 /// Every picture that can be made; those that can't be tell their problems.
-int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs, FrameMaker& maker) {
+int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs, bool reference,
+                FrameMaker& maker) {
   auto progress = ProgressLine::onTerminal();
-  SceneRun run(maker, progress);
+  SceneRun run(maker, reference, progress);
   int exit = kExitOk;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items.size() > 1) {
@@ -110,7 +142,7 @@ int runRender(RenderOptions options) {
   }
   auto maker = makerFor(options.where);
   if (!maker) return printProblems(maker.problems());
-  return renderBatch(*items, specs, *maker);
+  return renderBatch(*items, specs, options.reference, *maker);
 }
 
 std::string checkOutput(const std::string& output) {
@@ -178,6 +210,15 @@ Subcommand addRenderCommand(CLI::App& app) {
       ->type_name("NAME");
   command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
+  auto* reference = command->add_flag(
+      "--reference", options->reference,
+      "Draw the same with exact shadows, too, as frame.reference.png, and tell how wrong the frame's are: on standard "
+      "output, and as `reference` in the report");
+  command->parse_complete_callback([output, reference] {
+    if (reference->count() > 0 && output->as<std::string>() == "-") {
+      throw CLI::ValidationError("--reference", "makes two pictures, and standard output takes one");
+    }
+  });
   addPictureFlags(*command, options->arguments, &options->cameras);
   addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runRender(*options); }};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/evaluation/evaluation_json.h"
 
 namespace gnomon::cli {
 
@@ -36,6 +37,13 @@ Status FrameMaker::load(const SceneBundle& bundle, ProgressLine& progress) {
 Result<Rendered> FrameMaker::draw(const FrameSpec& spec, ProgressLine& progress) {
   if (const auto* remote = std::get_if<Remote>(&where_)) return drawThere(*remote, bundle_, id_, spec, progress);
   return drawHere(*renderer_, scene_, spec, std::exchange(loadMilliseconds_, std::nullopt), progress);
+}
+
+Result<EvaluationReport> FrameMaker::measure(const std::string& requestJson, ProgressLine& progress) {
+  if (const auto* remote = std::get_if<Remote>(&where_)) return evaluateThere(*remote, bundle_, requestJson, progress);
+  const auto evaluation = decodeEvaluation(requestJson);
+  if (!evaluation) return evaluation.problems();
+  return evaluateHere(*renderer_, scene_, *evaluation, progress);
 }
 
 Result<std::string> FrameMaker::drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,

@@ -21,6 +21,10 @@ class FrameMaker {
   /// REQUIRES: `open` went well.
   Result<Rendered> draw(const FrameSpec& spec, ProgressLine& progress);
 
+  /// The errors of a frame's shadows and its speed; `requestJson`: an EvaluationRequest.
+  /// REQUIRES: `open` went well.
+  Result<EvaluationReport> measure(const std::string& requestJson, ProgressLine& progress);
+
   /// Every frame of a sequence; `requestJson` is the request that it was decoded from. Gives its report as JSON.
   /// REQUIRES: `open` went well.
   Result<std::string> drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,

@@ -51,10 +51,8 @@ Result<Rendered> drawHere(Renderer& renderer, const ScenePtr& scene, const Frame
   return Rendered{std::move(files), toJson(frame->report).dump(2) + "\n"};
 }
 
-Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
-                                      const BackendOptions& backend, ProgressLine& progress) {
-  auto here = openHere(bundle, backend, progress);
-  if (!here) return here.problems();
+Result<EvaluationReport> evaluateHere(Renderer& renderer, const ScenePtr& scene, const Evaluation& evaluation,
+                                      ProgressLine& progress) {
   progress.stage("measuring");
   EvaluationListener listener;
   listener.step = [&](const EvaluationStep& step) {
@@ -62,13 +60,20 @@ Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluatio
     return true;
   };
   EvaluationTools tools;
-  tools.draw = [&](const FrameSpec& spec) { return here->renderer.render(here->scene, spec, TileUse::drawnAnew); };
+  tools.draw = [&](const FrameSpec& spec) { return renderer.render(scene, spec, TileUse::drawnAnew); };
   tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
-    const auto shimmer = here->renderer.shimmer(here->scene, spec, path, goOn);
+    const auto shimmer = renderer.shimmer(scene, spec, path, goOn);
     if (!shimmer) return shimmer.problems();
     return shimmer->perThousand();
   };
-  return evaluate(here->scene, evaluation, here->renderer.info(), tools, listener);
+  return evaluate(scene, evaluation, renderer.info(), tools, listener);
+}
+
+Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
+                                      const BackendOptions& backend, ProgressLine& progress) {
+  auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
+  return evaluateHere(here->renderer, here->scene, evaluation, progress);
 }
 
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,

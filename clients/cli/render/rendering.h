@@ -37,7 +37,9 @@ Result<Rendered> drawHere(Renderer& renderer, const ScenePtr& scene, const Frame
 Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
                            ProgressLine& progress);
 
-/// Measures in this process.
+/// Measures in this process, with a renderer and a scene that are there, or with those of its own.
+Result<EvaluationReport> evaluateHere(Renderer& renderer, const ScenePtr& scene, const Evaluation& evaluation,
+                                      ProgressLine& progress);
 Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
                                       const BackendOptions& backend, ProgressLine& progress);
 

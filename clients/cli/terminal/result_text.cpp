@@ -20,7 +20,7 @@ constexpr std::array kHeads{"", "ms", "x", "wrong %", "false shadow %", "false l
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
-  std::array<char, 64> text;
+  std::array<char, 160> text;
   std::snprintf(text.data(), text.size(), format, values...);
   return text.data();
 }
@@ -95,6 +95,13 @@ std::string evaluationTable(const EvaluationReport& report) {
                     reference.frames == 1 ? "" : "s", reference.milliseconds, reference.buildMilliseconds);
   return text + "Drawn by " + printable(report.renderer.renderer) + ".\n* = nothing here is faster and no more wrong." +
          (moved ? " Flips: of 1,000 points in one frame of the path.\n" : "\n");
+}
+
+std::string errorText(const ErrorMetrics& metrics) {
+  std::string text = formatted("wrong %.4f %% (false shadow %.4f %%, false lit %.4f %%)", 100 * metrics.misclassified,
+                               100 * metrics.falseShadow, 100 * metrics.falseLit);
+  if (metrics.edgeDisplacement) text += formatted(", edges %.2f pixels off", metrics.edgeDisplacement->mean);
+  return text;
 }
 
 namespace {
