@@ -2,22 +2,40 @@
 
 import http.client
 import http.server
+import json
+import os
+import pty
+import ssl
+import subprocess
+import tempfile
 import threading
+import time
 import unittest
+from pathlib import Path
 
-from command_line_test import BOX, OK, PROBLEM, USAGE, CommandLine, gnomon
-from shipped_server import TIMEOUT, Server
+from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
+from shipped_server import BINARY, TIMEOUT, Server, environment, png_size
 
 
 class Proxy(http.server.ThreadingHTTPServer):
-    """Stands before a server. `interfere` may answer a request itself: (status, headers)."""
+    """Stands before a server, over TLS where there is a `certificate` with its key. `interfere` may answer a request
+    itself: (status, headers)."""
 
-    def __init__(self, target):
+    def __init__(self, target, certificate=None):
         super().__init__(("127.0.0.1", 0), Passing)
         self.target = target
+        if certificate:
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            context.load_cert_chain(certificate)
+            # The handshake is the thread's that serves the connection, so that a client that gives up ends no other.
+            self.socket = context.wrap_socket(self.socket, server_side=True, do_handshake_on_connect=False)
         self.interfere = lambda request: None
         self.seen = []  # (method, path, headers)
+        self.times = []  # of the same, in seconds
         threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def handle_error(self, request, client_address):
+        pass  # a client that trusts no certificate, or has been killed
 
 
 class Passing(http.server.BaseHTTPRequestHandler):
@@ -27,6 +45,7 @@ class Passing(http.server.BaseHTTPRequestHandler):
     def pass_on(self):
         body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
         self.server.seen.append((self.command, self.path, self.headers))
+        self.server.times.append(time.monotonic())
         if (refusal := self.server.interfere(self)) is not None:
             self.reply(*refusal, b"")
             return
@@ -77,11 +96,61 @@ class WithProxy(CommandLine):
     def count(self, method, ending):
         return sum(1 for seen in self.proxy.seen if seen[0] == method and seen[1].endswith(ending))
 
-    def test_a_busy_server_is_waited_for(self):
+    def test_a_busy_server_is_waited_for_as_long_as_it_asks(self):
         for status in (429, 503):
-            self.once("POST", "/frames", lambda _: (status, {"Retry-After": "1"}))
+            self.once("POST", "/frames", lambda _: (status, {"Retry-After": "2"}))
             self.render(*self.there)
-        self.assertEqual(self.count("POST", "/frames"), 4)
+        at = [when for when, seen in zip(self.proxy.times, self.proxy.seen) if seen[1].endswith("/frames")]
+        self.assertEqual(len(at), 4)
+        for first, second in (at[:2], at[2:]):
+            self.assertGreaterEqual(second - first, 2)
+
+    def test_what_names_no_time_is_final(self):
+        for status in (500, 503):
+            self.once("POST", "/frames", lambda _: (status, {}))
+            self.assert_ends(gnomon("render", BOX, "-o", str(self.output), *self.there), PROBLEM, str(status))
+        self.assertEqual(self.count("POST", "/frames"), 2)
+
+    def test_a_reply_that_was_cut_off_is_asked_for_again(self):
+        def hang_up(request):
+            request.connection.close()
+            raise ConnectionError
+
+        self.once("POST", "/frames", hang_up)
+        self.render(*self.there)
+        self.assertEqual(self.count("POST", "/frames"), 2)
+
+    def test_what_the_server_refuses_is_json_on_standard_error(self):
+        run = gnomon("render", BOX, "-o", str(self.output), *SMALL, *self.there, "--camera", "nobody", "--problems", "json")
+        self.assert_ends(run, PROBLEM)
+        [problem] = json.loads(run.stderr)["problems"]
+        self.assertEqual((problem["pointer"], problem["flag"]), ("/camera/node", "--camera"))
+        self.proxy.interfere = lambda request: (429, {"Retry-After": "30"})
+        run = gnomon("ls", *self.there, "--patience", "1", "--problems", "json")
+        self.assert_ends(run, PROBLEM)
+        self.assertEqual(json.loads(run.stderr)["problems"][0]["actual"], "status 429")
+        self.assertEqual(run.stdout, b"")
+
+    def test_quiet_shows_no_progress_on_a_terminal(self):
+        told = {}
+        for quiet in ([], ["--quiet"]):
+            # Long enough that whatever shows progress has shown some.
+            self.once("POST", "/frames", lambda _: (429, {"Retry-After": "1"}))
+            terminal, end = pty.openpty()
+            command = [BINARY, "render", BOX, "-o", str(self.output), *SMALL, *self.there, *quiet]
+            run = subprocess.Popen(command, stderr=end, env=environment())
+            os.close(end)
+            text = b""
+            try:
+                while piece := os.read(terminal, 65536):
+                    text += piece
+            except OSError:  # how the end of a terminal is told
+                pass
+            os.close(terminal)
+            self.assertEqual(run.wait(TIMEOUT), OK)
+            told[bool(quiet)] = text
+        self.assertIn(b"waiting: the server is busy", told[False])
+        self.assertEqual(told[True], b"")
 
     def test_patience_ends(self):
         self.proxy.interfere = lambda request: (503, {"Retry-After": "30"}) if request.path.endswith("/frames") else None
@@ -117,6 +186,52 @@ class WithProxy(CommandLine):
         self.assert_ends(gnomon("rm", scene, *self.there), PROBLEM)
         self.assert_ends(gnomon("rm", "../..", *self.there), PROBLEM, "no scene's id")
         self.assertIn(b'"limits"', gnomon("capabilities", *self.there).stdout)
+
+
+def make_certificate(folder, name, host):
+    """A certificate for a host, signed by itself: its own file, and one with the key."""
+    key, certificate, both = (folder / f"{name}.{kind}" for kind in ("key", "crt", "pem"))
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1", "-subj", f"/CN={host}",
+                    "-addext", f"subjectAltName=DNS:{host}", "-keyout", key, "-out", certificate],
+                   check=True, capture_output=True)  # fmt: skip
+    both.write_bytes(key.read_bytes() + certificate.read_bytes())
+    return str(certificate), both
+
+
+class OverTls(CommandLine):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.server = Server("--device", "cpu", "--workers", "1")
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.trusted, own = make_certificate(Path(folder.name), "own", "localhost")
+        cls.other, _ = make_certificate(Path(folder.name), "other", "localhost")
+        proxy = Proxy(cls.server.address, own)
+        cls.addClassCleanup(proxy.server_close)
+        cls.addClassCleanup(proxy.shutdown)
+        cls.port = proxy.server_address[1]
+        cls.there = ["--server", f"https://localhost:{cls.port}"]
+
+    def test_a_private_certificate_is_trusted_where_it_is_named(self):
+        self.render(*self.there, "--ca-file", self.trusted)
+        self.assertEqual(png_size(self.output.read_bytes()), (64, 48))
+        config = self.folder / "config"
+        config.write_text(f'server = "{self.there[1]}"\nca-file = "{self.trusted}"\n')
+        self.assert_ends(gnomon("ls", "--config", str(config)), OK)
+
+    def test_any_other_certificate_is_refused(self):
+        ls = ["ls", *self.there]
+        self.assert_ends(gnomon(*ls), PROBLEM, "certificate is not trusted")
+        self.assert_ends(gnomon(*ls, "--ca-file", self.other), PROBLEM, "certificate is not trusted")
+        address = ["--server", f"https://127.0.0.1:{self.port}"]  # no name of the certificate
+        self.assert_ends(gnomon("ls", *address, "--ca-file", self.trusted), PROBLEM, "another host's")
+
+    def test_what_holds_no_certificate_is_told(self):
+        empty = self.folder / "empty"
+        empty.write_text("")
+        self.assert_ends(gnomon("ls", *self.there, "--ca-file", str(empty)), PROBLEM, "file of trusted certificates")
+        self.assert_ends(gnomon("ls", *self.there, "--ca-file", str(self.folder / "none")), USAGE, "none")
 
 
 if __name__ == "__main__":

@@ -78,6 +78,27 @@ httplib::Result send(httplib::Client& client, const std::string& path, const Htt
   return client.Post(path, headers, call.body.size(), bodyProvider(call.body, call.onSent), call.contentType);
 }
 
+std::string reasonOf(httplib::Error error) {
+  switch (error) {
+    case httplib::Error::Connection:
+      return "nobody answers at this address";
+    case httplib::Error::ConnectionTimeout:
+      return "nobody answered in time";
+    case httplib::Error::Read:
+      return "the connection ended before the reply did, or the reply took too long";
+    case httplib::Error::Write:
+      return "the connection ended before the request was sent";
+    case httplib::Error::SSLConnection:
+      return "TLS could not be agreed on";
+    case httplib::Error::SSLLoadingCerts:
+      return "the file of trusted certificates holds none";
+    case httplib::Error::SSLServerVerification:
+      return "the server's certificate is not trusted, or is another host's";
+    default:
+      return httplib::to_string(error);
+  }
+}
+
 } // namespace
 
 Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
@@ -101,8 +122,7 @@ Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
     client.set_default_headers(headers);
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
-      return Problem{ProblemCode::unavailable, server, "There was no reply: " + httplib::to_string(reply.error()) + ".",
-                     "", ""};
+      return Problem{ProblemCode::unavailable, server, "There was no reply: " + reasonOf(reply.error()) + ".", "", ""};
     *remote.wasThere = true;
     const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
     return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};

@@ -33,5 +33,21 @@ TEST(UploadBody, TheBoundaryOccursInNoPart) {
   EXPECT_EQ(upload.contentType, "multipart/form-data; boundary=gnomon-part-boundary-1");
 }
 
+TEST(PauseAfter, IsWhatTheServerAsksForOrNothing) {
+  using std::chrono::seconds;
+  const auto replied = [](int status, int retryAfter) {
+    return Result<HttpReply>(HttpReply{status, "", "", retryAfter});
+  };
+  EXPECT_EQ(pauseAfter(replied(429, 7), true), seconds(7));
+  EXPECT_EQ(pauseAfter(replied(429, 0), true), seconds(1));
+  EXPECT_EQ(pauseAfter(replied(503, 3), true), seconds(3));
+  for (const int status : {200, 400, 404, 500, 503, 504}) EXPECT_EQ(pauseAfter(replied(status, 0), true), std::nullopt);
+  const Result<HttpReply> away = Problem{ProblemCode::unavailable, "", "There was no reply.", "", ""};
+  EXPECT_EQ(pauseAfter(away, true), seconds(1));
+  EXPECT_EQ(pauseAfter(away, false), std::nullopt);
+  const Result<HttpReply> wrong = Problem{ProblemCode::invalidValue, "", "This is not an address.", "", ""};
+  EXPECT_EQ(pauseAfter(wrong, true), std::nullopt);
+}
+
 } // namespace
 } // namespace gnomon::cli
