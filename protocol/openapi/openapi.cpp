@@ -214,10 +214,13 @@ Json sequencesRoute() {
       "(frame-00012.png), with the headers Gnomon-Frame, Gnomon-View and Gnomon-Carried (what the next frame needs, if "
       "the sequence goes on there), and last report.json, or problem.json; application/zip = the same files; "
       "text/event-stream = an event `frame` (SequenceFrame) for each, and at last `result` (SequenceReport) or "
-      "`problem` (Problem). Whoever closes the connection ends the sequence.";
+      "`problem` (Problem); video/webm = the first view of every frame as VP9, and last the report as a tag "
+      "GNOMON_REPORT, or the problem as GNOMON_PROBLEM. Whoever closes the connection ends the sequence.";
+  Json forms = sequenceForms();
+  forms["video/webm"] = bytesContent();
   Json post =
       operation("renderSequence", "Render many frames in order",
-                replies({{"200", success(description, sequenceForms())},
+                replies({{"200", success(description, std::move(forms))},
                          {"202", success("A job that draws them.", {{"application/json", schemaContent("Job")}},
                                          {"Location", "Preference-Applied"})}},
                         {"400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
@@ -226,7 +229,7 @@ Json sequencesRoute() {
   post["parameters"].push_back(
       {{"name", "Prefer"},
        {"in", "header"},
-       {"description", "respond-async (RFC 7240): a job draws the frames, and the reply says where it is."},
+       {"description", "respond-async (RFC 7240): a job draws the frames, and the reply says where it is; no video is a job."},
        {"schema", {{"type", "string"}}}});
   return {{"post", std::move(post)}};
 }

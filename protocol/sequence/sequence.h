@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/evaluation/evaluation.h"
@@ -15,6 +16,10 @@ namespace gnomon {
 inline constexpr std::size_t kMaxSequenceFrames = 10'000;
 inline constexpr std::size_t kMaxSequenceKeys = 1'000;
 inline constexpr std::size_t kMaxSequenceSpecBytes = 64u << 20; ///< the specs of all frames of one together, as JSON
+
+// What a video says of itself at its end, as named texts: its SequenceReport, or the problem that ended it.
+inline constexpr std::string_view kVideoReportTag = "GNOMON_REPORT";
+inline constexpr std::string_view kVideoProblemTag = "GNOMON_PROBLEM";
 
 /// The view depths that one light's cascades cover.
 struct CarriedRange {
@@ -39,6 +44,8 @@ struct SequenceRequest {
   std::optional<std::vector<SpecPatch>> keys{};   ///< at least two; frames lie between them
   std::optional<int> count{};                     ///< with `keys`: how many frames, at least two
   bool stable = true;                             ///< shadows don't crawl from frame to frame
+  double framesPerSecond = 30;                    ///< of a video, or of one that is made of the frames
+  int videoQuality = 75;                          ///< of a video: 1 smallest .. 100 best
   int first = 0;                                  ///< index of the first frame that is drawn
   std::optional<Carried> carried{};               ///< from the frame before it
 };
@@ -63,6 +70,7 @@ struct SequenceFrameReport {
 struct SequenceReport {
   std::vector<SequenceFrameReport> frames{}; ///< those that were drawn, in order
   double milliseconds = 0;                   ///< of all of it
+  double framesPerSecond = 0;                ///< as it was asked for
   Carried carried{};                         ///< from the last frame, for a sequence that goes on from there
   std::vector<std::string> warnings{};       ///< of all frames, each once; the first few
   RendererInfo renderer{};

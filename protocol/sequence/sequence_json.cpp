@@ -152,6 +152,8 @@ Result<Sequence> decodeSequence(std::string_view json, const std::function<void(
 
   Sequence sequence{.isKeyed = request.keys.has_value(),
                     .stable = request.stable,
+                    .framesPerSecond = request.framesPerSecond,
+                    .videoQuality = request.videoQuality,
                     .first = request.first,
                     .carried = request.carried.value_or(Carried())};
   sequence.spec = writtenSpec(document);

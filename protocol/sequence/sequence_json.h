@@ -19,6 +19,8 @@ struct Sequence {
   bool isKeyed = false;
   int count = 0; ///< frames, those before `first` included
   bool stable = true;
+  double framesPerSecond = 30;
+  int videoQuality = 75;
   int first = 0;
   Carried carried{}; ///< for frame `first`
 };

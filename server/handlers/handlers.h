@@ -18,6 +18,7 @@
 #include "server/http/router.h"
 #include "server/jobs/job_queue.h"
 #include "server/scenes/scene_store.h"
+#include "server/system/byte_budget.h"
 
 namespace gnomon {
 
@@ -37,6 +38,7 @@ struct Services {
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same
   std::counting_semaphore<> sequences{1};   ///< the same
+  ByteBudget videoMemory{0};                ///< of the encoders of videos that are being sent
   BakeBook bakeBook{};
   SharedFrames shared{};
   ReplyCache replies{0};

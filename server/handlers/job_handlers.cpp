@@ -75,6 +75,16 @@ HttpReply eventsOfJob(Services& services, const RouteCall& call, JobProgress job
                     });
 }
 
+/// As the job's request, which was checked, has it.
+Result<double> framesPerSecondOf(Services& services, const std::string& job) {
+  const auto request = services.jobs.request(job);
+  if (!request) return request.problems();
+  if (!*request) return unknownJob(job);
+  const Json asked = Json::parse(**request, nullptr, false);
+  const bool isSet = asked.is_object() && asked.contains("framesPerSecond") && asked["framesPerSecond"].is_number();
+  return isSet ? asked["framesPerSecond"].get<double>() : SequenceRequest{}.framesPerSecond;
+}
+
 } // namespace
 
 HttpReply listJobs(Services& services, RouteCall call) {
@@ -123,9 +133,12 @@ HttpReply getJobResult(Services& services, RouteCall call) {
   auto job = jobAt(services, call);
   if (!job) return jobProblem(job.problems(), call);
   if (job->state == JobState::failed && job->done == 0) return jobProblem(job->problems, call);
+  const auto framesPerSecond = framesPerSecondOf(services, job->id);
+  if (!framesPerSecond) return jobProblem(framesPerSecond.problems(), call);
   auto frames = std::make_shared<JobFrames>(services, *std::move(job), call.request.arrived + services.sequenceTimeout,
                                             call.clientGone);
-  return sequenceReply(kSequenceForms[*form], call, std::move(frames), std::nullopt, services.workers.info());
+  const SequenceReport report{.framesPerSecond = *framesPerSecond, .renderer = services.workers.info()};
+  return sequenceReply(sequenceForm(kSequenceForms[*form], call), call, std::move(frames), std::nullopt, report);
 }
 
 HttpReply getJobFrame(Services& services, RouteCall call) {

@@ -9,13 +9,15 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/carry.h"
+#include "protocol/sequence/video_frames.h"
 #include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
 
 Task taskOfFrame(Services& services, const FrameToDraw& call) {
-  const FrameSpec spec = frameSpec(call.sequence, call.index, call.before);
+  FrameSpec spec = frameSpec(call.sequence, call.index, call.before);
+  if (call.task.order.mediaType == kRawVideo) spec = videoFrame(std::move(spec));
   Task task = call.task;
   task.request = jsonText(toJson(spec));
   task.allowed = services.requestTimeout;

@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
 #include "protocol/job/job_json.h"
 #include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/video_frames.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"
 #include "server/handlers/sequence_reply.h"
+#include "server/handlers/video_form.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
 #include "server/jobs/job_id.h"
@@ -17,6 +20,13 @@ namespace gnomon {
 namespace {
 
 constexpr int kSequenceRetrySeconds = 10; ///< where the most sequences run
+
+constexpr auto kFormsOrVideo = [] {
+  std::array<std::string_view, kSequenceForms.size() + 1> types;
+  std::copy(kSequenceForms.begin(), kSequenceForms.end(), types.begin());
+  types.back() = kVideoType;
+  return types;
+}();
 
 HttpReply refusal(Problem problem, RefusalReason reason, const std::string& requestId) {
   HttpReply reply = problemReply({std::move(problem)}, requestId, {.retryAfterSeconds = kSequenceRetrySeconds});
@@ -30,6 +40,7 @@ struct AskedSequence {
   SceneCounts counts{};
   double ofAll = 0;     ///< milliseconds
   double ofLongest = 0; ///< milliseconds
+  FrameSizes sizes{};
   bool isChained = false;
 };
 
@@ -45,6 +56,7 @@ Result<AskedSequence> read(Services& services, const RouteCall& call) {
     const double estimate = services.workers.milliseconds(frameCost(spec, asked.counts));
     asked.ofAll += estimate;
     asked.ofLongest = std::max(asked.ofLongest, estimate);
+    asked.sizes.see(spec);
     asked.isChained = asked.isChained || mayCarry(spec);
   });
   if (!sequence) return sequence.problems();
@@ -100,8 +112,10 @@ HttpReply postSequence(Services& services, RouteCall call) {
   const std::string requestId = call.request.id;
   if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
-  const auto form = preferred(accept, kSequenceForms);
-  if (!form) return problemReply({notAcceptable("A sequence", accept, kSequenceForms)}, requestId);
+  const auto form = preferred(accept, kFormsOrVideo);
+  if (!form) return problemReply({notAcceptable("A sequence", accept, kFormsOrVideo)}, requestId);
+  const std::string_view type = kFormsOrVideo[*form];
+  const bool isVideo = type == kVideoType;
   // Reading one may take seconds: it needs a place, too.
   const Permit permit = permitOf(services.sequences);
   if (!permit) {
@@ -110,7 +124,10 @@ HttpReply postSequence(Services& services, RouteCall call) {
   }
   auto asked = read(services, call);
   if (!asked) return problemReply(asked.problems(), requestId);
-  const bool isJob = prefersAsync(call.request);
+  if (auto problem = asked->sizes.problem(asked->sequence); problem && isVideo) {
+    return problemReply({*std::move(problem)}, requestId);
+  }
+  const bool isJob = prefersAsync(call.request) && !isVideo; // jobs keep pictures, which nothing here decodes
   if (auto problem = isJob ? tooLongFrame(services, *asked) : tooMuchWork(services, *asked)) {
     return refusal(*std::move(problem), RefusalReason::cost, requestId);
   }
@@ -120,17 +137,24 @@ HttpReply postSequence(Services& services, RouteCall call) {
   call.request.body = Bytes();
   Task task = taskFor(call, OrderKind::sequenceFrame, id, *std::move(bundle), {}, services.sequenceTimeout);
   task.lane = Lane::sequence;
+  if (isVideo) task.order.mediaType = kRawVideo;
+  const Sequence& sequence = asked->sequence;
+  const VideoWish wish{sequence.framesPerSecond, sequence.videoQuality, sequence.count - sequence.first};
+  const SequenceReport report{.framesPerSecond = wish.framesPerSecond, .renderer = services.workers.info()};
   auto frames = std::make_shared<SequenceFrames>(services, std::move(asked->sequence), asked->counts, std::move(task),
                                                  permit, call.clientGone);
   std::optional<DoneFrame> first;
-  if (kSequenceForms[*form] != kEventStream) { // what the scene can't meet is then a refusal with its own status
+  if (type != kEventStream) { // what the scene can't meet is then a refusal with its own status
     first = frames->next([] {});
     if (!first->problems.empty()) {
       first->result.outcome.problems = first->problems;
       return replyOf(std::move(first->result), requestId);
     }
   }
-  return sequenceReply(kSequenceForms[*form], call, std::move(frames), std::move(first), services.workers.info());
+  if (!isVideo) return sequenceReply(sequenceForm(type, call), call, std::move(frames), std::move(first), report);
+  auto video = videoForm(wish, *first, services.videoMemory);
+  if (!video) return refusal(video.problems().front(), RefusalReason::memory, requestId);
+  return sequenceReply(*std::move(video), call, std::move(frames), std::move(first), report);
 }
 
 } // namespace gnomon

@@ -18,6 +18,7 @@ ServeOptions fittedTo(std::uint64_t memoryBytes) {
   atMost(options.gpuSceneBytes, 20);
   atMost(options.bundleMemoryBytes, 16);
   atMost(options.replyMemoryBytes, 16);
+  atMost(options.videoMemoryBytes, 16);
   atMost(options.replyCacheBytes, 32);
   atMost(options.tileCacheBytes, 32);
   atMost(options.lightMapBytes, 32);
@@ -36,8 +37,8 @@ std::size_t usualWorkers(int cores, std::uint64_t memoryBytes) {
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes) {
   constexpr std::uint64_t kListening = 64u << 20; ///< program, threads and heads of the process that listens
   const std::uint64_t bundles = keepsScenesInMemory(options) ? options.bundleMemoryBytes + options.jobBytes : 0;
-  const std::uint64_t front =
-      kListening + options.uploadMemoryBytes + options.replyMemoryBytes + options.replyCacheBytes + bundles;
+  const std::uint64_t front = kListening + options.uploadMemoryBytes + options.replyMemoryBytes +
+                              options.videoMemoryBytes + options.replyCacheBytes + bundles;
   constexpr std::uint64_t kLeast = 256u << 20; ///< below it a worker can't draw at all
   return std::max(kLeast, (memoryBytes - std::min(front, memoryBytes)) / workers);
 }

@@ -7,7 +7,7 @@
 namespace gnomon {
 
 /// The defaults of the options that say how much may be kept, for a server with so many bytes: each at most a share,
-/// and all shares together four fifths.
+/// and all shares together seven eighths.
 ServeOptions fittedTo(std::uint64_t memoryBytes);
 
 /// How many workers there are where no number is asked for: a quarter of the cores, since a frame is drawn on all of

@@ -230,6 +230,7 @@ int serve(const ServeOptions& options) {
                     .page = options.page,
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations),
                     .sequences = std::counting_semaphore<>(options.maxSequences),
+                    .videoMemory = ByteBudget(options.videoMemoryBytes),
                     .replies = ReplyCache(options.replyCacheBytes),
                     .drakeColors = *std::move(colors)};
   std::optional<StoreKeeping> keeping;

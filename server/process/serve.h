@@ -49,11 +49,13 @@ struct ServeOptions {
   std::size_t frameMemoryBytes =
       4ull << 30; ///< pictures of all frames in progress together (429), and of one frame (413)
   std::size_t replyMemoryBytes = 1ull << 30; ///< bodies of replies that clients are taking, together (503)
-  std::size_t replyCacheBytes = 1u << 28;    ///< pictures kept for equal requests; 0 = every one is drawn
-  std::size_t httpThreads = 128;             ///< >= 1; requests served at once; 503 beyond it, except for probes
-  std::size_t maxConnectionsPerAddress = 0;  ///< of those for one client (429); 0 = three quarters of them
-  int maxEvaluations = 1;                    ///< >= 1; evaluations that may run at once (429)
-  int maxSequences = 2;                      ///< >= 1; sequences that may run at once (429)
+  std::size_t videoMemoryBytes =
+      1ull << 30;                         ///< encoders of videos that are being sent, together (429), and of one (413)
+  std::size_t replyCacheBytes = 1u << 28; ///< pictures kept for equal requests; 0 = every one is drawn
+  std::size_t httpThreads = 128;          ///< >= 1; requests served at once; 503 beyond it, except for probes
+  std::size_t maxConnectionsPerAddress = 0; ///< of those for one client (429); 0 = three quarters of them
+  int maxEvaluations = 1;                   ///< >= 1; evaluations that may run at once (429)
+  int maxSequences = 2;                     ///< >= 1; sequences that may run at once (429)
   std::string drakeSpecFile; ///< a FrameSpec (drake_form.h) for the color pictures of POST /render; empty = the default
 
   // Jobs

@@ -189,6 +189,8 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
            "Pictures of all frames in progress together, and a worker's share of it for one frame (413)");
   addBytes(serve, "--reply-memory-bytes", "GNOMON_REPLY_MEMORY_BYTES", options.replyMemoryBytes,
            "Replies that clients are taking, together; 503 beyond it");
+  addBytes(serve, "--video-memory-bytes", "GNOMON_VIDEO_MEMORY_BYTES", options.videoMemoryBytes,
+           "Encoders of videos that are being sent, together; 429 beyond it, 413 for one that is larger");
   addBytes(serve, "--reply-cache-bytes", "GNOMON_REPLY_CACHE_BYTES", options.replyCacheBytes,
            "Pictures kept for requests that are equal, the least recently used dropped first; 0 = every one is drawn");
   serve.add_option("--queue-limit", options.queueLimit, "Requests that may wait for a worker; 429 beyond it")

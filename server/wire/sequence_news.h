@@ -14,6 +14,9 @@ namespace gnomon {
 
 inline constexpr std::string_view kSequenceNews = "news";
 
+/// The media type of such an order whose result is the first view alone, as encodeI420 (renderer/image) gives it.
+inline constexpr std::string_view kRawVideo = "video/raw";
+
 struct DrawnNews {
   Carried carried{}; ///< of this frame alone
   std::vector<std::string> warnings{};
@@ -24,6 +27,8 @@ struct PictureNews {
   std::string view{};
   std::string contentType{};
   std::uint64_t bytes = 0;
+  int width = 0;  ///< pixels, of a raw picture; else 0
+  int height = 0; ///< pixels, alike
 };
 
 struct SequenceNews {

@@ -16,7 +16,9 @@ template <>
 inline constexpr auto kRows<PictureNews> = rows(
     "PictureNews", "A picture among the bytes of the result.", field("view", &PictureNews::view, {.says = "Its view."}),
     field("contentType", &PictureNews::contentType, {.says = "Its media type."}),
-    field("bytes", &PictureNews::bytes, {.says = "Its size.", .unit = "bytes"}));
+    field("bytes", &PictureNews::bytes, {.says = "Its size.", .unit = "bytes"}),
+    field("width", &PictureNews::width, {.says = "Of a raw picture.", .unit = "pixels"}),
+    field("height", &PictureNews::height, {.says = "Of a raw picture.", .unit = "pixels"}));
 static_assert(kRowsAreComplete<PictureNews>);
 
 template <>

@@ -3,12 +3,26 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/carry.h"
+#include "protocol/spec/enum_rows.h"
 #include "server/wire/frame_form.h"
 #include "server/wire/sequence_news.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"
 
 namespace gnomon {
+namespace {
+
+/// The first view for a video.
+Result<std::vector<EncodedPicture>> rawPicture(const Frame& frame) {
+  if (frame.images.empty()) return Problem{ProblemCode::internal, "", "The frame has no picture.", "", ""};
+  auto planes = encodeI420(frame.images.front().image);
+  if (!planes) return planes.problems();
+  std::vector<EncodedPicture> pictures;
+  pictures.push_back({std::string(spell(frame.images.front().view)), *std::move(planes)});
+  return pictures;
+}
+
+} // namespace
 
 /// While this encodes, the render thread may draw the next frame, whose order came once this one was drawn.
 Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
@@ -30,7 +44,9 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
   context.costs.learn(frameCost(*spec, sceneCounts(scene.summary)), report);
 
   const auto encoding = Clock::now();
-  auto pictures = encodePictures(drawn->frame, drawn->frame.images.size(), call.goOn);
+  const bool isRaw = call.order.mediaType == kRawVideo;
+  auto pictures =
+      isRaw ? rawPicture(drawn->frame) : encodePictures(drawn->frame, drawn->frame.images.size(), call.goOn);
   if (!pictures) return {.problems = call.goOn() ? pictures.problems() : Problems{stoppedProblem("the frame", call)}};
   SequenceNews news;
   Answer answer{.contentType = "application/octet-stream", .stages = std::move(report.stages)};
@@ -39,6 +55,10 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
   answer.body.reserve(bytes);
   for (EncodedPicture& picture : *pictures) {
     news.pictures.push_back({picture.view, std::string(mediaTypeOf(spec->output.format)), picture.file.size()});
+    if (isRaw) {
+      const Image& image = drawn->frame.images.front().image;
+      news.pictures.back() = {picture.view, std::string(kRawVideo), picture.file.size(), image.width, image.height};
+    }
     answer.body += asText(picture.file);
     picture.file = {};
   }

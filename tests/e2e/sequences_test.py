@@ -214,7 +214,7 @@ class Refused(SequenceTest):
              "/carried/depthRanges/0/far"),
             ({"frames": [{}], "carried": {"ranges": []}}, "/carried/ranges"),
             ({"frames": [{}], "spec": {"quality": {"maxError": 0.01}}}, "/spec/quality"),
-            ({"frames": [{}], "framesPerSecond": 25}, "/framesPerSecond"),
+            ({"frames": [{}], "framesPerHour": 25}, "/framesPerHour"),
         ]:
             with self.subTest(pointer, request=request):
                 self.assert_problem(self.sequence(request), 400, pointer)

@@ -111,7 +111,7 @@ TEST(SequenceJson, MembersThatContradictEachOtherAreRefused) {
       "");
   EXPECT_NE(problemAt({{"frames", frames}, {"spec", {{"quality", {{"maxError", 0.1}}}}}}, "/spec/quality"), "");
   EXPECT_NE(problemAt({{"frames", {{{"quality", {{"maxError", 0.1}}}}}}}, "/frames/0/quality"), "");
-  EXPECT_NE(problemAt({{"frames", frames}, {"framesPerSecond", 25}}, "/framesPerSecond"), "");
+  EXPECT_NE(problemAt({{"frames", frames}, {"framesPerHour", 25}}, "/framesPerHour"), "");
 }
 
 TEST(SequenceJson, WhatIsCarriedIsInputLikeAllElse) {

@@ -1,0 +1,172 @@
+#include "server/handlers/sequence_forms.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "protocol/base/bytes.h"
+#include "protocol/sequence/sequence_json.h"
+#include "protocol/spec/format_traits.h"
+#include "server/http/zip_stream.h"
+
+namespace gnomon {
+namespace {
+
+/// A file of the reply.
+struct SentFile {
+  std::string name;
+  std::string_view contentType;
+  std::string_view bytes;
+};
+
+/// "frame-00012.png"; with its view where the frame has several pictures: "frame-00012-depth.png".
+std::string pictureName(const DoneFrame& frame, const PictureNews& picture) {
+  std::array<char, 32> number;
+  const int length = std::snprintf(number.data(), number.size(), "frame-%05d", frame.index);
+  std::string name(number.data(), static_cast<std::size_t>(length));
+  if (frame.pictures.size() > 1) name += "-" + picture.view;
+  const auto traits = std::find_if(kFormatTraits.begin(), kFormatTraits.end(),
+                                   [&](const FormatTraits& format) { return format.mediaType == picture.contentType; });
+  return traits == kFormatTraits.end() ? name : name.append(traits->suffix);
+}
+
+/// A frame's pictures, each with its bytes.
+template <class Send>
+bool eachPicture(const DoneFrame& frame, Send&& send) {
+  std::string_view bytes = asText(frame.bytes);
+  return std::all_of(frame.pictures.begin(), frame.pictures.end(), [&](const PictureNews& picture) {
+    const std::string_view own = bytes.substr(0, picture.bytes);
+    bytes.remove_prefix(picture.bytes);
+    return send(picture, SentFile{pictureName(frame, picture), picture.contentType, own});
+  });
+}
+
+class MultipartForm final : public SequenceForm {
+ public:
+  explicit MultipartForm(std::string boundary) : boundary_(std::move(boundary)) {}
+
+  bool frame(const BodySink& sink, const DoneFrame& frame, int) override {
+    return pictures(sink, frame, "\r\nGnomon-Carried: " + jsonText(toJson(frame.carried)));
+  }
+  bool pictures(const BodySink& sink, const DoneFrame& frame, const std::string& more) const {
+    return eachPicture(frame, [&](const PictureNews& picture, const SentFile& file) {
+      return part(sink, file,
+                  "\r\nGnomon-Frame: " + std::to_string(frame.index) + "\r\nGnomon-View: " + picture.view + more);
+    });
+  }
+  bool end(const BodySink& sink) const { return sink("--" + boundary_ + "--\r\n"); }
+  bool report(const BodySink& sink, std::string_view json) override {
+    return part(sink, {"report.json", "application/json", json}, "") && end(sink);
+  }
+  bool problem(const BodySink& sink, std::string_view json) override {
+    return part(sink, {"problem.json", "application/problem+json", json}, "") && end(sink);
+  }
+
+ private:
+  bool part(const BodySink& sink, const SentFile& file, const std::string& more) const {
+    std::string head = "--" + boundary_ + "\r\nContent-Type: ";
+    head.append(file.contentType).append("\r\nContent-Disposition: attachment; filename=\"").append(file.name);
+    head.append("\"\r\nContent-Length: ").append(std::to_string(file.bytes.size())).append(more).append("\r\n\r\n");
+    return sink(head) && sink(file.bytes) && sink("\r\n");
+  }
+
+  const std::string boundary_;
+};
+
+class ZipForm final : public SequenceForm {
+ public:
+  bool frame(const BodySink& sink, const DoneFrame& frame, int) override {
+    return eachPicture(frame, [&](const PictureNews&, const SentFile& file) { return add(sink, file); });
+  }
+  bool report(const BodySink& sink, std::string_view json) override {
+    return add(sink, {"report.json", "application/json", json}) && sink(zip_.end());
+  }
+  bool problem(const BodySink& sink, std::string_view json) override {
+    return add(sink, {"problem.json", "application/problem+json", json}) && sink(zip_.end());
+  }
+
+ private:
+  bool add(const BodySink& sink, const SentFile& file) {
+    return sink(zip_.head(file.name, static_cast<std::uint32_t>(file.bytes.size()), crc32Of(asBytes(file.bytes)))) &&
+           sink(file.bytes); // a reply of a worker is below 2 GB
+  }
+
+  ZipStream zip_;
+};
+
+/// Sends bytes as base64, a piece at a time: a client that reads slowly holds no copy of them all.
+bool sendBase64(const BodySink& sink, std::string_view bytes) {
+  constexpr std::size_t kPiece = 3 * 16'384; // whole groups, so that the texts join
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
+    if (!sink(base64Text(asBytes(bytes.substr(0, kPiece))))) return false;
+  }
+  return true;
+}
+
+class EventForm final : public SequenceForm {
+ public:
+  bool begin(const BodySink& sink) override { return sink(":\n\n"); }
+  bool waiting(const BodySink& sink) override { return sink(":\n\n"); } // keeps proxies from closing the connection
+  bool frame(const BodySink& sink, const DoneFrame& frame, int of) override {
+    SequenceFrame told{.index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
+    for (const PictureNews& picture : frame.pictures) told.images.push_back({picture.view, picture.contentType, ""});
+    const std::string event = eventText("frame", jsonText(toJson(told)));
+    std::string_view rest = event;
+    const bool isThere = eachPicture(frame, [&](const PictureNews&, const SentFile& file) {
+      constexpr std::string_view kData = R"("data":")"; // no text of JSON holds it: its quotes would be escaped
+      const std::string_view before = rest.substr(0, rest.find(kData) + kData.size());
+      rest.remove_prefix(before.size());
+      return sink(before) && sendBase64(sink, file.bytes);
+    });
+    return isThere && sink(rest);
+  }
+  bool report(const BodySink& sink, std::string_view json) override { return sink(eventText("result", json)); }
+  bool problem(const BodySink& sink, std::string_view json) override { return sink(eventText("problem", json)); }
+};
+
+std::unique_ptr<SequenceForm> formOf(std::string_view mediaType, const std::string& boundary) {
+  if (mediaType == "application/zip") return std::make_unique<ZipForm>();
+  if (mediaType == kEventStream) return std::make_unique<EventForm>();
+  return std::make_unique<MultipartForm>(boundary);
+}
+
+std::string boundaryFor(const RouteCall& call) {
+  Sha256 hash; // of what no picture holds by chance
+  hash.add(call.request.id + call.request.trace.traceId);
+  return "gnomon-" + hash.hex().substr(0, 32);
+}
+
+std::string multipartType(const std::string& boundary) {
+  return "multipart/mixed; boundary=" + boundary;
+}
+
+} // namespace
+
+TypedForm sequenceForm(std::string_view mediaType, const RouteCall& call) {
+  const std::string boundary = boundaryFor(call);
+  const bool isMultipart = mediaType == kSequenceForms.front();
+  return {isMultipart ? multipartType(boundary) : std::string(mediaType), formOf(mediaType, boundary)};
+}
+
+HttpReply frameReply(const DoneFrame& frame, const RouteCall& call) {
+  HttpReply reply;
+  if (frame.pictures.size() == 1) {
+    reply.contentType = frame.pictures.front().contentType;
+    reply.body = asText(frame.bytes);
+    return reply;
+  }
+  const std::string boundary = boundaryFor(call);
+  reply.contentType = multipartType(boundary);
+  const BodySink sink = [&](std::string_view piece) {
+    reply.body += piece;
+    return true;
+  };
+  MultipartForm form(boundary);
+  form.pictures(sink, frame, "");
+  form.end(sink);
+  return reply;
+}
+
+} // namespace gnomon
