@@ -5,6 +5,7 @@ import unittest
 
 from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
 from shipped_server import Server, png_size
+from video_test import Video
 
 REQUEST = {
     "spec": {"width": 64, "height": 48, "antialiasing": "none"},
@@ -48,7 +49,30 @@ class Sequences(CommandLine):
         self.assertIn(b"8 pictures", run.stdout)
         self.assertEqual(len(self.files("depth-*.png")), 4)
 
+    def test_a_video_here_has_the_frames_of_one_from_a_server(self):
+        report = self.folder / "report.json"
+        flags = ("--frames-per-second", "8", "--video-quality", "60", "--device", "cpu")
+        run = self.run_sequence("here.webm", REQUEST, *flags, "--report", str(report))
+        self.assert_ends(run, OK)
+        self.assertIn(b"4 frames", run.stdout)
+        here = Video((self.folder / "here.webm").read_bytes())
+        self.assertEqual((here.size, here.duration, len(here.blocks)), ((64, 48), 0.5, 4))
+        self.assertEqual(here.tags["GNOMON_REPORT"], json.loads(report.read_text()))
+        with Server("--device", "cpu", "--workers", "1") as server:
+            url = "http://%s:%d" % server.address
+            self.assert_ends(self.run_sequence("there.webm", REQUEST, *flags[:4], "--server", url, "--report", str(report)), OK)
+            broken = dict(REQUEST, frames=[{}, {"camera": {"node": "nobody"}}])
+            del broken["keys"], broken["count"]
+            self.assert_ends(self.run_sequence("x.webm", broken, "--server", url), PROBLEM, "/frames/1/camera/node")
+        self.assertEqual(Video((self.folder / "there.webm").read_bytes()).blocks, here.blocks)
+        self.assertEqual([frame["index"] for frame in json.loads(report.read_text())["frames"]], [0, 1, 2, 3])
+        self.assert_ends(self.run_sequence("x.webm", broken), PROBLEM, "/frames/1/camera/node")
+        self.assertEqual(self.files("x.*"), [])
+
     def test_faults_name_their_place(self):
+        self.assert_ends(self.run_sequence("x-{frame}.webm", REQUEST), USAGE, "{frame}")
+        self.assert_ends(self.run_sequence("x.webm", {"frames": [{}, {"width": 80}]}), PROBLEM, "/frames/1/width")
+        self.assert_ends(self.run_sequence("x.webm", REQUEST, "--video-quality", "0"), USAGE, "--video-quality")
         self.assert_ends(gnomon("sequence", BOX, "-", "-o", "frame.png"), USAGE, "{frame}")
         broken = dict(REQUEST, count=1)
         self.assert_ends(self.run_sequence("x-{frame}.png", broken), PROBLEM, "count")
@@ -68,6 +92,12 @@ class Turntables(CommandLine):
         self.assertEqual(len(frames), 6)
         self.assertEqual(len(set(frames)), 6)
         self.assertEqual([frame["index"] for frame in json.loads(report.read_text())["frames"]], list(range(6)))
+
+    def test_turns_in_a_video(self):
+        output = str(self.folder / "turn.webm")
+        self.assert_ends(gnomon("turntable", BOX, "--frames", "6", "-o", output, "--frames-per-second", "12", *SMALL), OK)
+        video = Video((self.folder / "turn.webm").read_bytes())
+        self.assertEqual((len(video.blocks), video.duration), (6, 0.5))
 
     def test_a_camera_that_stands_elsewhere_is_refused(self):
         self.assert_ends(self.turn("--eye", "1,2,3"), PROBLEM, "/camera")

@@ -10,6 +10,7 @@
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
+#include "clients/cli/files/new_file.h"
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/remote/http_client.h"
@@ -20,31 +21,70 @@
 #include "protocol/job/job_json.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/video_frames.h"
 
 /// Many frames of one scene: a request's, or a turn around it.
 namespace gnomon::cli {
 namespace {
+
+constexpr const char* kVideoSuffix = ".webm";
 
 struct SequenceOptions {
   std::string scene;
   std::string request; ///< a SequenceRequest, "-" = standard input
   std::string spec;    ///< of a turntable; empty = none
   int frames = 36;     ///< of a turntable
-  std::string output;  ///< with {frame}
+  std::string output;  ///< with {frame}, or a video
+  std::optional<double> framesPerSecond;
+  std::optional<int> videoQuality;
   bool isAsync = false;
   std::string report; ///< a file, "-" = standard output, empty = none
   SpecArguments arguments;
   WhereOptions where;
 };
 
+bool isVideo(const std::string& output) {
+  return std::filesystem::path(output).extension() == kVideoSuffix;
+}
+
 std::string checkFrameName(const std::string& output) {
+  if (isVideo(output)) {
+    const bool isOne = output.find("{frame}") == std::string::npos && output.find("{view}") == std::string::npos;
+    return isOne ? "" : "is one file: a video has no {frame} and no {view} in its name";
+  }
   if (output.find("{frame}") == std::string::npos) return "needs {frame} in its name, as frames/{frame}.png";
   return checkPictureName(output);
 }
 
-/// The pictures of one scene, and the names that they get.
+Status writeReport(const SequenceOptions& options, const std::string& report) {
+  return options.report.empty() ? Status(Done{}) : writeFile(options.report, asBytes(report));
+}
+
+/// The file appears once it is whole.
+int drawVideo(const SequenceOptions& options, const std::string& requestJson, const Sequence& sequence,
+              const FlagOrigins& origins, FrameMaker& maker, ProgressLine& progress) {
+  const auto fail = [&](const Problems& problems) {
+    progress.finish();
+    return printProblems(problems, origins);
+  };
+  const auto name = filledIn(options.output, {{"scene", sceneName(options.scene)}});
+  if (!name) return fail(name.problems());
+  auto file = NewFile::create(*name);
+  if (!file) return fail(file.problems());
+  const auto take = [&](std::string_view bytes) { return file->write(asBytes(bytes)); };
+  const auto report = maker.drawVideo(sequence, requestJson, take, progress);
+  if (!report) return fail(report.problems());
+  if (auto finished = file->finish(); !finished) return fail(finished.problems());
+  progress.finish();
+  if (auto done = writeReport(options, *report); !done) return printProblems(done.problems());
+  if (options.report != "-") std::cout << sequence.count - sequence.first << " frames\n";
+  return kExitOk;
+}
+
+/// The pictures of one scene, and the names that they get; or its video.
 int drawFrames(const SequenceOptions& options, const std::string& requestJson, const Sequence& sequence,
                const FlagOrigins& origins, FrameMaker& maker, ProgressLine& progress) {
+  if (isVideo(options.output)) return drawVideo(options, requestJson, sequence, origins, maker, progress);
   std::size_t written = 0;
   const auto take = [&](int index, const std::vector<Picture>& pictures) -> Status {
     const auto name = filledIn(options.output, {{"frame", frameNumber(index)}, {"scene", sceneName(options.scene)}});
@@ -59,9 +99,7 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
   const auto report = maker.drawAll(sequence, requestJson, take, progress);
   progress.finish();
   if (!report) return printProblems(report.problems(), origins);
-  if (!options.report.empty()) {
-    if (auto done = writeFile(options.report, asBytes(*report)); !done) return printProblems(done.problems());
-  }
+  if (auto done = writeReport(options, *report); !done) return printProblems(done.problems());
   if (options.report != "-") std::cout << written << " pictures\n";
   return kExitOk;
 }
@@ -100,6 +138,11 @@ int submitJob(const SequenceOptions& options, const std::string& requestJson, co
   return kExitOk;
 }
 
+void addVideoFields(const SequenceOptions& options, Json& request) {
+  if (options.framesPerSecond) request["framesPerSecond"] = *options.framesPerSecond;
+  if (options.videoQuality) request["videoQuality"] = *options.videoQuality;
+}
+
 int runSequence(SequenceOptions options) {
   options.arguments.format = formatOf(options.output);
   const auto text = specText(options.request);
@@ -112,12 +155,15 @@ int runSequence(SequenceOptions options) {
     const ResolvedSpec resolved = resolveSpec(request.value("spec", Json::object()).dump(), options.arguments);
     if (!resolved.spec) return printProblems(about("spec", resolved.spec.problems()), resolved.origins);
     request["spec"] = Json::parse(resolved.json);
+    addVideoFields(options, request);
     requestJson = jsonText(request);
     origins = resolved.origins;
   }
-  const auto sequence = decodeSequence(requestJson);
+  FrameSizes sizes;
+  const auto sequence = decodeSequence(requestJson, [&](const FrameSpec& spec) { sizes.see(spec); });
   if (!sequence) return printProblems(sequence.problems());
   if (options.isAsync) return submitJob(options, requestJson, *sequence, origins);
+  if (auto problem = sizes.problem(*sequence); problem && isVideo(options.output)) return printProblems({*problem});
   auto maker = makerFor(options.where);
   if (!maker) return printProblems(maker.problems());
   auto progress = ProgressLine::onTerminal();
@@ -207,6 +253,7 @@ int runTurntable(SequenceOptions options) {
   if (!orbit) return fail(orbit.problems());
   Json request = {{"spec", Json::parse(json)}, {"frames", turn(*orbit, options.frames)}};
   if (request["spec"].contains("camera")) request["spec"]["camera"].erase("fit");
+  addVideoFields(options, request);
   const std::string requestJson = jsonText(request);
   const auto sequence = decodeSequence(requestJson);
   if (!sequence) return fail(sequence.problems());
@@ -219,9 +266,15 @@ void addFrameOutput(CLI::App& command, SequenceOptions& options) {
           "-o,--output", options.output,
           "The pictures, in a folder that is made if need be; {frame} stands for the number of each, {scene} for the "
           "scene's name, {view} for the view's. The suffix is the format: " +
-              suffixList())
+              suffixList() + "; .webm = one video of the first view")
       ->required()
       ->check(checkFrameName);
+  command
+      .add_option("--frames-per-second", options.framesPerSecond, "How fast the frames of a video follow each other")
+      ->check(CLI::Range(1.0, 240.0));
+  command
+      .add_option("--video-quality", options.videoQuality, "Of a video: 1 = smallest file, 100 = closest to the frames")
+      ->check(CLI::Range(1, 100));
   command.add_option("--report", options.report, "Write the sequence's report as JSON; - is standard output");
   addPictureFlags(command, options.arguments);
   addWhereFlags(command, options.where, options.arguments);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "clients/cli/files/new_file.h"
 #include "protocol/spec/format_traits.h"
 
 namespace gnomon::cli {
@@ -21,16 +20,6 @@ Problem fileProblem(ProblemCode code, const std::string& path, const std::string
 
 Problem tooLarge(const std::string& path, std::size_t maxBytes, const std::string& actual) {
   return {ProblemCode::tooLarge, path, "The file is too large.", std::to_string(maxBytes) + " bytes", actual};
-}
-
-bool writeAll(int file, std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 } // namespace
@@ -86,19 +75,10 @@ Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (writeAll(STDOUT_FILENO, bytes)) return Done{};
     return fileProblem(ProblemCode::internal, "standard output", std::strerror(errno));
   }
-  // Beside the target, because a rename is one step only within a file system.
-  std::string temporary = path + ".XXXXXX";
-  const int file = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (file < 0) return fileProblem(ProblemCode::invalidValue, path, std::strerror(errno));
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const bool written = writeAll(file, bytes) && ::fchmod(file, 0666 & ~mask) == 0;
-  const int writeError = errno;
-  const bool closed = ::close(file) == 0;
-  if (written && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return Done{};
-  const int error = written ? errno : writeError;
-  ::unlink(temporary.c_str());
-  return fileProblem(ProblemCode::invalidValue, path, std::strerror(error));
+  auto file = NewFile::create(path);
+  if (!file) return file.problems();
+  if (auto written = file->write(bytes); !written) return written;
+  return file->finish();
 }
 
 std::optional<std::string> formatOf(const std::string& output) {

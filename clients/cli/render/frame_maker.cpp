@@ -54,4 +54,12 @@ Result<std::string> FrameMaker::drawAll(const Sequence& sequence, const std::str
   return sequenceHere(*renderer_, scene_, sequence, take, progress);
 }
 
+Result<std::string> FrameMaker::drawVideo(const Sequence& sequence, const std::string& requestJson,
+                                          const TakeBytes& take, ProgressLine& progress) {
+  if (const auto* remote = std::get_if<Remote>(&where_)) {
+    return videoThere(*remote, bundle_, id_, requestJson, sequence, take, progress);
+  }
+  return videoHere(*renderer_, scene_, sequence, take, progress);
+}
+
 } // namespace gnomon::cli

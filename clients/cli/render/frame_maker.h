@@ -6,6 +6,7 @@
 
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/render/sequence_run.h"
+#include "clients/cli/render/video_run.h"
 
 namespace gnomon::cli {
 
@@ -29,6 +30,10 @@ class FrameMaker {
   /// REQUIRES: `open` went well.
   Result<std::string> drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,
                               ProgressLine& progress);
+
+  /// The same as a WebM, which is given piece by piece.
+  Result<std::string> drawVideo(const Sequence& sequence, const std::string& requestJson, const TakeBytes& take,
+                                ProgressLine& progress);
 
  private:
   Status load(const SceneBundle& bundle, ProgressLine& progress);

@@ -15,10 +15,6 @@
 namespace gnomon::cli {
 namespace {
 
-void showFrame(int index, int first, int of, ProgressLine& progress) {
-  progress.share(static_cast<double>(index + 1 - first) / std::max(of - first, 1));
-}
-
 /// The same problems, pointing to the frame's place in the request.
 Problems placed(Problems problems, const std::string& place) {
   for (Problem& problem : problems) problem.pointer.insert(0, place);
@@ -27,24 +23,24 @@ Problems placed(Problems problems, const std::string& place) {
 
 } // namespace
 
-Result<std::string> sequenceHere(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
-                                 const TakeFrame& take, ProgressLine& progress) {
+void showFrame(int index, int first, int of, ProgressLine& progress) {
+  progress.share(static_cast<double>(index + 1 - first) / std::max(of - first, 1));
+}
+
+Result<std::string> drawSequence(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
+                                 FrameSpec (*change)(FrameSpec), const TakeDrawn& take, ProgressLine& progress) {
   progress.stage("rendering");
   const auto begun = std::chrono::steady_clock::now();
   SequenceReport report;
   report.renderer = renderer.info();
   report.carried = sequence.carried;
+  report.framesPerSecond = sequence.framesPerSecond;
   for (int index = sequence.first; index < sequence.count; ++index) {
     const auto start = std::chrono::steady_clock::now();
-    const std::string place = framePlace(sequence, index);
-    auto frame = renderer.render(scene, frameSpec(sequence, index, report.carried));
-    if (!frame) return placed(frame.problems(), place);
+    auto frame = renderer.render(scene, change(frameSpec(sequence, index, report.carried)));
+    if (!frame) return placed(frame.problems(), framePlace(sequence, index));
     report.carried = carriedAfter(report.carried, carriedOf(frame->report));
-    auto encoded = encodePictures(*frame, frame->images.size());
-    if (!encoded) return placed(encoded.problems(), place);
-    std::vector<Picture> pictures;
-    for (EncodedPicture& picture : *encoded) pictures.push_back({std::move(picture.view), std::move(picture.file)});
-    if (auto taken = take(index, pictures); !taken) return taken.problems();
+    if (auto taken = take(index, *frame); !taken) return taken.problems();
     report.frames.push_back({index, millisecondsSince(start), std::move(frame->report.stages)});
     for (std::string& warning : frame->report.warnings) {
       const bool isNew = std::find(report.warnings.begin(), report.warnings.end(), warning) == report.warnings.end();
@@ -54,6 +50,19 @@ Result<std::string> sequenceHere(Renderer& renderer, const ScenePtr& scene, cons
   }
   report.milliseconds = millisecondsSince(begun);
   return toJson(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<std::string> sequenceHere(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
+                                 const TakeFrame& take, ProgressLine& progress) {
+  const auto encode = [&](int index, const Frame& frame) -> Status {
+    auto encoded = encodePictures(frame, frame.images.size());
+    if (!encoded) return placed(encoded.problems(), framePlace(sequence, index));
+    std::vector<Picture> pictures;
+    for (EncodedPicture& picture : *encoded) pictures.push_back({std::move(picture.view), std::move(picture.file)});
+    return take(index, pictures);
+  };
+  const auto asItIs = [](FrameSpec spec) { return spec; };
+  return drawSequence(renderer, scene, sequence, asItIs, encode, progress);
 }
 
 namespace {

@@ -12,6 +12,16 @@ namespace gnomon::cli {
 /// Given the pictures of each frame, in order, while the next one may be drawn; a problem ends the sequence.
 using TakeFrame = std::function<Status(int index, const std::vector<Picture>& pictures)>;
 
+/// Given each frame, in order; a problem ends the sequence.
+using TakeDrawn = std::function<Status(int index, const Frame& frame)>;
+
+/// Draws a sequence in this process, each frame by `change` of its spec. Gives its report, a SequenceReport as JSON.
+Result<std::string> drawSequence(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
+                                 FrameSpec (*change)(FrameSpec), const TakeDrawn& take, ProgressLine& progress);
+
+/// Shows how far a sequence is once frame `index` is done.
+void showFrame(int index, int first, int of, ProgressLine& progress);
+
 /// Draws a sequence in this process. Gives its report, a SequenceReport as JSON.
 Result<std::string> sequenceHere(Renderer& renderer, const ScenePtr& scene, const Sequence& sequence,
                                  const TakeFrame& take, ProgressLine& progress);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "protocol/base/result.h"
+
+namespace gnomon::cli {
+
+/// A file that is written piece by piece and put in place in one step: whoever looks sees the old file or the whole new
+/// one, and nothing is left of one that is not finished. Problems name the path as the user gave it.
+class NewFile {
+ public:
+  static Result<NewFile> create(const std::string& path);
+  NewFile(NewFile&& other) noexcept;
+  NewFile& operator=(NewFile&&) = delete;
+  ~NewFile();
+
+  Status write(std::span<const std::uint8_t> bytes);
+  Status finish(); ///< once, as the last call
+
+ private:
+  NewFile(std::string path, std::string temporary, int file)
+      : path_(std::move(path)), temporary_(std::move(temporary)), file_(file) {}
+  Problem failed(int error) const;
+
+  std::string path_;
+  std::string temporary_; ///< beside the path, since a rename is one step only within a file system; empty = none
+  int file_;              ///< -1 = closed
+};
+
+/// All of it to an open file; false with errno.
+bool writeAll(int file, std::span<const std::uint8_t> bytes);
+
+} // namespace gnomon::cli
