@@ -6,13 +6,14 @@ import asyncio
 import contextlib
 import contextvars
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any, AsyncIterator, Callable, Generator, List, Mapping, Optional, Sequence, TypeVar, Union, cast
 
 from .bundle import Source
 from .frame import Frame
 from .jobs import Job
 from .json_form import Spec
-from .reports import BakeReport, Capabilities, PlanReport, SceneSummary
+from .reports import BakeReport, Capabilities, PlanReport, SceneSummary, SequenceReport
 from .reports import Job as JobReport
 from .rows import Rows
 from .scene_calls import Scene, SceneLike
@@ -96,6 +97,10 @@ class AsyncSession:
     async def wait(self, job: Job, timeout: Optional[float] = None) -> JobReport:
         """That of the job; cancelling it leaves the job as it is."""
         return await self._run(lambda: job.wait(timeout))
+
+    async def video(self, scene: SceneLike, path: Union[str, Path], spec: Optional[Spec] = None,
+                    **options: Any) -> SequenceReport:
+        return await self._run(lambda: self.session.video(scene, path, spec, **options))
 
     async def sequence(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                        keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,

@@ -915,6 +915,8 @@ class SequenceReport(TypedDict, total=False):
     milliseconds:
         Time from the first frame's beginning to the last one's pictures, waiting for the client included. Unit:
         milliseconds.
+    framesPerSecond:
+        As it was asked for. Unit: frames per second.
     carried:
         What the last frame leaves to a sequence that continues this one.
     warnings:
@@ -925,6 +927,7 @@ class SequenceReport(TypedDict, total=False):
 
     frames: List["SequenceFrameReport"]
     milliseconds: float
+    framesPerSecond: float
     carried: Dict[str, Any]
     warnings: List[str]
     renderer: "RendererInfo"

@@ -16,12 +16,13 @@ from .jobs import Job
 from .local_server import LocalServer
 from .problems import ConnectionFailed
 from .progress import Progress
-from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary
+from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary, SequenceReport
 from .reports import Job as JobReport
 from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
 from .streams import events, sequence_parts
 from .transport import Transport
+from .webm import save_video, whole_file
 
 USUAL_VIEWS = ("color", "depth", "ids", "shadow")
 MOST_FAILURES = 3  # of a sequence, one after the other
@@ -149,6 +150,23 @@ class Session:
 
     def _job(self, report: JobReport) -> Job:
         return Job(self._http, report, self._redraw(report["scene"]), self.progress)
+
+    def video(self, scene: SceneLike, path: Union[str, Path], spec: Optional[Spec] = None, *,
+              frames: Optional[Sequence[Patch]] = None, keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None,
+              stable: bool = True, framesPerSecond: Optional[float] = None, videoQuality: Optional[int] = None,
+              **fields: Any) -> SequenceReport:
+        """A sequence as a WebM of its first view. The file appears once it is whole; a video that breaks off is not
+        gone on with."""
+        asked = {"spec": frame_spec(spec, **fields), "frames": frames, "keys": keys, "count": count, "stable": stable,
+                 "framesPerSecond": framesPerSecond, "videoQuality": videoQuality}
+        of = (count if frames is None else len(frames)) or 0
+        bar = Progress("rendering", self.progress)
+        try:
+            with whole_file(path) as file, \
+                    self._scenes.stream(scene, "POST", "/sequences", encoded(given(asked)), Accept="video/webm") as reply:
+                return cast(SequenceReport, save_video(reply, file, lambda done: bar.at(done, of)))
+        finally:
+            bar.close()
 
     def _frames(self, scene: SceneLike, asked: Dict[str, Any], of: int) -> Iterator[Frame]:
         """The frames of a sequence. A reply that breaks off is gone on with behind its last whole frame, which gives the

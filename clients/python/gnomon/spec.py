@@ -914,6 +914,13 @@ class SequenceRequest:
         Shadows of directional lights hold still while the camera moves, and depth ranges pass from frame to frame,
         except where the spec has `stabilization` or `depthRange` itself. False = each frame is drawn as if it were
         alone, with the tightest fit. Default: true.
+    framesPerSecond:
+        How fast the frames of a video follow each other. Every other form tells it in its report, for whoever makes
+        a video of the frames; it changes no frame. Unit: frames per second. Default: 30.0.
+    videoQuality:
+        Of a video (`Accept: video/webm`): 1 = smallest file, 100 = closest to the frames. Each frame is as good as
+        every other, whatever size that takes; the default can hardly be told from the frames, and 90 takes about
+        twice its size, 100 six times. Default: 75.
     first:
         Index of the first frame that is drawn: 0, or where a sequence that broke off goes on. Default: 0.
     carried:
@@ -926,5 +933,7 @@ class SequenceRequest:
     keys: Optional[Sequence[Json]] = None
     count: Optional[int] = None
     stable: Optional[bool] = None
+    framesPerSecond: Optional[float] = None
+    videoQuality: Optional[int] = None
     first: Optional[int] = None
     carried: Optional[Union["Carried", Json]] = None

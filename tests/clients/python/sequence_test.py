@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from shipped_server import SCENES, Server
+from video_test import Video
 
 import gnomon
 
@@ -140,6 +141,28 @@ class Sequences(unittest.TestCase):
             with self.assertRaises((ConnectionError, OSError)):
                 next(session.sequence(self.scene.id, frames=azimuths(1), **SMALL))
             self.assertEqual(proxy.cuts, 4)
+
+    def test_a_video_is_whole_or_not_there(self):
+        moves = azimuths(*range(0, 60, 10))
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "turn.webm"
+            report = self.session.video(self.scene, path, frames=moves, framesPerSecond=12, videoQuality=50, **SMALL)
+            self.assertEqual([frame["index"] for frame in report["frames"]], list(range(6)))
+            self.assertEqual(report["framesPerSecond"], 12)
+            video = Video(path.read_bytes())
+            self.assertEqual((len(video.blocks), video.size, video.duration), (6, (64, 48), 0.5))
+            size = path.stat().st_size
+            path.unlink()
+            with self.assertRaises(gnomon.BadRequest) as caught:
+                self.session.video(self.scene, path, frames=[{}, {}, {"camera": {"node": "nobody"}}], **SMALL)
+            self.assertEqual([each.pointer for each in caught.exception.problems], ["/frames/2/camera/node"])
+            with self.assertRaises(gnomon.BadRequest):
+                self.session.video(self.scene, path, frames=[{}], framesPerSecond=0)
+            with CuttingProxy(self.server.address, [size // 2]) as proxy, gnomon.Session(proxy.url) as session:
+                with self.assertRaises(ConnectionError):
+                    session.video(self.scene.id, path, frames=moves, **SMALL)
+                self.assertEqual(proxy.cuts, 1)
+            self.assertEqual([*Path(folder).iterdir()], [])
 
     def test_frames_can_be_awaited_and_left(self):
         asked = {"frames": azimuths(0, 30, 60), **SMALL}
