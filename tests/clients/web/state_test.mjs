@@ -64,6 +64,12 @@ test('a draft is smaller, even and never nothing', () => {
   assert.deepEqual([draft.width, draft.height, draft.antialiasing], [402, 16, 'none']);
 });
 
+test('a draft is a light file, and the sharp picture the one that was asked for', () => {
+  const state = { view: 'color', spec: { output: { format: 'exr', exrPixelType: 'float' } } };
+  assert.deepEqual(draftSpec(state, { width: 80, height: 40 }, 0.5).output, { format: 'webp', webpQuality: 80, exrPixelType: 'float' });
+  assert.deepEqual(fullSpec(state, { width: 80, height: 40 }).output, state.spec.output);
+});
+
 test('the curl command survives a shell', () => {
   const command = curlCommand('http://host', 'ab', { camera: { node: "it's" } }, 'exr');
   assert.match(command, /'\{"camera":\{"node":"it'\\''s"\},"output":\{"format":"exr"\}\}'/);
