@@ -75,6 +75,15 @@ async function followed(address, body, listeners, signal) {
   throw last.problem ? refusalOf(400, null, last.problem) : new Refusal(0, 'The work has ended without a result.', []);
 }
 
+// A sequence as a WebM Blob. Refused where a problem has ended it, which the file tells last.
+export async function recordVideo(sceneId, sequence, signal) {
+  const file = await blob(await post(`v1/scenes/${sceneId}/sequences`, sequence, 'video/webm', signal));
+  const [, end, told] = /GNOMON_(REPORT|PROBLEM).*?(\{".*)/s.exec(await file.slice(-kTailBytes).text()) ?? [];
+  if (end === 'REPORT') return file;
+  throw end ? refusalOf(400, null, told) : new Refusal(0, 'The video ended too early.', []);
+}
+const kTailBytes = 4e6; // a report is shorter
+
 // What was baked, as a Blob: PNG, EXR or GLB.
 export async function bakeFile(sceneId, key, contentType) {
   return blob(await call(`v1/scenes/${sceneId}/bakes/${key}`, { headers: { Accept: contentType } }));

@@ -20,6 +20,8 @@ import { setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
+import { attachRecording } from './record_button.mjs';
+import { recordedSequence } from './recording.mjs';
 import { showReport } from './report_panel.mjs';
 import { createScenePanel } from './scene_panel.mjs';
 import { copySnippet, download } from './share.mjs';
@@ -41,25 +43,37 @@ const showTimings = createTimings(byId('timings'));
 const store = createStore({ ...fromHash(location.hash), summary: null, report: null });
 const announce = (text) => (byId('live').textContent = text);
 const sharpSpec = () => fullSpec(store.state, stageSize());
+let shown = null; // what the sharp picture was asked with: {state, spec}
+
+// The spec that gave the picture: view Motion tells what has moved since the picture before it, which is then gone.
+function shownSpec() {
+  const { spec, view, summary } = store.state;
+  const isShown = shown && shown.state.spec === spec && shown.state.view === view && shown.state.summary === summary;
+  return isShown ? shown.spec : sharpSpec();
+}
 
 // ---- frames
 
 const loop = createFrameLoop({ render, show, fail: refused, busy: (on) => (byId('busy').hidden = !on) });
 
+let askedSize = ''; // of the last sharp picture
+
 function stageSize() {
   const limited = Math.min(1, 1920 / stage.clientWidth, 1080 / stage.clientHeight);
-  const even = (pixels) => Math.max(16, Math.round((pixels * limited) / 2) * 2);
-  return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
+  const side = (pixels) => Math.max(16, Math.round(pixels * limited));
+  return { width: side(stage.clientWidth), height: side(stage.clientHeight) };
 }
 
-function render(draft, scale, signal) {
+async function render(draft, scale, signal) {
   const { state } = store;
   if (!state.summary) return null;
-  const spec = draft ? draftSpec(state, stageSize(), scale) : sharpSpec();
-  return renderFrame(state.summary.id, spec, signal);
+  const size = stageSize();
+  const spec = draft ? draftSpec(state, size, scale) : fullSpec(state, size);
+  if (!draft) askedSize = JSON.stringify(size);
+  return { ...(await renderFrame(state.summary.id, spec, signal)), asked: { state, spec } };
 }
 
-async function show({ report, images, roundTripMs }, draft) {
+async function show({ report, images, roundTripMs, asked }, draft) {
   problems.clear();
   await picture.show(images[0]);
   stage.classList.toggle('draft', draft);
@@ -69,6 +83,7 @@ async function show({ report, images, roundTripMs }, draft) {
   showReport(byId('report'), report);
   const told = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
   byId('report-section').hidden = !told && !report.volumes.length && !report.warnings.length;
+  shown = asked;
   store.update({ report });
   announce(`The picture is sharp, after ${Math.round(roundTripMs)} milliseconds`);
   if (compare.isOn()) compare.refresh();
@@ -88,12 +103,9 @@ store.subscribe((state, before) => {
   linkTimer = setTimeout(() => store.state.summary && history.replaceState(null, '', toHash(store.state)), 250);
 });
 
-let askedSize = JSON.stringify(stageSize());
+// The place may change while a picture of it is on its way.
 new ResizeObserver(() => {
-  const size = JSON.stringify(stageSize());
-  if (size === askedSize || store.isSet('width')) return;
-  askedSize = size;
-  loop.changed();
+  if (JSON.stringify(stageSize()) !== askedSize && !store.isSet('width')) loop.changed();
 }).observe(stage);
 
 // ---- camera
@@ -124,7 +136,7 @@ byId('camera').append(createCameraPanel(store, fit));
 // ---- what lies over the picture
 
 const plan = createPlanOverlay(stage);
-const compare = createCompare(store, { picture: byId('picture'), specOf: sharpSpec, problems, announce });
+const compare = createCompare(store, { picture: byId('picture'), specOf: shownSpec, problems, announce });
 stage.append(...plan.nodes, compare.node, createErrorPanel(store, { specOf: sharpSpec, problems, announce }));
 
 function pressed(button, act) {
@@ -216,7 +228,7 @@ function onButton(id, act) {
     const { summary } = store.state;
     if (!summary) return toast('There is no scene yet');
     try {
-      toast(await act(summary.id, sharpSpec()));
+      toast(await act(summary.id, shownSpec()));
       byId('copy-menu').open = false;
     } catch (error) {
       problems.show(error);
@@ -228,6 +240,15 @@ const copied = async (done, what) => ((await done) ? `${what} copied` : `${what}
 const kCopies = { link: 'Link', curl: 'curl command', python: 'Python code', img: 'Image tag', cli: 'Command line' };
 for (const [what, name] of Object.entries(kCopies)) onButton(`copy-${what}`, (id, spec) => copied(copySnippet(what, id, spec), name));
 onButton('save-png', async (id, spec) => (await download(id, spec, 'png'), 'PNG saved'));
+attachRecording(byId('record'), {
+  requestOf() {
+    const { summary } = store.state;
+    const sequence = summary && recordedSequence(shownSpec(), summary, orbitInForce(store.state), lens());
+    return sequence && { id: summary.id, sequence };
+  },
+  toast,
+  problems,
+});
 onButton('save-exr', async (id, spec) => (await download(id, spec, 'exr'), 'EXR saved'));
 
 // ---- start

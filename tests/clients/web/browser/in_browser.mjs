@@ -65,7 +65,10 @@ test('the picture follows the hand, and at rest is sharp and as large as its pla
   await page.mouse.up();
   console.log(`# ${((1000 * pictures) / kOrbitMs).toFixed(1)} pictures a second while it is turned`);
   assert.ok(pictures >= kLeastPictures / slowness, `${pictures} pictures`);
-  await page.waitForFunction(() => document.querySelector('#picture').naturalWidth >= document.querySelector('#stage').clientWidth - 2);
+  await page.waitForFunction(() => {
+    const [image, place] = [document.querySelector('#picture'), document.querySelector('#stage')];
+    return image.naturalWidth === place.clientWidth && image.naturalHeight === place.clientHeight; // no stripe beside it
+  });
   assert.ok(!(await page.locator('#busy').isVisible()));
 });
 

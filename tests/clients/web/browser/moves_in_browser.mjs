@@ -106,6 +106,58 @@ test('a clip plays, is halted, and scrubbed', async () => {
   assert.deepEqual(aside, await pixelsByCurl());
 });
 
+// A video in a page of its own: {duration, size}, and its pictures at some times as pixels.
+async function played(file, times) {
+  const page = await browser.newPage();
+  try {
+    await page.setContent(`<video muted src="data:video/webm;base64,${file.toString('base64')}"></video>`);
+    const video = page.locator('video');
+    const told = await video.evaluate(async (node) => {
+      if (node.readyState < 1) await new Promise((resolve, reject) => Object.assign(node, { onloadedmetadata: resolve, onerror: () => reject(new Error(node.error.message)) }));
+      return { duration: node.duration, size: [node.videoWidth, node.videoHeight] };
+    });
+    const pictures = [];
+    for (const time of times) {
+      const pixels = await video.evaluate(async (node, seconds) => {
+        node.currentTime = seconds;
+        await new Promise((resolve) => (node.onseeked = resolve));
+        const context = Object.assign(document.createElement('canvas'), { width: node.videoWidth, height: node.videoHeight }).getContext('2d');
+        context.drawImage(node, 0, 0);
+        const { data } = context.getImageData(0, 0, node.videoWidth, node.videoHeight);
+        return Array.from(data, (byte) => String.fromCharCode(byte)).join('');
+      }, time);
+      pictures.push(Buffer.from(pixels, 'latin1'));
+    }
+    return { ...told, pictures };
+  } finally {
+    await page.close();
+  }
+}
+
+const meanDifference = (one, other) => {
+  assert.equal(one.length, other.length);
+  let sum = 0;
+  for (let i = 0; i < one.length; i += 1) sum += Math.abs(one[i] - other[i]);
+  return (4 / 3) * (sum / one.length); // alpha is the same everywhere
+};
+
+test('the clip is recorded, and plays in its colors for as long as it takes', async () => {
+  const { page } = open;
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#record')]);
+  assert.equal(download.suggestedFilename(), 'gnomon.webm');
+  const file = fs.readFileSync(await download.path());
+  const [{ width, height }] = [await page.locator('#picture').evaluate((image) => ({ width: image.naturalWidth, height: image.naturalHeight }))];
+  const { duration, size, pictures } = await played(file, [0.2, 1.5, 0.51]); // the last one lies behind
+  console.log(`# ${file.length} bytes of ${duration} s`);
+  assert.deepEqual([duration, size], [2, [width, height]]);
+  for (const [i, seconds] of [0.2, 1.5, 0.5].entries()) {
+    await change(() => scrubber().fill(String(seconds)));
+    const difference = meanDifference(pictures[i], await shownPixels());
+    assert.ok(difference < 2, `${difference} of 255 at ${seconds} s`);
+  }
+  assert.ok(meanDifference(pictures[0], pictures[1]) > 0.05, 'what moves is seen to move');
+});
+
 test('no late picture takes the place of a newer one', async () => {
   const { page } = open;
   let held = 0;
@@ -132,8 +184,10 @@ test('view Motion shows what has moved, and nothing at rest', async () => {
   const still = share(await shownPixels(), isColored);
   assert.equal(still, 0, `${still} of the picture`);
   await change(() => scrubber().fill('0.1'));
-  const moved = share(await shownPixels(), isColored);
+  const shown = await shownPixels();
+  const moved = share(shown, isColored);
   assert.ok(moved > 0.003 && moved < 0.5, `${moved} of the picture, where the board alone moves`);
+  assert.deepEqual(await pixelsByCurl(), shown, 'what is copied is what is shown');
   await page.locator('#stage').focus(); // a number's key chooses a view, but not in a control
   await change(() => page.keyboard.press('1'));
 });
