@@ -40,7 +40,7 @@ def by_gnomon(program, scene, folder, frames):
     output, processor = measured(
         [sys.executable, "-B", EXAMPLE, scene, folder, "--count", str(frames), "--width", str(WIDTH), "--height", str(HEIGHT),
          "--hidden", "0", "--seed", str(SEED)],
-        {"GNOMON_BINARY": str(program), "PYTHONPATH": str(ROOT / "clients/python")})  # fmt: skip
+        {"GNOMON_SERVER": "", "GNOMON_BINARY": str(program), "PYTHONPATH": str(ROOT / "clients/python")})  # fmt: skip
     drawn, seconds = re.search(r"(\d+) frames in ([\d.]+) s", output).groups()
     return int(drawn), float(seconds), processor
 
@@ -96,8 +96,8 @@ Made by `tests/bench/other_renderers/run BUILD OUTPUT datasets`.
 {table}
 
 The demo from random cameras under random suns, {width} x {height}: color, depth and what is seen at each pixel; one file a \
-frame on disk, compressed. {cores} cores, no GPU; load average before {before:.2f}, after {after:.2f}, this run's own \
-included.{absent}
+frame on disk, compressed. {machine}, {cores} cores, no GPU; load average before {before:.2f}, after {after:.2f}, this run's \
+own included.{absent}
 
 <!-- /readme -->
 
@@ -115,14 +115,16 @@ def main(program, scene, work, output, frames=1000, blender_frames=12):
     halves = [by_gnomon(program, scene, work / "gnomon", frames // 2)]
     others = []
     if shutil.which("blender"):
-        others.append(("Blender, Cycles", by_blender(program, scene, work / "blender", int(blender_frames))))
+        version = re.search(r"[\d.]+", measured(["blender", "--version"])[0])[0]
+        others.append((f"Blender {version}, Cycles", by_blender(program, scene, work / "blender", int(blender_frames))))
     else:
         absent = " Blender is not in the table: there is no `blender` (Debian package `blender`)."
         print("Skipped:" + absent, file=sys.stderr)
     halves.append(by_gnomon(program, scene, work / "gnomon", frames))
     rows = [("Gnomon", tuple(map(sum, zip(*halves)))), *others]
-    page = PAGE.format(table=table(rows), width=WIDTH, height=HEIGHT, cores=os.cpu_count(), before=before,
-                       after=os.getloadavg()[0], absent=absent)
+    named = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    page = PAGE.format(table=table(rows), machine=named[1] if named else os.uname().machine, width=WIDTH, height=HEIGHT,
+                       cores=os.cpu_count(), before=before, after=os.getloadavg()[0], absent=absent)
     (Path(output) / "data_sets.md").write_text(page)
     print(f"Written to {output}; the data sets to look at: {work}", file=sys.stderr)
 

@@ -86,7 +86,8 @@ async function compare(scene, contestants, absent) {
     }
   }
   const rows = [...rounds].map(([{ name, program = name, shadows }, done]) => ({
-    name, program, shadows, cold: mediansOf(done, 'cold'), running: mediansOf(done, 'running'), further: mediansOf(done, 'further'),
+    name, program, shadows,
+    cold: mediansOf(done, 'cold'), running: mediansOf(done, 'running'), further: mediansOf(done, 'further'),
   }));
   return { scene: scene.name, width: scene.width, height: scene.height, rows };
 }

@@ -72,9 +72,10 @@ ${details(scenes)}
 
 <!-- /readme -->
 
-Gnomon's first picture is \`gnomon render\`'s in the first table, its others \`gnomon serve\`'s. \`first picture\`: from the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it
-after the program was ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of up to ${further}
-pictures a round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
+Gnomon's first picture is \`gnomon render\`'s in the first table, its others are \`gnomon serve\`'s. \`first picture\`: from
+the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it after the program was
+ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of up to ${further} pictures a
+round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
 the others; \`x processor\` compares the seconds that all processes of the program spent on all cores together, which other
 work on the machine changes little. How each is set up: [the method](../../other_renderers/README.md#pictures).
 `;
