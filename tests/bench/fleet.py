@@ -69,7 +69,7 @@ def sizes(parts, folder, price):
     for name, scenes_of in {"200 scenes each": lambda count: SCENES_EACH * count, "1M scenes": lambda _: 1_000_000}.items():
         found[name] = []
         for count in (1, 3, 10, 30, 100, 300, 1000):
-            seconds = {300: 20.0, 1000: 12.0}.get(count)
+            seconds = {300: 16.0, 1000: 8.0}.get(count)
             more = {"seconds": seconds} if seconds else {}
             found[name].append(run(parts, parts.fleet(count, scenes_of(count), **more), price)[0])
     chart(folder / "sizes_hit_rate.svg", "Hit rate by size", "replicas", "frames whose scene is in memory",
@@ -99,19 +99,37 @@ def bounds(parts, folder, price):
     return found
 
 
+def loads(parts, folder, price):
+    """How many frames replicas may draw before they come late, by scene and in turn, and so what they cost."""
+    found = {}
+    for name, factor in (("by scene", 200), ("in turn", 0)):
+        found[name] = []
+        for load in (0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9):
+            fleet = parts.fleet(10, 10 * SCENES_EACH, factor=factor, rate=load * 10 * parts.most, seconds=200.0)
+            found[name].append(run(parts, fleet, price)[0] | {"load": load})
+    for quantile in ("p50", "p99"):
+        chart(folder / f"loads_{quantile}.svg", f"{quantile} by load, 10 replicas", "core-hours for a million frames", "milliseconds",
+              {name: [(each["coreHoursPerMillion"], each[f"{quantile}Ms"]) for each in rows] for name, rows in found.items()},
+              log_y=True)  # fmt: skip
+    return found
+
+
 def scaling(parts, folder, price):
-    """Three times the load for ten minutes, for targets of the queue's time."""
+    """A load that grows to three times within five minutes, stays, and is gone at once, for targets of the queue's time."""
     rate, found, lines, waits = LOAD * parts.most * 4, [], {}, {}
+
+    def grown(second):
+        return rate * (1 + 2 * min(1.0, max(0.0, (second - 120) / 300)) if second < 720 else 1)
+
     for target in (5, 20, 50, 100):
-        fleet = parts.fleet(4, 4 * SCENES_EACH, seconds=1500.0, ignore=0.0, held=HELD,
-                            rate=lambda second: rate * (3 if 300 <= second < 900 else 1),
+        fleet = parts.fleet(4, 4 * SCENES_EACH, seconds=1200.0, ignore=0.0, rate=grown,
                             autoscaler=Autoscaler(target, least=2, most=40))  # fmt: skip
         told, outcome = run(parts, fleet, price)
         found.append(told | {"targetMs": target, "mostReplicas": max(each for _, each in outcome.counts)})
         begun, seconds = numpy.array(outcome.begun), numpy.array(outcome.seconds)
-        lines[f"{target} ms"] = [(second, count) for second, count in steps(outcome.counts, 1500)]
+        lines[f"{target} ms"] = [(second, count) for second, count in steps(outcome.counts, 1200)]
         waits[f"{target} ms"] = [(minute * 60, 1000 * float(numpy.quantile(seconds[(begun // 60) == minute], 0.99)))
-                                 for minute in range(25)]  # fmt: skip
+                                 for minute in range(20)]  # fmt: skip
     chart(folder / "scaling_replicas.svg", "Replicas by target of queue time", "seconds", "replicas that serve", lines, least=0)
     chart(folder / "scaling_p99.svg", "p99 of each minute by target", "seconds", "milliseconds", waits, log_y=True)
     return found
@@ -149,7 +167,7 @@ def cold(parts, folder, price):
     return found
 
 
-RUNS = {each.__name__: each for each in (sizes, bounds, scaling, failures, cold)}
+RUNS = {each.__name__: each for each in (bounds, loads, scaling, failures, cold, sizes)}
 
 
 def main():

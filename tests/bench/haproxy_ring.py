@@ -50,17 +50,20 @@ class Ring:
         down = (keys - self.points[below]) & MASK
         return numpy.where(down <= up, below, above)
 
-    def place(self, point, has_room):
-        """The first replica with room from a point on; of none, the one of the point."""
-        owners, size = self.owners, len(self.owners)
-        refused = set()
+    def walk(self, point, count):
+        """The replicas from a point on, each once, at most so many."""
+        owners, size, met = self.owners, len(self.owners), set()
         for step in range(size):
             owner = owners[(point + step) % size]
-            if owner not in refused:
-                if has_room(owner):
-                    return owner
-                refused.add(owner)
-        return owners[point]
+            if owner not in met:
+                met.add(owner)
+                yield owner
+                if len(met) == count:
+                    return
+
+    def place(self, point, has_room):
+        """The first replica with room from a point on; of none, the one of the point."""
+        return next((each for each in self.walk(point, len(self.numbers)) if has_room(each)), self.owners[point])
 
 
 def most_requests(index, replicas, total, factor):
