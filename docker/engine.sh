@@ -3,7 +3,7 @@
 # Offers needPackages, ensureTools, which sets CONTAINERS_CONF, and ensureBase. These write below $work, a folder of the caller's.
 
 : "${work:?}"
-engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl python3)
+engine_packages=(podman runc netavark aardvark-dns catatonit iptables debootstrap curl openssl python3)
 base_image=localhost/debian:bookworm-slim
 
 # usage: needPackages PACKAGE...      installs those that are missing

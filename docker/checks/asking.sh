@@ -1,6 +1,8 @@
 # shellcheck shell=bash
 # Sourced by docker/check: what every step asks of a server.
 
+: "${work:?}"
+
 # A PNG with many different bytes: a picture, and not a blank one.
 isPicture() {
   python3 - "$1" <<'PY'
@@ -37,7 +39,8 @@ demoOf() {
 
 # usage: upload URL FILE      prints the scene's id
 upload() {
-  ask -H 'Content-Type: model/gltf-binary' --data-binary "@$2" "$1/v1/scenes" |
+  ask -H "Content-Type: model/gltf-binary" -H "Content-Digest: sha-256=:$(openssl dgst -sha256 -binary "$2" | base64):" \
+    --data-binary "@$2" "$1/v1/scenes" |
     python3 -c 'import json, sys; print(json.load(sys.stdin)["id"])'
 }
 

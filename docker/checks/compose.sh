@@ -2,6 +2,8 @@
 # Sourced by docker/check: docker/compose.yaml as it stands, with the images of services.Dockerfile, brought up by
 # podman-compose on free ports.
 
+: "${image:?}" "${base:?}" "${work:?}"
+
 needPackages podman-compose
 
 buildServices haproxy prometheus

@@ -2,6 +2,8 @@
 # Sourced by docker/check: the image alone, run the way it is meant to be deployed: read-only root, no capabilities, no new
 # privileges, a numeric user, limits on memory, cores and processes.
 
+: "${image:?}" "${work:?}"
+
 build all "$image" 340
 build cpu "$image-cpu" 200
 

@@ -2,6 +2,8 @@
 # Sourced by docker/check: docker/kubernetes as an operator builds it, held to rules and schemas, and what podman can play of
 # it played: servers, Redis and HAProxy.
 
+: "${image:?}" "${work:?}"
+
 needPackages python3-yaml
 . docker/checks/kustomize.sh
 ensureKustomize
@@ -74,6 +76,7 @@ isSealed() {
 }
 
 buildServices redis haproxy
+# shellcheck disable=SC2034 # asking.sh sends it
 key=(-H "Authorization: Bearer $secret")
 
 play single
