@@ -140,6 +140,13 @@ def selects(manifests):
                     yield each, peer["podSelector"], set()
 
 
+def most_replicas(manifests):
+    """How many servers HAProxy takes from the DNS."""
+    variables = [each for pod in manifests.pods.values() for container in pod["spec"]["containers"]
+                 for each in container.get("env", [])]  # fmt: skip
+    return next(int(each["value"]) for each in variables if each["name"] == "GNOMON_PROXY_MOST_REPLICAS")
+
+
 def objects(manifests):
     for each, selector, ports in selects(manifests):
         name = f"{each['kind']} {each['metadata']['name']}"
@@ -159,6 +166,8 @@ def objects(manifests):
     for each in manifests.of("HorizontalPodAutoscaler"):
         if each["spec"]["scaleTargetRef"]["name"] not in manifests.names(each["spec"]["scaleTargetRef"]["kind"]):
             yield "the HPA scales nothing"
+        if each["spec"]["maxReplicas"] > (most := most_replicas(manifests)):
+            yield f"the autoscaler starts more replicas than HAProxy takes: {most}"
         if missing := {metric["pods"]["metric"]["name"] for metric in each["spec"]["metrics"]} - told:
             yield f"the adapter does not tell {missing}"
     for each in manifests.objects:
