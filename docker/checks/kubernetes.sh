@@ -54,7 +54,7 @@ play() {
   done
 }
 stopPlaying() {
-  podman pod ls -q --filter "network=$network" | xargs -r podman pod rm -f -t 2
+  podman pod ls -q --filter "network=$network" | xargs -r podman pod rm -f -t 0
   podman volume ls -q --filter 'name=^gnomon' | xargs -r podman volume rm
   rm -rf "$work/play"
 } >/dev/null 2>&1
@@ -96,5 +96,12 @@ waitFor 60 hasReplicas "$url" 2 || { podman logs gnomon-pod-0-gnomon >&2; fail "
 id=$(upload "$url" "$work/demo.glb")
 draw "$url" "$id" '{}' "$work/replicas.png"
 cmp "$work/single.png" "$work/replicas.png" || fail "replicas draw another picture"
-say "and replicas: Redis with its password, HAProxy, two servers"
+drawMany "$url" "$id" 60 >"$work/load" &
+load=$!
+waitFor 60 test -s "$work/load"
+podman kill -s KILL "$(drewMost gnomon-pod-0-gnomon gnomon-pod-1-gnomon)" >/dev/null
+wait "$load"
+[ "$(grep -c '^200 ' "$work/load")" = 60 ] || { sort "$work/load" | uniq -c >&2; fail "frames failed as a replica was killed"; }
+draw "$url" "$id" '{"exposure":0.75}' "$work/after.png"
+say "and replicas: Redis with its password, HAProxy, two servers, one of them killed among 60 frames"
 stopPlaying
