@@ -90,13 +90,13 @@ void JobTakers::draw(const FrameTurn& turn) {
   const auto sequence = sequences_.of(turn.job);
   if (!sequence) return giveBack(turn, false);
   if (*sequence == nullptr) return;
-  auto bundle = services_.store.bundle(turn.scene);
+  const auto used = services_.store.use(turn.scene);
+  auto bundle = used ? services_.store.bundle(turn.scene) : Result<StoredBundle>(used.problems());
   if (!bundle) {
     const bool isPassing = passes(bundle.problems().front()) && turn.deliveries < services_.jobLimits.deliveries;
     if (isPassing) return giveBack(turn, true);
     return fail(turn, bundle.problems());
   }
-  services_.store.use(turn.scene);
   bool isWanted = true;
   auto renewed = Clock::now();
   const auto gone = [&] {
@@ -144,9 +144,11 @@ void JobTakers::draw(const FrameTurn& turn) {
 
 /// What was drawn is not thrown away because the queue can't be reached for a while.
 void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
+  constexpr std::chrono::minutes kPatience{5}; // others have long taken the frame then
+  const auto until = Clock::now() + kPatience;
   for (auto wait = kShortest;; wait = std::min(wait * 2, kLongest)) {
     const auto kept = services_.jobs.finish(turn, frame);
-    if (kept || stop_.raised()) return;
+    if (kept || stop_.raised() || Clock::now() >= until) return;
     logEvent("jobs", kept.problems().front().detail);
     pause(wait);
   }
