@@ -13,10 +13,6 @@
 /// Many frames of one scene, drawn in order: a path of cameras, moving nodes, a day of the sun.
 namespace gnomon {
 
-inline constexpr std::size_t kMaxSequenceFrames = 10'000;
-inline constexpr std::size_t kMaxSequenceKeys = 1'000;
-inline constexpr std::size_t kMaxSequenceSpecBytes = 64u << 20; ///< the specs of all frames of one together, as JSON
-
 // What a video says of itself at its end, as named texts: its SequenceReport, or the problem that ended it.
 inline constexpr std::string_view kVideoReportTag = "GNOMON_REPORT";
 inline constexpr std::string_view kVideoProblemTag = "GNOMON_PROBLEM";

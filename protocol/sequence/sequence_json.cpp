@@ -90,10 +90,10 @@ void checkSize(const Sequence& sequence, ProblemList& problems) {
   const auto count = static_cast<std::size_t>(sequence.count);
   if (sequence.isKeyed) bytes = 2 * longest * count;
   bytes += jsonText(sequence.spec).size() * count * (sequence.isKeyed ? 2 : 1);
-  if (bytes <= kMaxSequenceSpecBytes) return;
+  if (bytes <= kLimits.maxSequenceSpecBytes) return;
   problems.add({.code = ProblemCode::tooLarge,
                 .detail = "The specs of all frames are too large together: fewer frames, or a shorter spec.",
-                .limit = std::to_string(kMaxSequenceSpecBytes) + " bytes",
+                .limit = std::to_string(kLimits.maxSequenceSpecBytes) + " bytes",
                 .actual = std::to_string(bytes) + " bytes"});
 }
 

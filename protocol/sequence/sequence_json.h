@@ -26,7 +26,7 @@ struct Sequence {
 };
 
 /// A SequenceRequest from untrusted JSON, as strictly as decodeFrameSpec. Every frame must give a good spec; its
-/// problems point into /frames/i, or into the key before it. The work is bounded by kMaxSequenceSpecBytes.
+/// problems point into /frames/i, or into the key before it. The work is bounded by kLimits.maxSequenceSpecBytes.
 /// `each` is called with every frame from `first` on, in order, without what is carried.
 Result<Sequence> decodeSequence(std::string_view json, const std::function<void(const FrameSpec&)>& each = {});
 

@@ -36,15 +36,17 @@ inline constexpr auto kRows<SequenceRequest> =
               {.says = "One frame for each: what it changes in `spec`, as a JSON merge patch (RFC 7396): objects are "
                        "merged, null removes a field, lists are replaced.",
                .minCount = 1,
-               .maxCount = kMaxSequenceFrames}),
+               .maxCount = kLimits.maxSequenceFrames}),
         field("keys", &SequenceRequest::keys,
               {.says = "Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is "
                        "the first key, the last frame the last key. In between, numbers at the same place of two "
                        "neighbouring keys are interpolated linearly; whole numbers and all else must be equal.",
                .minCount = 2,
-               .maxCount = kMaxSequenceKeys}),
+               .maxCount = kLimits.maxSequenceKeys}),
         field("count", &SequenceRequest::count,
-              {.says = "With `keys`: number of frames.", .unit = "frames", .range = {2, double(kMaxSequenceFrames)}}),
+              {.says = "With `keys`: number of frames.",
+               .unit = "frames",
+               .range = {2, double(kLimits.maxSequenceFrames)}}),
         field("stable", &SequenceRequest::stable,
               {.says = "Shadows of directional lights hold still while the camera moves, and depth ranges pass from "
                        "frame to frame, except where the spec has `stabilization` or `depthRange` itself. False = "
@@ -61,7 +63,7 @@ inline constexpr auto kRows<SequenceRequest> =
                .range = {1, 100}}),
         field("first", &SequenceRequest::first,
               {.says = "Index of the first frame that is drawn: 0, or where a sequence that broke off goes on.",
-               .range = {0, double(kMaxSequenceFrames - 1)}}),
+               .range = {0, double(kLimits.maxSequenceFrames - 1)}}),
         field("carried", &SequenceRequest::carried,
               {.says = "What the frame before `first` left, from its reply. Needed with `first` if the sequence is "
                        "stable; with `first` 0 it continues another sequence."}))

@@ -31,6 +31,11 @@ struct Limits {
   std::size_t maxVariants = 128;   ///< variants of one evaluation
   std::size_t maxPathFrames = 600; ///< cameras along a path
 
+  // Sequences
+  std::size_t maxSequenceFrames = 10'000;
+  std::size_t maxSequenceKeys = 1'000;
+  std::size_t maxSequenceSpecBytes = 64u << 20; ///< the specs of all frames of one together, as JSON
+
   // Requests
   std::size_t maxSpecBytes = 1 << 20;     ///< a FrameSpec's JSON
   std::size_t maxSceneBytes = 256u << 20; ///< a bundle: the model and every file that it names

@@ -245,10 +245,13 @@ class Refused(SequenceTest):
 
     def test_hostile_requests_are_refused_quickly(self):
         nodes = [{"node": i, "visible": True} for i in range(4000)]
+        limits = self.server.get("/v1/capabilities").json()["limits"]
+        frames, keys = limits["maxSequenceFrames"], limits["maxSequenceKeys"]
+        self.assertEqual(limits["maxSequenceSpecBytes"], 64 << 20)
         for request, status in [
-            ({"frames": [{}] * 10_001}, 400),
-            ({"keys": [{}] * 1_001, "count": 2000}, 400),
-            ({"keys": [{}, {}], "count": 10_001}, 400),
+            ({"frames": [{}] * (frames + 1)}, 400),
+            ({"keys": [{}] * (keys + 1), "count": 2000}, 400),
+            ({"keys": [{}, {}], "count": frames + 1}, 400),
             ({"spec": {"nodes": nodes}, "keys": [{}, {}], "count": 10_000}, 413),
             ({"spec": {"width": 16384, "height": 2048, "views": ["reference"]}, "keys": [{}, {}], "count": 10_000}, 413),
             ('{"frames": [' + "[" * 500 + "]" * 500 + "]}", 400),

@@ -312,7 +312,7 @@ Subcommand addTurntableCommand(CLI::App& app) {
   auto* command = app.add_subcommand("turntable", "Render a scene from all around");
   command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
   command->add_option("--frames", options->frames, "How many pictures one turn has")
-      ->check(CLI::Range(2, static_cast<int>(kMaxSequenceFrames)))
+      ->check(CLI::Range(2, static_cast<int>(kLimits.maxSequenceFrames)))
       ->capture_default_str();
   command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
   addFrameOutput(*command, *options);

@@ -673,6 +673,12 @@ class Limits(TypedDict, total=False):
         Variants of one evaluation.
     maxPathFrames:
         Cameras along the path of an evaluation.
+    maxSequenceFrames:
+        Frames of one sequence.
+    maxSequenceKeys:
+        Keys of one sequence.
+    maxSequenceSpecBytes:
+        The specs of all frames of a sequence together, as JSON. Unit: bytes.
     maxNodeOptions:
         Entries of a frame's `nodes`.
     maxReceiverGroups:
@@ -734,6 +740,9 @@ class Limits(TypedDict, total=False):
     maxVolumeVoxels: int
     maxVariants: int
     maxPathFrames: int
+    maxSequenceFrames: int
+    maxSequenceKeys: int
+    maxSequenceSpecBytes: int
     maxNodeOptions: int
     maxReceiverGroups: int
     maxSpecBytes: int

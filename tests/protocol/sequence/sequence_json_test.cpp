@@ -129,7 +129,7 @@ TEST(SequenceJson, WhatIsCarriedIsInputLikeAllElse) {
 
 TEST(SequenceJson, TooManyAndTooLargeFramesAreRefusedAtOnce) {
   Json many{{"frames", Json::array()}};
-  for (std::size_t i = 0; i <= kMaxSequenceFrames; ++i) many["frames"].push_back(Json::object());
+  for (std::size_t i = 0; i <= kLimits.maxSequenceFrames; ++i) many["frames"].push_back(Json::object());
   EXPECT_NE(problemAt(many, "/frames"), "");
 
   Json nodes = Json::array();
