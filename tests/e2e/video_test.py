@@ -102,6 +102,17 @@ class Videos(SequenceTest):
         events = self.sequence(orbit(1) | {"framesPerSecond": 24}, "text/event-stream").body.decode()
         self.assertIn('"framesPerSecond":24', events)
 
+    def test_no_video_is_a_job(self):
+        path = f"/v1/scenes/{self.scene}/sequences"
+        body = json.dumps(orbit(2) | {"framesPerSecond": 20})
+        reply = self.server.ask("POST", path, body, self.headers("video/webm") | {"Prefer": "respond-async"})
+        self.assertEqual((reply.status, len(Video(reply.body).blocks)), (200, 2))
+        self.assertNotIn("Preference-Applied", reply.headers)
+        job = self.server.ask("POST", path, body, self.headers("*/*") | {"Prefer": "respond-async"}).json()
+        self.assert_problem(self.server.get(job["result"], Accept="video/webm"), 406)
+        events = self.server.get(job["result"], Accept="text/event-stream").body.decode()
+        self.assertIn('"framesPerSecond":20', events)
+
 
 class Refused(SequenceTest):
     def test_frames_of_several_sizes(self):
