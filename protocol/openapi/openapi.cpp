@@ -229,7 +229,8 @@ Json sequencesRoute() {
   post["parameters"].push_back(
       {{"name", "Prefer"},
        {"in", "header"},
-       {"description", "respond-async (RFC 7240): a job draws the frames, and the reply says where it is; no video is a job."},
+       {"description",
+        "respond-async (RFC 7240): a job draws the frames, and the reply says where it is; no video is a job."},
        {"schema", {{"type", "string"}}}});
   return {{"post", std::move(post)}};
 }

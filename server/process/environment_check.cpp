@@ -4,8 +4,8 @@
 #include <array>
 #include <unistd.h>
 
-#include "protocol/base/text.h"
 #include "protocol/base/nearest_name.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {

@@ -4,9 +4,9 @@
 #include <cerrno>
 #include <system_error>
 
-#include "protocol/base/text.h"
 #include "protocol/base/config_text.h"
 #include "protocol/base/nearest_name.h"
+#include "protocol/base/text.h"
 #include "server/process/serve_flags.h"
 #include "server/scenes/whole_file.h"
 

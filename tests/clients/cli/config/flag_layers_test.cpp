@@ -12,7 +12,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<std::string> kFlagKeys{"size", "width", "set", "server", "ca-file", "view", "gpu", "depth", "patience"};
+const std::vector<std::string> kFlagKeys{"size", "width", "set",   "server",  "ca-file",
+                                         "view", "gpu",   "depth", "patience"};
 
 /// A command with a flag of every kind.
 struct Command {
