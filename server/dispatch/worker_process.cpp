@@ -5,14 +5,26 @@
 #include <csignal>
 #include <fstream>
 #include <spawn.h>
+#include <string_view>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace gnomon {
 namespace {
 
 constexpr int kChannelOfWorker = 3; ///< where `gnomon worker` looks for it
+
+/// This process's, but for the address of the store, which may hold a password.
+std::vector<char*> workerVariables() {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("GNOMON_STORE=")) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
+  return variables;
+}
 
 /// posix_spawn(3)'s arguments: the channel's end, no blocked signals, and a process group of its own, so that a Ctrl-C
 /// meets the server alone.
@@ -40,7 +52,8 @@ class Spawning {
     std::string name = "gnomon", command = "worker";
     const std::array<char*, 3> arguments{name.data(), command.data(), nullptr};
     pid_t pid = 0;
-    const int error = ::posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments.data(), environ);
+    const std::vector<char*> variables = workerVariables();
+    const int error = ::posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments.data(), variables.data());
     errno = error;
     return error == 0 ? std::optional(pid) : std::nullopt;
   }

@@ -2,11 +2,12 @@
 
 import threading
 import unittest
+from pathlib import Path
 
 import store_test
 import triggers_store_test
 from redis_place import OnRedis, RedisServer, needs_redis
-from shipped_server import SMALL, Server
+from shipped_server import SMALL, Server, workers_of
 from store_test import MEGABYTE, id_of, padded, until, upload
 
 
@@ -168,6 +169,12 @@ class Secrets(unittest.TestCase):
             at = redis.url.removeprefix("redis://")
             with Server("--device", "cpu", "--workers", "1", variables={"GNOMON_STORE": f"redis://:swordfish-17@{at}"}) as server:
                 self.assertEqual(upload(server, padded(100, "x")).status, 201)
+                started = workers_of(server)
+                self.assertTrue(started)
+                for worker in started:
+                    variables = Path(f"/proc/{worker}/environ").read_bytes()
+                    self.assertIn(b"PATH=", variables)
+                    self.assertNotIn(b"swordfish", variables)
 
     def test_tls_is_spoken_and_the_certificate_checked(self):
         with RedisServer(tls=True) as redis:

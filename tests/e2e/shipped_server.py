@@ -148,6 +148,14 @@ class Server:
         return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers)
 
 
+def workers_of(server):
+    """The process ids of a server's workers."""
+    found = set()
+    for task in Path(f"/proc/{server.process.pid}/task").iterdir():
+        found.update(int(pid) for pid in (task / "children").read_text().split())
+    return found
+
+
 class ServerTest(unittest.TestCase):
     """A server for all tests of the class; it must still live after each of them."""
 

@@ -10,17 +10,9 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import SLOW, SMALL, Server, ServerTest
+from shipped_server import SLOW, SMALL, Server, ServerTest, workers_of
 
 FAULTY = os.environ["GNOMON_FAULTY_WORKER"]
-
-
-def workers_of(server):
-    """The process ids of a server's workers."""
-    found = set()
-    for task in Path(f"/proc/{server.process.pid}/task").iterdir():
-        found.update(int(pid) for pid in (task / "children").read_text().split())
-    return found
 
 
 class Load:
