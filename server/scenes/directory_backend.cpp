@@ -35,7 +35,8 @@ Status DirectoryBackend::contains(const std::string& id) {
 }
 
 Status DirectoryBackend::use(const std::string& id) {
-  if (!directory_.openBundle(id)) return unknownScene(id);
+  const auto opened = bundle(id);
+  if (!opened) return opened.problems();
   return Done{};
 }
 

@@ -103,7 +103,9 @@ std::uint64_t SceneDirectory::bytesOf(const std::string& id) const {
 }
 
 bool SceneDirectory::contains(const std::string& id) const {
-  return ::access(pathOf(id, kBundle).c_str(), R_OK) == 0;
+  // Opening looks the name up again where a shared file system would answer access(2) from its cache.
+  const FileDescriptor file(::open(pathOf(id, kBundle).c_str(), O_RDONLY | O_CLOEXEC));
+  return file || (errno != ENOENT && errno != EACCES && errno != ESTALE);
 }
 
 Status SceneDirectory::write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) const {
