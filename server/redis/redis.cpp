@@ -57,15 +57,18 @@ Problem Redis::away() const {
   return {ProblemCode::unavailable, "", "The server's Redis is away. Ask again in a few seconds.", "", ""};
 }
 
-/// Says so in the log, once. What is idle is closed: it has most likely ended, too.
-Problem Redis::lost(const Problem& reason) {
+/// Says so in the log, once. What is idle is closed: it has most likely ended, too. Calls that fail together are one
+/// failure; `isProbe`: this one was made because others had failed, and is a further one.
+Problem Redis::lost(const Problem& reason, bool isProbe) {
   std::vector<std::unique_ptr<Connection>> closing;
   bool isNews = false;
   {
     const std::lock_guard lock(mutex_);
-    isNews = ++failuresInARow_ == 1;
-    const double random = static_cast<double>(random_()) / static_cast<double>(std::minstd_rand::max());
-    nextAttempt_ = Clock::now() + backoffDelay(failuresInARow_, random);
+    isNews = failuresInARow_ == 0;
+    if (isNews || isProbe) {
+      const double random = static_cast<double>(random_()) / static_cast<double>(std::minstd_rand::max());
+      nextAttempt_ = Clock::now() + backoffDelay(++failuresInARow_, random);
+    }
     for (Pool* pool : {&pool_, &blocking_}) {
       std::move(pool->idle.begin(), pool->idle.end(), std::back_inserter(closing));
       pool->idle.clear();
@@ -87,14 +90,16 @@ void Redis::reached() {
 
 Result<std::unique_ptr<Connection>> Redis::connect(const Call& call) {
   const auto now = Clock::now();
+  bool isProbe = false;
   {
     const std::lock_guard lock(mutex_);
-    if (failuresInARow_ > 0 && now < nextAttempt_) return away();
-    if (failuresInARow_ > 0) nextAttempt_ = now + options_.connectPatience; // others do not try meanwhile
+    isProbe = failuresInARow_ > 0;
+    if (isProbe && now < nextAttempt_) return away();
+    if (isProbe) nextAttempt_ = now + options_.connectPatience; // others do not try meanwhile
   }
   auto opened = Connection::open(options_.address,
                                  {std::min(call.deadline, now + options_.connectPatience), ReplyLimits{}, call.cut});
-  if (!opened) return call.cut != nullptr && call.cut->raised() ? away() : lost(opened.problems().front());
+  if (!opened) return call.cut != nullptr && call.cut->raised() ? away() : lost(opened.problems().front(), isProbe);
   reached();
   return opened;
 }
@@ -127,7 +132,7 @@ Result<std::vector<Reply>> Redis::call(Pool& pool, const std::vector<Command>& c
   }
   place.connection.reset();
   const bool isCut = call.cut != nullptr && call.cut->raised();
-  return failed(isCut ? away() : lost(replies.problems().front()));
+  return failed(isCut ? away() : lost(replies.problems().front(), false));
 }
 
 Result<std::vector<Reply>> Redis::pipeline(const std::vector<Command>& commands, const Call& call) {

@@ -77,7 +77,7 @@ class Redis {
   class Place;
 
   Result<std::vector<Reply>> call(Pool& pool, const std::vector<Command>& commands, const Call& call);
-  Problem lost(const Problem& reason);
+  Problem lost(const Problem& reason, bool isProbe);
   void reached();
   Problem away() const;
 

@@ -190,6 +190,20 @@ TEST_F(RedisTest, AServerThatHangsCostsNoMoreThanTheDeadline) {
   EXPECT_TRUE(comesBack(redis));
 }
 
+TEST_F(RedisTest, CallsThatFailTogetherAreOneFailure) {
+  Redis redis(options());
+  ASSERT_TRUE(redis.ask({"PING"}, within(5s)));
+  server_->suspend();
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] { EXPECT_FALSE(redis.ask({"PING"}, within(200ms))); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_LE(redis.nextAttempt(), Clock::now() + 100ms) << "it is soon tried again";
+  server_->resume();
+  EXPECT_TRUE(comesBack(redis));
+}
+
 TEST(RedisPassword, IsAskedForAndTaken) {
   if (!RedisServer::isInstalled()) GTEST_SKIP() << "redis-server is not installed.";
   RedisServer server({"--requirepass", "se:cret"});
