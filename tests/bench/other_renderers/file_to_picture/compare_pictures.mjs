@@ -14,6 +14,7 @@ const [build, executable, work, output, ...names] = process.argv.slice(2);
 const kRounds = Number(process.env.ROUNDS ?? 3);
 const kFurther = 4; // pictures of a round that count
 const kLongest = 5000; // ms, after which no further one begins
+const kLongestFirst = 20000; // ms; a program that takes longer for its first picture has no second round
 
 const readJson = (file) => JSON.parse(fs.readFileSync(file));
 
@@ -75,6 +76,7 @@ async function compare(scene, contestants, absent) {
   const rounds = new Map(contestants.map((contestant) => [contestant, []]));
   for (let round = 0; round < kRounds; ++round) {
     for (const [contestant, done] of rounds) {
+      if (done.some(({ cold }) => cold.wall > kLongestFirst)) continue;
       console.error(`${scene.name}, round ${round + 1} of ${kRounds}: ${contestant.name}`);
       const name = `${scene.name}_${contestant.name.replace(/[ ,.]+/g, '_')}`;
       try {

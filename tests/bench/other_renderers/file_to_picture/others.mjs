@@ -68,9 +68,10 @@ export function vtkContestants({ work, display }) {
   const python = pythonWithVtk();
   const asked = 'from vtkmodules.vtkCommonCore import vtkVersion; print(vtkVersion.GetVTKVersion())';
   const version = `VTK ${spawnSync(python, ['-c', asked], { encoding: 'utf8' }).stdout.trim()}`;
-  const startFrames = (scene) => startVtk(python, display, { scene, antialias: true, work });
-  const start = () => startScript(startFrames);
-  return [{ name: 'VTK', shadows: '1 map, drawn once', version, startsWithScene: true, start }];
+  return [false, true].map((antialias) => ({
+    name: antialias ? 'VTK, 4 samples' : 'VTK, 1 sample', shadows: '1 map, drawn once', version, startsWithScene: true,
+    start: () => startScript((scene) => startVtk(python, display, { scene, antialias, work })),
+  }));
 }
 
 export function blenderContestants({ work, display }) {
