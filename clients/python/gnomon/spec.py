@@ -919,8 +919,8 @@ class SequenceRequest:
         a video of the frames; it changes no frame. Unit: frames per second. Default: 30.0.
     videoQuality:
         Of a video (`Accept: video/webm`): 1 = smallest file, 100 = closest to the frames. Each frame is as good as
-        every other, whatever size that takes; the default can hardly be told from the frames, and 90 takes about
-        twice its size, 100 six times. Default: 75.
+        every other, whatever size that takes: 50 is less than half as large as the default, 90 two thirds larger,
+        100 three times as large. Default: 75.
     first:
         Index of the first frame that is drawn: 0, or where a sequence that broke off goes on. Default: 0.
     carried:
