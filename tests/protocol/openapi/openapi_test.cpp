@@ -96,11 +96,17 @@ TEST(OpenApi, EveryOperationHasItsOwnIdASummaryAndAGoodReply) {
 TEST(OpenApi, EveryPathParameterIsDeclared) {
   const Json document = openApi();
   forEachOperation(document, [&](const std::string& path, const std::string& method, const Json& operation) {
-    bool declared = false;
-    for (const Json& parameter : operation.value("parameters", Json::array())) {
-      declared |= parameter.value("$ref", "") == "#/components/parameters/sceneId";
+    std::set<std::string> declared;
+    for (const Json& each : operation.value("parameters", Json::array())) {
+      const std::string reference = each.value("$ref", "");
+      const Json parameter = reference.empty() ? each : document.at(Json::json_pointer(reference.substr(1)));
+      if (parameter.at("in") == "path") declared.insert(parameter.at("name").get<std::string>());
     }
-    EXPECT_EQ(declared, path.find("{id}") != std::string::npos) << method << " " << path;
+    std::set<std::string> named;
+    for (std::size_t at = path.find('{'); at != std::string::npos; at = path.find('{', at + 1)) {
+      named.insert(path.substr(at + 1, path.find('}', at) - at - 1));
+    }
+    EXPECT_EQ(declared, named) << method << " " << path;
   });
 }
 
