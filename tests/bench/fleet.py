@@ -121,15 +121,16 @@ def scaling(parts, folder, price):
     def grown(second):
         return rate * (1 + 2 * min(1.0, max(0.0, (second - 120) / 300)) if second < 720 else 1)
 
-    for target in (5, 20, 50, 100):
-        fleet = parts.fleet(4, 4 * SCENES_EACH, seconds=1200.0, ignore=0.0, rate=grown,
-                            autoscaler=Autoscaler(target, least=2, most=40))  # fmt: skip
+    for target, fall in ((20, 1.0), (20, 0.1), (50, 0.1), (100, 0.1)):
+        name = f"{target} ms" + (", defaults" if fall == 1.0 else "")
+        fleet = parts.fleet(4, 4 * SCENES_EACH, seconds=1500.0, ignore=0.0, rate=grown,
+                            autoscaler=Autoscaler(target, least=2, most=40, fall=fall))  # fmt: skip
         told, outcome = run(parts, fleet, price)
-        found.append(told | {"targetMs": target, "mostReplicas": max(each for _, each in outcome.counts)})
+        found.append(told | {"targetMs": target, "fall": fall, "mostReplicas": max(each for _, each in outcome.counts)})
         begun, seconds = numpy.array(outcome.begun), numpy.array(outcome.seconds)
-        lines[f"{target} ms"] = [(second, count) for second, count in steps(outcome.counts, 1200)]
-        waits[f"{target} ms"] = [(minute * 60, 1000 * float(numpy.quantile(seconds[(begun // 60) == minute], 0.99)))
-                                 for minute in range(20)]  # fmt: skip
+        lines[name] = [(second, count) for second, count in steps(outcome.counts, 1500)]
+        waits[name] = [(minute * 60, 1000 * float(numpy.quantile(seconds[(begun // 60) == minute], 0.99)))
+                                 for minute in range(25)]  # fmt: skip
     chart(folder / "scaling_replicas.svg", "Replicas by target of queue time", "seconds", "replicas that serve", lines, least=0)
     chart(folder / "scaling_p99.svg", "p99 of each minute by target", "seconds", "milliseconds", waits, log_y=True)
     return found

@@ -36,6 +36,8 @@ class Autoscaler:
     window: float = 60.0  # over which it is averaged
     calm: float = 300.0  # scaling down goes to the largest count wanted in such a time
     tolerance: float = 0.1
+    rise: float = 1.0  # share of the replicas that may be added in a period, or four
+    fall: float = 1.0  # that may be taken away in a minute
 
 
 @dataclass

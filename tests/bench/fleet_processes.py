@@ -142,23 +142,29 @@ class Failure(Process):
 
 class Scaling(Process):
     def run(self, model):
-        scaler, sim, wanted = model.fleet.autoscaler, self.sim, deque()
+        scaler, sim, wanted = model.fleet.autoscaler, self.sim, deque([(0.0, model.wished)])
+        past = deque([model.wished], maxlen=round(60 / scaler.period))  # the counts of a minute
         while True:
             yield hold, self, scaler.period
             now, count = sim.now(), model.wished
             while model.waits and model.waits[0][0] < now - scaler.lag - scaler.window:
                 model.waits.popleft()
             seen = [wait for second, wait in model.waits if second <= now - scaler.lag]
-            ratio = 1000 * sum(seen) / len(seen) / scaler.target_ms if seen else 0.0
+            if not seen:
+                continue
+            ratio = 1000 * sum(seen) / len(seen) / scaler.target_ms
             desired = count if abs(ratio - 1) <= scaler.tolerance else -int(-count * ratio // 1)
-            desired = min(max(desired, scaler.least), scaler.most, max(2 * count, count + 4))
+            desired = min(max(desired, scaler.least), scaler.most, max(int((1 + scaler.rise) * count), count + 4))
             wanted.append((now, desired))
             while wanted[0][0] < now - scaler.calm:
                 wanted.popleft()
             desired = max(desired, min(count, max(each for _, each in wanted)))
+            if desired < count:
+                desired = max(desired, min(count, int((1 - scaler.fall) * past[0])))
             if desired > count:
                 model.start(desired - count)
             for _ in range(count - desired):
                 if len(model.replicas) > 1:
                     model.remove(max(model.replicas))
             model.wished = desired
+            past.append(desired)
