@@ -4,7 +4,7 @@ haproxy add, frames on one core and on two, operations of the store and of queue
 and redis-tools for what they measure, which is left out without them. Give it a quiet machine: `nice -n -19` helps where
 there is none.
 
-usage: tests/bench/fleet_services.py BINARY OUTPUT.json [--seconds N] [--store DIRECTORY_OR_URL]
+usage: tests/bench/fleet_services.py BINARY OUTPUT.json [--seconds N] [--store DIRECTORY_OR_URL] [--only NAME]
 """
 
 import argparse
@@ -43,7 +43,7 @@ def summary(milliseconds):
             "quantilesMs": numpy.quantile(values, shares).round(3).tolist()}  # fmt: skip
 
 
-def frames(start, body, spec, seconds):
+def frames(start, body, spec, seconds, store):
     """A scene's warm frames, one at a time, and its loads: what Server-Timing says, and the processors' time. Two scenes of
     a memory for one make each of their frames load."""
     from shipped_server import Server
@@ -60,8 +60,8 @@ def frames(start, body, spec, seconds):
     found = {"frame": summary([each.work_ms for each in samples]), "cpuMs": 1000 * cpu / len(samples),
              "http": summary([1000 * each.seconds - each.work_ms - each.load_ms - each.queue_ms for each in samples]),
              "sceneBytes": loaded, "bundleBytes": len(body)}  # fmt: skip
-    with tempfile.TemporaryDirectory() as store:
-        with Server(*start, "--store", store, "--scene-memory-bytes", str(loaded + 1000)) as server:
+    with tempfile.TemporaryDirectory() as folder:
+        with Server(*start, "--store", store or folder, "--scene-memory-bytes", str(loaded + 1000)) as server:
             scenes = put_all(server.ask, [body, terrain(7, 64)])  # the one drops the other
             samples = drive(server.connect, scenes, [0, 1] * 40, 1, spec)[4::2]
     return found | {"load": summary([each.load_ms for each in samples]),
@@ -217,19 +217,23 @@ def main():
     parser.add_argument("output", type=Path)
     parser.add_argument("--seconds", type=float, default=5, help="for each measurement")
     parser.add_argument("--store", help="what --store gets, instead of a directory")
+    parser.add_argument("--only", help="one of them, beside what the output has already")
     options = parser.parse_args()
     use_binary(options.binary)
     demo = (options.binary.resolve().parent.parent / "share/gnomon/demo.glb").read_bytes()
     start = ["--device", "cpu", "--workers", "1"]
-    found = {"cores": len(os.sched_getaffinity(0))}
+    found = json.loads(options.output.read_text()) if options.only else {}
+    found["cores"] = len(os.sched_getaffinity(0))
     for name, measure in {
-        "demo": lambda: frames(start, demo, DEMO, options.seconds),
-        "terrain": lambda: frames(start, terrain(0, 64), SMALL, options.seconds),
+        "demo": lambda: frames(start, demo, DEMO, options.seconds, options.store),
+        "terrain": lambda: frames(start, terrain(0, 64), SMALL, options.seconds, options.store),
         "overheads": lambda: overheads(start, demo, options.seconds),
         "scaling": lambda: cores(demo, options.seconds),
         "store": lambda: operations(start, options.store, options.seconds),
         "streams": lambda: streams() if shutil.which("redis-server") else None,
     }.items():
+        if options.only not in (None, name):
+            continue
         found[name] = measure()
         print(name, json.dumps(found[name]), flush=True)
     options.output.write_text(json.dumps(found, indent=1) + "\n")
