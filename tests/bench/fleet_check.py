@@ -79,7 +79,7 @@ def simulated(ids, services, factor, mix, seconds):
     fleet = Fleet(REPLICAS, SCENES, 0, 0, services, HELD, factor=factor, warm=False, ignore=seconds[SCENES],
                   trace=list(zip(seconds, mix)), keys=ids)  # fmt: skip
     outcome = Model(fleet).run()
-    return {"hitRate": outcome.hits / len(outcome.seconds)} | quantiles(outcome.seconds)
+    return {"hitRate": outcome.hit_rate()} | quantiles(outcome.seconds)
 
 
 def main():

@@ -36,7 +36,8 @@ class Autoscaler:
     window: float = 60.0  # over which it is averaged
     calm: float = 300.0  # scaling down goes to the largest count wanted in such a time
     tolerance: float = 0.1
-    rise: float = 1.0  # share of the replicas that may be added in a period, or four
+    rise: float = 1.0  # share of the replicas that may be added in a period, or `more` of them
+    more: int = 4
     fall: float = 1.0  # that may be taken away in a minute
 
 
@@ -68,13 +69,17 @@ class Outcome:
 
     begun: list = field(default_factory=list)
     seconds: list = field(default_factory=list)
-    hits: int = 0
+    hits: int = 0  # of `looked`, frames that came to a place at a replica: their scene was in memory
+    looked: int = 0
     refused: int = 0
     retried: int = 0
     replica_seconds: float = 0.0
     counts: list = field(default_factory=list)  # (second, replicas that serve)
     asked: int = 0  # from the beginning on
     loads: int = 0
+
+    def hit_rate(self):
+        return self.hits / self.looked
 
 
 class Model:

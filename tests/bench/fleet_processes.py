@@ -52,8 +52,10 @@ class Frame(Process):
                 self.leave(model, replica)
                 counted.refused += begun >= model.fleet.ignore
                 return
-            found, more = scene in replica.cache, 0.0
-            if found:
+            more = 0.0
+            counted.looked += begun >= model.fleet.ignore
+            if scene in replica.cache:
+                counted.hits += begun >= model.fleet.ignore
                 replica.cache.move_to_end(scene)
             elif scene in replica.loading:
                 yield hold, self, max(0.0, replica.loading[scene] - sim.now())
@@ -83,7 +85,6 @@ class Frame(Process):
         if begun >= model.fleet.ignore:
             counted.begun.append(begun)
             counted.seconds.append(sim.now() - begun)
-            counted.hits += found
 
     def leave(self, model, replica):
         replica.in_flight -= 1
@@ -154,7 +155,7 @@ class Scaling(Process):
                 continue
             ratio = 1000 * sum(seen) / len(seen) / scaler.target_ms
             desired = count if abs(ratio - 1) <= scaler.tolerance else -int(-count * ratio // 1)
-            desired = min(max(desired, scaler.least), scaler.most, max(int((1 + scaler.rise) * count), count + 4))
+            desired = min(max(desired, scaler.least), scaler.most, max(int((1 + scaler.rise) * count), count + scaler.more))
             wanted.append((now, desired))
             while wanted[0][0] < now - scaler.calm:
                 wanted.popleft()

@@ -4,7 +4,7 @@ import math
 from html import escape
 
 COLORS = ["#1b6ca8", "#c8502d", "#3f8f4f", "#8a4fa3", "#b08a1e", "#555555"]
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 560, 340, 64, 150, 34, 48
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 620, 340, 64, 200, 34, 48
 
 
 class Axis:
