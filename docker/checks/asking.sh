@@ -31,6 +31,9 @@ key=() # a header, where the server asks for one
 ask() { curl -fsS -m 60 "${key[@]}" "$@"; }
 isReady() { curl -fsS -m 2 -o /dev/null "$1/readyz" 2>/dev/null; }
 
+# usage: hasStore URL      whether the replica that answers reaches its store
+hasStore() { ask -o /dev/null "$1/v1/scenes" 2>/dev/null; }
+
 # usage: demoOf CONTAINER      prints the file with the demo scene of its image
 demoOf() {
   podman cp "$1:/usr/local/share/gnomon/demo.glb" "$work/demo.glb"

@@ -24,6 +24,9 @@ compose up -d || { tail -40 "$work/compose.log" >&2; fail "compose.yaml does not
 
 url=http://$(podman port "${project}_haproxy_1" 8080/tcp)
 waitFor 60 hasReplicas "$url" 2 || { podman logs "${project}_gnomon_1" >&2; fail "HAProxy does not see two replicas"; }
+for _ in 1 2 3 4; do
+  waitFor 60 hasStore "$url" || fail "the replicas do not reach Redis"
+done
 say "two replicas answer through HAProxy"
 
 id=$(upload "$url" "$(demoOf "${project}_gnomon_1")")

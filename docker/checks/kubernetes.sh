@@ -93,6 +93,9 @@ say "podman plays the overlay single: sealed, with keys, and it draws"
 play replicas
 url=$(addressOf gnomon-haproxy-pod-0 8080)
 waitFor 60 hasReplicas "$url" 2 || { podman logs gnomon-pod-0-gnomon >&2; fail "HAProxy does not see two replicas"; }
+for _ in 1 2 3 4; do
+  waitFor 60 hasStore "$url" || fail "the replicas do not reach Redis"
+done
 id=$(upload "$url" "$work/demo.glb")
 draw "$url" "$id" '{}' "$work/replicas.png"
 cmp "$work/single.png" "$work/replicas.png" || fail "replicas draw another picture"
