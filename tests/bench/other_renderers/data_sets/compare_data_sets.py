@@ -79,7 +79,7 @@ def by_blender(program, scene, folder, count):
 def table(rows):
     """`rows`: by name, how many frames, seconds, processor seconds."""
     _, (unit_frames, unit_seconds, unit_processor) = rows[0]
-    lines = ["| program | frames | frames a second | x seconds a frame | processor seconds a frame | x |",
+    lines = ["| program | frames | frames a second | x seconds | processor seconds a frame | x processor |",
              "|---|---|---|---|---|---|"]  # fmt: skip
     for name, (frames, seconds, processor) in rows:
         x, x_processor = seconds / frames / (unit_seconds / unit_frames), processor / frames / (unit_processor / unit_frames)

@@ -19,10 +19,10 @@ export function ratioOf(scene, row, what, kind) {
 }
 
 // Both ends of the ratios over all scenes.
-function rangeOf(scenes, program, what) {
+function rangeOf(scenes, program, [what, kind]) {
   const ratios = scenes.flatMap((scene) => {
     const row = scene.rows.find((each) => each.program === program && each[what]);
-    return row ? [ratioOf(scene, row, what, 'wall')] : [];
+    return row ? [ratioOf(scene, row, what, kind)] : [];
   });
   if (!ratios.length) return '';
   const [low, high] = [Math.min(...ratios), Math.max(...ratios)].map(ratioText);
@@ -32,10 +32,15 @@ function rangeOf(scenes, program, what) {
 // A row a program; where it is there in two forms, each figure is that of the first form that has it.
 function summary(scenes) {
   const programs = new Map(scenes.flatMap((scene) => scene.rows.map(({ program, shadows }) => [program, shadows])));
+  const columns = [
+    ['first picture', 'cold', 'wall'], ['first: processor', 'cold', 'processor'],
+    ['first, program running', 'running', 'wall'],
+    ['each further picture', 'further', 'wall'], ['further: processor', 'further', 'processor'],
+  ];
   const lines = [...programs].map(([program, shadows]) => (
-    `| ${program} | ${shadows} | ${kWhat.map((what) => rangeOf(scenes, program, what)).join(' | ')} |`));
-  return ['| program | shadows | first picture | first, program running | each further picture |',
-    '|---|---|---|---|---|', ...lines].join('\n');
+    `| ${program} | ${shadows} | ${columns.map(([, ...of]) => rangeOf(scenes, program, of)).join(' | ')} |`));
+  return [`| program | shadows | ${columns.map(([head]) => head).join(' | ')} |`,
+    `|---|---|${'---|'.repeat(columns.length)}`, ...lines].join('\n');
 }
 
 function cellsOf(scene, row, what) {
@@ -76,7 +81,7 @@ Gnomon's first picture is \`gnomon render\`'s in the first table, its others are
 the start of the program, with the GLB on disk, to the PNG on disk. \`program running\`: the part of it after the program was
 ready for a scene. \`further\`: the same scene, the camera moved along its orbit, the mean of up to ${further} pictures a
 round. \`x\` compares times with Gnomon's exact picture, by \`gnomon render\` for a first picture and by \`gnomon serve\` for
-the others; \`x processor\` compares the seconds that all processes of the program spent on all cores together, which other
-work on the machine changes little. How each is set up: [the method](../../other_renderers/README.md#pictures).
+the others; \`processor\` compares the seconds that all processes of the program spent on all cores together, which other
+work on the machine changes less. How each is set up: [the method](../../other_renderers/README.md#pictures).
 `;
 }
