@@ -14,7 +14,7 @@
 #include "server/redis/reply.h"
 #include "server/redis/script.h"
 
-/// A client of Redis (the protocol RESP2, servers from 6.2 on).
+/// A client of Redis 7, by the protocol RESP2.
 namespace gnomon::redis {
 
 struct Options {
