@@ -20,8 +20,6 @@ import { setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
-import { attachRecording } from './record_button.mjs';
-import { recordedSequence } from './recording.mjs';
 import { showReport } from './report_panel.mjs';
 import { createScenePanel } from './scene_panel.mjs';
 import { copySnippet, download } from './share.mjs';
@@ -240,14 +238,11 @@ const copied = async (done, what) => ((await done) ? `${what} copied` : `${what}
 const kCopies = { link: 'Link', curl: 'curl command', python: 'Python code', img: 'Image tag', cli: 'Command line' };
 for (const [what, name] of Object.entries(kCopies)) onButton(`copy-${what}`, (id, spec) => copied(copySnippet(what, id, spec), name));
 onButton('save-png', async (id, spec) => (await download(id, spec, 'png'), 'PNG saved'));
-attachRecording(byId('record'), {
-  requestOf() {
-    const { summary } = store.state;
-    const sequence = summary && recordedSequence(shownSpec(), summary, orbitInForce(store.state), lens());
-    return sequence && { id: summary.id, sequence };
-  },
-  toast,
-  problems,
+byId('record').addEventListener('click', async () => {
+  const { toggleRecording } = await import('./record_button.mjs');
+  const { summary } = store.state;
+  const seen = summary && { summary, spec: shownSpec(), orbit: orbitInForce(store.state), lens: lens() };
+  if (seen) toggleRecording(byId('record'), seen, { toast, problems });
 });
 onButton('save-exr', async (id, spec) => (await download(id, spec, 'exr'), 'EXR saved'));
 

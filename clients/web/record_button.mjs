@@ -1,29 +1,25 @@
-// The button that records a video. While it is drawn, the same button stops it.
+// Records a video, from the button that also stops it. Loaded when it is first pressed.
 
 import { recordVideo } from './api.mjs';
+import { recordedSequence } from './recording.mjs';
 import { saveFile } from './share.mjs';
 
-// `requestOf()`: {id, sequence}, or null where there is nothing to record.
-export function attachRecording(button, { requestOf, toast, problems }) {
+let work = null; // AbortController
+
+// `seen`: what recordedSequence takes.
+export async function toggleRecording(button, seen, { toast, problems }) {
+  if (work) return work.abort();
+  const sequence = recordedSequence(seen);
+  if (!sequence) return;
   const name = button.textContent;
-  let work = null; // AbortController
-
-  async function record({ id, sequence }) {
-    work = new AbortController();
-    button.textContent = 'Stop';
-    try {
-      saveFile(await recordVideo(id, sequence, work.signal), 'gnomon.webm');
-      toast('WebM saved');
-    } catch (error) {
-      if (error.name !== 'AbortError') problems.show(error);
-    }
-    work = null;
-    button.textContent = name;
+  work = new AbortController();
+  button.textContent = 'Stop';
+  try {
+    saveFile(await recordVideo(seen.summary.id, sequence, work.signal), 'gnomon.webm');
+    toast('WebM saved');
+  } catch (error) {
+    if (error.name !== 'AbortError') problems.show(error);
   }
-
-  button.onclick = () => {
-    if (work) return work.abort();
-    const asked = requestOf();
-    return asked && record(asked);
-  };
+  work = null;
+  button.textContent = name;
 }

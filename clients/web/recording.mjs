@@ -4,7 +4,7 @@ const kFramesPerSecond = 30;
 const kTurnSeconds = 6;
 
 // The sequence of a recording, from the spec of the present picture and the orbit in force, which may be null.
-export function recordedSequence(spec, summary, orbit, lens) {
+export function recordedSequence({ spec, summary, orbit, lens }) {
   const clip = spec.animation && summary.animations[spec.animation.index];
   const frames = clip?.durationSeconds > 0 ? clipFrames(clip.durationSeconds) : orbit && turnFrames(orbit.azimuthDegrees);
   if (!frames) return null;

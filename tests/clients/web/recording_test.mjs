@@ -9,7 +9,7 @@ const orbit = { target: [0, 1, 0], azimuthDegrees: 350, elevationDegrees: 20, di
 const clips = { animations: [{ name: 'still', durationSeconds: 0 }, { name: 'walk', durationSeconds: 0.5 }] };
 
 test('without an animation the camera turns once around, and ends a step before it began', () => {
-  const { spec, frames, framesPerSecond } = recordedSequence({ width: 64, camera: { node: 3 } }, clips, orbit, { perspective: { fovYDegrees: 30 } });
+  const { spec, frames, framesPerSecond } = recordedSequence({ spec: { width: 64, camera: { node: 3 } }, summary: clips, orbit, lens: { perspective: { fovYDegrees: 30 } } });
   assert.deepEqual(spec, { width: 64, camera: { perspective: { fovYDegrees: 30 }, orbit } });
   const azimuths = frames.map(({ camera }) => camera.orbit.azimuthDegrees);
   assert.equal(azimuths.length, 6 * framesPerSecond);
@@ -18,13 +18,13 @@ test('without an animation the camera turns once around, and ends a step before 
 });
 
 test('an animation that is chosen plays once, before a camera that stands still', () => {
-  const { spec, frames, framesPerSecond } = recordedSequence({ camera: { node: 3 }, animation: { index: 1, timeSeconds: 0.3 } }, clips, orbit, {});
+  const { spec, frames, framesPerSecond } = recordedSequence({ spec: { camera: { node: 3 }, animation: { index: 1, timeSeconds: 0.3 } }, summary: clips, orbit, lens: {} });
   assert.deepEqual(spec.camera, { node: 3 });
   assert.equal(framesPerSecond, 30);
   assert.deepEqual(frames.map(({ animation }) => Math.round(animation.timeSeconds * 30)), Array.from({ length: 15 }, (_, i) => i));
 });
 
 test('what stands still is turned, and nothing is recorded before the first frame', () => {
-  assert.ok(recordedSequence({ animation: { index: 0 } }, clips, orbit, {}).frames[1].camera);
-  assert.equal(recordedSequence({}, clips, null, {}), null);
+  assert.ok(recordedSequence({ spec: { animation: { index: 0 } }, summary: clips, orbit, lens: {} }).frames[1].camera);
+  assert.equal(recordedSequence({ spec: {}, summary: clips, orbit: null, lens: {} }), null);
 });
