@@ -1,6 +1,7 @@
 """The command line in pipelines: pipes, many pictures in one run, fields as flags, comparison, watching, shells."""
 
 import json
+import re
 import shutil
 import signal
 import subprocess
@@ -226,8 +227,20 @@ class Shells(CommandLine):
             self.assertEqual((run.returncode, run.stderr), (0, b""))
 
     def test_other_shells_have_scripts_too(self):
-        self.assertIn(b"#compdef gnomon", gnomon("completion", "zsh").stdout)
-        self.assertIn(b"-l eye", gnomon("completion", "fish").stdout)
+        zsh, fish = (gnomon("completion", shell).stdout.decode() for shell in ("zsh", "fish"))
+        self.assertTrue(zsh.startswith("#compdef gnomon"))
+        commands = dict(re.findall(r"^    (\w+)\) _arguments(.*?) ;;$", zsh, re.MULTILINE | re.DOTALL))
+        self.assertIn("'1:first:_files'", commands["compare"])
+        self.assertIn("'2:second:_files'", commands["compare"])
+        self.assertIn("'1:shell:(bash fish zsh)'", commands["completion"])
+        for name, text in commands.items():  # the rest of the arguments can be one thing only
+            self.assertLessEqual(text.count("'*:"), 1, name)
+        self.assertIn("-l eye", fish)
+        self.assertIn("'__fish_seen_subcommand_from completion' -f -a 'bash fish zsh'", fish)
+        for shell, script in (("zsh", zsh), ("fish", fish)):
+            if shutil.which(shell):
+                run = subprocess.run([shell, "-n"], input=script.encode(), capture_output=True, timeout=TIMEOUT)
+                self.assertEqual((run.returncode, run.stderr), (0, b""), shell)
 
     def test_what_describes_the_api_is_json(self):
         self.assertIn("/v1/scenes", json.loads(gnomon("openapi").stdout)["paths"])

@@ -42,6 +42,7 @@ FlagRow rowOf(const CLI::Option& option) {
     row.value = typeName.substr(0, typeName.find(':'));
     if (row.value.empty() || row.value == "TEXT") row.value = row.choices.empty() ? "TEXT" : "NAME";
   }
+  row.isRepeatable = option.get_items_expected_max() > 1;
   row.defaultText = option.get_default_str();
   row.variable = option.get_envname();
   row.group = option.get_group();

@@ -20,7 +20,8 @@ struct FlagRow {
   std::string variable;             ///< of the environment; empty = none
   std::string group;
   bool isArgument = false;
-  bool isFile = false; ///< its value is a file's name
+  bool isRepeatable = false; ///< takes several values
+  bool isFile = false;       ///< its value is a file's name
 };
 
 struct CommandRow {

@@ -40,13 +40,21 @@ std::string zshText(const std::string& text) {
   return out;
 }
 
+std::string zshValue(const FlagRow& flag) {
+  if (!flag.choices.empty()) return "(" + joined(flag.choices) + ")";
+  return flag.isFile ? "_files" : "";
+}
+
+/// `place`: of an argument among the command's, from 1.
+std::string zshArgument(const FlagRow& flag, int place) {
+  const std::string which = flag.isRepeatable ? "*" : std::to_string(place);
+  return "'" + which + ":" + zshText(flag.name) + ":" + zshValue(flag) + "'";
+}
+
 std::string zshFlag(const FlagRow& flag) {
-  if (flag.isArgument) return "'*:" + zshText(flag.name) + ":_files'";
   std::string text = "'*" + flag.name + "[" + zshText(flag.says) + "]";
   if (flag.value.empty()) return text + "'";
-  text += ":" + zshText(flag.value) + ":";
-  if (!flag.choices.empty()) return text + "(" + joined(flag.choices) + ")'";
-  return text + (flag.isFile ? "_files'" : "'");
+  return text + ":" + zshText(flag.value) + ":" + zshValue(flag) + "'";
 }
 
 } // namespace
@@ -94,7 +102,10 @@ std::string zshCompletion(std::span<const CommandRow> commands) {
   for (const CommandRow& command : commands) {
     names += "    '" + command.name + ":" + escaped(command.says, "'\\''") + "'\n";
     cases += "    " + command.name + ") _arguments";
-    for (const FlagRow& flag : command.flags) cases += " \\\n      " + zshFlag(flag);
+    int place = 0;
+    for (const FlagRow& flag : command.flags) {
+      cases += " \\\n      " + (flag.isArgument ? zshArgument(flag, ++place) : zshFlag(flag));
+    }
     cases += " ;;\n";
   }
   return "#compdef gnomon\n"
@@ -121,8 +132,10 @@ std::string fishCompletion(std::span<const CommandRow> commands) {
     text += "complete -c gnomon -n __fish_use_subcommand -f -a " + command.name + " -d '" +
             escaped(command.says, "\\'") + "'\n";
     for (const FlagRow& flag : command.flags) {
+      const std::string condition = "complete -c gnomon -n '__fish_seen_subcommand_from " + command.name + "'";
+      if (flag.isArgument && !flag.choices.empty()) text += condition + " -f -a '" + joined(flag.choices) + "'\n";
       if (flag.isArgument) continue;
-      text += "complete -c gnomon -n '__fish_seen_subcommand_from " + command.name + "' -l " + flag.name.substr(2);
+      text += condition + " -l " + flag.name.substr(2);
       if (!flag.shortName.empty()) text += " -s " + flag.shortName.substr(1);
       if (!flag.value.empty()) text += flag.isFile ? " -r -F" : " -x";
       if (!flag.choices.empty()) text += " -a '" + joined(flag.choices) + "'";
