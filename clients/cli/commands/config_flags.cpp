@@ -136,12 +136,17 @@ void addConfigFlags(CLI::App& command) {
 }
 
 std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::string>& arguments) {
+  const auto commands = commandsOf(app);
+  const bool isOurs = std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+    return !arguments.empty() && command->get_name() == arguments.front() && command->get_option_no_throw("--preset");
+  });
+  if (!isOurs) return std::nullopt;
   const auto isAny = [&](const char* flag) { return std::count(arguments.begin(), arguments.end(), flag) > 0; };
   if (isAny("--help") || isAny("-h") || isAny("--fields")) return std::nullopt; // even with a faulty configuration
   CLI::App mirror;
   const auto kept = addClientCommands(mirror);
   const CLI::App* typed = parseTyped(mirror, arguments);
-  if (typed == nullptr || typed->get_option_no_throw("--config") == nullptr) return std::nullopt;
+  if (typed == nullptr) return std::nullopt;
   const auto refused = [](const Problems& problems) {
     printProblems(problems);
     return kExitUsage;
