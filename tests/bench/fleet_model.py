@@ -76,6 +76,7 @@ class Outcome:
     replica_seconds: float = 0.0
     counts: list = field(default_factory=list)  # (second, replicas that serve)
     asked: int = 0  # from the beginning on
+    due: int = 0  # of them, those that are counted, done or not
     loads: int = 0
 
     def hit_rate(self):

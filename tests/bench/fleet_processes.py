@@ -33,6 +33,7 @@ class Frame(Process):
         sim, random, services, counted = self.sim, model.random, model.fleet.services, model.outcome
         begun = sim.now()
         counted.asked += 1
+        counted.due += begun >= model.fleet.ignore
         if services.proxy:
             yield request, self, model.proxy
             yield hold, self, services.proxy / 1000
@@ -47,6 +48,7 @@ class Frame(Process):
             arrived = sim.now()
             yield request, self, replica.places
             placed = sim.now()
+            model.waits.append((placed, placed - arrived))  # gnomon_queue_wait_seconds
             if placed - arrived > QUEUE_SECONDS:
                 yield release, self, replica.places
                 self.leave(model, replica)
@@ -71,9 +73,7 @@ class Frame(Process):
                 replica.loading.pop(scene, None)
                 replica.keep(scene)
                 more = random.choice(services.first) / 1000
-            asked = sim.now()
             yield request, self, replica.renderer
-            model.waits.append((sim.now(), placed - arrived + sim.now() - asked))
             yield hold, self, random.choice(services.frame) / 1000 + more
             yield release, self, replica.renderer
             yield release, self, replica.places
