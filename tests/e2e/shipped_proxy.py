@@ -45,14 +45,15 @@ class Haproxy:
                                         pass_fds=[listening.fileno()], stdout=self.log, stderr=self.log)  # fmt: skip
         listening.close()
 
-    def ask(self, method, path, body=None, headers=None):
-        connection = self.connect()
+    def ask(self, method, path, body=None, headers=None, connection=None):
+        own = connection or self.connect()
         try:
-            connection.request(method, path, body, headers or {})
-            reply = connection.getresponse()
+            own.request(method, path, body, headers or {})
+            reply = own.getresponse()
             return Reply(reply.status, reply.headers, reply.read())
         finally:
-            connection.close()
+            if connection is None:
+                own.close()
 
     def log_text(self):
         self.log.seek(0)
