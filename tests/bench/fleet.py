@@ -12,10 +12,14 @@ import sys
 import time
 from pathlib import Path
 
-import numpy
-
-from fleet_model import Autoscaler, Fleet, Model, Services
 from svg_lines import chart
+
+try:
+    import numpy
+
+    from fleet_model import Autoscaler, Fleet, Model, Services
+except ImportError as missing:
+    sys.exit(f"{missing}: apt-get install python3-simpy python3-numpy")
 
 LOAD = 0.6  # of what the renderers of all replicas could draw
 REQUESTS = 60_000  # that a run simulates, about

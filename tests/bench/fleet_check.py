@@ -14,12 +14,15 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-import numpy
+try:
+    import numpy
 
-from fleet_model import Fleet, Model, Services
-from haproxy_ring import Ring, key_of
-from replica_load import drive, load_counts, put_all, terrain, use_binary, zipf_mix
-from routing import places, round_robin, settled
+    from fleet_model import Fleet, Model, Services
+    from haproxy_ring import Ring, key_of
+    from replica_load import drive, load_counts, put_all, terrain, use_binary, zipf_mix
+    from routing import round_robin, settled
+except ImportError as missing:
+    sys.exit(f"{missing}: apt-get install python3-simpy python3-numpy")
 
 SPEC = {"width": 160, "height": 120}
 SCENES, HELD, REPLICAS, CLIENTS = 240, 50, 3, 16
@@ -55,8 +58,7 @@ def measured_services(store, ids, loaded, rate):
 
 
 def real(store, ids, flags, files, mix, seconds):
-    """(hit rate, median, 99th percentile, whether scenes are where the ring says) of the trace behind its first part, which
-    has each scene once."""
+    """Hit rate and latency of the trace behind its first part, which has each scene once; and where the scenes were."""
     from shipped_proxy import Replicas
 
     with Replicas(REPLICAS, store, *flags, slow_start="1s", **files) as fleet:
@@ -90,8 +92,11 @@ def main():
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     use_binary(options.binary)
+    from shipped_proxy import HAPROXY
     from shipped_server import Server
 
+    if not HAPROXY:
+        sys.exit("haproxy is not installed: apt-get install haproxy")
     mix = [*range(SCENES), *zipf_mix(SCENES, options.requests, 1.0, 2)]
     seconds = at_random(len(mix), options.rate, 3)
     told = {"scenes": SCENES, "held": HELD, "replicas": REPLICAS, "requests": options.requests, "rate": options.rate}
