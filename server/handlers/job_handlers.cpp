@@ -53,6 +53,15 @@ HttpReply replyOfJob(const Services& services, const JobProgress& progress) {
   return reply;
 }
 
+/// To HEAD no body is made.
+HttpReply headOnly(HttpReply reply, const RouteCall& call) {
+  if (call.request.method != "HEAD") return reply;
+  reply.stream = {};
+  reply.streamed = nullptr;
+  reply.bodyOmitted = true;
+  return reply;
+}
+
 /// An event for each frame that is drawn, and at last one for the end.
 HttpReply eventsOfJob(Services& services, const RouteCall& call, JobProgress job) {
   return eventReply(call,
@@ -105,7 +114,7 @@ HttpReply getJob(Services& services, RouteCall call) {
   if (!wait) return problemReply(wait.problems(), call.request.id);
   auto job = jobAt(services, call);
   if (!job) return jobProblem(job.problems(), call);
-  if (kJobForms[*form] == kEventStream) return eventsOfJob(services, call, *std::move(job));
+  if (kJobForms[*form] == kEventStream) return headOnly(eventsOfJob(services, call, *std::move(job)), call);
   const auto until = Clock::now() + *wait;
   while (!job->isEnded() && job->state != JobState::cancelled && Clock::now() < until && !call.clientGone() &&
          !services.draining) {
@@ -138,7 +147,8 @@ HttpReply getJobResult(Services& services, RouteCall call) {
   auto frames = std::make_shared<JobFrames>(services, *std::move(job), call.request.arrived + services.sequenceTimeout,
                                             call.clientGone);
   const SequenceReport report{.framesPerSecond = *framesPerSecond, .renderer = services.workers.info()};
-  return sequenceReply(sequenceForm(kSequenceForms[*form], call), call, std::move(frames), std::nullopt, report);
+  return headOnly(
+      sequenceReply(sequenceForm(kSequenceForms[*form], call), call, std::move(frames), std::nullopt, report), call);
 }
 
 HttpReply getJobFrame(Services& services, RouteCall call) {

@@ -26,8 +26,12 @@ std::string frameKey(const std::string& job, int index) {
   return kPrefix + ("frame:" + job + ':') + std::to_string(index);
 }
 
-Problem refused(const std::string& why) {
-  logEvent("jobs", why);
+/// Of a command that Redis did not carry out.
+Problem refused(const redis::Reply& error) {
+  logEvent("jobs", error.text);
+  if (error.isError("OOM")) {
+    return {ProblemCode::insufficientStorage, "", "What keeps the jobs is full.", "", ""};
+  }
   return {ProblemCode::unavailable, "", "What keeps the jobs does not take them now.", "", ""};
 }
 
@@ -84,7 +88,7 @@ Result<redis::Reply> RedisJobs::run(const redis::Script& script, const std::vect
   constexpr std::size_t kMostReply = 16u << 20; // a list of jobs, each with its problems
   auto reply =
       redis_->run(script, {}, arguments, {.deadline = Clock::now() + kPatience, .limits = {.bytes = kMostReply}});
-  if (reply && reply->isError()) return refused(reply->text);
+  if (reply && reply->isError()) return refused(*reply);
   return reply;
 }
 
@@ -92,7 +96,7 @@ Result<redis::Reply> RedisJobs::ask(const redis::Command& command, std::size_t m
   redis::Call call{.deadline = Clock::now() + kPatience};
   call.limits.bytes = mostBytes + (1 << 20);
   auto reply = redis_->ask(command, call);
-  if (reply && reply->isError()) return refused(reply->text);
+  if (reply && reply->isError()) return refused(*reply);
   return reply;
 }
 
