@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <map>
+#include <rapidcheck/gtest.h>
 #include <set>
 #include <thread>
 #include <vector>
@@ -291,6 +292,47 @@ TEST_P(JobQueueTest, AJobGoesWhenItIsTooOld) {
   EXPECT_EQ(picture("job", 0), "none");
   EXPECT_TRUE(isIdle());
   EXPECT_EQ(queue_->list("ann")->size(), 0u);
+}
+
+/// Takes, finishes, gives back and loses frames in any order, and twice.
+TEST_P(JobQueueTest, WhateverHappensEachFrameIsThereOnceAsItWasFirstFinished) {
+  rc::check([&] {
+    GetParam().clear();
+    open({.deliveries = 1'000'000, .silence = 0ms}); // whoever took a frame may lose it at once
+    std::map<std::string, int> counts;
+    for (const char* id : {"a", "b", "c"}) {
+      NewJob job = jobOfFrames(id, *rc::gen::inRange(1, 5), *rc::gen::element("ann", "bob"));
+      job.isChained = *rc::gen::arbitrary<bool>();
+      counts[id] = job.count;
+      put(job);
+    }
+    std::vector<FrameTurn> turns;
+    std::map<std::pair<std::string, int>, std::string> first;
+    const auto finishOne = [&](const FrameTurn& turn) {
+      const std::string content = turn.receipt + "/" + std::to_string(turn.deliveries);
+      RC_ASSERT(queue_->finish(turn, drawnFrame(content)));
+      first.emplace(std::pair(turn.job, turn.index), content);
+    };
+    for (int step = *rc::gen::inRange(0, 30); step > 0; --step) {
+      const int what = *rc::gen::inRange(0, 4);
+      if (what < 2 || turns.empty()) {
+        if (auto turn = queue_->take(0ms); turn && *turn) turns.push_back(**turn);
+        continue;
+      }
+      const FrameTurn& turn = turns[*rc::gen::inRange<std::size_t>(0, turns.size())];
+      if (what == 2) {
+        finishOne(turn);
+      } else {
+        RC_ASSERT(queue_->giveBack(turn, *rc::gen::arbitrary<bool>()));
+      }
+    }
+    for (auto turn = queue_->take(0ms); turn && *turn; turn = queue_->take(0ms)) finishOne(**turn);
+    for (const auto& [id, count] : counts) {
+      RC_ASSERT(progress(id).state == JobState::done);
+      RC_ASSERT(progress(id).done == count);
+      for (int index = 0; index < count; ++index) RC_ASSERT(picture(id, index) == first.at({id, index}));
+    }
+  });
 }
 
 TEST_P(JobQueueTest, ManyTakersDrawEachFrameOnce) {
