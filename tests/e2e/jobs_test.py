@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 from evaluations_test import events_of
+from redis_place import RedisServer, needs_redis
 from sequences_test import SPEC, named, orbit, parts_of
 from shipped_server import SCENES, SLOW, TIMEOUT, Server, ServerTest
 
@@ -102,6 +103,12 @@ class Jobs(JobTest):
         events = events_of(self.server.get(job["result"], Accept="text/event-stream").body.decode())
         self.assertEqual([name for name, _ in events], ["frame", "frame", "result"])
         self.assert_problem(self.server.get(job["result"], Accept="video/mp4"), 406)
+        connection = self.server.connect()
+        for path, accept in [(job["result"], "application/zip"), (job["address"], "text/event-stream")]:
+            told = self.server.ask("HEAD", path, headers={"Accept": accept}, connection=connection)
+            self.assertEqual((told.status, told.headers["Content-Type"], told.body), (200, accept, b""))
+        self.assertEqual(self.server.ask("GET", job["address"], connection=connection).json()["state"], "done")
+        connection.close()
 
     def test_one_frame_is_a_picture_and_several_views_are_parts(self):
         job = self.submit(orbit(2))
@@ -232,6 +239,72 @@ class Owners(unittest.TestCase):
                 self.assertEqual([each["id"] for each in listed], [job["id"]])
                 self.assertEqual(server.ask("GET", job["result"], headers=ann).status, 200)
                 self.assertEqual(list(Path(folder, "store").glob("*job*")), [], "pictures have no names")
+
+
+@needs_redis
+class Shared(unittest.TestCase):
+    """Two servers with one Redis: each draws, tells and ends the jobs of both."""
+
+    def setUp(self):
+        self.redis = self.enterContext(RedisServer("--appendonly", "yes"))
+        self.servers = [self.enterContext(Server("--device", "cpu", "--workers", "1", "--store", self.redis.url))
+                        for _ in range(2)]
+        self.scene = self.servers[0].upload("box_on_plane")
+
+    def frames_drawn(self, server):
+        for line in server.get("/metrics").body.decode().splitlines():
+            if line.startswith('gnomon_queue_wait_seconds_count{lane="sequence"}'):
+                return float(line.split()[-1])
+        return 0
+
+    def test_a_job_is_drawn_by_both_and_known_to_both(self):
+        first, second = self.servers
+        request = orbit(60) | {"stable": False}
+        job = ask_for(first, self.scene, request).json()
+        done = second.get(job["address"] + "?wait=30").json()
+        self.assertEqual((done["state"], done["done"]), ("done", 60))
+        self.assertEqual([each["id"] for each in second.get("/v1/jobs").json()["jobs"]], [job["id"]])
+        self.assertGreater(self.frames_drawn(first), 0)
+        self.assertGreater(self.frames_drawn(second), 0)
+        headers = {"Content-Type": "application/json"}
+        alone = first.ask("POST", f"/v1/scenes/{self.scene}/sequences", json.dumps(request), headers)
+        for server in self.servers:
+            told = parts_of(server.get(job["result"]))
+            self.assertEqual([content for _, content in told[:-1]], [content for _, content in parts_of(alone)[:-1]])
+        self.assertEqual(second.ask("DELETE", job["address"]).status, 204)
+        self.assertEqual(first.get(job["address"]).status, 404)
+
+    def test_a_job_outlives_the_server_that_took_it_and_ends_on_any(self):
+        first, second = self.servers
+        job = ask_for(first, self.scene, LONG | {"stable": False}).json()
+        while second.get(job["address"]).json()["done"] == 0:
+            time.sleep(0.01)
+        first.process.kill()
+        first.process.wait()
+        before = second.get(job["address"]).json()["done"]
+        end = time.monotonic() + TIMEOUT
+        while second.get(job["address"]).json()["done"] < before + 3:
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+        self.assertEqual(second.ask("DELETE", job["address"]).status, 204)
+
+    def test_while_redis_is_away_jobs_are_asked_for_again_later(self):
+        server = self.servers[0]
+        job = ask_for(server, self.scene, orbit(3)).json()
+        self.assertEqual(server.get(job["address"] + "?wait=30").json()["state"], "done")
+        self.redis.kill()
+        replies = [server.get(job["address"]), server.get(job["result"]), server.get(job["address"] + "/frames/0"),
+                   server.get("/v1/jobs"), server.ask("DELETE", job["address"])]
+        for reply in replies:
+            self.assertEqual(reply.status, 503, reply.body)
+            self.assertGreaterEqual(int(reply.headers["Retry-After"]), 1)
+            self.assertEqual(reply.json()["problems"][0]["code"], "unavailable")
+        self.redis.start()
+        end = time.monotonic() + TIMEOUT
+        while server.get(job["address"]).status != 200 and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(server.get(job["address"]).json()["state"], "done")
+        self.assertEqual(server.get(job["address"] + "/frames/2").status, 200)
 
 
 if __name__ == "__main__":
