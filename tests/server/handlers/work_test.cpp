@@ -28,6 +28,21 @@ TEST(TaskFor, EndsWhenTheServerOrTheClientSays) {
     EXPECT_EQ(allowed(none), 60s);
 }
 
+TEST(Prefer, AsksForAJobByItsToken) {
+  HttpRequest request;
+  const auto prefers = [&](const char* prefer) {
+    request.headers = {{"prefer", prefer}};
+    return prefersAsync(request);
+  };
+  for (const char* token : {"respond-async", "wait=5, respond-async", "Respond-Async,wait=5"})
+    EXPECT_TRUE(prefers(token));
+  for (const char* other : {"", "wait=5", "respond-asynchronously", "respond-async=no", "no-respond-async"}) {
+    EXPECT_FALSE(prefers(other)) << other;
+  }
+  request.headers.clear();
+  EXPECT_FALSE(prefersAsync(request));
+}
+
 TEST(TaskFor, TellsTheWorkerWhichTraceItBelongsTo) {
   RouteCall call;
   call.request.trace.traceId = "0af7651916cd43dd8448eb211c80319c";
