@@ -23,6 +23,7 @@ OTHER = {
     "store": '"/var/lib/scenes and more"',
     "redis-password-file": '"/run/secrets/password"',
     "redis-authorities": '"/etc/ssl/redis.pem"',
+    "jobs": '"redis://queue.example:6380/1"',
     "worker-program": '"/opt/choose gpu"',
     "device": '"gl"',
     "drake-spec": '"/etc/gnomon/drake.json"',

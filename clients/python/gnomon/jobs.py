@@ -29,8 +29,8 @@ class Job:
 
     def refresh(self, wait: int = 0) -> JobReport:
         """What the server says of it now, or once it has ended, at most `wait` seconds later."""
-        headers = {"Prefer": f"wait={wait}"} if wait > 0 else {}
-        self.report = cast(JobReport, json.loads(self._http.request("GET", self.report["address"], **headers).body))
+        reply = self._http.request("GET", self.report["address"], Prefer=f"wait={wait}")
+        self.report = cast(JobReport, json.loads(reply.body))
         return self.report
 
     @property
