@@ -16,11 +16,12 @@ namespace {
 
 constexpr int kChannelOfWorker = 3; ///< where `gnomon worker` looks for it
 
-/// This process's, but for the address of the store, which may hold a password.
+/// This process's, but for the addresses of the store and of jobs, which may hold a password.
 std::vector<char*> workerVariables() {
   std::vector<char*> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
-    if (!std::string_view(*variable).starts_with("GNOMON_STORE=")) variables.push_back(*variable);
+    const std::string_view text = *variable;
+    if (!text.starts_with("GNOMON_STORE=") && !text.starts_with("GNOMON_JOBS=")) variables.push_back(*variable);
   }
   variables.push_back(nullptr);
   return variables;
