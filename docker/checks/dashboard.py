@@ -27,6 +27,8 @@ class Prometheus:
             with urllib.request.urlopen(url, timeout=10) as reply:
                 return json.load(reply)["data"]
         except urllib.error.HTTPError as error:
+            if error.code == 503:
+                return None  # it is still reading its own data
             raise SystemExit(f"Prometheus refuses {parameters}: {error.read().decode(errors='replace')}") from error
         except OSError:
             return None  # it is still starting

@@ -5,7 +5,7 @@ import unittest
 
 from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
 from shipped_server import Server, png_size
-from video_test import Video
+from webm import Video
 
 REQUEST = {
     "spec": {"width": 64, "height": 48, "antialiasing": "none"},

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from shipped_server import SCENES, Server
-from video_test import Video
+from webm import Video
 
 import gnomon
 
