@@ -69,7 +69,7 @@ MAY_INCLUDE = {
     "server/frames": BOTH_PROCESSES + ["server/http", "server/frames"],
     "server/bakes": ["protocol", "server/bakes"],
     "server/jobs": BOTH_PROCESSES + ["server/redis", "server/jobs"],
-    "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/metrics"],
+    "server/metrics": BOTH_PROCESSES + ["server/http", "server/scenes", "server/dispatch", "server/frames", "server/jobs", "server/metrics"],
     "server/handlers": FRONT + ["server/handlers", "renderer/video"],
     "server/process": FRONT + ["server/handlers", "server/process", "renderer/core/parallel.h"],
     "server": ["protocol", "server"],

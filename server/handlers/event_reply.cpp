@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
 #include "protocol/json/json_codec.h"
@@ -25,18 +26,26 @@ HttpReply eventReply(const RouteCall& call, EventWork work) {
     constexpr std::chrono::milliseconds kHeartbeat{5'000};
     EventStream events;
     std::atomic<bool> clientLeft = false;
-    std::thread working([&] {
-      try {
-        *result = work([&] { return clientLeft || clientGone(); }, events);
-      } catch (const std::exception&) {
-        const Problem problem{ProblemCode::internal, "", "An internal error occurred.", "", ""};
-        result->problem = problem.detail;
-        events.put("problem", problemText({problem}, requestId));
-      }
+    const auto fail = [&](const Problem& problem) {
+      result->problem = problem.detail;
+      events.put("problem", problemText({problem}, requestId));
       events.end();
-    });
+    };
+    std::thread working;
+    try {
+      working = std::thread([&] {
+        try {
+          *result = work([&] { return clientLeft || clientGone(); }, events);
+          events.end();
+        } catch (const std::exception&) {
+          fail({ProblemCode::internal, "", "An internal error occurred.", "", ""});
+        }
+      });
+    } catch (const std::system_error&) {
+      fail({ProblemCode::unavailable, "", "The system has no thread left for the work.", "", ""});
+    }
     clientLeft = !events.sendTo(sink, kHeartbeat);
-    working.join();
+    if (working.joinable()) working.join();
   };
   return reply;
 }

@@ -16,6 +16,7 @@
 #include "server/http/connection.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
+#include "server/jobs/frame_ends.h"
 #include "server/jobs/job_queue.h"
 #include "server/scenes/scene_store.h"
 #include "server/system/byte_budget.h"
@@ -29,6 +30,7 @@ struct Services {
   ByteBudget& replyBytes; ///< that of the connections, for what handlers hold of replies before it is sent
   JobQueue& jobs;
   JobLimits jobLimits{};
+  FrameEnds jobFrames{}; ///< that this server took
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes

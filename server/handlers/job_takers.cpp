@@ -89,7 +89,7 @@ void JobTakers::takeFrames() {
 void JobTakers::draw(const FrameTurn& turn) {
   const auto sequence = sequences_.of(turn.job);
   if (!sequence) return giveBack(turn, false);
-  if (*sequence == nullptr) return;
+  if (*sequence == nullptr) return count(FrameEnd::unwanted);
   const auto used = services_.store.use(turn.scene);
   auto bundle = used ? services_.store.bundle(turn.scene) : Result<StoredBundle>(used.problems());
   if (!bundle) {
@@ -127,7 +127,7 @@ void JobTakers::draw(const FrameTurn& turn) {
                                                   .isPatient = true,
                                                   .gone = gone,
                                                   .takeRoom = takeRoom});
-  if (!isWanted) return;
+  if (!isWanted) return count(FrameEnd::unwanted);
   if (frame.problems.empty()) {
     return keep(turn, {.note = {.contentKey = contentKey(turn, **sequence, services_.workers.info()),
                                 .carried = std::move(frame.own),
@@ -148,7 +148,8 @@ void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
   const auto until = Clock::now() + kPatience;
   for (auto wait = kShortest;; wait = std::min(wait * 2, kLongest)) {
     const auto kept = services_.jobs.finish(turn, frame);
-    if (kept || stop_.raised() || Clock::now() >= until) return;
+    if (kept) return count(FrameEnd::drawn);
+    if (stop_.raised() || Clock::now() >= until) return count(FrameEnd::givenBack);
     logEvent("jobs", kept.problems().front().detail);
     pause(wait);
   }
@@ -156,12 +157,14 @@ void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
 
 /// Where that can't be told, the frame is silent and goes to others.
 void JobTakers::fail(const FrameTurn& turn, const Problems& problems) {
+  count(FrameEnd::failed);
   const auto told = services_.jobs.fail(turn, problems);
   if (!told) logEvent("jobs", told.problems().front().detail);
 }
 
 /// The same.
 void JobTakers::giveBack(const FrameTurn& turn, bool isTried) {
+  count(FrameEnd::givenBack);
   const auto told = services_.jobs.giveBack(turn, isTried);
   if (!told) logEvent("jobs", told.problems().front().detail);
   if (!stopping()) pause(kShortest);

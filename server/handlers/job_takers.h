@@ -48,6 +48,7 @@ class JobTakers {
   void keep(const FrameTurn& turn, const JobFrame& frame);
   void fail(const FrameTurn& turn, const Problems& problems);
   void giveBack(const FrameTurn& turn, bool isTried);
+  void count(FrameEnd end) { services_.jobFrames.add(end); }
   bool stopping() const { return stop_.raised() || services_.draining; }
   void pause(std::chrono::milliseconds time) const;
 

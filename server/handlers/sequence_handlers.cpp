@@ -19,7 +19,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kSequenceRetrySeconds = 10; ///< where the most sequences run
+constexpr int kSequenceRetrySeconds = 1; ///< where the most sequences run: one may be left at any time
 
 constexpr auto kFormsOrVideo = [] {
   std::array<std::string_view, kSequenceForms.size() + 1> types;

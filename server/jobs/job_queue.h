@@ -61,6 +61,13 @@ struct JobProgress {
   bool isEnded() const { return state == JobState::done || state == JobState::failed; }
 };
 
+/// All jobs together.
+struct JobsSize {
+  std::size_t jobs = 0;       ///< in any state
+  std::size_t framesLeft = 0; ///< that wait or are in work
+  std::uint64_t bytes = 0;    ///< of requests and pictures
+};
+
 /// A frame that somebody is to draw.
 struct FrameTurn {
   std::string job{};
@@ -131,6 +138,8 @@ class JobQueue {
 
   /// Ends a job and forgets it with all of its frames. False where there was none.
   virtual Result<bool> remove(const std::string& job) = 0;
+
+  virtual Result<JobsSize> size() = 0;
 };
 
 } // namespace gnomon

@@ -196,4 +196,16 @@ const redis::Script kRemove = script(R"lua(
 return removeJob(ARGV[1])
 )lua");
 
+const redis::Script kSize = script(R"lua(
+removeOld(tonumber(ARGV[1]))
+local left = 0
+for _, client in ipairs(call('LRANGE', P .. 'ring', 0, -1)) do
+  for _, id in ipairs(call('LRANGE', P .. 'ring:' .. client, 0, -1)) do
+    local job = call('HMGET', P .. 'job:' .. id, 'first', 'count', 'done')
+    if job[1] then left = left + job[2] - job[1] - job[3] end
+  end
+end
+return {call('ZCARD', P .. 'changed'), left, tonumber(call('GET', P .. 'bytes') or 0)}
+)lua");
+
 } // namespace gnomon::job_scripts

@@ -25,5 +25,6 @@ extern const redis::Script kGiveBack; ///< id, entry, silence, deliveries
 extern const redis::Script kFind;     ///< id, age -> the job's fields, or nil
 extern const redis::Script kList;     ///< key, age -> the fields of each
 extern const redis::Script kRemove;   ///< id -> 1 where there was one
+extern const redis::Script kSize;     ///< age -> jobs, frames left, bytes
 
 } // namespace gnomon::job_scripts

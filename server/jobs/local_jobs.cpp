@@ -253,4 +253,15 @@ Result<bool> LocalJobs::remove(const std::string& job) {
   return true;
 }
 
+Result<JobsSize> LocalJobs::size() {
+  const std::lock_guard lock(mutex_);
+  dropOld();
+  JobsSize size{.jobs = entries_.size(), .bytes = bytes_};
+  for (const Entry& entry : entries_) {
+    const JobProgress& progress = entry.progress;
+    if (!progress.isEnded()) size.framesLeft += progress.count - progress.first - progress.done;
+  }
+  return size;
+}
+
 } // namespace gnomon

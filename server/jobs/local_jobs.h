@@ -30,6 +30,7 @@ class LocalJobs final : public JobQueue {
   Result<std::optional<FrameNote>> note(const std::string& job, int index) override;
   Result<std::optional<JobFrame>> frame(const std::string& job, int index) override;
   Result<bool> remove(const std::string& job) override;
+  Result<JobsSize> size() override;
 
  private:
   struct WaitingFrame {

@@ -221,4 +221,14 @@ Result<bool> RedisJobs::remove(const std::string& job) {
   return reply->integer == 1;
 }
 
+Result<JobsSize> RedisJobs::size() {
+  const auto reply = run(job_scripts::kSize, {age()});
+  if (!reply) return reply.problems();
+  if (reply->elements.size() != 3) return damaged();
+  const auto& fields = reply->elements;
+  return JobsSize{.jobs = static_cast<std::size_t>(fields[0].integer),
+                  .framesLeft = static_cast<std::size_t>(fields[1].integer),
+                  .bytes = static_cast<std::uint64_t>(fields[2].integer)};
+}
+
 } // namespace gnomon

@@ -23,6 +23,7 @@ class RedisJobs final : public JobQueue {
   Result<std::optional<FrameNote>> note(const std::string& job, int index) override;
   Result<std::optional<JobFrame>> frame(const std::string& job, int index) override;
   Result<bool> remove(const std::string& job) override;
+  Result<JobsSize> size() override;
 
  private:
   Result<redis::Reply> run(const redis::Script& script, const std::vector<std::string>& arguments) const;

@@ -39,6 +39,12 @@ Readings by(const char* label, const Names& names, const Values& values) {
   return readings;
 }
 
+/// Nothing while the queue of jobs can't be reached.
+template <class Read>
+Readings ofJobs(const Snapshot& snapshot, Read read) {
+  return snapshot.jobs ? one(read(*snapshot.jobs)) : Readings();
+}
+
 std::string_view deviceName(const RendererInfo& renderer) {
   return renderer.device == DeviceChoice::cpu ? "cpu" : "gl";
 }
@@ -116,6 +122,14 @@ constexpr std::array kRows{
                [](const Snapshot& s) { return one(s.storeState.hits); }},
     ReadingRow{"gnomon_store_memory_misses_total", kCounter, "Scenes that were read from Redis.",
                [](const Snapshot& s) { return one(s.storeState.misses); }},
+    ReadingRow{"gnomon_jobs", kGauge, "Jobs that are kept, of all servers that share them.",
+               [](const Snapshot& s) { return ofJobs(s, [](const JobsSize& jobs) { return jobs.jobs; }); }},
+    ReadingRow{"gnomon_jobs_bytes", kGauge, "Bytes of their requests and pictures.",
+               [](const Snapshot& s) { return ofJobs(s, [](const JobsSize& jobs) { return jobs.bytes; }); }},
+    ReadingRow{"gnomon_job_frames_left", kGauge, "Their frames that wait or are in work.",
+               [](const Snapshot& s) { return ofJobs(s, [](const JobsSize& jobs) { return jobs.framesLeft; }); }},
+    ReadingRow{"gnomon_job_frames_total", kCounter, "Frames of jobs that this server took, by what became of them.",
+               [](const Snapshot& s) { return by("end", kFrameEndNames, s.jobFrames); }},
     ReadingRow{"gnomon_log_lines_dropped_total", kCounter, "Lines of the log that nobody read in time.",
                [](const Snapshot& s) { return one(s.logLinesDropped); }},
     ReadingRow{"process_resident_memory_bytes", kGauge, "Memory of the process that listens.",

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <prometheus/metric_family.h>
 #include <vector>
 
 #include "protocol/report/replies.h"
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
+#include "server/jobs/frame_ends.h"
+#include "server/jobs/job_queue.h"
 #include "server/metrics/process_use.h"
 #include "server/scenes/store_size.h"
 
@@ -30,6 +34,8 @@ struct Snapshot {
   std::uint64_t framesShared = 0;
   StoreSize store;
   StoreState storeState;
+  std::optional<JobsSize> jobs;                                 ///< nothing while the queue can't be reached
+  std::array<std::uint64_t, kFrameEndNames.size()> jobFrames{}; ///< that this server took, by FrameEnd
   std::uint64_t logLinesDropped = 0;
   bool draining = false;
   ProcessUse process;

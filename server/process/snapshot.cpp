@@ -1,10 +1,15 @@
 #include "server/process/snapshot.h"
 
+#include <algorithm>
+
 #include "server/system/log.h"
 
 namespace gnomon {
 
 metrics::Snapshot snapshotOf(const ServeOptions& options, Services& services, const ConnectionContext& context) {
+  const auto jobs = services.jobs.size();
+  std::array<std::uint64_t, kFrameEndNames.size()> jobFrames{};
+  std::copy(services.jobFrames.ends.begin(), services.jobFrames.ends.end(), jobFrames.begin());
   return {.workers = services.workers.state(),
           .workerBytes = services.workers.residentBytes(),
           .requestsInProgress = context.inProgress,
@@ -16,6 +21,8 @@ metrics::Snapshot snapshotOf(const ServeOptions& options, Services& services, co
           .framesShared = services.shared.shared(),
           .store = services.store.size(),
           .storeState = services.store.state(),
+          .jobs = jobs ? std::optional(*jobs) : std::nullopt,
+          .jobFrames = jobFrames,
           .logLinesDropped = logLinesDropped(),
           .draining = services.draining,
           .process = metrics::processUse(),

@@ -48,11 +48,16 @@ Endpoints resolve(const std::string& host, std::uint16_t port, Clock::time_point
     return {nullptr, nullptr};
   }
   const auto resolution = std::make_shared<Resolution>();
-  std::thread([resolution, host, port] {
-    resolution->endpoints = endpointsOf(host, port, AI_ADDRCONFIG);
+  try {
+    std::thread([resolution, host, port] {
+      resolution->endpoints = endpointsOf(host, port, AI_ADDRCONFIG);
+      --resolving;
+      resolution->done.raise();
+    }).detach();
+  } catch (const std::system_error&) {
     --resolving;
-    resolution->done.raise();
-  }).detach();
+    return {nullptr, nullptr};
+  }
   if (!waitFor(resolution->done.fd(), POLLIN, deadline, cut)) return {nullptr, nullptr};
   return std::move(resolution->endpoints);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -138,16 +139,22 @@ class Worker {
   void accept(Order order, std::vector<FileDescriptor> files) {
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                              std::chrono::duration<double, std::milli>(order.milliseconds));
-    const auto cancelled = orders_.begin(order.number);
-    std::thread([this, order = std::move(order), files = std::move(files), deadline, cancelled]() mutable {
-      const std::uint64_t number = order.number;
-      carry({std::move(order), std::move(files[0]),
-             std::string(asText(readFile(files[1], kLimits.maxSpecBytes).value_or(Bytes()))), deadline,
-             [deadline, cancelled] { return !*cancelled && Clock::now() < deadline; },
-             [this, number](std::string_view name, std::string_view data) {
-               say({.event = OrderEvent{number, std::string(name), std::string(data)}});
-             }});
-    }).detach();
+    const std::uint64_t number = order.number;
+    const auto cancelled = orders_.begin(number);
+    try {
+      std::thread([this, number, order = std::move(order), files = std::move(files), deadline, cancelled]() mutable {
+        carry({std::move(order), std::move(files[0]),
+               std::string(asText(readFile(files[1], kLimits.maxSpecBytes).value_or(Bytes()))), deadline,
+               [deadline, cancelled] { return !*cancelled && Clock::now() < deadline; },
+               [this, number](std::string_view name, std::string_view data) {
+                 say({.event = OrderEvent{number, std::string(name), std::string(data)}});
+               }});
+      }).detach();
+    } catch (const std::system_error&) {
+      orders_.end(number);
+      const Problem problem{ProblemCode::unavailable, "", "The system has no thread left for the work.", "", ""};
+      say({.outcome = Outcome{.number = number, .problems = {problem}}});
+    }
   }
 
   void carry(const OrderCall& call) {

@@ -35,22 +35,19 @@ def at_random(count, rate, seed):
 
 
 def measured_services(store, ids, loaded, rate):
-    """Of the same replicas at the same rate, with scenes that fit into memory, and with memory for one scene."""
+    """Of the same replicas at the same rate, with a third of the scenes and of the memory: what other frames and loads take
+    from the processors' caches is in the times, too."""
     from shipped_proxy import Replicas
 
-    flags = ["--device", "cpu", "--workers", "1", "--reply-cache-bytes", "0"]
-
-    def samples(held, scenes, count):
-        memory = str(loaded * held + loaded // 2)
-        mix = [each % scenes for each in range(count)]
-        with Replicas(REPLICAS, store, *flags, "--scene-memory-bytes", memory, slow_start="1s") as fleet:
-            fleet.wait_for(REPLICAS)
-            settled(fleet, ids, 4)
-            drive(fleet.connect, ids, mix[:scenes], 1, SPEC)
-            return drive(fleet.connect, ids, mix, CLIENTS, SPEC, scenes, at_random(len(mix), rate, 5))
-
-    warm = [each for each in samples(40, 40, 800) if each.load_ms < 1]
-    cold = [each for each in samples(1, 40, 400) if each.load_ms > 1]
+    scenes, held = SCENES // 3, HELD // 3
+    mix = [*range(scenes), *zipf_mix(scenes, 1200, 1.0, 4)]
+    flags = ["--device", "cpu", "--workers", "1", "--reply-cache-bytes", "0",
+             "--scene-memory-bytes", str(loaded * held + loaded // 2)]  # fmt: skip
+    with Replicas(REPLICAS, store, *flags, slow_start="1s") as fleet:
+        fleet.wait_for(REPLICAS)
+        settled(fleet, ids, 4)
+        samples = drive(fleet.connect, ids, mix, CLIENTS, SPEC, 0, at_random(len(mix), rate, 5))[scenes:]
+    warm, cold = ([each for each in samples if (each.load_ms < 1) == is_warm] for is_warm in (True, False))
     frame = [each.work_ms for each in warm]
     return Services(frame=frame, load=[each.load_ms for each in cold],
                     first=[each.work_ms - numpy.median(frame) for each in cold],

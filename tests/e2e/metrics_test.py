@@ -88,6 +88,19 @@ class Counters(ServerTest):
         self.assertGreater(after.value("gnomon_workers_resident_bytes"), 1 << 20)
         self.assertEqual(after.value("gnomon_build_info", device="cpu"), 1)
 
+    def test_frames_of_jobs_are_counted(self):
+        scene = self.server.upload("box_on_plane")
+        before = metrics_of(self.server)
+        job = self.server.ask("POST", f"/v1/scenes/{scene}/sequences", json.dumps({"spec": SMALL, "frames": [{}, {"exposure": 2}]}),
+                              {"Content-Type": "application/json", "Prefer": "respond-async"}).json()  # fmt: skip
+        self.moved(before, "gnomon_job_frames_total", 2, end="drawn")
+        after = metrics_of(self.server)
+        self.assertEqual(after.value("gnomon_job_frames_left"), 0)
+        self.assertEqual(after.value("gnomon_jobs"), before.value("gnomon_jobs") + 1)
+        self.assertGreater(after.value("gnomon_jobs_bytes"), before.value("gnomon_jobs_bytes"))
+        self.assertEqual(self.server.ask("DELETE", job["address"]).status, 204)
+        self.assertEqual(metrics_of(self.server).value("gnomon_jobs"), before.value("gnomon_jobs"))
+
     def test_the_process_is_told(self):
         metrics = metrics_of(self.server)
         resident = metrics.value("process_resident_memory_bytes")

@@ -62,6 +62,33 @@ class JobQueueTest : public ::testing::TestWithParam<TestedQueue> {
   std::unique_ptr<JobQueue> queue_;
 };
 
+TEST_P(JobQueueTest, ItsSizeIsThatOfItsJobs) {
+  const auto expect = [&](std::size_t jobs, std::size_t framesLeft, std::uint64_t bytes) {
+    const auto size = queue_->size();
+    ASSERT_TRUE(size);
+    EXPECT_EQ(size->jobs, jobs);
+    EXPECT_EQ(size->framesLeft, framesLeft);
+    EXPECT_EQ(size->bytes, bytes);
+  };
+  expect(0, 0, 0);
+  const NewJob job = jobOfFrames("job", 3);
+  put(job);
+  put(jobOfFrames("other", 2));
+  const std::uint64_t requests = 2 * job.request.size();
+  expect(2, 5, requests);
+  const FrameTurn turn = take();
+  EXPECT_EQ(turn.job, "job");
+  expect(2, 5, requests);
+  finish(turn);
+  const std::uint64_t picture = drawnFrame("job0").bytes.size();
+  expect(2, 4, requests + picture);
+  ASSERT_TRUE(queue_->fail(take(), {{ProblemCode::internal, "", "It did not work.", "", ""}}));
+  expect(2, 2, requests + picture); // the turn was that of the other job
+  ASSERT_TRUE(queue_->remove("job"));
+  ASSERT_TRUE(queue_->remove("other"));
+  expect(0, 0, 0);
+}
+
 TEST_P(JobQueueTest, EveryFrameIsTakenOnceAndKept) {
   put(jobOfFrames("job", 3));
   EXPECT_EQ(progress("job").state, JobState::queued);
