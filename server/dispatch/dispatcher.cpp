@@ -107,7 +107,8 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
   if (waiting_.size() > options_.queueLimit) refuseOne();
   while (true) {
     const auto deadline = std::min(ticket->task.deadline, endAt_);
-    ticket->changed.wait_until(lock, std::min(deadline, Clock::now() + kPause));
+    ticket->changed.wait_until(lock, std::min(deadline, Clock::now() + kPause),
+                               [&] { return ticket->state == Ticket::State::done || !ticket->events.empty(); });
     const auto told = std::exchange(ticket->events, {});
     const bool done = ticket->state == Ticket::State::done;
     lock.unlock();

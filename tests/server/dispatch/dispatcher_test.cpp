@@ -1,10 +1,12 @@
 #include "server/dispatch/dispatcher.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -161,6 +163,28 @@ TEST_F(DispatcherTest, TellsHowLongEachTaskWaited) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
   EXPECT_EQ(told, 3);
   EXPECT_GT(dispatcher->residentBytes(), 1u << 20);
+}
+
+TEST_F(DispatcherTest, WhatIsDoneWhileItsEventsAreHeardIsNotWaitedFor) {
+  const auto dispatcher = start(1);
+  const auto isRunning = [&] {
+    const auto running = dispatcher->state().runningByLane;
+    return std::any_of(running.begin(), running.end(), [](std::size_t count) { return count > 0; });
+  };
+  Clock::duration shortest = 1h;
+  for (int i = 0; i < 5; ++i) {
+    Task task = frame();
+    task.order.kind = OrderKind::sequenceFrame;
+    std::optional<Clock::time_point> done;
+    const TaskResult result = dispatcher->run(task, kStays, [&](const OrderEvent&) {
+      while (isRunning()) std::this_thread::sleep_for(100us);
+      done = done.value_or(Clock::now());
+    });
+    ASSERT_EQ(problemOf(result), "");
+    ASSERT_TRUE(done);
+    shortest = std::min(shortest, Clock::now() - *done);
+  }
+  EXPECT_LT(shortest, 10ms);
 }
 
 TEST_F(DispatcherTest, WhoLeavesIsNotWaitedFor) {
