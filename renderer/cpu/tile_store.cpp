@@ -1,9 +1,7 @@
 #include "renderer/cpu/tile_store.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <numeric>
 
 namespace gnomon::cpu {
 
@@ -20,40 +18,61 @@ std::size_t RasteredTile::bytes() const {
 }
 
 std::shared_ptr<RasteredTile> TileStore::find(const TileKey& key) {
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& each) { return each.key == key; });
-  if (entry == entries_.end()) return nullptr;
-  entries_.splice(entries_.begin(), entries_, entry);
-  entry->found = true;
-  return entry->tile;
+  const auto known = places_.find(key);
+  if (known == places_.end()) return nullptr;
+  const Place place = known->second;
+  Entries& before = entriesOf(*place);
+  before.bytes -= place->bytes;
+  found_.bytes += place->bytes;
+  found_.list.splice(found_.list.begin(), before.list, place);
+  place->found = true;
+  place->used = ++uses_;
+  watch(place);
+  return place->tile;
 }
 
-TileStore::Entries::iterator TileStore::nextToDrop(std::size_t bytes) {
-  const auto oldest = [this](auto where) {
-    const auto entry = std::find_if(entries_.rbegin(), entries_.rend(), where);
-    return entry == entries_.rend() ? entries_.end() : std::prev(entry.base());
-  };
-  if (newBytes() + bytes > budgetBytes_ / 4) {
-    const auto passed = oldest([](const Entry& each) { return !each.found && each.tile.use_count() == 1; });
-    if (passed != entries_.end()) return passed;
+/// Its moments grow while a frame uses it.
+void TileStore::watch(Place place) {
+  if (!place->tile->moments.empty()) watched_.push_back(place);
+}
+
+void TileStore::countWatched() {
+  for (const Place place : watched_) {
+    const std::size_t bytes = place->tile->bytes();
+    Entries& entries = entriesOf(*place);
+    entries.bytes = entries.bytes - place->bytes + bytes;
+    place->bytes = bytes;
   }
-  return this->bytes() + bytes > budgetBytes_ ? oldest([](const Entry&) { return true; }) : entries_.end();
+  std::erase_if(watched_, [](Place place) { return place->tile.use_count() == 1; });
 }
 
-std::size_t TileStore::bytes() const {
-  return std::transform_reduce(entries_.begin(), entries_.end(), std::size_t{0}, std::plus<>(),
-                               [](const Entry& entry) { return entry.tile->bytes(); });
+std::optional<TileStore::Place> TileStore::nextToDrop(std::size_t bytes) {
+  if (unfound_.bytes + bytes > budgetBytes_ / 4) {
+    const auto passed = std::find_if(unfound_.list.rbegin(), unfound_.list.rend(),
+                                     [](const Entry& entry) { return entry.tile.use_count() == 1; });
+    if (passed != unfound_.list.rend()) return std::prev(passed.base());
+  }
+  if (found_.bytes + unfound_.bytes + bytes <= budgetBytes_ || places_.empty()) return std::nullopt;
+  const bool fromFound =
+      unfound_.list.empty() || (!found_.list.empty() && found_.list.back().used < unfound_.list.back().used);
+  return std::prev((fromFound ? found_ : unfound_).list.end());
 }
 
-std::size_t TileStore::newBytes() const {
-  return std::transform_reduce(entries_.begin(), entries_.end(), std::size_t{0}, std::plus<>(),
-                               [](const Entry& entry) { return entry.found ? 0 : entry.tile->bytes(); });
+void TileStore::drop(Place place) {
+  Entries& entries = entriesOf(*place);
+  entries.bytes -= place->bytes;
+  places_.erase(place->key);
+  std::erase(watched_, place);
+  entries.list.erase(place);
 }
 
 RasteredTile TileStore::room(std::size_t bytes) {
+  countWatched();
   RasteredTile storage;
-  for (auto entry = nextToDrop(bytes); entry != entries_.end(); entry = nextToDrop(bytes)) {
-    if (entry->tile.use_count() == 1 && depthBytes(*entry->tile) == bytes) storage = std::move(*entry->tile);
-    entries_.erase(entry);
+  while (const auto place = nextToDrop(bytes)) {
+    const auto& tile = (*place)->tile;
+    if (tile.use_count() == 1 && depthBytes(*tile) == bytes) storage = std::move(*tile);
+    drop(*place);
   }
   return storage;
 }
@@ -61,8 +80,12 @@ RasteredTile TileStore::room(std::size_t bytes) {
 void TileStore::keep(const TileKey& key, std::shared_ptr<RasteredTile> tile) {
   const std::size_t bytes = tile->bytes();
   room(bytes);
-  if (this->bytes() + bytes > budgetBytes_) return;
-  entries_.push_front({key, std::move(tile)});
+  if (bytes > budgetBytes_ || places_.contains(key)) return;
+  unfound_.list.push_front({key, std::move(tile), bytes, ++uses_});
+  unfound_.bytes += bytes;
+  const Place place = unfound_.list.begin();
+  places_.emplace(place->key, place);
+  watch(place);
 }
 
 } // namespace gnomon::cpu

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <list>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "renderer/cpu/raster/depth_buffer.h"
@@ -40,17 +44,28 @@ class TileStore {
   struct Entry {
     TileKey key;
     std::shared_ptr<RasteredTile> tile;
-    bool found = false; ///< again, since it was kept
+    std::size_t bytes = 0;  ///< as counted last
+    std::uint64_t used = 0; ///< the larger, the later
+    bool found = false;     ///< again, since it was kept
   };
-  using Entries = std::list<Entry>;
+  using Place = std::list<Entry>::iterator;
+  struct Entries {
+    std::list<Entry> list; ///< most recently used first
+    std::size_t bytes = 0;
+  };
 
-  Entries::iterator nextToDrop(std::size_t bytes); ///< none, the end, where there is room for as many
-
-  std::size_t bytes() const;
-  std::size_t newBytes() const; ///< of those that were not found again
+  Entries& entriesOf(const Entry& entry) { return entry.found ? found_ : unfound_; }
+  std::optional<Place> nextToDrop(std::size_t bytes); ///< nothing where there is room for as many
+  void drop(Place place);
+  void watch(Place place);
+  void countWatched();
 
   std::size_t budgetBytes_;
-  Entries entries_; ///< most recently used first
+  Entries found_;
+  Entries unfound_;
+  std::unordered_map<std::string_view, Place> places_; ///< by the entries' own keys
+  std::vector<Place> watched_;                         ///< whose moments may have become more since they were counted
+  std::uint64_t uses_ = 0;
 };
 
 } // namespace gnomon::cpu

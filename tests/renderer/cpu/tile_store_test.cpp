@@ -59,6 +59,28 @@ TEST(TileStore, TheLeastRecentlyUsedGoFirstOnceTheBudgetIsFull) {
   for (const char* key : {"b", "c", "d", "e"}) EXPECT_TRUE(store.find(key)) << key;
 }
 
+TEST(TileStore, MomentsThatAFrameMadeAreCountedOnceItIsOver) {
+  const auto blurred = [] {
+    auto made = tile();
+    made->moments.resize(64 * 64);
+    made->blurred = TexelMarks(64, 64);
+    return made;
+  };
+  constexpr std::size_t kMoments = 64 * 64 * sizeof(glm::vec4);
+  TileStore store(2 * kTile + kMoments);
+  for (const char* key : {"a", "b"}) {
+    store.keep(key, blurred());
+    EXPECT_TRUE(store.find(key));
+  }
+  store.find("a")->blurred.markAll();
+  store.room(0);
+  EXPECT_TRUE(store.find("a") && store.find("b")) << "just as much as it may hold";
+  store.find("b")->blurred.markAll();
+  store.room(0);
+  EXPECT_FALSE(store.find("a"));
+  EXPECT_TRUE(store.find("b"));
+}
+
 TEST(TileStore, MemoryOfWhatGoesIsUsedAgainUnlessSomebodyHoldsIt) {
   TileStore store(4 * kTile);
   const auto held = tile();
