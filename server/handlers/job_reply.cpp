@@ -56,9 +56,6 @@ Result<JobProgress> jobAt(Services& services, const RouteCall& call) {
 HttpReply jobProblem(const Problems& problems, const RouteCall& call) {
   constexpr int kRetrySeconds = 5;
   HttpReply reply = problemReply(problems, call.request.id, {.retryAfterSeconds = kRetrySeconds});
-  if (problems.front().code == ProblemCode::unavailable) {
-    reply.headers.emplace_back("Retry-After", std::to_string(kRetrySeconds));
-  }
   if (problems.front().code == ProblemCode::busy) reply.refusal = RefusalReason::permits;
   return reply;
 }

@@ -3,13 +3,13 @@
 
     python3 clients/python/examples/dataset.py scene.glb dataset --count 1000
 
-Each sample is one .npz, with arrays color, depth, ids and shadow, the camera's pose (4 x 4, OpenCV's axes) and matrix K.
+Each sample is one .npz, with arrays color, depth, ids and shadow, the camera's pose (4 x 4, OpenCV's axes) and matrix K, and
+with report.json, which tells how it was drawn.
 manifest.json says what drew them. Run it again after a break, and it goes on where it stopped: what a sample shows is
 decided by its number and --seed alone.
 """
 
 import argparse
-import io
 import json
 import sys
 import time
@@ -54,10 +54,8 @@ def write_sample(session, scene, number, options):
         return 0
     pose, K, spec = random_spec(scene.summary, number, options)
     frame = session.frame(scene, spec)
-    content = io.BytesIO()
-    np.savez_compressed(content, worldFromCamera=pose, K=K, **frame.views)
     whole = path.with_suffix(".part")
-    whole.write_bytes(content.getvalue())
+    whole.write_bytes(frame.npz(worldFromCamera=pose, K=K))
     whole.replace(path)
     return 1
 

@@ -81,6 +81,20 @@ class Frame:
         name = view or next(iter(self.views))
         return picture_of(name, getattr(self, name))
 
+    def npz(self, **arrays: npt.ArrayLike) -> bytes:
+        """An .npz as the server sent it, with all views and the report, and with further arrays, such as labels of a data
+        set."""
+        if not arrays:
+            return self._content
+        whole = io.BytesIO(self._content)
+        with zipfile.ZipFile(whole, "a") as archive:
+            for name, values in arrays.items():
+                if name in self.views:
+                    raise ValueError(f"{name!r} is a view of the frame")
+                with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w") as file:
+                    np.save(file, values, allow_pickle=False)
+        return whole.getvalue()
+
     def save(self, path: Union[str, Path], view: Optional[str] = None) -> None:
         """Writes .npz (all views and the report), or .npy .png .exr .tiff .jpg .webp, for which the server draws the
         frame once more; but a PNG of `color` is written from the array. The first view unless one is named; an .exr
@@ -88,7 +102,7 @@ class Frame:
         path = Path(path)
         suffix = path.suffix.lower()
         if suffix == ".npz":
-            path.write_bytes(self._content)
+            path.write_bytes(self.npz())
             return
         if suffix not in MEDIA_TYPES:
             raise ValueError(f"{path.name!r} does not end in {' '.join(['.npz', *MEDIA_TYPES])}")

@@ -81,7 +81,8 @@ class Package(PackageTest):
         before = self.folder / "before.npz"
         before.write_bytes(first["000001.npz"])
         for name, values in np.load(before).items():
-            np.testing.assert_array_equal(sample[name], values, name)
+            if name != "report.json":  # which tells times
+                np.testing.assert_array_equal(sample[name], values, name)
         manifest = json.loads((self.folder / "set" / "manifest.json").read_text())
         self.assertEqual(len(manifest["samples"]), 4)
         self.assertTrue(manifest["made"]["renderer"]["fingerprint"])

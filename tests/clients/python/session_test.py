@@ -129,6 +129,16 @@ class Frames(SessionTest):
             with self.assertRaisesRegex(ValueError, ".npz .png"):
                 frame.save(Path(folder) / "frame.bmp")
 
+    def test_labels_are_added_to_a_saved_frame(self):
+        frame = self.session.frame(BOX, views=["color", "depth"], **SMALL)
+        labelled = np.load(io.BytesIO(frame.npz(K=np.eye(3), label=7)))
+        self.assertEqual(labelled.files, [*np.load(io.BytesIO(frame.npz())).files, "K", "label"])
+        np.testing.assert_array_equal(labelled["K"], np.eye(3))
+        self.assertEqual(labelled["label"], 7)
+        np.testing.assert_array_equal(labelled["depth"], frame.depth)
+        with self.assertRaisesRegex(ValueError, "'depth' is a view"):
+            frame.npz(depth=[1])
+
     def test_render_finds_or_starts_a_server(self):
         here = gnomon.render(BOX, sun=(135, 40), server=self.url, **SMALL)
         with mock.patch.dict(os.environ, {"GNOMON_SERVER": self.url}):
