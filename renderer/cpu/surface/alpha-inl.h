@@ -40,9 +40,8 @@ HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std:
   if (!material.baseColor || material.baseColor->image < 0) return alpha;
   const TextureUse& use = *material.baseColor;
   const TextureSpot spot = spotOf(corners, meeting, stepsOf(sight, seen, meeting), use.texCoord);
-  return alpha * sampled(textures.of(use.image, true), use,
-                         use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where)
-                     .a;
+  return alpha * sampledAlpha(textures.of(use.image, true), use,
+                              use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

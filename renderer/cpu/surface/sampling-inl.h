@@ -16,8 +16,13 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 
 /// Linear, 0..1.
 struct Texel {
-  Float3 rgb;
-  Float a;
+  Float3 rgb{0.0f};
+  Float a{0.0f};
+};
+
+/// Of a texel its alpha alone.
+struct TexelAlpha {
+  Float a{0.0f};
 };
 
 /// Where a texture is read, and how that moves as the picture's place moves by a pixel to the right and up.
@@ -80,8 +85,13 @@ HWY_INLINE void addTexels(const TextureLevel& level, bool srgb, const Int& at, c
   sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(bits)), weight, sum.a);
 }
 
+HWY_INLINE void addTexels(const TextureLevel& level, bool, const Int& at, const Float& weight, TexelAlpha& sum) {
+  sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(gather(level.texels, at))), weight, sum.a);
+}
+
+template <class Sum>
 HWY_INLINE void addLevel(const TextureLevel& level, bool srgb, const TextureUse& use, bool nearest, const Float2& uv,
-                         const Float& weight, Texel& sum) {
+                         const Float& weight, Sum& sum) {
   const Axis x = axisOf(uv.x, use.wrapS, level.width, nearest);
   const Axis y = axisOf(uv.y, use.wrapT, level.height, nearest);
   const Int first = y.first * Int(level.width);
@@ -107,9 +117,9 @@ inline bool nearestTexel(MinFilter filter) {
          filter == MinFilter::nearestMipmapNearest;
 }
 
-/// The texture at each place. Lanes differ in their levels by few, so all lanes read one level at a time.
-inline HWY_NOINLINE Texel sampled(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot,
-                                  const Mask& where) {
+/// The texture's bytes at each place. Lanes differ in their levels by few, so all lanes read one level at a time.
+template <class Sum>
+HWY_INLINE Sum bytesAt(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot, const Mask& where) {
   // Not a number compares as false: what a triangle without area leads to is some texel.
   const Mask placed = (abs(spot.uv.x) < 1e6f) & (abs(spot.uv.y) < 1e6f);
   const Float2 uv = select(placed, spot.uv, Float2(Float(0.0f)));
@@ -122,7 +132,7 @@ inline HWY_NOINLINE Texel sampled(const Pyramid& texture, const TextureUse& use,
   Float level(0.0f); // and where levels are blended, the share of the next
   if (mipmapped) level = clamp(blended ? detail : ceil(detail - 0.5f), 0.0f, last);
 
-  Texel sum{Float3(0.0f), Float(0.0f)};
+  Sum sum{};
   const auto add = [&](const TextureLevel& from, bool nearest, const Mask& lanes, const Float& weight) HWY_ATTR {
     addLevel(from, texture.srgb, use, nearest, uv, select(lanes, weight, Float(0.0f)), sum);
   };
@@ -138,8 +148,22 @@ inline HWY_NOINLINE Texel sampled(const Pyramid& texture, const TextureUse& use,
     if (none(reads)) continue;
     add(texture.levels[i], nearestTexel(use.minFilter), reads, 1.0f - abs(level - number));
   }
-  const float byte = 1.0f / 255.0f;
-  return {sum.rgb * Float(texture.srgb ? 1.0f : byte), sum.a * byte};
+  return sum;
+}
+
+inline constexpr float kOfByte = 1.0f / 255.0f;
+
+/// The texture at each place.
+inline HWY_NOINLINE Texel sampled(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot,
+                                  const Mask& where) {
+  const Texel bytes = bytesAt<Texel>(texture, use, spot, where);
+  return {bytes.rgb * Float(texture.srgb ? 1.0f : kOfByte), bytes.a * kOfByte};
+}
+
+/// Its alpha, to the bit.
+inline HWY_NOINLINE Float sampledAlpha(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot,
+                                       const Mask& where) {
+  return bytesAt<TexelAlpha>(texture, use, spot, where).a * kOfByte;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

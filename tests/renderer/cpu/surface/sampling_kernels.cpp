@@ -14,11 +14,13 @@ void sampleRows(const Pyramid& texture, const TextureUse& use, const NumberTable
   for (std::size_t row = 0; row < in.rows; row += kLanes) {
     const auto pair = [&](std::size_t column)
                           HWY_ATTR { return Float2(load(in.column(column) + row), load(in.column(column + 1) + row)); };
-    const Texel texel = sampled(texture, use, {pair(0), pair(2), pair(4)}, maskOf(0xffffu));
+    const TextureSpot spot{pair(0), pair(2), pair(4)};
+    const Texel texel = sampled(texture, use, spot, maskOf(0xffffu));
     store(texel.rgb.x, out.column(0) + row);
     store(texel.rgb.y, out.column(1) + row);
     store(texel.rgb.z, out.column(2) + row);
     store(texel.a, out.column(3) + row);
+    store(sampledAlpha(texture, use, spot, maskOf(0xffffu)), out.column(4) + row);
   }
 }
 
@@ -31,7 +33,7 @@ namespace gnomon::cpu {
 HWY_EXPORT(sampleRows);
 
 NumberTable sampledByLanes(const Pyramid& texture, const TextureUse& use, const NumberTable& in) {
-  NumberTable out(in.rows, 4);
+  NumberTable out(in.rows, 5);
   HWY_DYNAMIC_DISPATCH(sampleRows)(texture, use, in, out);
   return out;
 }
