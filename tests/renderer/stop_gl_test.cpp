@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef GNOMON_SANITIZED
 constexpr double kLatest = 250; // milliseconds from goOn's first false to the return
 #else
 constexpr double kLatest = 100;
