@@ -30,7 +30,7 @@ class Coverage : public Holes {
   Coverage(int width, int height)
       : width_(width), height_(height), masks_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-  unsigned filled(std::uint32_t, bool, int column, int row, int, unsigned covered) const override {
+  unsigned filled(std::uint32_t, bool, int column, int row, unsigned covered) const override {
     for (unsigned left = covered; left != 0; left &= left - 1) {
       const int place = __builtin_ctz(left);
       const int x = column * kBlockSide + place % kBlockSide;

@@ -32,10 +32,9 @@ struct RasterDraw {
 class Holes {
  public:
   virtual ~Holes() = default;
-  /// Of sixteen samples that a triangle covers, a bit each (the places of DepthBuffer's block `column`, `row`), those
-  /// that it fills. `counterClockwise`: as its corners go round on the picture.
-  virtual unsigned filled(std::uint32_t number, bool counterClockwise, int column, int row, int sample,
-                          unsigned covered) const = 0;
+  /// Of sixteen pixels, a bit each (the places of DepthBuffer's block `column`, `row`), those that a triangle fills.
+  /// `covered`: those of which it covers a sample. `counterClockwise`: as its corners go round on the picture.
+  virtual unsigned filled(std::uint32_t number, bool counterClockwise, int column, int row, unsigned covered) const = 0;
 };
 
 /// What is rastered. All of it outlives the call.

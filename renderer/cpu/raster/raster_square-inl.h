@@ -45,19 +45,42 @@ struct TriangleMarks {
   bool turned;
 };
 
-/// Adds a triangle's depths where it covers the samples of a block that lie `at` there.
+/// Those of sixteen covered samples `at` there that nothing drawn before hides.
 template <DepthRange range>
-HWY_INLINE void addDepths(const Square& square, const TriangleMarks& triangle, std::size_t at, const Mask& covered,
-                          const Float& depth, int column, int row, int sample) {
+HWY_INLINE Mask notHidden(const Square& square, std::size_t at, const Mask& covered, const Float& depth) {
   const Float before = load(square.depths + at);
-  Mask shows = covered & (range == DepthRange::reversed ? depth > before : depth < before);
-  if (triangle.holed) {
-    if (none(shows)) return;
-    shows = maskOf(square.holes->filled(triangle.number, !triangle.turned, column, row, sample, bitsOf(shows)));
-  }
-  storeWhere(shows, depth, square.depths + at);
+  return covered & (range == DepthRange::reversed ? depth > before : depth < before);
+}
+
+HWY_INLINE void keepSamples(const Square& square, std::uint32_t number, std::size_t at, const Mask& shown,
+                            const Float& depth) {
+  storeWhere(shown, depth, square.depths + at);
   if (square.numbers == nullptr) return;
-  storeWhere(shows, Int(static_cast<std::int32_t>(triangle.number)), square.numbers + at);
+  storeWhere(shown, Int(static_cast<std::int32_t>(number)), square.numbers + at);
+}
+
+/// Adds a triangle to a block. `covered` and `depth` tell of the sixteen samples of each number. Holes are those of
+/// pixels, and so are asked for once for all samples.
+template <DepthRange range, int samples, class Covered, class Depth>
+HWY_INLINE void addToBlock(const Square& square, const TriangleMarks& triangle, int column, int row,
+                           const Covered& covered, const Depth& depth) {
+  const std::size_t first = square.blockAt<samples>(column, row);
+  const auto at = [&](int s) { return first + static_cast<std::size_t>(s * kBlockPlaces); };
+  if (!triangle.holed) {
+    for (int s = 0; s < samples; ++s) {
+      const Float here = depth(s);
+      keepSamples(square, triangle.number, at(s), notHidden<range>(square, at(s), covered(s), here), here);
+    }
+    return;
+  }
+  unsigned asked = 0;
+  for (int s = 0; s < samples; ++s) asked |= bitsOf(notHidden<range>(square, at(s), covered(s), depth(s)));
+  if (asked == 0) return;
+  const Mask filled = maskOf(square.holes->filled(triangle.number, !triangle.turned, column, row, asked));
+  for (int s = 0; s < samples; ++s) {
+    const Float here = depth(s);
+    keepSamples(square, triangle.number, at(s), notHidden<range>(square, at(s), covered(s) & filled, here), here);
+  }
 }
 
 HWY_INLINE Float laneColumns() {
@@ -101,14 +124,12 @@ HWY_INLINE void rasterSmall(const float* triangle, const Square& square) {
       const auto across = static_cast<float>(kBlockSide * (column - firstColumn));
       Float value[3];
       for (int i = 0; i < 3; ++i) value[i] = within[i] + Float(a[i] * across + b[i] * up);
-      const std::size_t at = square.blockAt<samples>(column, row);
       const Float depthHere(depth + (dx * across + dy * up));
-      for (int s = 0; s < samples; ++s) {
-        const Mask covered =
-            (value[0] >= least[s]) & (value[1] >= least[samples + s]) & (value[2] >= least[2 * samples + s]);
-        addDepths<range>(square, marks, at + static_cast<std::size_t>(s * kBlockPlaces), covered,
-                         clamp(depthHere + depthWithin[s], leastDepth, mostDepth), column, row, s);
-      }
+      const auto covered = [&](int s) HWY_ATTR {
+        return (value[0] >= least[s]) & (value[1] >= least[samples + s]) & (value[2] >= least[2 * samples + s]);
+      };
+      const auto depthOf = [&](int s) HWY_ATTR { return clamp(depthHere + depthWithin[s], leastDepth, mostDepth); };
+      addToBlock<range, samples>(square, marks, column, row, covered, depthOf);
     }
   }
 }

@@ -96,22 +96,23 @@ HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
         whole = whole && value[i] + side.least >= 0;
       }
       if (!touched) continue;
-      const std::size_t at = square.blockAt<samples>(column, row);
       // In two parts, so that only their sum is rounded: what blocks had in common would show as steps.
       const double depthHere = plane.first + plane.dx * (column * kBlockSide) + plane.dy * (row * kBlockSide);
       const auto most = static_cast<float>(depthHere);
       const Float rest(static_cast<float>(depthHere - static_cast<double>(most)));
-      for (int s = 0; s < samples; ++s) {
-        const Float depth = clamp(most + (rest + depthWithin[s]), triangle.least, triangle.most);
+      const auto covered = [&](int s) HWY_ATTR {
         Int signs(0);
         if (!whole) {
           for (int i = 0; i < crossing.count; ++i) {
             signs = signs | (crossing.sides[i].within + Int(value[i] + crossing.sides[i].first[s]));
           }
         }
-        addDepths<range>(square, marks, at + static_cast<std::size_t>(s * kBlockPlaces), signs >= Int(0), depth, column,
-                         row, s);
-      }
+        return signs >= Int(0);
+      };
+      const auto depthOf = [&](int s) HWY_ATTR {
+        return clamp(most + (rest + depthWithin[s]), triangle.least, triangle.most);
+      };
+      addToBlock<range, samples>(square, marks, column, row, covered, depthOf);
     }
   }
 }

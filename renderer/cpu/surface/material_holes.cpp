@@ -60,7 +60,7 @@ std::uint32_t surfaceHash(const FrameScene& scene, std::uint32_t number) {
 
 } // namespace
 
-unsigned MaterialHoles::filled(std::uint32_t number, bool counterClockwise, int column, int row, int,
+unsigned MaterialHoles::filled(std::uint32_t number, bool counterClockwise, int column, int row,
                                unsigned covered) const {
   const FrameScene& scene = input_.scene;
   const auto material = static_cast<std::size_t>(scene.slots[number / kClusterTriangles].material);

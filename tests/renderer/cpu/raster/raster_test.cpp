@@ -1,6 +1,10 @@
 #include "renderer/cpu/raster/raster.h"
 
+#include <algorithm>
+#include <map>
+#include <mutex>
 #include <random>
+#include <utility>
 
 #include "tests/renderer/cpu/instruction_sets.h"
 
@@ -242,7 +246,21 @@ TEST(Raster, ComesOutTheSameOnEveryRunAndInstructionSetForOrthographicNets) {
 /// Leaves out every other pixel.
 class Chequers : public Holes {
  public:
-  unsigned filled(std::uint32_t, bool, int, int, int, unsigned covered) const override { return covered & 0x5a5au; }
+  unsigned filled(std::uint32_t, bool, int column, int row, unsigned covered) const override {
+    const std::lock_guard lock(mutex_);
+    ++asked_[{column, row}];
+    return covered & 0x5a5au;
+  }
+
+  int mostAsked() const {
+    int most = 0;
+    for (const auto& [block, times] : asked_) most = std::max(most, times);
+    return most;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<int, int>, int> asked_;
 };
 
 TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
@@ -253,15 +271,20 @@ TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
   mesh.slots.push_back({0, 3, 1, 0, 0});
   mesh.draws.front().holed = true;
   mesh.draws.push_back({1, Facing::both, false});
-  const Chequers chequers;
-  RasterInput input = mesh.input();
-  input.holes = &chequers;
-  input.fresh = true;
-  DepthBuffer buffer = unfilledBuffer(16, 16, 1, true);
-  RasterScratch scratch;
-  EXPECT_EQ(raster(input, DepthRange::reversed, buffer, scratch), 2u);
-  EXPECT_EQ(buffer.triangles[buffer.at(9, 8)], 0u);
-  EXPECT_EQ(buffer.triangles[buffer.at(8, 8)], kClusterTriangles);
+  for (const int samples : {1, 4}) {
+    const Chequers chequers;
+    RasterInput input = mesh.input();
+    input.holes = &chequers;
+    input.fresh = true;
+    DepthBuffer buffer = unfilledBuffer(16, 16, samples, true);
+    RasterScratch scratch;
+    EXPECT_EQ(raster(input, DepthRange::reversed, buffer, scratch), 2u);
+    for (int s = 0; s < samples; ++s) {
+      EXPECT_EQ(buffer.triangles[buffer.at(9, 8, s)], 0u);
+      EXPECT_EQ(buffer.triangles[buffer.at(8, 8, s)], kClusterTriangles);
+    }
+    EXPECT_EQ(chequers.mostAsked(), 1) << "once for all samples of a block";
+  }
 }
 
 /// Depths that no triangle has.

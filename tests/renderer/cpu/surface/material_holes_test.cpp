@@ -55,7 +55,7 @@ TEST(CpuMaterialHoles, LeaveOutWhatTheCutoffDoes) {
         if (glm::length(seen.weights) > 4) continue;
         const glm::ivec2 block = pixel / kBlockSide, within = pixel % kBlockSide;
         const unsigned bit = 1u << (within.y * kBlockSide + within.x);
-        const unsigned found = holes.filled(seen.triangle, true, block.x, block.y, 0, bit);
+        const unsigned found = holes.filled(seen.triangle, true, block.x, block.y, bit);
         ASSERT_TRUE(found == 0 || found == bit) << "no place that isn't covered";
         const Place place(made, seen);
         const double over = place.alpha() - static_cast<double>(place.material().alphaCutoff);
@@ -90,16 +90,16 @@ TEST(CpuMaterialHoles, DitherAsManyTexelsAsAlphaSays) {
   onEachInstructionSet([&] {
     for (std::uint32_t instance = 0; instance < materials.size(); ++instance) {
       const std::uint32_t number = made.frameScene().geometry.firstSlot[instance] * kClusterTriangles + 7;
-      const unsigned front = dithered.filled(number, true, 3, 5, 0, 0xffff);
-      const unsigned back = dithered.filled(number, false, 3, 5, 0, 0xffff);
+      const unsigned front = dithered.filled(number, true, 3, 5, 0xffff);
+      const unsigned back = dithered.filled(number, false, 3, 5, 0xffff);
       EXPECT_EQ(std::popcount(front), static_cast<int>(instance));
       EXPECT_EQ(std::popcount(back), static_cast<int>(instance));
       // The pattern lies still in the atlas: column 1 from the first corner is column 0 from the next.
-      EXPECT_EQ(front >> 1 & 0x7777u, beside.filled(number, true, 3, 5, 0, 0xffff) & 0x7777u);
-      EXPECT_EQ(masked.filled(number, true, 3, 5, 0, 0xffff), instance >= 8 ? 0xffffu : 0u);
+      EXPECT_EQ(front >> 1 & 0x7777u, beside.filled(number, true, 3, 5, 0xffff) & 0x7777u);
+      EXPECT_EQ(masked.filled(number, true, 3, 5, 0xffff), instance >= 8 ? 0xffffu : 0u);
     }
     const std::uint32_t half = made.frameScene().geometry.firstSlot[8] * kClusterTriangles + 7;
-    EXPECT_NE(dithered.filled(half, true, 3, 5, 0, 0xffff), dithered.filled(half, false, 3, 5, 0, 0xffff));
+    EXPECT_NE(dithered.filled(half, true, 3, 5, 0xffff), dithered.filled(half, false, 3, 5, 0xffff));
   });
 }
 
