@@ -175,6 +175,17 @@ def messages(folder):
         write(folder / "messages", next(iter(text)), json.dumps(text).encode())
 
 
+def replies(folder):
+    """What Redis answers (RESP2), behind the size of the pieces that it comes in."""
+    texts = {"status": b"+OK\r\n+PONG\r\n", "error": b"-NOSCRIPT No matching script.\r\n", "integer": b":-12\r\n",
+             "bytes": b"$5\r\na\0b\r\n\r\n$0\r\n\r\n", "nothing": b"$-1\r\n*-1\r\n",
+             "list": b"*3\r\n$1\r\na\r\n:7\r\n*2\r\n$-1\r\n*0\r\n",
+             "message": b"*3\r\n$7\r\nmessage\r\n$4\r\ngone\r\n$2\r\nid\r\n"}  # fmt: skip
+    for name, text in texts.items():
+        for piece in (0, 6, 254):
+            write(folder / "redis", f"{name}_{piece}", bytes([piece]) + text)
+
+
 def choices(folder):
     """Scenes and specs for both devices: any bytes are some."""
     for number in range(24):
@@ -192,6 +203,7 @@ def main(folder, scenes, assets=None):
     forms(folder, scenes)
     bodies(folder)
     messages(folder)
+    replies(folder)
     grids(folder)
     choices(folder)
     for target in sorted(folder.iterdir()):
