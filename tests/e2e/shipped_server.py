@@ -26,7 +26,8 @@ def environment(**more):
 
 class Reply:
     def __init__(self, status, headers, body):
-        twice = {name for name in headers.keys() if len(headers.get_all(name)) > 1}
+        lists = {"Vary"}  # which may come in several lines (RFC 9110, 5.3)
+        twice = {name for name in headers.keys() if len(headers.get_all(name)) > 1} - lists
         assert not twice, f"headers that came twice: {twice}"
         self.status = status
         self.headers = headers  # email.message.Message: names in any case
