@@ -161,8 +161,16 @@ Json replies(Json good, std::initializer_list<const char*> statuses) {
   return good;
 }
 
+Json jsonReply(const char* description, const char* schema) {
+  return {{"200", success(description, {{"application/json", schemaContent(schema)}})}};
+}
+
 Json operation(const char* id, const char* summary, Json responses) {
   return {{"operationId", id}, {"summary", summary}, {"responses", std::move(responses)}};
+}
+
+Json getRoute(const char* id, const char* summary, Json responses) {
+  return {{"get", operation(id, summary, std::move(responses))}};
 }
 
 Json withScene(Json operation) {

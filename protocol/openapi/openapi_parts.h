@@ -17,10 +17,14 @@ Json success(const char* description, Json content, std::initializer_list<const 
 /// A route's replies: `good`, and the refusals of these statuses.
 Json replies(Json good, std::initializer_list<const char*> statuses);
 
+/// A reply of 200 with JSON of a schema.
+Json jsonReply(const char* description, const char* schema);
+
 Json operation(const char* id, const char* summary, Json responses);
-Json withScene(Json operation); ///< of a route with {id}
-Json withBake(Json operation);  ///< of a route with {id} and {key}
-Json withJob(Json operation);   ///< of a route with the {id} of a job
+Json getRoute(const char* id, const char* summary, Json responses); ///< of GET alone
+Json withScene(Json operation);                                     ///< of a route with {id}
+Json withBake(Json operation);                                      ///< of a route with {id} and {key}
+Json withJob(Json operation);                                       ///< of a route with the {id} of a job
 Json withBody(Json operation, Json body);
 
 /// The schemas, responses, headers and parameters that the routes refer to.
