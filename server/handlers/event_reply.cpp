@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "protocol/json/json_codec.h"
+#include "server/system/no_thread.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {
@@ -42,7 +43,7 @@ HttpReply eventReply(const RouteCall& call, EventWork work) {
         }
       });
     } catch (const std::system_error&) {
-      fail({ProblemCode::unavailable, "", "The system has no thread left for the work.", "", ""});
+      fail(noThreadFor("the work"));
     }
     clientLeft = !events.sendTo(sink, kHeartbeat);
     if (working.joinable()) working.join();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "server/system/no_thread.h"
+
 namespace gnomon {
 namespace {
 
@@ -56,10 +58,8 @@ void SequenceFrames::begin() {
   try {
     begun.thread = std::thread([this, &begun, call]() mutable { work(begun, std::move(call)); });
   } catch (const std::system_error&) {
-    const Problem problem{ProblemCode::unavailable, "", "The system has no thread left for a frame of the sequence.",
-                          "", ""};
     end(begun, {.index = call.index,
-                .problems = placed({problem}, framePlace(sequence_, call.index)),
+                .problems = placed({noThreadFor("a frame of the sequence")}, framePlace(sequence_, call.index)),
                 .carried = call.before});
   }
 }

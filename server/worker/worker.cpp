@@ -14,6 +14,7 @@
 #include "server/system/heaps.h"
 #include "server/system/log.h"
 #include "server/system/memory_file.h"
+#include "server/system/no_thread.h"
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"
 #include "server/worker/front_light_maps.h"
@@ -152,8 +153,7 @@ class Worker {
       }).detach();
     } catch (const std::system_error&) {
       orders_.end(number);
-      const Problem problem{ProblemCode::unavailable, "", "The system has no thread left for the work.", "", ""};
-      say({.outcome = Outcome{.number = number, .problems = {problem}}});
+      say({.outcome = Outcome{.number = number, .problems = {noThreadFor("the work")}}});
     }
   }
 
