@@ -34,6 +34,12 @@ def at_random(count, rate, seed):
     return numpy.cumsum(numpy.random.default_rng(seed).exponential(1 / rate, count)).tolist()
 
 
+def flags_for(held, loaded):
+    """Of a replica whose memory holds so many scenes, each of `loaded` bytes."""
+    return ["--device", "cpu", "--workers", "1", "--reply-cache-bytes", "0",
+            "--scene-memory-bytes", str(loaded * held + loaded // 2)]  # fmt: skip
+
+
 def measured_services(store, ids, loaded, rate):
     """Of the same replicas at the same rate, with a third of the scenes and of the memory: what other frames and loads take
     from the processors' caches is in the times, too."""
@@ -41,9 +47,7 @@ def measured_services(store, ids, loaded, rate):
 
     scenes, held = SCENES // 3, HELD // 3
     mix = [*range(scenes), *zipf_mix(scenes, 1200, 1.0, 4)]
-    flags = ["--device", "cpu", "--workers", "1", "--reply-cache-bytes", "0",
-             "--scene-memory-bytes", str(loaded * held + loaded // 2)]  # fmt: skip
-    with Replicas(REPLICAS, store, *flags, slow_start="1s") as fleet:
+    with Replicas(REPLICAS, store, *flags_for(held, loaded), slow_start="1s") as fleet:
         fleet.wait_for(REPLICAS)
         settled(fleet, ids, 4)
         samples = drive(fleet.connect, ids, mix, CLIENTS, SPEC, 0, at_random(len(mix), rate, 5))[scenes:]
@@ -104,8 +108,7 @@ def main():
         services = measured_services(store, ids, loaded, options.rate)
         told["services"] = {name: float(numpy.median(each)) for name, each in vars(services).items() if isinstance(each, list)}
         print("medians of the parts, ms:", json.dumps(told["services"]), flush=True)
-        flags = ["--device", "cpu", "--workers", "1", "--reply-cache-bytes", "0",
-                 "--scene-memory-bytes", str(loaded * HELD + loaded // 2)]  # fmt: skip
+        flags = flags_for(HELD, loaded)
         good = True
         for name, factor, files in (("byScene", 200, {}),
                                     ("inTurn", 0, {"files": ("haproxy.cfg", round_robin(folder))})):  # fmt: skip
