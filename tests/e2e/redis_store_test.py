@@ -4,6 +4,7 @@ import threading
 import unittest
 from pathlib import Path
 
+import scene_pages_test
 import store_test
 import triggers_store_test
 from redis_place import OnRedis, RedisServer, needs_redis
@@ -27,14 +28,14 @@ class Shared(OnRedis, store_test.Shared):
     pass
 
 
-class Pages(OnRedis, store_test.Pages):
+class Pages(OnRedis, scene_pages_test.Pages):
     test_the_page_follows_them = None  # the same code
 
     @classmethod
     def setUpClass(cls):
         redis = RedisServer()
         cls.addClassCleanup(redis.__exit__)
-        cls.flags = (*store_test.Pages.flags, "--store", redis.url)
+        cls.flags = (*scene_pages_test.Pages.flags, "--store", redis.url)
         super().setUpClass()
 
     def setUp(self):

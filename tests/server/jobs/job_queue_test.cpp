@@ -8,11 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/jobs/local_jobs.h"
-#include "server/jobs/redis_jobs.h"
-#include "server/redis/redis.h"
+#include "server/system/clock.h"
 #include "tests/server/jobs/tested_queue.h"
-#include "tests/support/redis_server.h"
 
 namespace gnomon {
 namespace {
@@ -387,34 +384,7 @@ TEST_P(JobQueueTest, ManyTakersDrawEachFrameOnce) {
   for (int i = 0; i < kFrames; ++i) EXPECT_EQ(picture("job", i), std::to_string(i));
 }
 
-const TestedQueue kInMemory{
-    "InMemory", false, [] {},
-    [](const JobLimits& limits) -> std::unique_ptr<JobQueue> { return std::make_unique<LocalJobs>(limits, ""); }};
-const TestedQueue kInDirectory{"InDirectory", false, [] {},
-                               [](const JobLimits& limits) -> std::unique_ptr<JobQueue> {
-                                 return std::make_unique<LocalJobs>(limits, ::testing::TempDir());
-                               }};
-
-std::optional<redis::Options> redisOptions() {
-  static const auto server = testing::RedisServer::isInstalled() ? std::make_unique<testing::RedisServer>() : nullptr;
-  if (!server) return std::nullopt;
-  return redis::Options{.address = *redis::parseAddress(server->url())};
-}
-
-const TestedQueue kInRedis{
-    "InRedis", true,
-    [] {
-      const auto options = redisOptions();
-      if (options) {
-        ASSERT_TRUE(redis::Redis(*options).ask({"FLUSHALL"}, {Clock::now() + 10s}));
-      }
-    },
-    [](const JobLimits& limits) -> std::unique_ptr<JobQueue> {
-      const auto options = redisOptions();
-      return options ? std::make_unique<RedisJobs>(limits, std::make_shared<redis::Redis>(*options)) : nullptr;
-    }};
-
-INSTANTIATE_TEST_SUITE_P(Every, JobQueueTest, ::testing::Values(kInMemory, kInDirectory, kInRedis),
+INSTANTIATE_TEST_SUITE_P(Every, JobQueueTest, ::testing::ValuesIn(testedQueues()),
                          [](const auto& tested) { return tested.param.name; });
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "server/jobs/job_queue.h"
 
@@ -20,6 +21,9 @@ struct TestedQueue {
 inline std::ostream& operator<<(std::ostream& stream, const TestedQueue& queue) {
   return stream << queue.name;
 }
+
+/// In memory, in a directory, and in a Redis of the test's own.
+std::vector<TestedQueue> testedQueues();
 
 /// A job of `count` frames.
 inline NewJob jobOfFrames(const std::string& id, int count, const std::string& client = "ann") {
