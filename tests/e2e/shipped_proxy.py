@@ -14,7 +14,7 @@ import threading
 import time
 from pathlib import Path
 
-from shipped_server import TIMEOUT, Reply, Server
+from shipped_server import TIMEOUT, Reply, Server, written
 
 DOCKER = Path(__file__).resolve().parents[2] / "docker"
 HAPROXY = shutil.which("haproxy", path=os.environ.get("PATH", "") + ":/usr/sbin")
@@ -38,7 +38,7 @@ class Haproxy:
     def __init__(self, files, bind, variables):
         listening = socket.create_server(("127.0.0.1", 0))  # inherited, so that no other program gets the port
         self.port = listening.getsockname()[1]
-        self.log = tempfile.TemporaryFile(mode="w+")
+        self.log = tempfile.TemporaryFile()
         arguments = [each for file in files for each in ("-f", file)]
         self.process = subprocess.Popen([HAPROXY, "-db", *arguments],
                                         env=os.environ | variables | {bind: f"fd@{listening.fileno()}"},
@@ -56,8 +56,7 @@ class Haproxy:
                 own.close()
 
     def log_text(self):
-        self.log.seek(0)
-        return self.log.read()
+        return written(self.log)
 
     def end(self):
         self.process.kill()
