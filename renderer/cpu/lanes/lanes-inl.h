@@ -15,6 +15,7 @@
 #include <cstring>
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -155,6 +156,13 @@ HWY_INLINE Int gatherPairs(const std::uint16_t* base, const Int& index) {
   return load(lanes);
 #endif
 }
+/// Four rows of four numbers, each row `stride` numbers behind the one before.
+HWY_INLINE Int loadRows(const std::uint16_t* first, std::size_t stride) {
+  alignas(32) std::uint16_t rows[kLanes];
+  for (std::size_t row = 0; row < 4; ++row) std::memcpy(rows + 4 * row, first + row * stride, 4 * sizeof *rows);
+  constexpr hn::Rebind<std::uint16_t, IntTag> words;
+  GNOMON_EACH_PART(Int, r, hn::PromoteTo(kInts, hn::Load(words, rows + i * kPerPart)));
+}
 /// 0, 1, ... 15.
 HWY_INLINE Int laneNumbers() {
   GNOMON_EACH_PART(Int, r, hn::Iota(kInts, static_cast<std::int32_t>(i * kPerPart)));
@@ -241,6 +249,10 @@ HWY_INLINE Float& operator/=(Float& a, const Float& b) {
   return a = a / b;
 }
 
+HWY_INLINE std::int32_t firstLane(const Int& a) {
+  return hn::GetLane(a.part[0]);
+}
+
 /// Of all lanes.
 HWY_INLINE float leastLane(const Float& a) {
   auto least = a.part[0];
@@ -251,6 +263,17 @@ HWY_INLINE float greatestLane(const Float& a) {
   auto greatest = a.part[0];
   for (std::size_t i = 1; i < kParts; ++i) greatest = hn::Max(greatest, a.part[i]);
   return hn::GetLane(hn::MaxOfLanes(kFloats, greatest));
+}
+
+HWY_INLINE std::int32_t leastLane(const Int& a) {
+  auto least = a.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) least = hn::Min(least, a.part[i]);
+  return hn::GetLane(hn::MinOfLanes(kInts, least));
+}
+HWY_INLINE std::int32_t greatestLane(const Int& a) {
+  auto greatest = a.part[0];
+  for (std::size_t i = 1; i < kParts; ++i) greatest = hn::Max(greatest, a.part[i]);
+  return hn::GetLane(hn::MaxOfLanes(kInts, greatest));
 }
 
 template <int bits>
@@ -301,6 +324,20 @@ HWY_INLINE Int select(const Mask& where, const Int& yes, const Int& no) {
   GNOMON_EACH_PART(Int, r, hn::IfThenElse(hn::RebindMask(kInts, where.part[i]), yes.part[i], no.part[i]));
 }
 
+/// Of the lanes `where`, of which there are some.
+HWY_INLINE float leastOf(const Mask& where, const Float& a) {
+  return leastLane(select(where, a, std::numeric_limits<float>::max()));
+}
+HWY_INLINE float mostOf(const Mask& where, const Float& a) {
+  return greatestLane(select(where, a, std::numeric_limits<float>::lowest()));
+}
+HWY_INLINE std::int32_t leastOf(const Mask& where, const Int& a) {
+  return leastLane(select(where, a, std::numeric_limits<std::int32_t>::max()));
+}
+HWY_INLINE std::int32_t mostOf(const Mask& where, const Int& a) {
+  return greatestLane(select(where, a, std::numeric_limits<std::int32_t>::min()));
+}
+
 /// a * b + c, rounded once where the processor can.
 HWY_INLINE Float mulAdd(const Float& a, const Float& b, const Float& c) {
   GNOMON_EACH_PART(Float, r, hn::MulAdd(a.part[i], b.part[i], c.part[i]));
@@ -332,8 +369,18 @@ HWY_INLINE Float fract(const Float& a) {
 HWY_INLINE Float exp(const Float& a) {
   GNOMON_EACH_PART(Float, r, hn::Exp(kFloats, a.part[i]));
 }
+/// 2^a of -125..127, and of the nearer of these beyond: the series of the octave's rest, to within 3e-7 of itself.
 HWY_INLINE Float exp2(const Float& a) {
-  return exp(a * 0.69314718f);
+  const Float within = min(max(a, -125.0f), 127.0f);
+  const Int octave = nearest(within);
+  const Float rest = within - toFloat(octave);
+  Float y = mulAdd(rest, 1.54035304e-4f, 1.33335581e-3f);
+  y = mulAdd(y, rest, 9.61812911e-3f);
+  y = mulAdd(y, rest, 5.55041087e-2f);
+  y = mulAdd(y, rest, 0.240226507f);
+  y = mulAdd(y, rest, 0.693147181f);
+  y = mulAdd(y, rest, 1.0f);
+  return floatOf(bitsOf(y) + shiftLeft<23>(octave));
 }
 HWY_INLINE Float log2(const Float& a) {
   GNOMON_EACH_PART(Float, r, hn::Log2(kFloats, a.part[i]));

@@ -6,7 +6,6 @@
 #define GNOMON_CPU_READ_TEXELS_INL_H
 #endif
 
-#include <limits>
 #include <span>
 
 #include "renderer/cpu/raster/texel_marks.h"
@@ -31,20 +30,6 @@ HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, co
   }
   const float size = GNOMON_READS_MOMENTS(light.filterKind) ? 1.0f : static_cast<float>(std::max(light.filterSize, 1));
   return Float2(Float(0.5f * size + kRounding));
-}
-
-HWY_INLINE std::int32_t leastOf(const Mask& where, const Int& a) {
-  const Int kept = select(where, a, std::numeric_limits<std::int32_t>::max());
-  auto least = kept.part[0];
-  for (std::size_t i = 1; i < kParts; ++i) least = hn::Min(least, kept.part[i]);
-  return hn::GetLane(hn::MinOfLanes(kInts, least));
-}
-
-HWY_INLINE std::int32_t mostOf(const Mask& where, const Int& a) {
-  const Int kept = select(where, a, std::numeric_limits<std::int32_t>::min());
-  auto most = kept.part[0];
-  for (std::size_t i = 1; i < kParts; ++i) most = hn::Max(most, kept.part[i]);
-  return hn::GetLane(hn::MaxOfLanes(kInts, most));
 }
 
 /// Marks the texels as far as `reach` around the places of the lanes `where`, of which there are some.

@@ -41,13 +41,14 @@ inline Float discVisibility(const ShadowMaps& maps, int tileIndex, const Lookup&
     const Float3 place(at.coordinate.x + step.x * tile.atlasPerMetre.x, at.coordinate.y + step.y * tile.atlasPerMetre.y,
                        0.0f);
     const Mask within = isWithin(place, tile);
-    if (none(within & asked)) {
+    const Mask read = within & asked;
+    if (none(read)) {
       sum += 1.0f;
       continue;
     }
     const Float2 moved(place.x - at.coordinate.x, place.y - at.coordinate.y);
     const PlaneDepths plane{at.coordinate.z + dot(slope, moved * texels), slope};
-    const Float lit = squareVisibility(map, Float2(place.x, place.y) * texels - corner, plane, 1);
+    const Float lit = squareVisibility(map, Float2(place.x, place.y) * texels - corner, plane, 1, read);
     sum += select(within, lit, 1.0f);
   }
   return sum * (1.0f / static_cast<float>(kDiscTaps));

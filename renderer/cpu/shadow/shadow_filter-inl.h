@@ -7,6 +7,8 @@
 #define GNOMON_CPU_SHADOW_FILTER_INL_H
 #endif
 
+#include <algorithm>
+
 #include "renderer/cpu/shadow/shadow_texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,13 +45,57 @@ constexpr float kernelSum() {
   return sum;
 }
 
-/// Bilinear comparisons of a map of one sample a texel. `place`: in texels of the tile.
+/// What some comparisons say alike.
+enum class Alike { lit, dark, no };
+
+/// Compares all texels of the box around `size` texels from each lane's first one, a block at a time: where all of them
+/// are lit, or none, so is each kernel. Without a gather, that takes much less time than kernels. May say no where they
+/// are alike. Those between the lanes that are not made may hold anything: what is said of the box holds for the rest.
+inline Alike alikeIn(const TileMap& map, const Int& firstX, const Int& firstY, int size, const Float2& place,
+                     const PlaneDepths& plane, const Mask& read) {
+  const DepthBuffer& depths = *map.depths;
+  const int x0 = std::max(leastOf(read, firstX), 0), x1 = std::min(mostOf(read, firstX) + size, depths.width) - 1;
+  const int y0 = std::max(leastOf(read, firstY), 0), y1 = std::min(mostOf(read, firstY) + size, depths.height) - 1;
+  const int left = x0 / kBlockSide * kBlockSide, bottom = y0 / kBlockSide * kBlockSide;
+  constexpr int kMostBlocks = 80; // more take as long as the kernels
+  if ((x1 - left + kBlockSide) / kBlockSide * ((y1 - bottom + kBlockSide) / kBlockSide) > kMostBlocks) return Alike::no;
+  // From the box's first texel on, no plane lies over `high` or under `low`.
+  const Float2 toFirst(static_cast<float>(left) + 0.5f - place.x, static_cast<float>(bottom) + 0.5f - place.y);
+  const Float first = plane.depth + dot(plane.slope, toFirst);
+  glm::vec3 low(leastOf(read, first), leastOf(read, plane.slope.x), leastOf(read, plane.slope.y));
+  glm::vec3 high(mostOf(read, first), mostOf(read, plane.slope.x), mostOf(read, plane.slope.y));
+  const glm::vec3 largest = glm::max(glm::abs(low), glm::abs(high));
+  const glm::vec2 sides(x1 - left + 1, y1 - bottom + 1);
+  const float rounding = 4e-6f * (largest.x + sides.x * largest.y + sides.y * largest.z);
+  low.x -= rounding;
+  high.x += rounding;
+  const Float column = toFloat(laneNumbers() & Int(kBlockSide - 1)), row = toFloat(shiftRight<2>(laneNumbers()));
+  const auto inBlock = [&](const glm::vec3& ends) HWY_ATTR { return ends.x + column * ends.y + row * ends.z; };
+  const Float lowest = inBlock(low), highest = inBlock(high);
+  bool lit = true, dark = true;
+  for (int y = bottom; y <= y1; y += kBlockSide) {
+    for (int x = left; x <= x1; x += kBlockSide) {
+      const Float depth = load(&depths.depths[depths.blockAt(x / kBlockSide, y / kBlockSide)]);
+      const glm::vec2 way(x - left, y - bottom);
+      lit = lit && all(isLit(highest + glm::dot(way, glm::vec2(high.y, high.z)), depth));
+      dark = dark && none(isLit(lowest + glm::dot(way, glm::vec2(low.y, low.z)), depth));
+      if (!lit && !dark) return Alike::no;
+    }
+  }
+  return lit ? Alike::lit : Alike::dark;
+}
+
+/// Bilinear comparisons of a map of one sample a texel, for the lanes `read`. `place`: in texels of the tile.
 template <int size>
-inline Float kernelVisibility(const TileMap& map, const Float2& place, const PlaneDepths& plane) {
+inline Float kernelVisibility(const TileMap& map, const Float2& place, const PlaneDepths& plane, const Mask& read) {
   const Float2 base(floor(place.x - 0.5f), floor(place.y - 0.5f));
   const Float2 fraction(place.x - 0.5f - base.x, place.y - 0.5f - base.y);
   const Int firstX = truncated(base.x) - Int(size / 2);
   const Int firstY = truncated(base.y) - Int(size / 2);
+  if constexpr (size > 1) {
+    const Alike alike = alikeIn(map, firstX, firstY, size + 1, place, plane, read);
+    if (alike != Alike::no) return alike == Alike::lit ? 1.0f : 0.0f;
+  }
   Int columns[size + 1];
   Float weights[size + 1];
   for (int x = 0; x <= size; ++x) {
@@ -59,19 +105,22 @@ inline Float kernelVisibility(const TileMap& map, const Float2& place, const Pla
   const Float2 toFirst(-fraction.x - static_cast<float>(size / 2), -fraction.y - static_cast<float>(size / 2));
   Float rowDepth = plane.depth + dot(plane.slope, toFirst);
   Float sum = 0.0f;
+  Mask whole = firstLanes(kLanes); // lanes of which every texel is lit: their weights may add up to a little less
   for (int y = 0; y <= size; ++y) {
     const Int row = rowIndex(map, firstY + Int(y));
     Float depth = rowDepth;
     Float rowSum = 0.0f;
     for (int x = 0; x <= size; ++x) {
-      rowSum += select(isLit(depth, depthAt(map, columns[x] + row)), weights[x], 0.0f);
+      const Mask lit = isLit(depth, depthAt(map, columns[x] + row));
+      whole = whole & lit;
+      rowSum += select(lit, weights[x], 0.0f);
       depth += plane.slope.x;
     }
     sum = mulAdd(mix(kKernel<size>[y + 1], kKernel<size>[y], fraction.y), rowSum, sum);
     rowDepth += plane.slope.y;
   }
   constexpr float total = kernelSum<size>();
-  return sum * (1.0f / (total * total));
+  return select(whole, 1.0f, sum * (1.0f / (total * total)));
 }
 
 /// The same of a map of several samples a texel: the share of a square's samples that are no nearer to the light than
@@ -96,13 +145,14 @@ inline Float samplesVisibility(const TileMap& map, const Float2& place, const Pl
   return sum / static_cast<float>(size * size * samples);
 }
 
-/// `size`: 1, 3, 5 or 7 texels.
-inline Float squareVisibility(const TileMap& map, const Float2& place, const PlaneDepths& plane, int size) {
+/// `size`: 1, 3, 5 or 7 texels. Lanes outside of `read`, which has some, hold anything.
+inline Float squareVisibility(const TileMap& map, const Float2& place, const PlaneDepths& plane, int size,
+                              const Mask& read) {
   if (map.depths->samples > 1) return samplesVisibility(map, place, plane, size);
-  if (size <= 1) return kernelVisibility<1>(map, place, plane);
-  if (size == 3) return kernelVisibility<3>(map, place, plane);
-  if (size == 5) return kernelVisibility<5>(map, place, plane);
-  return kernelVisibility<7>(map, place, plane);
+  if (size <= 1) return kernelVisibility<1>(map, place, plane, read);
+  if (size == 3) return kernelVisibility<3>(map, place, plane, read);
+  if (size == 5) return kernelVisibility<5>(map, place, plane, read);
+  return kernelVisibility<7>(map, place, plane, read);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

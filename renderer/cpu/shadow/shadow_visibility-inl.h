@@ -44,7 +44,7 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
     return select(at.inside, lit * shareAbovePlane(light, receiver, toLight), 1.0f);
   }
   at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
-  return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize), 1.0f);
+  return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize, read), 1.0f);
 }
 
 /// A face turned away from the light, or along it to within rounding, shadows itself.
@@ -55,8 +55,15 @@ HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
 /// The mean over the samples of each pixel that show the receiver. Lanes outside of `asked` hold anything.
 inline Float layerValue(const Layer& layer, const Receiver& receiver, const Mask& asked) {
   const Int pixel = truncated(receiver.place.y) * Int(layer.width) + truncated(receiver.place.x);
+  if (layer.samples == 1) {
+    const std::int32_t corner = firstLane(pixel);
+    const Int inBlock = (laneNumbers() & Int(3)) + shiftRight<2>(laneNumbers()) * Int(layer.width);
+    const Int values = all(pixel == Int(corner) + inBlock)
+                           ? loadRows(layer.values + corner, static_cast<std::size_t>(layer.width))
+                           : gather(layer.values, select(asked, pixel, Int(0)));
+    return toFloat(values) * (1.0f / 65535.0f);
+  }
   const Int first = select(asked, pixel, Int(0)) * Int(layer.samples);
-  if (layer.samples == 1) return toFloat(gather(layer.values, first)) * (1.0f / 65535.0f);
   Int sum(0);
   Int count(0);
   for (int i = 0; i < layer.samples; ++i) {

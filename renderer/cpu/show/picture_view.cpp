@@ -24,8 +24,7 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Sur
   if (job.debugLight < 0) return Float3(0.0f);
   Receiver receiver = surface.receiver;
   receiver.shown = andNot(surface.unlit, receiver.shown);
-  return radianceFrom(lighting, static_cast<std::uint32_t>(job.debugLight), pointOf(job.scene.frame, surface), receiver,
-                      visibility);
+  return radianceFrom(lighting, static_cast<std::uint32_t>(job.debugLight), pointOf(surface), receiver, visibility);
 }
 
 /// What volumes send, and what share of the light behind them they let through.

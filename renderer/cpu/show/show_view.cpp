@@ -1,7 +1,6 @@
 #include "renderer/cpu/show/show_view.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -27,34 +26,17 @@ void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vect
   }
 }
 
-/// Four pixels of a row: their first three channels, or all four.
-void writeFour(const std::uint32_t* in, std::size_t channels, std::uint8_t* out) {
-  if (channels == 4) {
-    std::memcpy(out, in, 16);
-    return;
-  }
-  const std::uint32_t rgb[4] = {in[0] & 0xffffffu, in[1] & 0xffffffu, in[2] & 0xffffffu, in[3] & 0xffffffu};
-  const std::uint32_t packed[3] = {rgb[0] | rgb[1] << 24, rgb[1] >> 8 | rgb[2] << 16, rgb[2] >> 16 | rgb[3] << 8};
-  std::memcpy(out, packed, sizeof packed);
-}
-
-/// The same of a square's bytes: a picture's first three channels, or all four. (Bytes of a number from the lowest on.)
+/// The same of bytes.
+template <std::size_t channels>
 void writeBytes(const TileBytes& bytes, int x, int y, Image& image, std::vector<std::uint8_t>& pixels) {
-  static_assert(std::endian::native == std::endian::little);
-  const std::size_t channels = image.channels.size();
   const int columns = std::min(kTileSide, image.width - x);
   for (int row = 0; row < std::min(kTileSide, image.height - y); ++row) {
     const auto line = static_cast<std::size_t>(image.height - 1 - y - row) * static_cast<std::size_t>(image.width);
     std::uint8_t* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
-    const std::uint32_t* in = &bytes.pixels[static_cast<std::size_t>((row & 12) << 4 | (row & 3) << 2)];
-    for (int column = 0; column < columns; column += 4, in += 16, out += 4 * channels) {
-      if (columns - column >= 4) {
-        writeFour(in, channels, out);
-      } else {
-        for (int i = 0; i < columns - column; ++i)
-          std::memcpy(out + static_cast<std::size_t>(i) * channels, in + i, channels);
-      }
-    }
+    const std::uint8_t* in = &bytes.pixels[static_cast<std::size_t>(4 * ((row & 12) << 4 | (row & 3) << 2))];
+    int left = columns;
+    for (; left >= 4; left -= 4, in += 64, out += 4 * channels) std::memcpy(out, in, 4 * channels);
+    if (left > 0) std::memcpy(out, in, static_cast<std::size_t>(left) * channels);
   }
 }
 
@@ -74,42 +56,57 @@ void forEachSquare(const ShowJob& job, const Each& each) {
   });
 }
 
-template <class T, class Write>
-void fill(const ShowJob& job, Image& image, const Write& write) {
+/// `turned`: what is written of a square's colors.
+template <class T, class Turn, class Write>
+void fill(const ShowJob& job, Image& image, const Turn& turned, const Write& write) {
   const bool picture = traitsOf(job.view).source == ViewSource::picture;
   std::vector<T> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                         image.channels.size());
-  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
+  const auto square = [&](const FragmentList& list, int x, int y) {
     TileColors colors;
     picture ? pictureSquare(job, list, x, y, colors) : dataSquare(job, list, x, y, colors);
-    write(colors, x, y, pixels);
+    return turned(colors);
+  };
+  const bool alike = picture && job.volumes.empty(); // squares that show no surface
+  const auto background = square(FragmentList{}, 0, 0);
+  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
+    if (alike && list.count == 0) {
+      write(background, x, y, pixels);
+    } else {
+      write(square(list, x, y), x, y, pixels);
+    }
   });
   image.pixels = std::move(pixels);
+}
+
+/// The same, each channel by itself.
+template <class T, class Convert>
+void fillEach(const ShowJob& job, Image& image, const Convert& convert) {
+  fill<T>(
+      job, image, [](const TileColors& colors) { return colors; },
+      [&](const TileColors& colors, int x, int y, std::vector<T>& pixels) {
+        writeSquare(colors, x, y, image, pixels, convert);
+      });
 }
 
 } // namespace
 
 Image showView(const ShowJob& job, bool opaque) {
   Image image{job.scene.width, job.scene.height, channelsOf(job.view, job.encoded, opaque), {}};
+  const ViewTraits& traits = traitsOf(job.view);
   if (!job.encoded) {
-    fill<float>(job, image, [&](const TileColors& colors, int x, int y, std::vector<float>& pixels) {
-      writeSquare(colors, x, y, image, pixels, [](std::size_t, float value) { return value; });
-    });
+    fillEach<float>(job, image, [](std::size_t, float value) { return value; });
   } else if (job.fine) {
-    fill<std::uint16_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint16_t>& pixels) {
-      writeSquare(colors, x, y, image, pixels,
-                  [&](std::size_t c, float value) { return fineWord(traitsOf(job.view), c, value); });
-    });
-  } else if (traitsOf(job.view).srgb) {
-    fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
-      TileBytes bytes;
-      srgbBytes(colors, bytes);
-      writeBytes(bytes, x, y, image, pixels);
-    });
+    fillEach<std::uint16_t>(job, image, [&](std::size_t c, float value) { return fineWord(traits, c, value); });
+  } else if (traits.srgb) {
+    const std::size_t channels = image.channels.size();
+    fill<std::uint8_t>(
+        job, image, [&](const TileColors& colors) { return srgbBytes(colors, channels); },
+        [&](const TileBytes& bytes, int x, int y, std::vector<std::uint8_t>& pixels) {
+          channels == 4 ? writeBytes<4>(bytes, x, y, image, pixels) : writeBytes<3>(bytes, x, y, image, pixels);
+        });
   } else {
-    fill<std::uint8_t>(job, image, [&](const TileColors& colors, int x, int y, std::vector<std::uint8_t>& pixels) {
-      writeSquare(colors, x, y, image, pixels, [](std::size_t, float value) { return unormByte(value); });
-    });
+    fillEach<std::uint8_t>(job, image, [](std::size_t, float value) { return unormByte(value); });
   }
   return image;
 }

@@ -50,13 +50,31 @@ HWY_INLINE Int srgbByte(const SrgbTable& table, const Float& linear) {
   return select(some, rounded, Int(0));
 }
 
-void srgbBytesOn(const TileColors& colors, const SrgbTable& table, TileBytes& bytes) {
+/// Of each four numbers of four bytes the lowest three bytes, side by side.
+HWY_INLINE Int withoutFourthBytes(const Int& a) {
+  constexpr hn::Repartition<std::uint8_t, IntTag> bytes;
+  alignas(16) static constexpr std::uint8_t kFrom[16] = {0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15};
+  Int packed;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    packed.part[i] =
+        hn::BitCast(kInts, hn::TableLookupBytes(hn::BitCast(bytes, a.part[i]), hn::LoadDup128(bytes, kFrom)));
+  }
+  return packed;
+}
+
+void srgbBytesOn(const TileColors& colors, const SrgbTable& table, bool alpha, TileBytes& bytes) {
   for (std::size_t i = 0; i < kTilePixels; i += kLanes) {
     const Int r = srgbByte(table, load(&colors.channels[0][i]));
     const Int g = srgbByte(table, load(&colors.channels[1][i]));
     const Int b = srgbByte(table, load(&colors.channels[2][i]));
+    const Int rgb = r | shiftLeft<8>(g) | shiftLeft<16>(b);
+    auto* const to = reinterpret_cast<std::int32_t*>(&bytes.pixels[4 * i]);
+    if (!alpha) {
+      store(withoutFourthBytes(rgb), to);
+      continue;
+    }
     const Int a = truncated(clamp(load(&colors.channels[3][i]), 0.0f, 1.0f) * 255.0f + 0.5f);
-    store(r | shiftLeft<8>(g) | shiftLeft<16>(b) | shiftLeft<24>(a), &bytes.pixels[i]);
+    store(rgb | shiftLeft<24>(a), to);
   }
 }
 
@@ -69,9 +87,11 @@ namespace {
 HWY_EXPORT(srgbBytesOn);
 } // namespace
 
-void srgbBytes(const TileColors& colors, TileBytes& bytes) {
+TileBytes srgbBytes(const TileColors& colors, std::size_t channels) {
   static const SrgbTable table;
-  HWY_DYNAMIC_DISPATCH(srgbBytesOn)(colors, table, bytes);
+  TileBytes bytes;
+  HWY_DYNAMIC_DISPATCH(srgbBytesOn)(colors, table, channels == 4, bytes);
+  return bytes;
 }
 
 } // namespace gnomon::cpu

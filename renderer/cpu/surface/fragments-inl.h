@@ -6,6 +6,7 @@
 #define GNOMON_CPU_FRAGMENTS_INL_H
 #endif
 
+#include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,6 +19,29 @@ struct Fragments {
   Float2 center; ///< where the material is read, pixels: the pixel's middle
   Float2 place;  ///< where light is asked for, pixels: the mean of the samples that show it
 };
+
+/// The lanes that show one instance.
+struct OfInstance {
+  std::uint32_t instance;
+  Mask lanes;
+  Int triangle; ///< of the instance's primitive; the other lanes hold one of these
+};
+
+/// What the lowest of the lanes `left`, a bit each, shows. REQUIRES: these are some of those that show a surface.
+HWY_INLINE OfInstance instanceShown(const FrameScene& scene, const Fragments& fragments, unsigned left) {
+  static_assert(kClusterTriangles == 1 << 10);
+  alignas(64) std::int32_t triangles[kLanes];
+  store(fragments.triangle, triangles);
+  const std::int32_t triangle = triangles[__builtin_ctz(left)];
+  OfInstance of;
+  of.instance = scene.slots[static_cast<std::uint32_t>(triangle) >> 10].instance;
+  const auto begin = static_cast<std::int32_t>(scene.geometry.firstSlot[of.instance]);
+  const auto end = static_cast<std::int32_t>(scene.geometry.firstSlot[of.instance + 1]);
+  const Int slot = shiftRightUnsigned<10>(fragments.triangle);
+  of.lanes = fragments.shown & (slot >= Int(begin)) & (slot < Int(end));
+  of.triangle = select(of.lanes, fragments.triangle, Int(triangle)) - shiftLeft<10>(Int(begin));
+  return of;
+}
 
 /// A point that light is asked for.
 struct Receiver {

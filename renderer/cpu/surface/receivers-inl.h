@@ -6,19 +6,17 @@
 #define GNOMON_CPU_RECEIVERS_INL_H
 #endif
 
-#include <bit>
-
 #include "renderer/cpu/surface/fragments-inl.h"
 #include "renderer/cpu/surface/vertices-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Of fragments that show triangles of one instance.
-HWY_INLINE Receiver instanceReceivers(const FrameScene& scene, std::uint32_t instance, const Int& triangle,
-                                      const Fragments& fragments) {
-  const Corners corners(scene, scene.slots[scene.geometry.firstSlot[instance]], triangle);
-  const shared::InstanceData& placed = scene.instances[instance];
+/// Lanes that show something else hold anything.
+inline HWY_NOINLINE Receiver instanceReceivers(const FrameScene& scene, const OfInstance& own,
+                                               const Fragments& fragments) {
+  const Corners corners(scene, scene.slots[scene.geometry.firstSlot[own.instance]], own.triangle);
+  const shared::InstanceData& placed = scene.instances[own.instance];
   const Triangle local = corners.triangle();
   const auto turned = [&](const Float3& v) HWY_ATTR {
     Float parts[3];
@@ -57,29 +55,14 @@ HWY_INLINE void put(const Mask& where, const Receiver& from, Receiver& to) {
   to.weights = select(where, from.weights, to.weights);
 }
 
-/// Lanes that show one instance are worked on together; a packet mostly shows one.
-inline Receiver receiversOf(const FrameScene& scene, const Fragments& fragments) {
-  static_assert(kClusterTriangles == 1 << 10);
-  const Int slot = shiftRightUnsigned<10>(fragments.triangle);
-  alignas(64) std::int32_t slots[kLanes];
-  alignas(64) std::int32_t triangles[kLanes];
-  store(slot, slots);
-  store(fragments.triangle, triangles);
-  Receiver receiver{};
-  receiver.shown = fragments.shown;
+/// Lanes that show one instance are worked on together; a packet mostly shows one. REQUIRES: some lane shows one.
+HWY_INLINE Receiver receiversOf(const FrameScene& scene, const Fragments& fragments) {
   unsigned left = bitsOf(fragments.shown);
-  for (bool first = true; left != 0; first = false) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const std::uint32_t instance = scene.slots[static_cast<std::size_t>(slots[lane])].instance;
-    const auto begin = static_cast<std::int32_t>(scene.geometry.firstSlot[instance]);
-    const auto end = static_cast<std::int32_t>(scene.geometry.firstSlot[instance + 1]);
-    const Mask own = fragments.shown & (slot >= Int(begin)) & (slot < Int(end));
-    // What the other lanes show is no triangle of this instance.
-    const Int triangle = select(own, fragments.triangle, Int(triangles[lane])) - shiftLeft<10>(Int(begin));
-    const Receiver found = instanceReceivers(scene, instance, triangle, fragments);
-    if (first) receiver = found;
-    put(own, found, receiver);
-    left &= ~bitsOf(own);
+  OfInstance own = instanceShown(scene, fragments, left);
+  Receiver receiver = instanceReceivers(scene, own, fragments);
+  while ((left &= ~bitsOf(own.lanes)) != 0) {
+    own = instanceShown(scene, fragments, left);
+    put(own.lanes, instanceReceivers(scene, own, fragments), receiver);
   }
   return receiver;
 }

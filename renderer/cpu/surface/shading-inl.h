@@ -20,10 +20,8 @@ struct Lighting {
   std::span<const std::uint32_t> lists; ///< prepare/light_lists.h; empty = every light may reach every pixel
 };
 
-HWY_INLINE SurfacePoint pointOf(const shared::FrameData& frame, const Surface& surface) {
-  const Float3 toEye =
-      frame.forward.w > 0.0f ? -normalize(surface.receiver.relative) : Float3(-glm::vec3(frame.forward));
-  return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
+HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
+  return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
 }
 
 /// What one light adds. `visibility(light, receiver, toLight, where)`: the share of it that arrives, 0..1, asked for
@@ -63,7 +61,7 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   Receiver receiver = surface.receiver;
   receiver.shown = andNot(surface.unlit, fragments.shown);
   if (none(receiver.shown)) return surface.emission;
-  const SurfacePoint point = pointOf(scene.frame, surface);
+  const SurfacePoint point = pointOf(surface);
   Float3 sum = surface.emission + Float3(glm::vec3(scene.frame.ambient)) * ambientReflected(point) * surface.occlusion;
   if (lighting.lists.empty()) {
     for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {

@@ -16,6 +16,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// Finite in all lanes; of those that show nothing it means nothing.
 struct Surface {
   Receiver receiver;
+  Float3 toEye;     ///< unit length
   Float3 normal;    ///< for shading; unit length
   Float3 baseColor; ///< linear, 0..1
   Float metallic;
@@ -35,6 +36,7 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   s.receiver.place = no.receiver.place;
   s.receiver.triangle = no.receiver.triangle;
   s.receiver.weights = select(where, yes.receiver.weights, no.receiver.weights);
+  s.toEye = select(where, yes.toEye, no.toEye);
   s.normal = select(where, yes.normal, no.normal);
   s.baseColor = select(where, yes.baseColor, no.baseColor);
   s.metallic = select(where, yes.metallic, no.metallic);
@@ -49,19 +51,18 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
 /// once a pixel; light is asked for where the samples are that show it.
 class InstanceSurface {
  public:
-  /// `triangle`: of the instance's primitive; `own`: the lanes that count.
-  HWY_INLINE InstanceSurface(const FrameScene& scene, const Textures& textures, std::uint32_t instance,
-                             const Int& triangle, const Fragments& fragments, const Mask& own)
+  HWY_INLINE InstanceSurface(const FrameScene& scene, const Textures& textures, const OfInstance& own,
+                             const Fragments& fragments)
       : frame_(scene.frame),
         textures_(textures),
-        own_(own),
-        slot_(scene.slots[scene.geometry.firstSlot[instance]]),
-        placed_(scene.instances[instance]),
+        own_(own.lanes),
+        slot_(scene.slots[scene.geometry.firstSlot[own.instance]]),
+        placed_(scene.instances[own.instance]),
         material_(scene.scene.materials[static_cast<std::size_t>(slot_.material)]),
         data_(scene.materials[static_cast<std::size_t>(slot_.material)]),
         tangents_(
-            scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[instance].primitive)].hasTangents),
-        corners_(scene, slot_, triangle),
+            scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[own.instance].primitive)].hasTangents),
+        corners_(scene, slot_, own.triangle),
         sight_(sightThrough(scene.frame, fragments.center)) {
     triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
     meeting_ = meetingOf(sight_, triangle_);
@@ -80,12 +81,12 @@ class InstanceSurface {
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
     s.receiver.place = fragments.place;
     s.receiver.triangle = fragments.triangle;
-    const Float3 toEye =
+    s.toEye =
         frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight.way) : Float3(-glm::vec3(frame_.forward));
-    const Float3 face = directionOf(meeting_.normal, toEye);
-    s.receiver.normal = select(dot(face, toEye) < 0.0f, -face, face);
+    const Float3 face = directionOf(meeting_.normal, s.toEye);
+    s.receiver.normal = select(dot(face, s.toEye) < 0.0f, -face, face);
     s.normal = shadingNormal(s.receiver.normal);
-    addMaterial(toEye, s);
+    addMaterial(s);
     return s;
   }
 
@@ -156,7 +157,7 @@ class InstanceSurface {
     roughness = 1.0f - glossiness;
   }
 
-  HWY_INLINE void addMaterial(const Float3& toEye, Surface& s) const {
+  HWY_INLINE void addMaterial(Surface& s) const {
     Float3 color = ownColor();
     Float metallic(data_.surface.x), roughness(data_.surface.y);
     if (material_.specularGlossiness) {
@@ -174,7 +175,7 @@ class InstanceSurface {
     } else if (material_.transmission > 0) {
       // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
       const Float passing = data_.passing.x * (1.0f - metallic);
-      const Float3 behind = Float3(glm::vec3(frame_.ambient)) * radianceAround(-toEye.y, roughness);
+      const Float3 behind = Float3(glm::vec3(frame_.ambient)) * radianceAround(-s.toEye.y, roughness);
       s.emission += color * passing * behind;
       color *= mix(Float(1.0f), metallic, passing);
     }
@@ -204,29 +205,20 @@ class InstanceSurface {
   TextureSpot spots_[2]; ///< of the sets of coordinates that textures use
 };
 
-/// Lanes that show one instance are worked on together; a packet mostly shows one.
+/// Lanes that show something else hold anything.
+inline HWY_NOINLINE Surface instanceSurface(const FrameScene& scene, const Textures& textures, const OfInstance& own,
+                                            const Fragments& fragments) {
+  return InstanceSurface(scene, textures, own, fragments).surface(fragments);
+}
+
+/// Lanes that show one instance are worked on together; a packet mostly shows one. REQUIRES: some lane shows one.
 HWY_INLINE Surface surfaceOf(const FrameScene& scene, const Textures& textures, const Fragments& fragments) {
-  static_assert(kClusterTriangles == 1 << 10);
-  alignas(64) std::int32_t slots[kLanes];
-  const Int slot = shiftRightUnsigned<10>(fragments.triangle);
-  store(slot, slots);
-  alignas(64) std::int32_t triangles[kLanes];
-  store(fragments.triangle, triangles);
-  Surface surface{};
-  surface.receiver.shown = fragments.shown;
-  surface.receiver.place = fragments.place;
   unsigned left = bitsOf(fragments.shown);
-  for (bool first = true; left != 0; first = false) {
-    const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
-    const std::uint32_t instance = scene.slots[static_cast<std::size_t>(slots[lane])].instance;
-    const auto begin = static_cast<std::int32_t>(scene.geometry.firstSlot[instance]);
-    const auto end = static_cast<std::int32_t>(scene.geometry.firstSlot[instance + 1]);
-    const Mask own = fragments.shown & (slot >= Int(begin)) & (slot < Int(end));
-    // What the other lanes show is no triangle of this instance.
-    const Int triangle = select(own, fragments.triangle, Int(triangles[lane])) - shiftLeft<10>(Int(begin));
-    const Surface found = InstanceSurface(scene, textures, instance, triangle, fragments, own).surface(fragments);
-    surface = first ? found : select(own, found, surface);
-    left &= ~bitsOf(own);
+  OfInstance own = instanceShown(scene, fragments, left);
+  Surface surface = instanceSurface(scene, textures, own, fragments);
+  while ((left &= ~bitsOf(own.lanes)) != 0) {
+    own = instanceShown(scene, fragments, left);
+    surface = select(own.lanes, instanceSurface(scene, textures, own, fragments), surface);
   }
   return surface;
 }

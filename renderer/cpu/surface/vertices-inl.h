@@ -19,12 +19,12 @@ class Corners {
  public:
   /// `triangle`: of the instance's primitive.
   HWY_INLINE Corners(const FrameScene& scene, const Slot& first, const Int& triangle) : scene_(scene) {
-    same_ = all(triangle == Int(firstOf(triangle)));
+    same_ = all(triangle == Int(firstLane(triangle)));
     const std::uint32_t* indices = scene.scene.indices.data() + first.firstIndex;
     for (int c = 0; c < 3; ++c) {
       if (same_) {
         one_[c] =
-            indices[3 * static_cast<std::size_t>(firstOf(triangle)) + static_cast<std::size_t>(c)] + first.baseVertex;
+            indices[3 * static_cast<std::size_t>(firstLane(triangle)) + static_cast<std::size_t>(c)] + first.baseVertex;
       } else {
         each_[c] = gather(indices + c, triangle * 3) + Int(static_cast<std::int32_t>(first.baseVertex));
       }
@@ -83,8 +83,6 @@ class Corners {
   }
 
  private:
-  static HWY_INLINE std::int32_t firstOf(const Int& a) { return hn::GetLane(a.part[0]); }
-
   static HWY_INLINE Float blend(const Float& a, const Float& b, const Float& c, const Meeting& m) {
     return mulAdd(b - a, m.u, mulAdd(c - a, m.v, a));
   }

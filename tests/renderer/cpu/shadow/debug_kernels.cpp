@@ -67,6 +67,7 @@ void receivers(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* ou
     fragments.triangle = load(triangles);
     fragments.shown = fragments.triangle != Int(static_cast<std::int32_t>(kNoNumber));
     fragments.place = {load(x), load(y)};
+    if (none(fragments.shown)) continue;
     const Receiver receiver = receiversOf(scene, fragments);
     glm::vec3 relative[kLanes], normal[kLanes];
     alignas(64) float depth[kLanes];

@@ -83,6 +83,54 @@ TEST(ShadowVisibility, LanesGiveWhatTheShadersText) {
   }
 }
 
+/// Squares of texels that are flat or slant, so that neighbours mostly see the same.
+void setSquares(std::mt19937& random, DepthBuffer& depths) {
+  constexpr int kSide = 48;
+  for (int top = 0; top < depths.height; top += kSide) {
+    for (int left = 0; left < depths.width; left += kSide) {
+      const glm::vec3 plane(between(random, 0, 1), between(random, -4e-3f, 4e-3f), between(random, -4e-3f, 4e-3f));
+      for (int y = top; y < std::min(top + kSide, depths.height); ++y) {
+        for (int x = left; x < std::min(left + kSide, depths.width); ++x) {
+          depths.depths[depths.at(x, y)] = glm::clamp(glm::dot(plane, glm::vec3(1, x - left, y - top)), 0.0f, 1.0f);
+        }
+      }
+    }
+  }
+}
+
+/// Sixteen points close together, then sixteen others, on surfaces that bend a little.
+std::vector<AskedPoint> groupedPoints(std::mt19937& random, const RandomMaps& maps) {
+  constexpr std::size_t kTogether = 16;
+  const float texel = 1.0f / (maps.tiles[0].atlasPerMetre.x * static_cast<float>(kTestAtlas));
+  std::vector<AskedPoint> points;
+  for (const AskedPoint& first : randomPoints(random, maps, kPoints / kTogether)) {
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      points.push_back(first);
+      points.back().relative += randomDirection(random) * between(random, 0, 5 * texel);
+      points.back().normal = glm::normalize(first.normal + 0.01f * randomDirection(random));
+    }
+  }
+  return points;
+}
+
+TEST(ShadowVisibility, NeighboursThatSeeTheSameGiveWhatTheShadersText) {
+  for (const int type : {GNOMON_DIRECTIONAL, GNOMON_POINT}) {
+    for (const int size : {3, 5, 7}) {
+      std::mt19937 random(12);
+      RandomMaps maps = randomMaps(random, {.lightType = type, .filterSize = size});
+      for (DepthBuffer& depths : maps.depths) setSquares(random, depths);
+      const std::vector<AskedPoint> points = groupedPoints(random, maps);
+      const std::vector<float> expected = expectedOf(maps.view(), points);
+      onEachInstructionSet([&] {
+        const Difference off = differences(maps.view(), points, expected);
+        EXPECT_LE(off.points, kPoints / 1000) << size << ", greatest " << off.greatest;
+        EXPECT_GE(off.between, kPoints / 500);
+        EXPECT_LE(off.between, kPoints / 5) << "most are alike";
+      });
+    }
+  }
+}
+
 std::vector<AskedPoint> quarterSteps(const RandomMaps& maps) {
   std::vector<AskedPoint> points;
   for (int y = 40; y <= 152; ++y) { // from 10 to 38 texels; the bounds lie at 12 and 36

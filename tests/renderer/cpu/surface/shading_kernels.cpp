@@ -32,7 +32,9 @@ HWY_INLINE void store3(const Float3& v, std::size_t first, std::size_t row, Numb
 
 void surfaces(const FrameScene& scene, const FragmentInput& in, NumberTable& out) {
   for (std::size_t row = 0; row < out.rows; row += kLanes) {
-    const Surface s = surfaceOf(scene, in.textures, fragmentsAt(in, row));
+    const Fragments fragments = fragmentsAt(in, row);
+    if (none(fragments.shown)) continue;
+    const Surface s = surfaceOf(scene, in.textures, fragments);
     store3(s.receiver.relative, kRelative, row, out);
     store3(s.receiver.normal, kFace, row, out);
     store3(s.normal, kNormal, row, out);
@@ -54,7 +56,7 @@ void pictures(const FrameScene& scene, const LightInput& lights, const FragmentI
                               HWY_ATTR { return Float(light % 2 == 0 ? 1.0f : 0.25f); };
   for (std::size_t row = 0; row < out.rows; row += kLanes) {
     const Fragments fragments = fragmentsAt(in, row);
-    const Surface surface = surfaceOf(scene, in.textures, fragments);
+    const Surface surface = any(fragments.shown) ? surfaceOf(scene, in.textures, fragments) : Surface{};
     const Float3 radiance = radianceToEye(scene, lighting, fragments, surface, visibility);
     const PictureColor color = pictureOf(scene.frame, fragments.shown, radiance, ToneMapping::aces, lights.encoded);
     store(color.rgb.x, out.column(0) + row);
