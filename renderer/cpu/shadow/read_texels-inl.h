@@ -32,10 +32,19 @@ HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, co
   return Float2(Float(0.5f * size + kRounding));
 }
 
+/// Texels around places.
+struct Reached {
+  Int left, right, low, high;
+};
+
+HWY_INLINE Reached reachedAround(const Float2& place, const Float2& reach) {
+  return {truncated(floor(place.x - reach.x)), truncated(floor(place.x + reach.x)), truncated(floor(place.y - reach.y)),
+          truncated(floor(place.y + reach.y))};
+}
+
 /// Marks the texels as far as `reach` around the places of the lanes `where`, of which there are some.
 inline void markAround(const Float2& place, const Float2& reach, const Mask& where, TexelMarks& marks) {
-  const Int left = truncated(floor(place.x - reach.x)), right = truncated(floor(place.x + reach.x));
-  const Int low = truncated(floor(place.y - reach.y)), high = truncated(floor(place.y + reach.y));
+  const auto [left, right, low, high] = reachedAround(place, reach);
   const std::int32_t x0 = leastOf(where, left), x1 = mostOf(where, right);
   const std::int32_t y0 = leastOf(where, low), y1 = mostOf(where, high);
   // Neighbours mostly read the same blocks.

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <hwy/foreach_target.h>
+#include <iterator>
 #include <vector>
 
 #include "renderer/core/parallel.h"
 #include "renderer/cpu/shadow/debug_light-inl.h"
+#include "renderer/cpu/shadow/even_parts-inl.h"
 #include "renderer/cpu/shadow/read_texels-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
 #include "renderer/cpu/surface/receivers-inl.h"
@@ -16,7 +18,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// For a square of the picture, whose lower left pixel is x, y.
+/// For parts of a square of the picture, whose lower left pixel is x, y. Gives those that are done with, a bit each.
+unsigned markParts(const ReadQuery& query, std::span<const std::uint32_t> lights, int x, int y,
+                   std::span<TexelMarks> marks) {
+  const auto alike = [&](std::uint32_t light) { return readsAlike(query.maps.lights[light]); };
+  if (!(query.scene.frame.forward.w > 0.0f) || !std::all_of(lights.begin(), lights.end(), alike)) return 0;
+  const EvenParts parts = evenParts(query.surfaces, x, y);
+  return parts.empty | markCorners(query.scene, query.maps, lights, parts, marks);
+}
+
+/// For the fragments of the square.
 void markSquare(const ReadQuery& query, std::span<const std::uint32_t> lights, const FragmentList& list, int x, int y,
                 std::span<TexelMarks> marks) {
   const SampleMeans means = sampleMeans(query.surfaces.samples);
@@ -36,7 +47,16 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
+HWY_EXPORT(markParts);
 HWY_EXPORT(markSquare);
+
+/// The blocks of four by four pixels that make up parts of a square.
+unsigned blocksOf(unsigned parts) {
+  constexpr std::uint32_t kBlocks[] = {0x0033, 0x00cc, 0x3300, 0xcc00};
+  unsigned blocks = 0;
+  for (unsigned part = 0; part < std::size(kBlocks); ++part) blocks |= (parts >> part & 1u) * kBlocks[part];
+  return blocks;
+}
 
 bool readsMap(const shared::LightData& light) {
   return light.tileCount > 0 && light.visibilityLayer == 0;
@@ -78,9 +98,10 @@ void markReadTexels(const ReadQuery& query, std::span<TexelMarks> marks) {
     for (std::size_t i = first; i < last; ++i) {
       const int x = static_cast<int>(i % across) * kTileSide;
       const int y = static_cast<int>(i / across) * kTileSide;
-      listFragments(query.surfaces, x, y, list);
-      if (list.count == 0) continue;
-      HWY_DYNAMIC_DISPATCH(markSquare)(query, lightsIn(query, x, y), list, x, y, marks);
+      const std::vector<std::uint32_t> lights = lightsIn(query, x, y);
+      const unsigned done = HWY_DYNAMIC_DISPATCH(markParts)(query, lights, x, y, marks);
+      listFragments(query.surfaces, x, y, list, blocksOf(done));
+      if (list.count > 0) HWY_DYNAMIC_DISPATCH(markSquare)(query, lights, list, x, y, marks);
     }
   });
 }

@@ -47,20 +47,20 @@ HWY_INLINE void listBlock(const std::uint32_t* numbers, const Mask& inside, int 
 }
 
 template <int samples>
-HWY_INLINE void listBlocks(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
+HWY_INLINE void listBlocks(const DepthBuffer& buffer, int x, int y, unsigned without, FragmentList& list) {
   const Int laneX = laneNumbers() & Int(kBlockSide - 1), laneY = shiftRight<2>(laneNumbers());
   for (int block = 0; block < static_cast<int>(kTilePixels) / kBlockPlaces; ++block) {
     const int column = x + columnOf(block * kBlockPlaces);
     const int row = y + rowOf(block * kBlockPlaces);
-    if (column >= buffer.width || row >= buffer.height) continue;
+    if (column >= buffer.width || row >= buffer.height || (without >> block & 1u) != 0) continue;
     const Mask inside = (laneX < Int(buffer.width - column)) & (laneY < Int(buffer.height - row));
     listBlock<samples>(buffer.triangles.data() + buffer.at(column, row), inside, block * kBlockPlaces, list);
   }
 }
 
-void listFragmentsOn(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
+void listFragmentsOn(const DepthBuffer& buffer, int x, int y, unsigned without, FragmentList& list) {
   list.count = 0;
-  buffer.samples == 1 ? listBlocks<1>(buffer, x, y, list) : listBlocks<4>(buffer, x, y, list);
+  buffer.samples == 1 ? listBlocks<1>(buffer, x, y, without, list) : listBlocks<4>(buffer, x, y, without, list);
   if (list.count == 0) return;
   // Whole packets may be read.
   const std::size_t last = list.count - 1;
@@ -79,8 +79,8 @@ namespace gnomon::cpu {
 
 HWY_EXPORT(listFragmentsOn);
 
-void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list) {
-  HWY_DYNAMIC_DISPATCH(listFragmentsOn)(buffer, x, y, list);
+void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without) {
+  HWY_DYNAMIC_DISPATCH(listFragmentsOn)(buffer, x, y, without, list);
 }
 
 } // namespace gnomon::cpu

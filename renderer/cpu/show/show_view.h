@@ -62,7 +62,7 @@ constexpr int rowOf(int pixel) {
 }
 
 /// The fragments of the square whose lower left pixel is x, y: block by block, of each first what its pixels'
-/// first samples show, then what others show.
-void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list);
+/// first samples show, then what others show. `without`: the blocks that are left out, a bit each.
+void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without = 0);
 
 } // namespace gnomon::cpu

@@ -1,0 +1,148 @@
+// Parts of the picture that show one triangle each: what their pixels read of a light's tiles lies within what their
+// corners read, since pixels of a plane lie in a tile as they do in the picture.
+#if defined(GNOMON_CPU_EVEN_PARTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GNOMON_CPU_EVEN_PARTS_INL_H
+#undef GNOMON_CPU_EVEN_PARTS_INL_H
+#else
+#define GNOMON_CPU_EVEN_PARTS_INL_H
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "renderer/cpu/shadow/read_texels-inl.h"
+#include "renderer/cpu/surface/receivers-inl.h"
+#include "renderer/prepare/draw_list.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::cpu::HWY_NAMESPACE {
+
+inline constexpr int kPartSide = 8;       ///< pixels
+inline constexpr unsigned kPartCount = 4; ///< of a square of the picture, two by two, from the lower left one
+inline constexpr unsigned kCorners = kLanes / kPartCount;
+
+/// The parts of a square, a bit each.
+struct EvenParts {
+  unsigned empty = 0;   ///< show nothing
+  unsigned covered = 0; ///< show one triangle in all samples of all pixels
+  Fragments corners;    ///< four lanes a part: the pixels at the corners of the covered ones
+};
+
+/// The bits of lanes that belong to a part.
+constexpr unsigned lanesOf(unsigned part) {
+  return 0xfu << (kCorners * part);
+}
+
+/// The number that all samples of a part show. `left`, `bottom`: the first of its pixels, all of which the picture has.
+HWY_INLINE bool showsOne(const DepthBuffer& surfaces, int left, int bottom, std::int32_t& number) {
+  number = static_cast<std::int32_t>(surfaces.triangles[surfaces.at(left, bottom)]);
+  Int differs(0);
+  for (int block = 0; block < 4; ++block) {
+    const std::size_t first = surfaces.at(left + block % 2 * kBlockSide, bottom + block / 2 * kBlockSide);
+    for (int sample = 0; sample < surfaces.samples; ++sample) {
+      const Int own = load(&surfaces.triangles[first + static_cast<std::size_t>(sample * kBlockPlaces)]);
+      differs = differs | (own ^ Int(number));
+    }
+  }
+  return all(differs == Int(0));
+}
+
+/// Of the square whose lower left pixel is x, y.
+HWY_INLINE EvenParts evenParts(const DepthBuffer& surfaces, int x, int y) {
+  EvenParts parts;
+  alignas(64) std::int32_t numbers[kLanes] = {};
+  unsigned shown = 0;
+  for (unsigned part = 0; part < kPartCount; ++part) {
+    const int left = x + static_cast<int>(part % 2) * kPartSide, bottom = y + static_cast<int>(part / 2) * kPartSide;
+    if (left + kPartSide > surfaces.width || bottom + kPartSide > surfaces.height) continue;
+    std::int32_t number = 0;
+    if (!showsOne(surfaces, left, bottom, number)) continue;
+    const bool empty = static_cast<std::uint32_t>(number) == kNoNumber;
+    (empty ? parts.empty : parts.covered) |= 1u << part;
+    if (empty) continue;
+    std::fill_n(&numbers[kCorners * part], kCorners, number);
+    shown |= lanesOf(part);
+  }
+  const Int lane = laneNumbers(), part = shiftRight<2>(lane);
+  parts.corners.shown = maskOf(shown);
+  parts.corners.triangle = load(numbers);
+  parts.corners.x = Int(x) + (part & Int(1)) * Int(kPartSide) + (lane & Int(1)) * Int(kPartSide - 1);
+  parts.corners.y = Int(y) + shiftRight<1>(part) * Int(kPartSide) + (shiftRight<1>(lane) & Int(1)) * Int(kPartSide - 1);
+  parts.corners.center = {toFloat(parts.corners.x) + 0.5f, toFloat(parts.corners.y) + 0.5f};
+  parts.corners.place = parts.corners.center; // the mean of all samples, too
+  return parts;
+}
+
+/// Whether what a light's pixels read is told by corners: what they read is as far around each, whatever its depth.
+HWY_INLINE bool readsAlike(const LightData& light) {
+  return light.type == GNOMON_DIRECTIONAL && light.filterKind != GNOMON_FILTER_PCSS;
+}
+
+/// The one tile that each lane reads, and -1 where it may read two, or its neighbours another one.
+HWY_INLINE Int onlyTile(const ShadowMaps& maps, const LightData& light, const Float& viewDepth) {
+  constexpr float kRounding = 1e-5f;
+  const TileChoice nearer = chooseCascade(maps, light, viewDepth * (1.0f - kRounding));
+  const TileChoice farther = chooseCascade(maps, light, viewDepth * (1.0f + kRounding));
+  const Mask one =
+      (nearer.first == farther.first) & (nearer.first == nearer.second) & (farther.first == farther.second);
+  return select(one, nearer.first, Int(-1));
+}
+
+/// Marks what the covered parts read of a light. Gives those of which the corners tell.
+HWY_INLINE unsigned markCorners(const ShadowMaps& maps, const LightData& light, const Receiver& corners,
+                                unsigned covered, std::span<TexelMarks> marks) {
+  constexpr float kTurnedAway = 5e-5f; // where a corner is, isTurnedAway says so of all
+  constexpr std::int32_t kWidest = 48; // a box around more than that holds much that no pixel reads
+  const Float3 toLight(glm::vec3(light.direction));
+  const unsigned lit = bitsOf(receivesShadow(light, corners) & (dot(corners.normal, toLight) > kTurnedAway));
+  alignas(64) std::int32_t tiles[kLanes];
+  store(onlyTile(maps, light, corners.viewDepth), tiles);
+  unsigned told = 0;
+  for (unsigned left = covered; left != 0; left &= left - 1) {
+    const auto part = static_cast<unsigned>(std::countr_zero(left));
+    if ((lit & lanesOf(part)) == 0) {
+      told |= 1u << part;
+      continue;
+    }
+    const std::int32_t* own = &tiles[kCorners * part];
+    if (own[0] < 0 || !std::all_of(own, own + kCorners, [&](int tile) { return tile == own[0]; })) continue;
+    const std::size_t index = light.firstTile + static_cast<std::size_t>(own[0]);
+    if (maps.maps[index].depths != nullptr) {
+      const Lookup at = lookupIn(light, maps.tiles[index], corners, toLight);
+      const Float2 rounding(Float(0.5f)); // of places: pixels between the corners are rounded in ways of their own
+      const Reached reached = reachedAround(placeIn(maps, maps.maps[index], at),
+                                            filterReach(maps, light, maps.tiles[index], at) + rounding);
+      const Mask lanes = maskOf(lanesOf(part));
+      const std::int32_t x0 = leastOf(lanes, reached.left), x1 = mostOf(lanes, reached.right);
+      const std::int32_t y0 = leastOf(lanes, reached.low), y1 = mostOf(lanes, reached.high);
+      if (x1 - x0 >= kWidest || y1 - y0 >= kWidest) continue;
+      marks[index].mark(x0, y0, x1, y1);
+    }
+    told |= 1u << part;
+  }
+  return told;
+}
+
+/// Marks what these lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
+/// corners tell for all of them.
+HWY_INLINE unsigned markCorners(const FrameScene& scene, const ShadowMaps& maps, std::span<const std::uint32_t> lights,
+                                const EvenParts& parts, std::span<TexelMarks> marks) {
+  if (parts.covered == 0) return 0;
+  const Receiver corners = receiversOf(scene, parts.corners);
+  // Of a triangle that is seen edge-on some point is taken, by each pixel another one.
+  constexpr float kOutside = 0.1f;
+  const Mask sound = (corners.weights.x > -kOutside) & (corners.weights.y > -kOutside) &
+                     (corners.weights.x + corners.weights.y < 1.0f + kOutside);
+  unsigned told = 0;
+  for (unsigned part = 0; part < kPartCount; ++part) {
+    const bool whole = (bitsOf(sound) & lanesOf(part)) == lanesOf(part);
+    told |= whole ? parts.covered & 1u << part : 0u;
+  }
+  for (const std::uint32_t light : lights) told &= markCorners(maps, maps.lights[light], corners, told, marks);
+  return told;
+}
+
+} // namespace gnomon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
