@@ -64,7 +64,7 @@ void addTriangles(const Tree& tree, RTCScene scene, const Primitive& primitive, 
 
 bool isWorthSharing(const Primitive& primitive, std::size_t uses) {
   constexpr std::size_t kLeastTriangles = 256;
-  constexpr std::size_t kLeastPlaced = 1 << 14; ///< by all instances together
+  constexpr std::size_t kLeastPlaced = 1 << 15; ///< by all instances together
   const std::size_t triangles = primitive.indexCount / 3;
   return triangles >= kLeastTriangles && uses > 1 && triangles * uses >= kLeastPlaced;
 }
