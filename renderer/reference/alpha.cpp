@@ -27,17 +27,19 @@ glm::dvec2 moved(const glm::dvec2& uv, const std::optional<TextureTransform>& tr
 
 double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv) {
   const auto& bytes = std::get<std::vector<std::uint8_t>>(image.pixels);
-  const auto texel = [&](double x, double y) {
-    const std::size_t column = wrapped(x, image.width, use.wrapS);
-    const std::size_t row = wrapped(y, image.height, use.wrapT);
-    return bytes[4 * (row * static_cast<std::size_t>(image.width) + column) + 3] / 255.0;
+  const auto column = [&](double x) { return wrapped(x, image.width, use.wrapS); };
+  const auto row = [&](double y) {
+    return wrapped(y, image.height, use.wrapT) * static_cast<std::size_t>(image.width);
   };
+  const auto texel = [&](std::size_t x, std::size_t y) { return bytes[4 * (y + x) + 3] / 255.0; };
   const glm::dvec2 place = uv * glm::dvec2(image.width, image.height);
-  if (use.nearest) return texel(std::floor(place.x), std::floor(place.y));
+  if (use.nearest) return texel(column(std::floor(place.x)), row(std::floor(place.y)));
   const glm::dvec2 low = glm::floor(place - 0.5);
   const glm::dvec2 share = place - 0.5 - low;
-  return glm::mix(glm::mix(texel(low.x, low.y), texel(low.x + 1, low.y), share.x),
-                  glm::mix(texel(low.x, low.y + 1), texel(low.x + 1, low.y + 1), share.x), share.y);
+  const std::size_t left = column(low.x), right = column(low.x + 1);
+  const std::size_t above = row(low.y), below = row(low.y + 1);
+  return glm::mix(glm::mix(texel(left, above), texel(right, above), share.x),
+                  glm::mix(texel(left, below), texel(right, below), share.x), share.y);
 }
 
 double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const Barycentric& at) {

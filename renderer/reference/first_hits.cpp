@@ -36,14 +36,15 @@ struct EyeQuery {
   Lines lines;
 };
 
-/// Whether the camera sees a surface where a ray meets it: as the survey and the surface pass draw it. `away`: the ray
-/// leads along the triangle's normal.
-bool isSeen(const Eye& eye, const PlacedTriangle& hit, bool away, const Barycentric& at) {
+/// Whether the camera sees a surface where a ray meets it: as the survey and the surface pass draw it. `away()`: the
+/// ray leads along the triangle's normal; `at()`: where it meets the triangle.
+template <class Away, class At>
+bool isSeen(const Eye& eye, const PlacedTriangle& hit, const Away& away, const At& at) {
   if (eye.visible[hit.instance] == 0) return false;
   const Material& material = eye.tree.material(hit.instance);
-  if (!material.doubleSided && away != (eye.tree.mirrored[hit.instance] != 0)) return false;
+  if (!material.doubleSided && away() != (eye.tree.mirrored[hit.instance] != 0)) return false;
   return material.alphaMode == AlphaMode::opaque ||
-         alphaAt(eye.tree, hit.instance, hit.triangle, at) >= material.alphaCutoff;
+         alphaAt(eye.tree, hit.instance, hit.triangle, at()) >= material.alphaCutoff;
 }
 
 void keepSeen(const RTCFilterFunctionNArguments* call) {
@@ -53,8 +54,11 @@ void keepSeen(const RTCFilterFunctionNArguments* call) {
     const glm::dvec3 origin(origins[0][hit.lane], origins[1][hit.lane], origins[2][hit.lane]);
     const glm::dvec3 direction(directions[0][hit.lane], directions[1][hit.lane], directions[2][hit.lane]);
     const Triangle triangle = query.eye->tree.triangle(hit.instance, hit.triangle);
-    return isSeen(*query.eye, {hit.instance, hit.triangle}, glm::dot(triangle.area(), direction) > 0,
-                  crossing(triangle, origin, direction, {hit.u, hit.v}));
+    return isSeen(
+        *query.eye, {hit.instance, hit.triangle}, [&] { return glm::dot(triangle.area(), direction) > 0; },
+        [&] {
+          return crossing(triangle, origin, direction, {hit.u, hit.v});
+        });
   });
 }
 
@@ -113,7 +117,9 @@ class Packet {
     cross(query_.lines, eye_.tree.scale, found);
     for (unsigned i = 0; i < points.size(); ++i) {
       if (!hit(i)) continue;
-      if (isSeen(eye_, on(i), found.facing[i] > 0, {found.u[i], found.v[i]})) {
+      const auto away = [&] { return found.facing[i] > 0; };
+      const auto at = [&] { return Barycentric{found.u[i], found.v[i]}; };
+      if (isSeen(eye_, on(i), away, at)) {
         points[i] = found.point(i, on(i));
       } else {
         others.active[i] = -1;

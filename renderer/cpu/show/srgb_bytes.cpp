@@ -13,20 +13,24 @@
 #define GNOMON_CPU_SRGB_TABLE
 namespace gnomon::cpu {
 
-/// A number's byte by its leading bits, one more from where the next byte begins.
+/// A number's byte by its leading bits: the byte where numbers with these begin, and from which of their other bits on
+/// it is one more.
 struct SrgbTable {
   static constexpr std::uint32_t kLeastBits = 0x39000000u; ///< 2^-13: up to there, a byte is 0
   static constexpr int kDropped = 16;                      ///< 128 steps an octave, so that none spans two bytes
+  static constexpr int kByte = 17;                         ///< where an entry's byte begins; 2^16 below it is never met
 
-  std::array<float, 256> next{}; ///< where each byte ends
-  std::array<std::int32_t, ((0x3f800000u - kLeastBits) >> kDropped) + 1> first{};
+  std::array<std::int32_t, ((0x3f800000u - kLeastBits) >> kDropped) + 1> entries{};
 
   SrgbTable() {
+    std::array<float, 256> next{}; // where each byte ends
     for (int byte = 0; byte < 255; ++byte) next[static_cast<std::size_t>(byte)] = linearOf((byte + 0.5) / 255.0);
     next[255] = 2.0f;
-    for (std::uint32_t i = 0; i < first.size(); ++i) {
-      const float least = std::bit_cast<float>(kLeastBits + (i << kDropped));
-      first[i] = static_cast<std::int32_t>(std::upper_bound(next.begin(), next.end(), least) - next.begin());
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+      const std::uint32_t least = kLeastBits + (i << kDropped);
+      const auto byte = std::upper_bound(next.begin(), next.end(), std::bit_cast<float>(least)) - next.begin();
+      const std::uint32_t left = std::bit_cast<std::uint32_t>(next[static_cast<std::size_t>(byte)]) - least;
+      entries[i] = static_cast<std::int32_t>(byte << kByte | std::min(left, 1u << kDropped));
     }
   }
 
@@ -45,9 +49,10 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 HWY_INLINE Int srgbByte(const SrgbTable& table, const Float& linear) {
   const Mask some = linear > Float(std::bit_cast<float>(SrgbTable::kLeastBits)); // not where it is no number
   const Int bits = bitsOf(min(linear, 1.0f)) - Int(static_cast<std::int32_t>(SrgbTable::kLeastBits));
-  const Int byte = gather(table.first.data(), select(some, shiftRight<SrgbTable::kDropped>(bits), Int(0)));
-  const Int rounded = select(linear >= gather(table.next.data(), byte), byte + Int(1), byte);
-  return select(some, rounded, Int(0));
+  const Int entry = gather(table.entries.data(), select(some, shiftRight<SrgbTable::kDropped>(bits), Int(0)));
+  const Int byte = shiftRight<SrgbTable::kByte>(entry);
+  const Mask more = (bits & Int((1 << SrgbTable::kDropped) - 1)) >= (entry & Int((1 << SrgbTable::kByte) - 1));
+  return select(some, select(more, byte + Int(1), byte), Int(0));
 }
 
 /// Of each four numbers of four bytes the lowest three bytes, side by side.
