@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/receiver_pieces.h"
 
@@ -98,16 +99,17 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
   const bool held = manual || shadow.depthRange.previous.has_value(); // not this frame's alone
   draft.stable = held && shadow.stabilization != Stabilization::none;
   const LightBasis basis = lightBasis(caster.direction);
-  for (const CascadeInterval& cascade : cascadeIntervals(splits, shadow.blendCascades, draft.planned.fadeOut)) {
-    TileDraft tile;
-    tile.cascade = cascade;
-    tile.basis = draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascade);
+  const std::vector<CascadeInterval> cascades = cascadeIntervals(splits, shadow.blendCascades, draft.planned.fadeOut);
+  draft.tiles.resize(cascades.size());
+  forEach(cascades.size(), [&](std::size_t i) {
+    TileDraft& tile = draft.tiles[i];
+    tile.cascade = cascades[i];
+    tile.basis = draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascades[i]);
     tile.origin = input.anchor - input.view.eye;
-    tile.receivers = receiverPieces(input.view, input.receivers, tile.basis, cascade);
+    tile.receivers = receiverPieces(input.view, input.receivers, tile.basis, cascades[i]);
     const glm::dvec3 fromOrigin = tile.basis.lightFromWorld() * -tile.origin;
     for (Aabb& piece : tile.receivers) piece = {piece.min + fromOrigin, piece.max + fromOrigin};
-    draft.tiles.push_back(std::move(tile));
-  }
+  });
   if (shadow.stabilization != Stabilization::none && !draft.stable) {
     addNote(draft.planned, "stabilization is ignored, because the depth range is automatic and has no previous one");
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "renderer/core/parallel.h"
+
 namespace gnomon {
 namespace {
 
@@ -97,19 +99,22 @@ PredictedErrors predictErrors(const CameraView& view, const ReceiverDepths& rece
   PredictedErrors errors;
   errors.tiles.resize(plan.tiles.size());
   const SeenBlocks seen = seenBlocks(view, receivers);
+  std::vector<std::vector<float>> extents(plan.tiles.size());
+  forEach(extents.size(), [&](std::size_t tile) {
+    extents[tile] = texelExtents(view, seen, plan.tiles[tile]);
+    errors.tiles[tile] = errorOf(extents[tile]);
+  });
   std::vector<float> all;
   for (const PlannedLight& light : plan.lights) {
     std::vector<float> ofLight;
     for (int i = 0; i < light.tileCount; ++i) {
-      const auto tile = static_cast<std::size_t>(light.firstTile + i);
-      std::vector<float> extents = texelExtents(view, seen, plan.tiles[tile]);
-      ofLight.insert(ofLight.end(), extents.begin(), extents.end());
-      errors.tiles[tile] = errorOf(std::move(extents));
+      const std::vector<float>& ofTile = extents[static_cast<std::size_t>(light.firstTile + i)];
+      ofLight.insert(ofLight.end(), ofTile.begin(), ofTile.end());
     }
     all.insert(all.end(), ofLight.begin(), ofLight.end());
     errors.lights.push_back(errorOf(std::move(ofLight)));
   }
-  errors.all = errorOf(std::move(all));
+  errors.all = errors.lights.size() == 1 ? errors.lights.front() : errorOf(std::move(all));
   return errors;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/fit.h"
@@ -239,9 +240,11 @@ ShadowPlan planShadows(const PlanInput& input) {
     PlannedLight& planned = drafts[i].planned;
     planned.firstTile = static_cast<int>(plan.tiles.size());
     planned.tileCount = static_cast<int>(drafts[i].tiles.size());
-    for (const TileDraft& tile : drafts[i].tiles) {
-      plan.tiles.push_back(planTile(tile, drafts[i], input.casters[i], input));
-    }
+    const std::size_t first = plan.tiles.size();
+    plan.tiles.resize(first + drafts[i].tiles.size());
+    forEach(drafts[i].tiles.size(), [&](std::size_t tile) {
+      plan.tiles[first + tile] = planTile(drafts[i].tiles[tile], drafts[i], input.casters[i], input);
+    });
     plan.lights.push_back(planned);
   }
   placeTiles(plan);
