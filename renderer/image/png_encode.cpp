@@ -7,6 +7,7 @@
 #include <string_view>
 #include <zlib.h>
 
+#include "renderer/core/instruction_sets.h"
 #include "renderer/core/parallel.h"
 #include "renderer/image/deflate_stripe.h"
 
@@ -53,18 +54,24 @@ std::uint8_t size(std::uint8_t difference) {
 }
 
 /// The sum of the differences' sizes between two rows of samples.
-std::uint64_t distance(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
+GNOMON_FOR_EACH_INSTRUCTION_SET std::uint64_t distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                       std::size_t count) {
+  constexpr std::size_t kAtOnce = 256; // sizes, up to 128 each, whose sum has 16 bits
   std::uint64_t sum = 0;
-  for (std::size_t done = 0; done < count;) {
-    const std::size_t end = std::min(count, done + (std::size_t{1} << 20));
-    std::uint32_t part = 0;
-    for (; done < end; ++done) part += size(static_cast<std::uint8_t>(a[done] - b[done]));
+  std::size_t done = 0;
+  for (; done + kAtOnce <= count; done += kAtOnce) {
+    std::uint16_t part = 0;
+    for (std::size_t i = 0; i < kAtOnce; ++i) {
+      part = static_cast<std::uint16_t>(part + size(static_cast<std::uint8_t>(a[done + i] - b[done + i])));
+    }
     sum += part;
   }
+  for (; done < count; ++done) sum += size(static_cast<std::uint8_t>(a[done] - b[done]));
   return sum;
 }
 
-void subtract(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* differences) {
+GNOMON_FOR_EACH_INSTRUCTION_SET void subtract(const std::uint8_t* a, const std::uint8_t* b, std::size_t count,
+                                              std::uint8_t* differences) {
   for (std::size_t i = 0; i < count; ++i) differences[i] = static_cast<std::uint8_t>(a[i] - b[i]);
 }
 
