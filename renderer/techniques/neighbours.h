@@ -28,6 +28,17 @@ inline void appendMarked(const std::vector<std::uint8_t>& marks, std::size_t fir
   }
 }
 
+/// Values of three rows of `width` pixels that follow each other.
+struct ThreeRows {
+  const std::uint8_t* below;
+  const std::uint8_t* own;
+  const std::uint8_t* above;
+};
+
+/// The least and the most of the values of each pixel of the row in the middle and of those next to it and to its
+/// corners. `least`, `most`: `width` + 2 values each, of which the first `width` are meant.
+void extremesAround(const ThreeRows& rows, std::size_t width, std::uint8_t* least, std::uint8_t* most);
+
 /// The pixels for which `keep(least, most)` holds, in order: of the values of the pixel and of those next to it and to
 /// its corners. `values`: one a pixel. On all cores.
 template <class Keep>
@@ -36,31 +47,17 @@ std::vector<std::uint32_t> pixelsWhere(const SampleGrid& grid, std::span<const s
   std::vector<std::vector<std::uint32_t>> found((height + kScanRows - 1) / kScanRows);
   forEachPiece(height, kScanRows, [&](std::size_t first, std::size_t last) {
     const auto width = static_cast<std::size_t>(grid.width); // in here no byte that is written may change it
-    const auto least = [](std::uint8_t a, std::uint8_t b) { return a < b ? a : b; };
-    const auto most = [](std::uint8_t a, std::uint8_t b) { return a > b ? a : b; };
     std::vector<std::uint8_t> lows(width + 2);
     std::vector<std::uint8_t> highs(width + 2);
     std::vector<std::uint8_t> kept(width);
     for (std::size_t row = first; row < last; ++row) {
-      const std::uint8_t* below = values.data() + (row > 0 ? row - 1 : row) * width;
       const std::uint8_t* own = values.data() + row * width;
-      const std::uint8_t* above = values.data() + std::min(row + 1, height - 1) * width;
-      std::uint8_t* low = lows.data();
-      std::uint8_t* high = highs.data();
-      for (std::size_t x = 0; x < width; ++x) {
-        low[x + 1] = least(least(below[x], above[x]), own[x]);
-        high[x + 1] = most(most(below[x], above[x]), own[x]);
-      }
-      low[0] = low[1];
-      high[0] = high[1];
-      low[width + 1] = low[width];
-      high[width + 1] = high[width];
+      extremesAround({row > 0 ? own - width : own, own, row + 1 < height ? own + width : own}, width, lows.data(),
+                     highs.data());
+      const std::uint8_t* low = lows.data();
+      const std::uint8_t* high = highs.data();
       std::uint8_t* mark = kept.data();
-      for (std::size_t x = 0; x < width; ++x) {
-        const std::uint8_t lowest = least(least(low[x], low[x + 1]), low[x + 2]);
-        const std::uint8_t highest = most(most(high[x], high[x + 1]), high[x + 2]);
-        mark[x] = keep(lowest, highest) ? 1 : 0;
-      }
+      for (std::size_t x = 0; x < width; ++x) mark[x] = keep(low[x], high[x]) ? 1 : 0;
       appendMarked(kept, row * width, found[first / kScanRows]);
     }
   });
