@@ -353,8 +353,8 @@ HWY_INLINE Float sqrt(const Float& a) {
 /// of 0.
 HWY_INLINE Float inversesqrt(const Float& a) {
   Float root = floatOf(Int(0x5f3759df) - shiftRight<1>(bitsOf(a)));
-  const Float half = a * 0.5f;
-  for (int step = 0; step < 3; ++step) root = root * (1.5f - half * root * root);
+  const Float half = a * -0.5f;
+  for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
   return root;
 }
 HWY_INLINE Float floor(const Float& a) {
@@ -372,15 +372,16 @@ HWY_INLINE Float exp(const Float& a) {
 /// 2^a of -125..127, and of the nearer of these beyond: the series of the octave's rest, to within 3e-7 of itself.
 HWY_INLINE Float exp2(const Float& a) {
   const Float within = min(max(a, -125.0f), 127.0f);
-  const Int octave = nearest(within);
-  const Float rest = within - toFloat(octave);
+  constexpr float kWhole = 0x1.8p23f; // floats from there on are whole, and their lowest bits count on
+  const Float octave = within + kWhole;
+  const Float rest = within - (octave - kWhole);
   Float y = mulAdd(rest, 1.54035304e-4f, 1.33335581e-3f);
   y = mulAdd(y, rest, 9.61812911e-3f);
   y = mulAdd(y, rest, 5.55041087e-2f);
   y = mulAdd(y, rest, 0.240226507f);
   y = mulAdd(y, rest, 0.693147181f);
   y = mulAdd(y, rest, 1.0f);
-  return floatOf(bitsOf(y) + shiftLeft<23>(octave));
+  return floatOf(bitsOf(y) + shiftLeft<23>(bitsOf(octave)));
 }
 HWY_INLINE Float log2(const Float& a) {
   GNOMON_EACH_PART(Float, r, hn::Log2(kFloats, a.part[i]));
