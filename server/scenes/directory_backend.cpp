@@ -5,7 +5,9 @@
 namespace gnomon {
 
 DirectoryBackend::DirectoryBackend(SceneDirectory directory, std::uint64_t quotaBytes, std::chrono::seconds age)
-    : age_(age), directory_(std::move(directory)), quota_(quotaBytes, [this] { return directory_.size().bytes; }) {}
+    : age_(age),
+      directory_(std::move(directory)),
+      quota_(quotaBytes, [this](const auto& without) { return directory_.size(without).bytes; }) {}
 
 Result<std::unique_ptr<SceneBackend>> DirectoryBackend::open(const std::string& path, std::uint64_t quotaBytes,
                                                              std::chrono::seconds age) {
@@ -17,7 +19,7 @@ Result<std::unique_ptr<SceneBackend>> DirectoryBackend::open(const std::string& 
 Result<bool> DirectoryBackend::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
                                    const std::string& summary) {
   if (use(id)) return false;
-  const Status written = quota_.write(bytes, [&] { return directory_.write(id, *bundle, summary); });
+  const Status written = quota_.write(id, bytes, [&] { return directory_.write(id, *bundle, summary); });
   if (!written) return written.problems();
   return true;
 }

@@ -85,10 +85,12 @@ ScenePage SceneDirectory::page(std::string_view after, std::size_t limit) const 
   return std::move(finder).page();
 }
 
-StoreSize SceneDirectory::size() const {
+StoreSize SceneDirectory::size(const std::multiset<std::string>& without) const {
   StoreSize size;
   eachName(path_, [&](std::string_view name) {
-    const bool isScene = !idIn(name, kBundle).empty();
+    const std::string id(idIn(name, kBundle));
+    const bool isScene = !id.empty();
+    if (isScene && without.contains(id)) return;
     struct stat status {};
     if ((!isScene && idIn(name, kDamaged).empty()) || ::stat((path_ + "/").append(name).c_str(), &status) != 0) return;
     size.scenes += isScene ? 1 : 0;

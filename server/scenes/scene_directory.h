@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ class SceneDirectory {
   ScenePage page(std::string_view after, std::size_t limit) const; ///< see PageFinder
   bool contains(const std::string& id) const;
 
-  StoreSize size() const;                             ///< reads the whole directory; damaged bundles have bytes, too
+  /// Reads the whole directory; damaged bundles have bytes, too. `without`: scenes whose bundles don't count.
+  StoreSize size(const std::multiset<std::string>& without = {}) const;
   std::uint64_t bytesOf(const std::string& id) const; ///< of one bundle; 0 where there is none
 
   /// Writes the bundle's bytes and its summary through to the disk. Problems: insufficientStorage where it is full,

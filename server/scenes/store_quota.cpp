@@ -16,7 +16,7 @@ Problem noRoom(std::uint64_t quota, std::uint64_t taken, std::uint64_t bytes) {
 Status StoreQuota::room(std::uint64_t bytes) {
   constexpr int kShare = 20;
   if (const auto begun = Clock::now(); begun >= countAgain_) {
-    kept_ = count_();
+    kept_ = count_(unfinished_);
     const auto ended = Clock::now();
     countAgain_ = ended + kShare * (ended - begun);
   }
@@ -31,17 +31,19 @@ Status StoreQuota::check(std::uint64_t bytes) {
   return room(bytes);
 }
 
-Status StoreQuota::write(std::uint64_t bytes, const std::function<Status()>& write) {
+Status StoreQuota::write(const std::string& id, std::uint64_t bytes, const std::function<Status()>& write) {
   if (bytes_ == 0) return write();
   {
     const std::lock_guard lock(mutex_);
     if (Status fits = room(bytes); !fits) return fits;
     writing_ += bytes;
+    unfinished_.insert(id);
   }
   Status written = write();
   const std::lock_guard lock(mutex_);
   writing_ -= bytes;
-  if (written) kept_ += bytes;
+  unfinished_.erase(unfinished_.find(id));
+  if (written && !unfinished_.contains(id)) kept_ += bytes; // the last one of several that write the same
   return written;
 }
 
