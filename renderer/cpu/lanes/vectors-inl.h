@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/lanes/functions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

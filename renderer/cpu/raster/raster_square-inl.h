@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/lanes/functions-inl.h"
 #include "renderer/cpu/raster/raster_triangles.h"
 #include "renderer/cpu/raster/raster_view.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/lanes/functions-inl.h"
 
 #ifndef GNOMON_CPU_SRGB_TABLE
 #define GNOMON_CPU_SRGB_TABLE

@@ -5,7 +5,7 @@
 
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/lanes/functions-inl.h"
 #include "tests/renderer/cpu/lanes/lanes_cases.h"
 
 HWY_BEFORE_NAMESPACE();
