@@ -190,7 +190,7 @@ void TracedLight::visibility(const DrawnPlaces& places, std::uint32_t first, std
   Lanes lit;
   sort(points, asked, lit, unsure, shares.data(), turnedAway.data());
   if (lit.any()) {
-    DrawnQuery query{{}, &of.casters, &of.source, &of.input, &places, &points};
+    DrawnQuery query{{}, &of.casters, &of.from.light, &of.input, &places, &points};
     const std::array<float, kLanes> found =
         hasSize() ? meanThrough(query, points, of.light, first, last, of.places, lit, unsure)
                   : sharesThrough(query, lit);

@@ -38,19 +38,13 @@ std::optional<FlatBlock> blockOn(const Triangle& triangle, const Sight& sight, c
   return flat;
 }
 
-/// What faces() says of all points of the block alike; lit: that they face the light.
-LightAcross facedBy(const LightSource& light, const FlatBlock& block) {
-  constexpr double kUnsure = 1e-5; // about the least cosine of faces()
-  bool towards = true;
-  bool away = true;
-  for (const glm::dvec3& corner : block.corners) {
-    const WayToLight way = wayTo(light, corner);
-    const double cosine = glm::dot(block.normal, way.direction);
-    towards = towards && cosine > 1e-4 + kUnsure;
-    away = away && cosine < -kUnsure;
-  }
-  if (towards) return LightAcross::lit;
-  return away ? LightAcross::turnedAway : LightAcross::unsure;
+/// What the camera sees of a triangle: its front, or its back; nothing where it sees it edge-on.
+std::optional<bool> showsFront(const Triangle& triangle, const Sight& sight, bool mirrored) {
+  const glm::dvec3 along = sight.slope == glm::dvec2(0) ? sight.middle : triangle.a - sight.origin;
+  const glm::dvec3 area = triangle.area();
+  const double facing = glm::dot(area, along);
+  if (!(facing * facing > 1e-12 * glm::dot(area, area) * glm::dot(along, along))) return std::nullopt;
+  return (facing < 0) != mirrored;
 }
 
 double heightOver(const FlatBlock& block, const Triangle& triangle) {
@@ -68,8 +62,9 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
   const Triangle own = tree.triangle(shown.instance, shown.triangle);
   const auto flat = blockOn(own, of.sight, block);
   if (!flat) return LightAcross::unsure;
-  if (const LightAcross faced = facedBy(of.source, *flat); faced != LightAcross::lit) return faced;
-  const auto shaft = shaftTo(of.source, *flat, tree.scale);
+  const Turn turn = turnOf(of.from.light, *flat);
+  if (turn != Turn::towards) return turn == Turn::away ? LightAcross::turnedAway : LightAcross::unsure;
+  const auto shaft = shaftTo(of.from.light, *flat, tree.scale);
   if (!shaft) return LightAcross::unsure;
   // Half of what `meets` lets a caster rise at least.
   const double rise = roundingAlong(flat->normal, own.largest()) / 2;
@@ -78,6 +73,27 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
            heightOver(*flat, tree.triangle(other.instance, other.triangle)) > rise;
   };
   return tree.boxes.mayReachInto(*shaft, tree, casts) ? LightAcross::unsure : LightAcross::lit;
+}
+
+LightAcross TracedLight::across(const PlacedTriangle& shown) const {
+  const State& of = *state_;
+  if (shown.instance == kNoSurface || of.shadowed[shown.instance] == 0) return LightAcross::lit;
+  if (!of.fronts) return LightAcross::unsure;
+  const TracedScene::Tree& tree = of.casters.tree;
+  const std::size_t run = tree.boxes.runOf(shown);
+  RunFronts known = of.fronts->of(run);
+  const std::uint32_t place = shown.triangle % TriangleBoxes::kRunTriangles;
+  if (known.of(place) == Front::unknown) {
+    if (!of.mayFindOut()) return LightAcross::unsure;
+    known = frontsOf(tree, of.from, tree.boxes.run(run));
+    of.fronts->set(run, known);
+  }
+  const Front front = known.of(place);
+  if (front == Front::mixed) return LightAcross::unsure;
+  const auto shows =
+      showsFront(tree.triangle(shown.instance, shown.triangle), of.sight, tree.mirrored[shown.instance] != 0);
+  if (!shows || (!*shows && front == Front::dark)) return LightAcross::unsure;
+  return *shows && front == Front::lit ? LightAcross::lit : LightAcross::turnedAway;
 }
 
 } // namespace gnomon

@@ -22,6 +22,8 @@ struct LightSource {
   double cosOuter = -1;   ///< of the cone's half angle; spot
   /// Of the disc that shines: its radius as seen from 1 m for directional lights, else in metres; 0 = a point.
   double radius = 0;
+
+  bool operator==(const LightSource&) const = default;
 };
 
 LightSource lightSource(const Light& light, const glm::dvec3& anchor);

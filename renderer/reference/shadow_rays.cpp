@@ -99,6 +99,7 @@ std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {
   }
   const double across = glm::dot(normal, ray.direction);
   const double away = glm::dot(normal, caster.a - from.position);
+  if (std::abs(away) <= samePlane(normal, largest)) return std::nullopt; // as of a neighbour that it shares a side with
   const double distance = away / across;
   if (!(distance > 0 && distance < ray.length)) return std::nullopt;
   if (std::isinf(ray.length)) return distance;

@@ -1,30 +1,40 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
 #include "renderer/reference/drawn_points.h"
 #include "renderer/reference/light_source.h"
+#include "renderer/reference/lit_fronts.h"
 #include "renderer/reference/shadow_rays.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
 
 struct TracedLight::State {
-  LightSource source;
+  LightAndCasters from;
   std::vector<std::uint8_t> shadowed; ///< one an instance: the light throws shadows on it
   Casters casters;
   TraceInput input;
   Interleaved places;
+  std::shared_ptr<LitFronts> fronts;     ///< none: rays tell it all
+  mutable std::atomic<int> foundOut = 0; ///< runs of triangles, for `fronts`
   Sight sight = sightOf(input);
   DrawnView view = drawnView(sight, casters.tree.scale);
-  DrawnLight light = drawnLight(source, casters.eye, casters.tree.scale);
+  DrawnLight light = drawnLight(from.light, casters.eye, casters.tree.scale);
+
+  /// Whether it may be found out what one more run of triangles sees: some tens of microseconds' work.
+  bool mayFindOut() const {
+    constexpr int kMost = 512;
+    return fronts->areWorthKnowing() && foundOut.fetch_add(1, std::memory_order_relaxed) < kMost;
+  }
 
   /// What a point sees of the light where that takes no rays.
   std::optional<float> withoutRays(const SurfacePoint& point, const WayToLight& way) const {
     if (point.instance == kNoSurface || shadowed[point.instance] == 0) return 1.0f;
     if (!faces(point.normal, way)) return 0.0f;
-    if (!reaches(source, way)) return 1.0f;
+    if (!reaches(from.light, way)) return 1.0f;
     return std::nullopt;
   }
 };

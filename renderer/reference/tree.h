@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/core/aabb.h"
+#include "renderer/reference/lit_fronts.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/reference/triangle.h"
 #include "renderer/reference/triangle_boxes.h"
@@ -43,6 +44,7 @@ struct TracedScene::Tree {
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   Aabb bounds;                            ///< of the placed triangles, metres
   TriangleBoxes boxes;
+  mutable KeptFronts fronts;
   std::atomic<std::int64_t> embreeBytes = 0;
   std::atomic<RTCError> error = RTC_ERROR_NONE;
   Device device;

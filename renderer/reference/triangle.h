@@ -21,6 +21,12 @@ inline glm::dvec3 unitAlong(const glm::dvec3& v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
+/// Metres: how far off a plane doubles may find a point that lies in it. `largest`: of the coordinates of the point and
+/// of those that the plane is known by.
+inline double samePlane(const glm::dvec3& normal, const glm::dvec3& largest) {
+  return 0x1p-44 * glm::dot(glm::abs(normal), largest);
+}
+
 /// A place in a triangle: its weights are 1 - u - v, u and v.
 struct Barycentric {
   double u = 0;

@@ -11,7 +11,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::uint32_t kRunTriangles = 32;
 constexpr int kMostQuestions = 96; ///< of a row of boxes, or of a run's triangles, each; then rays are cheaper
 
 struct Extent {
@@ -50,13 +49,6 @@ std::vector<BoxRow> rowsOf(std::size_t count, const ExtentAt& extentAt) {
   return rows;
 }
 
-bool reachesInto(const Shaft& shaft, const std::array<glm::vec3, 3>& corners) {
-  return std::none_of(shaft.planes.begin(), shaft.planes.end(), [&](const glm::vec4& plane) {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const glm::vec3& corner) { return glm::dot(glm::vec3(plane), corner) + plane.w < 0; });
-  });
-}
-
 /// The boxes that no plane of the shaft leaves outside, a bit each.
 GNOMON_FOR_EACH_INSTRUCTION_SET std::uint32_t boxesIn(const Shaft& shaft, const BoxRow& row) {
   alignas(64) int inside[kLanes];
@@ -75,9 +67,17 @@ GNOMON_FOR_EACH_INSTRUCTION_SET std::uint32_t boxesIn(const Shaft& shaft, const 
 
 } // namespace
 
+bool reachesInto(const Shaft& shaft, const std::array<glm::vec3, 3>& corners) {
+  return std::none_of(shaft.planes.begin(), shaft.planes.end(), [&](const glm::vec4& plane) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const glm::vec3& corner) { return glm::dot(glm::vec3(plane), corner) + plane.w < 0; });
+  });
+}
+
 TriangleBoxes::TriangleBoxes(const TracedScene::Tree& tree) {
   for (std::uint32_t instance = 0; instance < tree.view->instances.size(); ++instance) {
     const std::uint32_t count = tree.primitive(instance).indexCount / 3;
+    firstRun_.push_back(runs_.size());
     for (std::uint32_t first = 0; first < count; first += kRunTriangles) {
       runs_.push_back({{instance, first}, std::min(kRunTriangles, count - first)});
     }
@@ -127,7 +127,7 @@ bool TriangleBoxes::mayReachInto(const Shaft& shaft, const TracedScene::Tree& tr
 }
 
 std::size_t TriangleBoxes::bytes() const {
-  std::size_t bytes = runs_.capacity() * sizeof(Run);
+  std::size_t bytes = runs_.capacity() * sizeof(Run) + firstRun_.capacity() * sizeof(std::size_t);
   for (const std::vector<BoxRow>& level : levels_) bytes += level.capacity() * sizeof(BoxRow);
   return bytes;
 }

@@ -107,20 +107,24 @@ TracedLight::TracedLight(const TraceInput& input, int index, int rays) {
     return shadow.enabled && node.receiveShadow && isLitBy(light, node);
   };
   std::vector<Opacity> opacity = opacities(input, light);
+  LightAndCasters key{lightSource(light, tree.anchor), std::vector<std::uint8_t>(opacity.size())};
+  std::transform(opacity.begin(), opacity.end(), key.casts.begin(),
+                 [](Opacity of) -> std::uint8_t { return of == Opacity::none ? 0 : 1; });
   const bool through = letThrough(tree, opacity, shadow.blendedCasters);
-  state_ = std::make_unique<const State>(State{
-      lightSource(light, tree.anchor),
+  state_ = std::unique_ptr<const State>(new State{
+      key,
       instancesWhere(input, isShadowed),
       {tree, input.camera.eye - tree.anchor, std::move(opacity), shadow.blendedCasters, roundingIn(tree), through},
       input,
-      Interleaved(static_cast<std::uint32_t>(rays))});
+      Interleaved(static_cast<std::uint32_t>(rays)),
+      tree.fronts.of(key, tree.boxes.runs())});
 }
 
 TracedLight::TracedLight(TracedLight&&) noexcept = default;
 TracedLight::~TracedLight() = default;
 
 bool TracedLight::hasSize() const {
-  return state_->source.radius > 0;
+  return state_->from.light.radius > 0;
 }
 
 void TracedLight::visibility(std::span<const SurfacePoint> points, int samples, std::span<float> shares,
@@ -136,7 +140,7 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, const LightSa
   RayQueue queue(state_->casters, shares);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SurfacePoint& point = points[i];
-    const WayToLight way = wayTo(state_->source, point.position);
+    const WayToLight way = wayTo(state_->from.light, point.position);
     if (const auto plain = state_->withoutRays(point, way)) {
       shares[i] = *plain * static_cast<float>(rays);
       if (*plain == 0 && !turnedAway.empty()) turnedAway[i] = 1;
@@ -144,7 +148,7 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, const LightSa
     }
     shares[i] = 0;
     if (hasSize()) {
-      addSamples(state_->source, state_->casters, point, samples, i, queue);
+      addSamples(state_->from.light, state_->casters, point, samples, i, queue);
     } else {
       queue.add(point, startOf(state_->casters.tree, point), way, i);
     }
@@ -159,7 +163,7 @@ SurfacePoint TracedLight::pointFacing(const PlacedTriangle& triangle, const glm:
   const Barycentric at{weights.x, weights.y};
   const glm::dvec3 position = at.mix(placed.a, placed.b, placed.c);
   const glm::dvec3 normal = unitAlong(placed.area());
-  const bool faces = glm::dot(normal, wayTo(state_->source, position).direction) >= 0;
+  const bool faces = glm::dot(normal, wayTo(state_->from.light, position).direction) >= 0;
   return {position, glm::vec3(faces ? normal : -normal), triangle.instance, triangle.triangle};
 }
 
@@ -169,7 +173,7 @@ void TracedLight::airVisibility(std::span<const glm::dvec3> places, std::span<fl
   RayQueue queue(state_->casters, shares);
   for (std::size_t i = 0; i < places.size(); ++i) {
     points[i].position = places[i];
-    queue.add(points[i], startOf(state_->casters.tree, points[i]), wayTo(state_->source, places[i]), i);
+    queue.add(points[i], startOf(state_->casters.tree, points[i]), wayTo(state_->from.light, places[i]), i);
   }
   queue.trace();
 }
@@ -184,7 +188,7 @@ void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::sp
     for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const WayToLight way = wayTo(state_->source, points[i].position);
+    const WayToLight way = wayTo(state_->from.light, points[i].position);
     if (const auto plain = state_->withoutRays(points[i], way)) {
       distances[i] = *plain == 0 ? 0 : std::numeric_limits<float>::infinity();
       continue;

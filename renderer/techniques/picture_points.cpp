@@ -56,7 +56,7 @@ DrawnBlock PicturePoints::drawnBlock(const Rect& block, std::uint32_t number) co
   };
   drawn.first = placeOf(block.x, block.y);
   drawn.last = placeOf(block.x + block.width - 1, block.y + block.height - 1);
-  numbers_.of({&number, 1}, {&drawn.shown, 1});
+  drawn.shown = placed(number);
   return drawn;
 }
 

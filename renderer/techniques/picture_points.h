@@ -108,6 +108,13 @@ class PicturePoints {
   /// The block as rays know it. `number`: of the triangle that it shows alone.
   DrawnBlock drawnBlock(const Rect& block, std::uint32_t number) const;
 
+  /// The triangle that a number stands for. REQUIRES: one that is shown.
+  PlacedTriangle placed(std::uint32_t number) const {
+    PlacedTriangle triangle;
+    numbers_.of({&number, 1}, {&triangle, 1});
+    return triangle;
+  }
+
   /// What these show, as it was drawn: the exact points are there, but for samples that the rim of a surface passes
   /// within the device's rounding, and for masks, which are filtered as they are drawn.
   DrawnPlaces drawn(const ShownSamples& shown) const;

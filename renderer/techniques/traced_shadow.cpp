@@ -1,6 +1,7 @@
 #include "renderer/techniques/traced_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "protocol/spec/traits.h"
@@ -134,7 +135,7 @@ class ShadowTracing {
     forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
       const Verdict verdict = verdicts[numberOf(pixel)];
       if (verdict == Verdict::unsure) {
-        traced += trace(pixel, waiting);
+        traced += trace(pixel, points_.numberAt(pixel), waiting);
       } else if (verdict == Verdict::turnedAway) {
         setTurnedAway(pixel);
       } else if (verdict != Verdict::lit) {
@@ -166,13 +167,37 @@ class ShadowTracing {
       }
       return traced;
     }
-    forEachPixel(grid(), shown, [&](const glm::ivec2& pixel) { traced += trace(pixel, waiting); });
+    Remembered remembered;
+    forEachPixel(grid(), shown, [&](const glm::ivec2& pixel) {
+      const std::uint32_t number = points_.numberAt(pixel);
+      if (number == kNoNumber) return;
+      const LightAcross across = acrossTriangle(number, remembered);
+      if (across == LightAcross::turnedAway) setTurnedAway(pixel);
+      if (across == LightAcross::unsure) traced += trace(pixel, number, waiting);
+    });
     return traced;
   }
 
+  /// What some triangles see of the light, by the last bits of their numbers: pixels side by side show few.
+  struct Remembered {
+    static constexpr std::size_t kCount = 8;
+    std::array<std::uint32_t, kCount> numbers;
+    std::array<LightAcross, kCount> across;
+
+    Remembered() { numbers.fill(kNoNumber); }
+  };
+
+  LightAcross acrossTriangle(std::uint32_t number, Remembered& remembered) const {
+    const std::size_t at = number % Remembered::kCount;
+    if (remembered.numbers[at] != number) {
+      remembered.numbers[at] = number;
+      remembered.across[at] = light_.across(points_.placed(number));
+    }
+    return remembered.across[at];
+  }
+
   /// Whether that takes rays.
-  bool trace(const glm::ivec2& pixel, ShownSamples& waiting) {
-    const std::uint32_t number = points_.numberAt(pixel);
+  bool trace(const glm::ivec2& pixel, std::uint32_t number, ShownSamples& waiting) {
     if (number == kNoNumber) return false;
     waiting.add(pixel, 0, number);
     if (waiting.full()) traceDrawn(waiting);

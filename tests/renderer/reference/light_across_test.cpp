@@ -1,8 +1,5 @@
-#include <random>
-#include <rapidcheck.h>
-
 #include "renderer/reference/shaft.h"
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/reference/any_scene.h"
 
 namespace gnomon {
 namespace {
@@ -47,51 +44,17 @@ std::vector<Block> blocksOf(const Traced& traced, int samples) {
   return blocks;
 }
 
-void addTriangles(GlbBuilder& builder, std::mt19937& random, int count) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  std::vector<Point> points;
-  std::vector<std::uint32_t> indices;
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 middle(3 * unit(random), 1.5 + unit(random), 3 * unit(random));
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 p = middle + 0.4 * glm::dvec3(unit(random), unit(random), unit(random));
-      points.push_back({float(p.x), float(p.y), float(p.z)});
-      indices.push_back(std::uint32_t(indices.size()));
-    }
-  }
-  const int positions = builder.addPoints(points);
-  builder.addMeshNode(
-      builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", builder.addIndices(indices)}}));
-}
-
-Light anyLight(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const bool sized = *rc::gen::arbitrary<bool>();
-  if (*rc::gen::arbitrary<bool>()) {
-    return testing::sunAlong({unit(random), 0.3 - *rc::gen::element(0.0, 1.0) * std::abs(unit(random)), unit(random)},
-                             sized ? *rc::gen::element(0.53, 5.0, 40.0) : 0);
-  }
-  Light lamp = testing::pointAt({4 * unit(random), *rc::gen::element(-1.0, 0.01, 2.0, 50.0), 4 * unit(random)},
-                                sized ? *rc::gen::element(0.01, 0.2, 3.0) : 0);
-  if (*rc::gen::arbitrary<bool>()) lamp.range = 6;
-  return lamp;
-}
-
 TEST(LightAcross, IsWhatEveryPointOfTheBlockSays) {
   std::size_t lit = 0, away = 0;
   EXPECT_TRUE(rc::check([&] {
     std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-    std::uniform_real_distribution<double> unit(-1, 1);
     GlbBuilder builder;
     testing::addSquare(builder, *rc::gen::element(4.0f, 300.0f), 0);
     testing::addSquare(builder, 1, 0); // in the same plane
-    addTriangles(builder, random, *rc::gen::element(1, 5, 40, 2000));
+    testing::addTriangles(builder, random, *rc::gen::element(1, 5, 40, 2000));
     Traced traced(builder);
-    const glm::dvec3 eye(6 * unit(random), *rc::gen::element(0.2, 3.0, 20.0), 6 * unit(random));
-    const glm::dvec3 target(unit(random), 0, unit(random));
-    traced.camera = *rc::gen::arbitrary<bool>() ? testing::perspectiveView(eye, target, 70)
-                                                : testing::parallelView(eye, target - eye, 6);
-    traced.lights = {anyLight(random)};
+    traced.camera = testing::anyView(random);
+    traced.lights = {testing::anyLight(random)};
     for (const Block& block : blocksOf(traced, 16)) {
       if (block.across == LightAcross::unsure) continue;
       const bool isLit = block.across == LightAcross::lit;

@@ -123,6 +123,25 @@ double rms(const UnfilledVector<std::uint16_t>& values, const std::vector<float>
   return std::sqrt(sum / static_cast<double>(truth.size()));
 }
 
+TEST(TracedShadow, OfALightThatIsAskedForAgainTakesFewerRaysAndIsTheSame) {
+  Traced traced = scene();
+  const SampleGrid grid = centres(traced.width, traced.height);
+  for (const double size : {0.0, 2.0}) {
+    traced.lights = {testing::sunAlong({0.31, -1, 0.17}, size)};
+    const Drawn picture = drawn(traced, grid);
+    const TraceInput input = traced.input();
+    const ShownNumbers shown = inOrder(grid, picture.shown);
+    const PicturePoints points(input, grid, picture.numbers, shown, {});
+    const Traced fresh = scene(); // which no light was asked for
+    const TraceInput firstInput{fresh.scene, traced.camera, grid.width, grid.height, traced.lights, {}};
+    const PicturePoints firstPoints(firstInput, grid, picture.numbers, shown, {});
+    const TracedShadow first = tracedShadow(firstPoints, firstInput, 0, 16);
+    const TracedShadow again = tracedShadow(points, input, 0, 16);
+    EXPECT_EQ(first.values, again.values) << size;
+    EXPECT_LT(again.tracedPixels, first.tracedPixels) << size;
+  }
+}
+
 TEST(TracedShadow, N6_PenumbrasAreThoseOfALightSampledAllOver) {
   Traced scene = gnomon::scene();
   EXPECT_TRUE(rc::check([&] {
