@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <hwy/detect_targets.h>
-#include <hwy/targets.h>
 #include <vector>
 
 #include "renderer/core/fingerprint.h"
 #include "renderer/cpu/cpu_frame.h"
+#include "renderer/cpu/lanes/instruction_set.h"
 
 namespace gnomon {
 namespace {
@@ -35,11 +34,12 @@ std::string spelledTarget(std::int64_t target) {
 /// The instruction set of the kernels from now on, for the whole process: the best one that the processor knows, or
 /// that which GNOMON_CPU_TARGET names.
 Result<std::int64_t> chosenTarget() {
-  hwy::DisableTargets(0);
-  std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets(); // the best one first
-  std::erase_if(targets, [](std::int64_t target) { return (target & (HWY_EMU128 | HWY_SCALAR)) != 0; });
+  const std::vector<std::int64_t> targets = cpu::instructionSets();
   const char* wanted = std::getenv("GNOMON_CPU_TARGET");
-  if (!wanted || !*wanted) return targets.front();
+  if (!wanted || !*wanted) {
+    cpu::useInstructionSet(targets.front());
+    return targets.front();
+  }
   const auto found = std::find_if(targets.begin(), targets.end(),
                                   [wanted](std::int64_t target) { return spelledTarget(target) == wanted; });
   if (found == targets.end()) {
@@ -48,9 +48,7 @@ Result<std::int64_t> chosenTarget() {
     return Problem{ProblemCode::backend, "", "GNOMON_CPU_TARGET names no instruction set that this processor knows.",
                    known, std::string(wanted).substr(0, 64)};
   }
-  std::int64_t better = 0;
-  std::for_each(targets.begin(), found, [&better](std::int64_t target) { better |= target; });
-  hwy::DisableTargets(better);
+  cpu::useInstructionSet(*found);
   return *found;
 }
 

@@ -16,6 +16,8 @@
 #include <hwy/highway.h>
 #include <limits>
 
+#include "renderer/cpu/lanes/instruction_set.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 

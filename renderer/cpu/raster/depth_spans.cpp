@@ -47,13 +47,13 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(depthEndsOn);
+GNOMON_EXPORT_KERNEL(depthEndsOn);
 
 } // namespace
 
 std::vector<DepthEnds> depthEnds(const DepthBuffer& buffer, int y0, int y1, int side) {
   std::vector<DepthEnds> ends(static_cast<std::size_t>((buffer.width + side - 1) / side));
-  HWY_DYNAMIC_DISPATCH(depthEndsOn)(buffer, y0, y1, side, ends);
+  GNOMON_KERNEL(depthEndsOn)(buffer, y0, y1, side, ends);
   return ends;
 }
 

@@ -85,8 +85,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(sieveGroup);
-HWY_EXPORT(rasterSquare);
+GNOMON_EXPORT_KERNEL(sieveGroup);
+GNOMON_EXPORT_KERNEL(rasterSquare);
 
 RasterView viewOf(const DepthBuffer& target, DepthRange range, const TexelMarks* only) {
   RasterView view;
@@ -190,14 +190,14 @@ std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& ta
   if (scratch.groups.size() < starts.size() - 1) scratch.groups.resize(starts.size() - 1);
   const std::span<TriangleGroup> groups = std::span(scratch.groups).first(starts.size() - 1);
   forEach(groups.size(), [&](std::size_t i) {
-    HWY_DYNAMIC_DISPATCH(sieveGroup)
+    GNOMON_KERNEL(sieveGroup)
     (input, view, input.draws.subspan(starts[i], starts[i + 1] - starts[i]), groups[i]);
     sortIntoSquares(view, groups[i]);
   });
   forEach(view.squares(), [&](std::size_t i) {
     if (view.wanted(i) == 0) return;
     if (input.fresh || input.only != nullptr) emptyBlocks(view, i, target);
-    HWY_DYNAMIC_DISPATCH(rasterSquare)(view, groups, i, input.holes, target);
+    GNOMON_KERNEL(rasterSquare)(view, groups, i, input.holes, target);
   });
   std::uint64_t triangles = 0;
   for (const RasterDraw& draw : input.draws) triangles += input.slots[draw.slot].triangles;

@@ -92,8 +92,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(footprintRow);
-HWY_EXPORT(verdictRow);
+GNOMON_EXPORT_KERNEL(footprintRow);
+GNOMON_EXPORT_KERNEL(verdictRow);
 
 std::size_t pixelsOf(const DepthBuffer& surfaces) {
   return static_cast<std::size_t>(surfaces.width) * static_cast<std::size_t>(surfaces.height);
@@ -104,7 +104,7 @@ std::size_t pixelsOf(const DepthBuffer& surfaces) {
 std::vector<MapFootprint> mapFootprints(const MapQuery& query) {
   std::vector<MapFootprint> footprints(pixelsOf(query.surfaces));
   forEach(static_cast<std::size_t>(query.surfaces.blocksUp()), [&](std::size_t row) {
-    HWY_DYNAMIC_DISPATCH(footprintRow)(query, static_cast<int>(row), footprints.data());
+    GNOMON_KERNEL(footprintRow)(query, static_cast<int>(row), footprints.data());
   });
   return footprints;
 }
@@ -112,7 +112,7 @@ std::vector<MapFootprint> mapFootprints(const MapQuery& query) {
 std::vector<Verdict> mapVerdicts(const MapQuery& query, std::span<const TileOutlines> outlines) {
   std::vector<Verdict> verdicts(pixelsOf(query.surfaces));
   forEach(static_cast<std::size_t>(query.surfaces.blocksUp()), [&](std::size_t row) {
-    HWY_DYNAMIC_DISPATCH(verdictRow)(query, outlines, static_cast<int>(row), verdicts.data());
+    GNOMON_KERNEL(verdictRow)(query, outlines, static_cast<int>(row), verdicts.data());
   });
   return verdicts;
 }

@@ -114,7 +114,7 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(blurBox);
+GNOMON_EXPORT_KERNEL(blurBox);
 
 /// The texels around what is marked in a square.
 TexelBox boxIn(const TexelMarks& marks, std::size_t square) {
@@ -163,7 +163,7 @@ void blurMoments(const DepthBuffer& depths, const MomentBlur& blur, const TexelM
   const MomentTaps taps = tapsOf(blur);
   forEach(wanted.squares(), [&](std::size_t i) {
     if (wanted.in(i) == 0) return;
-    HWY_DYNAMIC_DISPATCH(blurBox)(depths, blur, taps, boxIn(wanted, i), moments.data());
+    GNOMON_KERNEL(blurBox)(depths, blur, taps, boxIn(wanted, i), moments.data());
   });
 }
 

@@ -77,8 +77,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(probeShares);
-HWY_EXPORT(markPoints);
+GNOMON_EXPORT_KERNEL(probeShares);
+GNOMON_EXPORT_KERNEL(markPoints);
 
 constexpr std::size_t kPointsAPiece = 1024;
 
@@ -88,7 +88,7 @@ std::vector<float> probedShares(const ShadowMaps& maps, const shared::FrameData&
                                 std::span<const ProbePoint> points) {
   std::vector<float> shares(points.size());
   forEachPiece(points.size(), kPointsAPiece, [&](std::size_t first, std::size_t last) {
-    HWY_DYNAMIC_DISPATCH(probeShares)(maps, frame, light, points.subspan(first, last - first), shares.data() + first);
+    GNOMON_KERNEL(probeShares)(maps, frame, light, points.subspan(first, last - first), shares.data() + first);
   });
   return shares;
 }
@@ -96,7 +96,7 @@ std::vector<float> probedShares(const ShadowMaps& maps, const shared::FrameData&
 void markProbed(const ShadowMaps& maps, const shared::FrameData& frame, int light, std::span<const ProbePoint> points,
                 std::span<TexelMarks> marks) {
   forEachPiece(points.size(), kPointsAPiece, [&](std::size_t first, std::size_t last) {
-    HWY_DYNAMIC_DISPATCH(markPoints)(maps, frame, light, points.subspan(first, last - first), marks);
+    GNOMON_KERNEL(markPoints)(maps, frame, light, points.subspan(first, last - first), marks);
   });
 }
 

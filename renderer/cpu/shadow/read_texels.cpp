@@ -47,8 +47,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(markParts);
-HWY_EXPORT(markSquare);
+GNOMON_EXPORT_KERNEL(markParts);
+GNOMON_EXPORT_KERNEL(markSquare);
 
 /// The blocks of four by four pixels that make up parts of a square.
 unsigned blocksOf(unsigned parts) {
@@ -99,9 +99,9 @@ void markReadTexels(const ReadQuery& query, std::span<TexelMarks> marks) {
       const int x = static_cast<int>(i % across) * kTileSide;
       const int y = static_cast<int>(i / across) * kTileSide;
       const std::vector<std::uint32_t> lights = lightsIn(query, x, y);
-      const unsigned done = HWY_DYNAMIC_DISPATCH(markParts)(query, lights, x, y, marks);
+      const unsigned done = GNOMON_KERNEL(markParts)(query, lights, x, y, marks);
       listFragments(query.surfaces, x, y, list, blocksOf(done));
-      if (list.count > 0) HWY_DYNAMIC_DISPATCH(markSquare)(query, lights, list, x, y, marks);
+      if (list.count > 0) GNOMON_KERNEL(markSquare)(query, lights, list, x, y, marks);
     }
   });
 }

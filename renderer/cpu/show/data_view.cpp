@@ -73,7 +73,7 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(dataSquareOn);
+GNOMON_EXPORT_KERNEL(dataSquareOn);
 
 /// The layer that says something even where no pixel's centre shows a surface, whose rim a ray may meet all the same.
 const Layer* layerOf(const ShowJob& job) {
@@ -109,7 +109,7 @@ void fillBackground(const ShowJob& job, int x, int y, TileColors& colors) {
 
 void dataSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
   fillBackground(job, x, y, colors);
-  HWY_DYNAMIC_DISPATCH(dataSquareOn)(job, list, x, y, colors);
+  GNOMON_KERNEL(dataSquareOn)(job, list, x, y, colors);
 }
 
 } // namespace gnomon::cpu

@@ -77,10 +77,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(listFragmentsOn);
+GNOMON_EXPORT_KERNEL(listFragmentsOn);
 
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without) {
-  HWY_DYNAMIC_DISPATCH(listFragmentsOn)(buffer, x, y, without, list);
+  GNOMON_KERNEL(listFragmentsOn)(buffer, x, y, without, list);
 }
 
 } // namespace gnomon::cpu

@@ -133,11 +133,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 namespace {
-HWY_EXPORT(pictureSquareOn);
+GNOMON_EXPORT_KERNEL(pictureSquareOn);
 } // namespace
 
 void pictureSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
-  HWY_DYNAMIC_DISPATCH(pictureSquareOn)(job, list, x, y, colors);
+  GNOMON_KERNEL(pictureSquareOn)(job, list, x, y, colors);
 }
 
 } // namespace gnomon::cpu

@@ -89,13 +89,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 namespace {
-HWY_EXPORT(srgbBytesOn);
+GNOMON_EXPORT_KERNEL(srgbBytesOn);
 } // namespace
 
 TileBytes srgbBytes(const TileColors& colors, std::size_t channels) {
   static const SrgbTable table;
   TileBytes bytes;
-  HWY_DYNAMIC_DISPATCH(srgbBytesOn)(colors, table, channels == 4, bytes);
+  GNOMON_KERNEL(srgbBytesOn)(colors, table, channels == 4, bytes);
   return bytes;
 }
 

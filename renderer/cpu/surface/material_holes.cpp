@@ -31,7 +31,7 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 namespace {
 
-HWY_EXPORT(filledPlaces);
+GNOMON_EXPORT_KERNEL(filledPlaces);
 
 /// A well mixed number. (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: pcg.)
 std::uint32_t hashOf(std::uint32_t seed) {
@@ -75,7 +75,7 @@ unsigned MaterialHoles::filled(std::uint32_t number, bool counterClockwise, int 
   } else {
     std::fill(std::begin(least), std::end(least), scene.materials[material].emissiveFactor.w);
   }
-  return HWY_DYNAMIC_DISPATCH(filledPlaces)(input_, number, first, least, covered);
+  return GNOMON_KERNEL(filledPlaces)(input_, number, first, least, covered);
 }
 
 } // namespace gnomon::cpu

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
+
+#include "renderer/cpu/lanes/instruction_set.h"
 
 namespace gnomon::cpu {
 
 /// Runs `check` with each instruction set that the program and this machine have; kernels are chosen anew each time.
 template <class Check>
 void onEachInstructionSet(const Check& check) {
-  const auto targets = hwy::SupportedAndGeneratedTargets();
+  const auto targets = instructionSets();
   ASSERT_FALSE(targets.empty());
   for (const auto target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
+    useInstructionSet(target);
     check();
   }
-  hwy::SetSupportedTargetsForTest(0);
+  useInstructionSet(targets.front());
 }
 
 } // namespace gnomon::cpu

@@ -48,20 +48,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(laneCases);
-HWY_EXPORT(laneGroups);
+GNOMON_EXPORT_KERNEL(laneCases);
+GNOMON_EXPORT_KERNEL(laneGroups);
 
 NumberTable casesByLanes(const NumberTable& in) {
 #define GNOMON_COUNT_CASE(name, share, expression) +1
   NumberTable out(in.rows, std::size_t{0 GNOMON_LANE_CASES(GNOMON_COUNT_CASE)});
 #undef GNOMON_COUNT_CASE
-  HWY_DYNAMIC_DISPATCH(laneCases)(in, out);
+  GNOMON_KERNEL(laneCases)(in, out);
   return out;
 }
 
 NumberTable groupsByLanes(const NumberTable& in) {
   NumberTable out(in.rows, kLaneGroupColumns);
-  HWY_DYNAMIC_DISPATCH(laneGroups)(in, out);
+  GNOMON_KERNEL(laneGroups)(in, out);
   return out;
 }
 

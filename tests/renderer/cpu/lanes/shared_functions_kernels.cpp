@@ -51,10 +51,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(sharedFunction);
+GNOMON_EXPORT_KERNEL(sharedFunction);
 
 void sharedFunctionByLanes(std::size_t which, std::size_t rows, const float* in, float* out) {
-  HWY_DYNAMIC_DISPATCH(sharedFunction)(which, rows, in, out);
+  GNOMON_KERNEL(sharedFunction)(which, rows, in, out);
 }
 
 } // namespace gnomon::cpu

@@ -94,32 +94,32 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(debugValues);
-HWY_EXPORT(grids);
-HWY_EXPORT(footprints);
-HWY_EXPORT(verdictNumbers);
-HWY_EXPORT(receivers);
+GNOMON_EXPORT_KERNEL(debugValues);
+GNOMON_EXPORT_KERNEL(grids);
+GNOMON_EXPORT_KERNEL(footprints);
+GNOMON_EXPORT_KERNEL(verdictNumbers);
+GNOMON_EXPORT_KERNEL(receivers);
 
 void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points,
                       glm::vec4* out) {
-  HWY_DYNAMIC_DISPATCH(debugValues)(debug, view, encoded, points, out);
+  GNOMON_KERNEL(debugValues)(debug, view, encoded, points, out);
 }
 
 void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<const AskedPoint> points,
                       glm::vec3* out) {
-  HWY_DYNAMIC_DISPATCH(grids)(debug, shown, points, out);
+  GNOMON_KERNEL(grids)(debug, shown, points, out);
 }
 
 void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out) {
-  HWY_DYNAMIC_DISPATCH(footprints)(debug, points, out);
+  GNOMON_KERNEL(footprints)(debug, points, out);
 }
 
 void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
-  HWY_DYNAMIC_DISPATCH(verdictNumbers)(debug, points, out);
+  GNOMON_KERNEL(verdictNumbers)(debug, points, out);
 }
 
 void receiversByLanes(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* out) {
-  HWY_DYNAMIC_DISPATCH(receivers)(scene, shown, out);
+  GNOMON_KERNEL(receivers)(scene, shown, out);
 }
 
 } // namespace gnomon::cpu

@@ -41,20 +41,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(visibilities);
-HWY_EXPORT(marked);
-HWY_EXPORT(tints);
+GNOMON_EXPORT_KERNEL(visibilities);
+GNOMON_EXPORT_KERNEL(marked);
+GNOMON_EXPORT_KERNEL(tints);
 
 void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out) {
-  HWY_DYNAMIC_DISPATCH(visibilities)(maps, points, out);
+  GNOMON_KERNEL(visibilities)(maps, points, out);
 }
 
 void markByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks) {
-  HWY_DYNAMIC_DISPATCH(marked)(maps, points, marks);
+  GNOMON_KERNEL(marked)(maps, points, marks);
 }
 
 void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {
-  HWY_DYNAMIC_DISPATCH(tints)(maps, points, out);
+  GNOMON_KERNEL(tints)(maps, points, out);
 }
 
 } // namespace gnomon::cpu

@@ -30,11 +30,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(sampleRows);
+GNOMON_EXPORT_KERNEL(sampleRows);
 
 NumberTable sampledByLanes(const Pyramid& texture, const TextureUse& use, const NumberTable& in) {
   NumberTable out(in.rows, 5);
-  HWY_DYNAMIC_DISPATCH(sampleRows)(texture, use, in, out);
+  GNOMON_KERNEL(sampleRows)(texture, use, in, out);
   return out;
 }
 

@@ -72,18 +72,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::cpu {
 
-HWY_EXPORT(surfaces);
-HWY_EXPORT(pictures);
+GNOMON_EXPORT_KERNEL(surfaces);
+GNOMON_EXPORT_KERNEL(pictures);
 
 NumberTable surfacesByLanes(const FrameScene& scene, const FragmentInput& in) {
   NumberTable out(in.triangles.size(), kSurfaceNumbers);
-  HWY_DYNAMIC_DISPATCH(surfaces)(scene, in, out);
+  GNOMON_KERNEL(surfaces)(scene, in, out);
   return out;
 }
 
 NumberTable picturesByLanes(const FrameScene& scene, const LightInput& lights, const FragmentInput& in) {
   NumberTable out(in.triangles.size(), 4);
-  HWY_DYNAMIC_DISPATCH(pictures)(scene, lights, in, out);
+  GNOMON_KERNEL(pictures)(scene, lights, in, out);
   return out;
 }
 
