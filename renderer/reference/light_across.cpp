@@ -75,6 +75,10 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
   return tree.boxes.mayReachInto(*shaft, tree, casts) ? LightAcross::unsure : LightAcross::lit;
 }
 
+bool TracedLight::knowsTriangles() const {
+  return state_->fronts != nullptr;
+}
+
 LightAcross TracedLight::across(const PlacedTriangle& shown) const {
   const State& of = *state_;
   if (shown.instance == kNoSurface || of.shadowed[shown.instance] == 0) return LightAcross::lit;

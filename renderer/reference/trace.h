@@ -137,8 +137,11 @@ class TracedLight {
   /// it. Unsure where something lies between, or may.
   LightAcross across(const DrawnBlock& block) const;
 
-  /// The same of every point that the camera sees of a triangle; unsure for a light that no frame asked about before.
-  /// What is found out is kept for later frames, and only so much of it is found out in one.
+  /// Whether frames asked about this light before: then it is found out what whole triangles see of it, some of them in
+  /// each frame, and kept for later ones.
+  bool knowsTriangles() const;
+
+  /// The same of every point that the camera sees of a triangle. Unsure where that is not known yet.
   LightAcross across(const PlacedTriangle& shown) const;
 
   /// A point of a triangle: `weights`, those of its second and third corner. Its normal is on the light's side.

@@ -188,6 +188,7 @@ class ShadowTracing {
   };
 
   LightAcross acrossTriangle(std::uint32_t number, Remembered& remembered) const {
+    if (!light_.knowsTriangles()) return LightAcross::unsure;
     const std::size_t at = number % Remembered::kCount;
     if (remembered.numbers[at] != number) {
       remembered.numbers[at] = number;
