@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "renderer/reference/crossings.h"
@@ -75,6 +76,20 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
   return tree.boxes.mayReachInto(*shaft, tree, casts) ? LightAcross::unsure : LightAcross::lit;
 }
 
+std::optional<RunFronts> TracedLight::State::frontsOf(std::size_t run) const {
+  constexpr std::int64_t kNanosecondsAPixel = 50;
+  const RunFronts known = fronts->of(run);
+  if (known.bits() != 0) return known;
+  const bool mayFindOut = nanoseconds.load(std::memory_order_relaxed) < kNanosecondsAPixel * input.width * input.height;
+  if (!mayFindOut || !fronts->areWorthKnowing()) return std::nullopt;
+  const auto begin = std::chrono::steady_clock::now();
+  const RunFronts found = gnomon::frontsOf(casters.tree, from, casters.tree.boxes.run(run));
+  fronts->set(run, found);
+  nanoseconds.fetch_add(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count(),
+                        std::memory_order_relaxed);
+  return found;
+}
+
 bool TracedLight::knowsTriangles() const {
   return state_->fronts != nullptr;
 }
@@ -84,15 +99,9 @@ LightAcross TracedLight::across(const PlacedTriangle& shown) const {
   if (shown.instance == kNoSurface || of.shadowed[shown.instance] == 0) return LightAcross::lit;
   if (!of.fronts) return LightAcross::unsure;
   const TracedScene::Tree& tree = of.casters.tree;
-  const std::size_t run = tree.boxes.runOf(shown);
-  RunFronts known = of.fronts->of(run);
-  const std::uint32_t place = shown.triangle % TriangleBoxes::kRunTriangles;
-  if (known.of(place) == Front::unknown) {
-    if (!of.mayFindOut()) return LightAcross::unsure;
-    known = frontsOf(tree, of.from, tree.boxes.run(run));
-    of.fronts->set(run, known);
-  }
-  const Front front = known.of(place);
+  const auto fronts = of.frontsOf(tree.boxes.runOf(shown));
+  if (!fronts) return LightAcross::unsure;
+  const Front front = fronts->of(shown.triangle % TriangleBoxes::kRunTriangles);
   if (front == Front::mixed) return LightAcross::unsure;
   const auto shows =
       showsFront(tree.triangle(shown.instance, shown.triangle), of.sight, tree.mirrored[shown.instance] != 0);

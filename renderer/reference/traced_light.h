@@ -18,17 +18,15 @@ struct TracedLight::State {
   Casters casters;
   TraceInput input;
   Interleaved places;
-  std::shared_ptr<LitFronts> fronts;     ///< none: rays tell it all
-  mutable std::atomic<int> foundOut = 0; ///< runs of triangles, for `fronts`
+  std::shared_ptr<LitFronts> fronts;                 ///< none: rays tell it all
+  mutable std::atomic<std::int64_t> nanoseconds = 0; ///< that were spent on finding out fronts
   Sight sight = sightOf(input);
   DrawnView view = drawnView(sight, casters.tree.scale);
   DrawnLight light = drawnLight(from.light, casters.eye, casters.tree.scale);
 
-  /// Whether it may be found out what one more run of triangles sees: some tens of microseconds' work.
-  bool mayFindOut() const {
-    constexpr int kMost = 512;
-    return fronts->areWorthKnowing() && foundOut.fetch_add(1, std::memory_order_relaxed) < kMost;
-  }
+  /// What whole triangles of a run see of the light; nothing where that is not known yet, and the frame has spent on
+  /// finding out as much as it may: at most half of what it takes otherwise.
+  std::optional<RunFronts> frontsOf(std::size_t run) const;
 
   /// What a point sees of the light where that takes no rays.
   std::optional<float> withoutRays(const SurfacePoint& point, const WayToLight& way) const {
