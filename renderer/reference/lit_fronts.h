@@ -66,7 +66,9 @@ class KeptFronts {
   /// for the longest time are forgotten.
   std::shared_ptr<LitFronts> of(const LightAndCasters& light, std::size_t runs);
 
-  static std::size_t mostBytes(std::size_t runs) { return kMostLights * runs * sizeof(std::uint64_t); }
+  static std::size_t mostBytes(std::size_t runs, std::size_t instances) {
+    return kMostLights * (runs * sizeof(std::uint64_t) + instances);
+  }
 
  private:
   static constexpr std::size_t kMostLights = 16;

@@ -139,7 +139,8 @@ const SceneView& TracedScene::view() const {
 std::size_t TracedScene::bytes() const {
   return static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
          tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
-         tree_->mirrored.capacity() + tree_->boxes.bytes() + KeptFronts::mostBytes(tree_->boxes.runs());
+         tree_->mirrored.capacity() + tree_->boxes.bytes() +
+         KeptFronts::mostBytes(tree_->boxes.runs(), tree_->view->instances.size());
 }
 
 } // namespace gnomon

@@ -8,7 +8,8 @@
 namespace gnomon {
 
 /// One of a scene's glTF scenes, its triangles placed relative to anchorOf(view) and sorted for rays (Embree).
-/// Immutable; any thread. Keeps the scene alive.
+/// Immutable, but for what is kept of lights that are asked about again (KeptFronts); any thread. Keeps the scene
+/// alive.
 class TracedScene {
  public:
   /// `scene`: index into Scene::scenes. A problem where memory runs out.
@@ -19,7 +20,7 @@ class TracedScene {
 
   const Scene& scene() const;
   const SceneView& view() const;
-  std::size_t bytes() const; ///< of the tree and the placed triangles
+  std::size_t bytes() const; ///< of the tree, the placed triangles, and the most of what is kept
 
   struct Tree; ///< Embree's side, for the files of this folder
   const Tree& tree() const { return *tree_; }

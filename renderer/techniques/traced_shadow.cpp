@@ -1,7 +1,6 @@
 #include "renderer/techniques/traced_shadow.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 
 #include "protocol/spec/traits.h"
@@ -9,6 +8,7 @@
 #include "renderer/techniques/edge_samples.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbras.h"
+#include "renderer/techniques/triangles_across.h"
 
 namespace gnomon {
 namespace {
@@ -167,34 +167,15 @@ class ShadowTracing {
       }
       return traced;
     }
-    Remembered remembered;
+    TrianglesAcross triangles(points_, light_);
     forEachPixel(grid(), shown, [&](const glm::ivec2& pixel) {
       const std::uint32_t number = points_.numberAt(pixel);
       if (number == kNoNumber) return;
-      const LightAcross across = acrossTriangle(number, remembered);
+      const LightAcross across = triangles.of(number);
       if (across == LightAcross::turnedAway) setTurnedAway(pixel);
       if (across == LightAcross::unsure) traced += trace(pixel, number, waiting);
     });
     return traced;
-  }
-
-  /// What some triangles see of the light, by the last bits of their numbers: pixels side by side show few.
-  struct Remembered {
-    static constexpr std::size_t kCount = 8;
-    std::array<std::uint32_t, kCount> numbers;
-    std::array<LightAcross, kCount> across;
-
-    Remembered() { numbers.fill(kNoNumber); }
-  };
-
-  LightAcross acrossTriangle(std::uint32_t number, Remembered& remembered) const {
-    if (!light_.knowsTriangles()) return LightAcross::unsure;
-    const std::size_t at = number % Remembered::kCount;
-    if (remembered.numbers[at] != number) {
-      remembered.numbers[at] = number;
-      remembered.across[at] = light_.across(points_.placed(number));
-    }
-    return remembered.across[at];
   }
 
   /// Whether that takes rays.
