@@ -15,15 +15,6 @@ namespace {
 /// The largest side that the API takes; memory is what is bounded (protocol/spec/limits.h).
 constexpr int kLargestSide = 16384;
 
-bool runsKernels() {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_cpu_init();
-  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
-#else
-  return true;
-#endif
-}
-
 /// As GNOMON_CPU_TARGET spells it.
 std::string spelledTarget(std::int64_t target) {
   std::string name = hwy::TargetName(target);
@@ -86,7 +77,7 @@ class CpuDevice : public Device {
 } // namespace
 
 Result<std::unique_ptr<Device>> createCpuDevice(const CpuOptions& options) {
-  if (!runsKernels()) {
+  if (cpu::instructionSets().empty()) {
     return Problem{ProblemCode::backend, "", "This processor lacks instructions that the device `cpu` is made of.",
                    "SSE4.2, AES and PCLMULQDQ", cpuName()};
   }

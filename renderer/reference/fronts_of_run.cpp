@@ -28,12 +28,11 @@ struct TurnedFronts {
     for (auto& axis : normal) std::fill_n(axis, kMost, 0.0);
   }
 
-  void add(std::uint32_t at, const FlatBlock& front, const glm::dvec3& largest) {
+  void add(std::uint32_t at, const FlatBlock& front, double rise) {
     place[count] = at;
     block[count] = front;
     for (glm::length_t axis = 0; axis < 3; ++axis) normal[axis][count] = front.normal[axis];
-    // Half of what `meets` lets a caster rise at least.
-    least[count] = glm::dot(front.normal, front.corners[0]) + roundingAlong(front.normal, largest) / 2;
+    least[count] = glm::dot(front.normal, front.corners[0]) + rise;
     ++count;
   }
 
@@ -46,13 +45,11 @@ struct TurnedFronts {
   }
 };
 
-/// Of unit length; zero for a sliver, whose plane doubles don't know.
+/// Of unit length; zero for a sliver.
 glm::dvec3 frontNormal(const Triangle& triangle, bool mirrored) {
-  const glm::dvec3 area = triangle.area();
-  const glm::dvec3 sides[] = {triangle.b - triangle.a, triangle.c - triangle.a};
-  if (!(glm::dot(area, area) > 1e-8 * glm::dot(sides[0], sides[0]) * glm::dot(sides[1], sides[1])))
-    return glm::dvec3(0);
-  return mirrored ? -unitAlong(area) : unitAlong(area);
+  if (triangle.isSliver()) return glm::dvec3(0);
+  const glm::dvec3 normal = unitAlong(triangle.area());
+  return mirrored ? -normal : normal;
 }
 
 /// The fronts that a triangle rises over, a bit each.
@@ -106,7 +103,7 @@ RunFronts frontsOf(const TracedScene::Tree& tree, const LightAndCasters& of, con
     const FlatBlock front{{triangle.a, triangle.b, triangle.c, triangle.c}, normal};
     const Turn turn = turnOf(of.light, front);
     found.set(i, turn == Turn::away ? Front::dark : Front::mixed);
-    if (turn == Turn::towards && isOver(of.light, front)) turned.add(i, front, triangle.largest());
+    if (turn == Turn::towards && isOver(of.light, front)) turned.add(i, front, leastRise(normal, triangle));
   }
   if (turned.count == 0) return found;
   for (std::uint32_t lit = litOf(tree, of, turned); lit != 0; lit &= lit - 1) {

@@ -10,11 +10,9 @@ namespace {
 
 /// Where the corners of the block lie on the triangle that shows there; nothing where one of them lies outside of it.
 std::optional<FlatBlock> blockOn(const Triangle& triangle, const Sight& sight, const DrawnBlock& block) {
+  if (triangle.isSliver()) return std::nullopt;
   const glm::dvec3 area = triangle.area();
-  const double squared = glm::dot(area, area);
   const glm::dvec3 sides[] = {triangle.b - triangle.a, triangle.c - triangle.b, triangle.a - triangle.c};
-  // Of a sliver, doubles don't know the plane.
-  if (!(squared > 1e-8 * glm::dot(sides[0], sides[0]) * glm::dot(sides[2], sides[2]))) return std::nullopt;
   Places places{};
   for (unsigned i = 0; i < 4; ++i) {
     places.x[i] = i == 0 || i == 3 ? block.first.x : block.last.x;
@@ -34,7 +32,7 @@ std::optional<FlatBlock> blockOn(const Triangle& triangle, const Sight& sight, c
       if (!(glm::dot(glm::cross(sides[k], corner - from), area) >= 0)) return std::nullopt;
     }
     flat.corners[i] = corner;
-    if (i == 0) flat.normal = area / (glm::dot(direction, area) > 0 ? -std::sqrt(squared) : std::sqrt(squared));
+    if (i == 0) flat.normal = area / (glm::dot(direction, area) > 0 ? -glm::length(area) : glm::length(area));
   }
   return flat;
 }
@@ -67,8 +65,7 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
   if (turn != Turn::towards) return turn == Turn::away ? LightAcross::turnedAway : LightAcross::unsure;
   const auto shaft = shaftTo(of.from.light, *flat, tree.scale);
   if (!shaft) return LightAcross::unsure;
-  // Half of what `meets` lets a caster rise at least.
-  const double rise = roundingAlong(flat->normal, own.largest()) / 2;
+  const double rise = leastRise(flat->normal, own);
   const auto casts = [&](const PlacedTriangle& other) {
     return of.casters.opacity[other.instance] != Opacity::none &&
            heightOver(*flat, tree.triangle(other.instance, other.triangle)) > rise;
@@ -101,7 +98,7 @@ LightAcross TracedLight::across(const PlacedTriangle& shown) const {
   const TracedScene::Tree& tree = of.casters.tree;
   const auto fronts = of.frontsOf(tree.boxes.runOf(shown));
   if (!fronts) return LightAcross::unsure;
-  const Front front = fronts->of(shown.triangle % TriangleBoxes::kRunTriangles);
+  const Front front = fronts->of(TriangleBoxes::placeInRun(shown));
   if (front == Front::mixed) return LightAcross::unsure;
   const auto shows =
       showsFront(tree.triangle(shown.instance, shown.triangle), of.sight, tree.mirrored[shown.instance] != 0);

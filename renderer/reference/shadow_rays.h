@@ -100,6 +100,11 @@ std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays);
 /// beyond it. `largest`: of the coordinates of both triangles (Triangle::largest).
 double roundingAlong(const glm::dvec3& normal, const glm::dvec3& largest);
 
+/// Metres: half of what `meets` asks a caster to rise over a triangle, at least.
+inline double leastRise(const glm::dvec3& normal, const Triangle& own) {
+  return roundingAlong(normal, own.largest()) / 2;
+}
+
 /// Metres along the ray to where it meets a caster's triangle; nothing where the triangle can throw no shadow there:
 /// it does not rise over the plane of the receiver, or the receiver's triangle lies in its plane, or it lies behind
 /// the receiver's point, or beyond the light. What vertices and the camera's rays lose by being rounded decides for

@@ -143,9 +143,9 @@ std::optional<Shaft> shaftTo(const LightSource& light, std::span<const glm::dvec
 }
 
 bool passesBy(const LightSource& light, const FlatBlock& block, const Triangle& triangle) {
-  glm::dvec3 normal = unitAlong(triangle.area());
-  if (glm::dot(normal, towards(light, triangle.a)) < 0) normal = -normal;
   const glm::dvec3 toLight = towards(light, triangle.a);
+  glm::dvec3 normal = unitAlong(triangle.area());
+  if (glm::dot(normal, toLight) < 0) normal = -normal;
   if (!(glm::dot(normal, toLight) > light.radius + 1e-9 * glm::length(toLight))) return false;
   const glm::dvec3 largest = triangle.largest();
   return std::all_of(block.corners.begin(), block.corners.end(), [&](const glm::dvec3& corner) {

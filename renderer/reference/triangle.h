@@ -13,6 +13,11 @@ struct Triangle {
   glm::dvec3 largest() const {                                 ///< of the coordinates' absolute values, by axis
     return glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
   }
+  /// So narrow that doubles don't know its plane.
+  bool isSliver() const {
+    const glm::dvec3 ab = b - a, ac = c - a, normal = area();
+    return !(glm::dot(normal, normal) > 1e-8 * glm::dot(ab, ab) * glm::dot(ac, ac));
+  }
 };
 
 /// Of unit length; zero where `v` has no direction.

@@ -43,6 +43,7 @@ class TriangleBoxes {
   std::size_t runOf(const PlacedTriangle& triangle) const {
     return firstRun_[triangle.instance] + triangle.triangle / kRunTriangles;
   }
+  static std::uint32_t placeInRun(const PlacedTriangle& triangle) { return triangle.triangle % kRunTriangles; }
 
   std::size_t bytes() const;
 

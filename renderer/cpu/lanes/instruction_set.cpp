@@ -10,16 +10,18 @@ namespace {
 std::vector<std::int64_t> known() {
 #if defined(__x86_64__)
   __builtin_cpu_init();
+  const bool sse4 =
+      __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
   // Whatever knows BMI2 and FMA knows LZCNT and F16C, which Highway's AVX2 is made of, too.
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-                    __builtin_cpu_supports("bmi2");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512cd");
   std::vector<std::int64_t> sets;
   if (avx512) sets.push_back(HWY_AVX3);
   if (avx2) sets.push_back(HWY_AVX2);
-  sets.push_back(HWY_SSE4); // or the device is refused (cpu_device.cpp)
+  if (sse4) sets.push_back(HWY_SSE4);
   return sets;
 #else
   return {HWY_STATIC_TARGET};

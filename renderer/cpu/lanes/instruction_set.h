@@ -9,10 +9,10 @@
 namespace gnomon::cpu {
 
 /// Those that kernels are compiled for and that this processor knows, as Highway's HWY_TARGETS has them; the best one
-/// first.
+/// first. None where it lacks what all of them are made of.
 std::vector<std::int64_t> instructionSets();
 
-/// The one that runs kernels, for the whole process: the best one until another is asked for.
+/// The one that runs kernels, for the whole process: the best one until another is asked for. REQUIRES: there is one.
 hwy::ChosenTarget& chosenInstructionSet();
 
 /// REQUIRES: one of instructionSets(), and that no kernel runs.
