@@ -8,6 +8,7 @@
 #include "renderer/core/fingerprint.h"
 #include "renderer/cpu/cpu_frame.h"
 #include "renderer/cpu/lanes/instruction_set.h"
+#include "renderer/reference/ray_vectors.h"
 
 namespace gnomon {
 namespace {
@@ -22,13 +23,19 @@ std::string spelledTarget(std::int64_t target) {
   return name;
 }
 
+/// Rays, too.
+void use(std::int64_t target) {
+  cpu::useInstructionSet(target);
+  useRayVectors(target == HWY_AVX2 ? RayVectors::avx2 : target == HWY_SSE4 ? RayVectors::sse4 : RayVectors::widest);
+}
+
 /// The instruction set of the kernels from now on, for the whole process: the best one that the processor knows, or
 /// that which GNOMON_CPU_TARGET names.
 Result<std::int64_t> chosenTarget() {
   const std::vector<std::int64_t> targets = cpu::instructionSets();
   const char* wanted = std::getenv("GNOMON_CPU_TARGET");
   if (!wanted || !*wanted) {
-    cpu::useInstructionSet(targets.front());
+    use(targets.front());
     return targets.front();
   }
   const auto found = std::find_if(targets.begin(), targets.end(),
@@ -39,7 +46,7 @@ Result<std::int64_t> chosenTarget() {
     return Problem{ProblemCode::backend, "", "GNOMON_CPU_TARGET names no instruction set that this processor knows.",
                    known, std::string(wanted).substr(0, 64)};
   }
-  cpu::useInstructionSet(*found);
+  use(*found);
   return *found;
 }
 

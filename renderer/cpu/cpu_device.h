@@ -9,9 +9,9 @@ struct CpuOptions {
 };
 
 /// A device that draws by the processor alone, on all cores that the process is granted: no display, no driver. Its
-/// kernels use the best instruction set of the processor, or the one that the environment variable GNOMON_CPU_TARGET
-/// names: sse4, avx2, avx3 (AVX-512), on ARM neon. A problem where the processor lacks what that variable names, or an
-/// instruction set that all of the code needs.
+/// kernels and rays use the best instruction set of the processor, or the one that the environment variable
+/// GNOMON_CPU_TARGET names: sse4, avx2, avx3 (AVX-512), on ARM neon. A problem where the processor lacks what that
+/// variable names, or an instruction set that all of the code needs.
 Result<std::unique_ptr<Device>> createCpuDevice(const CpuOptions& options);
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/reference/trace_packet.h"
 #include "renderer/reference/traced_light.h"
 
 namespace gnomon {
@@ -85,7 +86,7 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   std::copy_n(points.toward[1], kLanes, rays.dir_y);
   std::copy_n(points.toward[2], kLanes, rays.dir_z);
   std::copy_n(points.length, kLanes, rays.tfar);
-  rtcOccluded16(lanes.active.data(), query.casters->tree.rays.get(), &query.context, &rays);
+  occlude(query.casters->tree, lanes, query.context, rays);
   std::array<float, kLanes> shares{};
   for (unsigned i = 0; i < kLanes; ++i) shares[i] = rays.tfar[i] < 0 ? 0.0f : query.through[i];
   return shares;

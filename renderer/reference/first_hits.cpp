@@ -6,6 +6,7 @@
 #include "renderer/reference/drawn_points.h"
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/trace.h"
+#include "renderer/reference/trace_packet.h"
 #include "renderer/reference/tree.h"
 #include "renderer/reference/triangle.h"
 
@@ -105,7 +106,7 @@ class Packet {
   /// Traces the active lanes and takes the points that the camera sees. Gives the lanes that met something else.
   Lanes take(std::span<SurfacePoint> points) {
     std::fill_n(packet_.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect16(lanes_.active.data(), eye_.tree.rays.get(), &query_.context, &packet_);
+    intersect(eye_.tree, lanes_, query_.context, packet_);
     Lanes others;
     Crossings found{};
     for (unsigned i = 0; i < points.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "renderer/reference/alpha.h"
+#include "renderer/reference/trace_packet.h"
 
 namespace gnomon {
 namespace {
@@ -143,7 +144,7 @@ bool surelyMeets(const RayToLight& ray, const Triangle& caster, double rounding)
 std::array<float, kLanes> sharesThrough(const Casters& casters, RaysToLight& rays) {
   LightQuery query = queryFor(casters, rays, keepOpaque);
   const Lanes lanes = firstLanes(rays.count);
-  rtcOccluded16(lanes.active.data(), casters.tree.rays.get(), &query.context, &rays.packet.ray);
+  occlude(casters.tree, lanes, query.context, rays.packet.ray);
   std::array<float, kLanes> shares{};
   for (unsigned i = 0; i < rays.count; ++i) shares[i] = rays.packet.ray.tfar[i] < 0 ? 0.0f : query.through[i];
   rays.count = 0;
@@ -155,7 +156,7 @@ std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays) 
   RTCHit16& hits = rays.packet.hit;
   std::fill_n(hits.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
   const Lanes lanes = firstLanes(rays.count);
-  rtcIntersect16(lanes.active.data(), casters.tree.rays.get(), &query.context, &rays.packet);
+  intersect(casters.tree, lanes, query.context, rays.packet);
   std::array<float, kLanes> distances{};
   for (unsigned i = 0; i < rays.count; ++i) {
     distances[i] = std::numeric_limits<float>::infinity();

@@ -6,6 +6,8 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
+#include "renderer/reference/ray_vectors.h"
+#include "renderer/reference/trace_packet.h"
 
 namespace gnomon {
 namespace {
@@ -161,11 +163,12 @@ void sortAll(Tree& tree) {
 } // namespace
 
 void sortTriangles(Tree& tree) {
-  tree.device.reset(rtcNewDevice("set_affinity=0"));
+  tree.device.reset(rtcNewDevice(rayDeviceOptions()));
   if (!tree.device) {
     tree.error = rtcGetDeviceError(nullptr);
     return;
   }
+  tree.packets = widestPackets(tree.device.get());
   rtcSetDeviceErrorFunction(tree.device.get(), keepError, &tree);
   rtcSetDeviceMemoryMonitorFunction(tree.device.get(), countBytes, &tree);
   onAllCores([&] { sortAll(tree); });

@@ -48,6 +48,7 @@ struct TracedScene::Tree {
   std::atomic<std::int64_t> embreeBytes = 0;
   std::atomic<RTCError> error = RTC_ERROR_NONE;
   Device device;
+  unsigned packets = 16; ///< as wide as its rays are traced together: widestPackets
   RayScene rays; ///< after `device`: released first
 
   glm::dmat4 anchoredFromLocal(const Instance& instance) const {
