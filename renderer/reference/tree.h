@@ -49,7 +49,7 @@ struct TracedScene::Tree {
   std::atomic<RTCError> error = RTC_ERROR_NONE;
   Device device;
   unsigned packets = 16; ///< as wide as its rays are traced together: widestPackets
-  RayScene rays; ///< after `device`: released first
+  RayScene rays;         ///< after `device`: released first
 
   glm::dmat4 anchoredFromLocal(const Instance& instance) const {
     glm::dmat4 matrix = instance.worldFromLocal;
