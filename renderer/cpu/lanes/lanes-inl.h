@@ -194,19 +194,6 @@ HWY_INLINE void storeWhere(const Mask& where, const Float& a, float* to) {
 HWY_INLINE void storeWhere(const Mask& where, const Int& a, std::uint32_t* to) {
   storeWhere(where, floatOf(a), reinterpret_cast<float*>(to));
 }
-/// Stores the lanes `where` one behind the other, and anything behind them, sixteen values at most.
-HWY_INLINE void compressStore(const Mask& where, const Float& a, float* to) {
-  for (std::size_t i = 0; i < kParts; ++i) {
-    hn::StoreU(hn::Compress(a.part[i], where.part[i]), kFloats, to);
-    to += hn::CountTrue(kFloats, where.part[i]);
-  }
-}
-HWY_INLINE void compressStore(const Mask& where, const Int& a, std::int32_t* to) {
-  compressStore(where, floatOf(a), reinterpret_cast<float*>(to));
-}
-HWY_INLINE void compressStore(const Mask& where, const Int& a, std::uint32_t* to) {
-  compressStore(where, floatOf(a), reinterpret_cast<float*>(to));
-}
 /// Of 48 values the first, the second and the third of each three.
 HWY_INLINE void loadTriples(const std::uint32_t* from, Int& a, Int& b, Int& c) {
   const auto* ints = reinterpret_cast<const std::int32_t*>(from);

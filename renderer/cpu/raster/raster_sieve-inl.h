@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 
+#include "renderer/cpu/lanes/packing-inl.h"
 #include "renderer/cpu/raster/raster_corners-inl.h"
 #include "renderer/cpu/raster/raster_wide.h"
 
@@ -163,8 +164,9 @@ class TriangleSieve {
   HWY_INLINE void setUp(const Sieved& s, const PlacedCorners& corners, std::uint32_t t, const Mask& kept) {
     const std::size_t end = group_.small.end();
     float* const to = group_.small.at(end);
+    const Packing packing(kept);
     const auto put = [&](std::size_t field, const Float& value)
-                         HWY_ATTR { compressStore(kept, value, to + field * SmallTriangles::kStride); };
+                         HWY_ATTR { packing.store(value, to + field * SmallTriangles::kStride); };
     const auto putInt = [&](std::size_t field, const Int& value) HWY_ATTR { put(field, floatOf(value)); };
     const Mask turned = s.area < Int(0);
     const auto corner = [&](const auto* of, int c)
@@ -200,7 +202,7 @@ class TriangleSieve {
                       Int(static_cast<std::int32_t>(wide_.holed ? kHoled : 0u));
     putInt(kLastBlock, shiftRight<2>(s.lastX) | shiftLeft<14>(shiftRight<2>(s.lastY)) | flags);
     putInt(kNumber, laneNumbers() + Int(static_cast<std::int32_t>(firstNumber_ + t)));
-    group_.small.add(static_cast<std::size_t>(std::popcount(bitsOf(kept))));
+    group_.small.add(packing.count());
   }
 
   /// Through the corners where they are, not where they are snapped to, as drivers of OpenGL do; but where snapping

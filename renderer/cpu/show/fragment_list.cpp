@@ -1,10 +1,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE \
   "renderer/cpu/show/fragment_list.cpp" // NOLINT: Highway's foreach_target.h includes this file again
-#include <bit>
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/cpu/lanes/packing-inl.h"
 #include "renderer/cpu/show/show_view.h"
 #include "renderer/prepare/draw_list.h"
 
@@ -13,10 +12,11 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 
 /// Adds the lanes `where`, which show these triangles in these samples of the block's pixels.
 HWY_INLINE void add(const Mask& where, const Int& triangle, int firstPixel, const Int& samples, FragmentList& list) {
-  compressStore(where, triangle, list.triangle.data() + list.count);
-  compressStore(where, laneNumbers() + Int(firstPixel), list.pixel.data() + list.count);
-  compressStore(where, samples, list.samples.data() + list.count);
-  list.count += static_cast<std::size_t>(std::popcount(bitsOf(where)));
+  const Packing packing(where);
+  packing.store(triangle, list.triangle.data() + list.count);
+  packing.store(laneNumbers() + Int(firstPixel), list.pixel.data() + list.count);
+  packing.store(samples, list.samples.data() + list.count);
+  list.count += packing.count();
 }
 
 /// `numbers`: of a block's samples, sixteen each. `inside`: pixels of the picture.
