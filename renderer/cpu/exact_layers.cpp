@@ -1,6 +1,7 @@
 #include "renderer/cpu/exact_layers.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
@@ -30,11 +31,10 @@ class Coverage : public Holes {
   Coverage(int width, int height)
       : width_(width), height_(height), masks_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-  unsigned filled(std::uint32_t, bool, int column, int row, unsigned covered) const override {
-    for (unsigned left = covered; left != 0; left &= left - 1) {
-      const int place = __builtin_ctz(left);
-      const int x = column * kBlockSide + place % kBlockSide;
-      const int y = row * kBlockSide + place / kBlockSide;
+  unsigned filled(const HoledPlaces& places, unsigned asked) const override {
+    for (unsigned left = asked; left != 0; left &= left - 1) {
+      const int place = std::countr_zero(left);
+      const int x = places.x[place], y = places.y[place];
       if (x < width_ && y < height_) {
         masks_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = 255;
       }

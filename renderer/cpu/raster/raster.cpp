@@ -44,35 +44,35 @@ void sieveGroup(const RasterInput& input, const RasterView& view, std::span<cons
 }
 
 template <DepthRange range, int samples>
-HWY_INLINE void rasterEntries(std::span<const TriangleGroup> groups, std::size_t index, const Square& square) {
+HWY_INLINE void rasterEntries(const RasterInput& input, std::span<const TriangleGroup> groups, std::size_t index,
+                              const Square& square) {
+  HoledPixels<range, samples> holed(input, square.depths, square.numbers);
   for (const TriangleGroup& group : groups) {
     const std::uint32_t* const end = group.entries.data() + group.firstEntry[index + 1];
     for (const std::uint32_t* at = group.entries.data() + group.firstEntry[index]; at != end; ++at) {
       const std::uint32_t entry = *at;
       if ((entry & kWideEntry) == 0) {
-        rasterSmall<range, samples>(group.small.at(entry), square);
+        rasterSmall<range, samples>(group.small.at(entry), square, holed);
       } else {
-        rasterWide<range, samples>(group.wide[entry & ~kWideEntry], square);
+        rasterWide<range, samples>(group.wide[entry & ~kWideEntry], square, holed);
       }
     }
   }
+  holed.settle();
 }
 
-void rasterSquare(const RasterView& view, std::span<const TriangleGroup> groups, std::size_t index, const Holes* holes,
-                  DepthBuffer& target) {
+void rasterSquare(const RasterInput& input, const RasterView& view, std::span<const TriangleGroup> groups,
+                  std::size_t index, DepthBuffer& target) {
   constexpr int kBlocks = kSquareSide / kBlockSide;
   const auto across = static_cast<std::size_t>(view.squaresAcross);
   const int column = static_cast<int>(index % across) * kBlocks, row = static_cast<int>(index / across) * kBlocks;
   const BlockSpan blocks{column, row, std::min(column + kBlocks, target.blocksAcross()) - 1,
                          std::min(row + kBlocks, target.blocksUp()) - 1};
-  const Square square{target.depths.data(),
-                      target.triangles.empty() ? nullptr : target.triangles.data(),
-                      target.blocksAcross(),
-                      holes,
-                      blocks,
-                      view.wanted(index)};
+  const Square square{target.depths.data(), target.triangles.empty() ? nullptr : target.triangles.data(),
+                      target.blocksAcross(), blocks, view.wanted(index)};
   const auto rasterAt = [&]<DepthRange range>() HWY_ATTR {
-    view.samples == 1 ? rasterEntries<range, 1>(groups, index, square) : rasterEntries<range, 4>(groups, index, square);
+    view.samples == 1 ? rasterEntries<range, 1>(input, groups, index, square)
+                      : rasterEntries<range, 4>(input, groups, index, square);
   };
   view.range == DepthRange::reversed ? rasterAt.template operator()<DepthRange::reversed>()
                                      : rasterAt.template operator()<DepthRange::clamped>();
@@ -197,7 +197,7 @@ std::uint64_t raster(const RasterInput& input, DepthRange range, DepthBuffer& ta
   forEach(view.squares(), [&](std::size_t i) {
     if (view.wanted(i) == 0) return;
     if (input.fresh || input.only != nullptr) emptyBlocks(view, i, target);
-    GNOMON_KERNEL(rasterSquare)(view, groups, i, input.holes, target);
+    GNOMON_KERNEL(rasterSquare)(input, view, groups, i, target);
   });
   std::uint64_t triangles = 0;
   for (const RasterDraw& draw : input.draws) triangles += input.slots[draw.slot].triangles;

@@ -28,13 +28,22 @@ struct RasterDraw {
   bool holed = false;           ///< its triangles leave samples out: RasterInput::holes tells which
 };
 
+/// Pixels and the triangles that cover them, all of one instance. Sixteen are asked about at once; there is room for as
+/// many more.
+struct HoledPlaces {
+  static constexpr std::size_t kRoom = 32;
+  std::uint32_t instance = kNoNumber;
+  alignas(64) std::uint32_t number[kRoom] = {}; ///< of the triangle
+  alignas(64) std::int32_t x[kRoom] = {}, y[kRoom] = {};
+  unsigned counterClockwise = 0; ///< a bit each: how the triangle's corners go round on the picture
+};
+
 /// Says where triangles have holes. Asked from several threads at once.
 class Holes {
  public:
   virtual ~Holes() = default;
-  /// Of sixteen pixels, a bit each (the places of DepthBuffer's block `column`, `row`), those that a triangle fills.
-  /// `covered`: those of which it covers a sample. `counterClockwise`: as its corners go round on the picture.
-  virtual unsigned filled(std::uint32_t number, bool counterClockwise, int column, int row, unsigned covered) const = 0;
+  /// Of the first sixteen, a bit each, those that their triangles fill. `asked`: those that count.
+  virtual unsigned filled(const HoledPlaces& places, unsigned asked) const = 0;
 };
 
 /// What is rastered. All of it outlives the call.

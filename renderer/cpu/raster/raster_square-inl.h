@@ -10,6 +10,7 @@
 #include <bit>
 
 #include "renderer/cpu/lanes/functions-inl.h"
+#include "renderer/cpu/raster/raster_holed-inl.h"
 #include "renderer/cpu/raster/raster_triangles.h"
 #include "renderer/cpu/raster/raster_view.h"
 
@@ -23,7 +24,6 @@ struct Square {
   float* depths;          ///< of the whole picture
   std::uint32_t* numbers; ///< null = not asked for
   int blocksAcross;       ///< of the picture
-  const Holes* holes;
   BlockSpan blocks;
   std::uint64_t wanted; ///< as TexelMarks has them
 
@@ -45,41 +45,36 @@ struct TriangleMarks {
   bool turned;
 };
 
-/// Those of sixteen covered samples `at` there that nothing drawn before hides.
-template <DepthRange range>
-HWY_INLINE Mask notHidden(const Square& square, std::size_t at, const Mask& covered, const Float& depth) {
-  const Float before = load(square.depths + at);
-  return covered & (range == DepthRange::reversed ? depth > before : depth < before);
-}
-
-HWY_INLINE void keepSamples(const Square& square, std::uint32_t number, std::size_t at, const Mask& shown,
-                            const Float& depth) {
-  storeWhere(shown, depth, square.depths + at);
-  if (square.numbers == nullptr) return;
-  storeWhere(shown, Int(static_cast<std::int32_t>(number)), square.numbers + at);
-}
-
 /// Adds a triangle to a block. `covered` and `depth` tell of the sixteen samples of each number. Holes are those of
 /// pixels, and so are asked for once for all samples.
 template <DepthRange range, int samples, class Covered, class Depth>
 HWY_INLINE void addToBlock(const Square& square, const TriangleMarks& triangle, int column, int row,
-                           const Covered& covered, const Depth& depth) {
+                           const Covered& covered, const Depth& depthOf, HoledPixels<range, samples>& holed) {
   const std::size_t first = square.blockAt<samples>(column, row);
-  const auto at = [&](int s) { return first + static_cast<std::size_t>(s * kBlockPlaces); };
-  if (!triangle.holed) {
+  const auto shown = [&](int s, const Float& depth) HWY_ATTR {
+    return covered(s) & isNearer<range>(depth, load(square.depths + first + s * kBlockPlaces));
+  };
+  if (triangle.holed) {
+    Float depths[samples];
+    Mask asked = maskOf(0);
     for (int s = 0; s < samples; ++s) {
-      const Float here = depth(s);
-      keepSamples(square, triangle.number, at(s), notHidden<range>(square, at(s), covered(s), here), here);
+      const Float depth = depthOf(s);
+      const Mask own = shown(s, depth);
+      asked = asked | own;
+      depths[s] = select(own, depth, Float(HoledPixels<range, samples>::kBehind));
     }
+    if (any(asked)) holed.add(triangle.number, triangle.turned, column, row, first, asked, depths);
     return;
   }
-  unsigned asked = 0;
-  for (int s = 0; s < samples; ++s) asked |= bitsOf(notHidden<range>(square, at(s), covered(s), depth(s)));
-  if (asked == 0) return;
-  const Mask filled = maskOf(square.holes->filled(triangle.number, !triangle.turned, column, row, asked));
+  // Of two at one depth the first one is shown.
+  if (square.numbers != nullptr) holed.settle();
   for (int s = 0; s < samples; ++s) {
-    const Float here = depth(s);
-    keepSamples(square, triangle.number, at(s), notHidden<range>(square, at(s), covered(s) & filled, here), here);
+    const std::size_t at = first + static_cast<std::size_t>(s * kBlockPlaces);
+    const Float depth = depthOf(s);
+    const Mask own = shown(s, depth);
+    storeWhere(own, depth, square.depths + at);
+    if (square.numbers == nullptr) continue;
+    storeWhere(own, Int(static_cast<std::int32_t>(triangle.number)), square.numbers + at);
   }
 }
 
@@ -92,7 +87,7 @@ HWY_INLINE Float laneRows() {
 
 /// Adds the samples of a small triangle. Its values stay below 2^23, where floats are exact.
 template <DepthRange range, int samples>
-HWY_INLINE void rasterSmall(const float* triangle, const Square& square) {
+HWY_INLINE void rasterSmall(const float* triangle, const Square& square, HoledPixels<range, samples>& holed) {
   const auto field = [&](int i) HWY_ATTR { return triangle[static_cast<std::size_t>(i) * SmallTriangles::kStride]; };
   const auto bits = [&](int i) HWY_ATTR { return std::bit_cast<std::uint32_t>(field(i)); };
   constexpr std::uint32_t kPlace = (1u << 14) - 1;
@@ -129,7 +124,7 @@ HWY_INLINE void rasterSmall(const float* triangle, const Square& square) {
         return (value[0] >= least[s]) & (value[1] >= least[samples + s]) & (value[2] >= least[2 * samples + s]);
       };
       const auto depthOf = [&](int s) HWY_ATTR { return clamp(depthHere + depthWithin[s], leastDepth, mostDepth); };
-      addToBlock<range, samples>(square, marks, column, row, covered, depthOf);
+      addToBlock<range, samples>(square, marks, column, row, covered, depthOf, holed);
     }
   }
 }

@@ -68,7 +68,7 @@ HWY_INLINE CrossingSides<samples> sidesIn(const Square& square, const std::array
 
 /// Adds the samples of a wide triangle.
 template <DepthRange range, int samples>
-HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
+HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square, HoledPixels<range, samples>& holed) {
   const BlockSpan span{std::max(triangle.blocks.x0, square.blocks.x0), std::max(triangle.blocks.y0, square.blocks.y0),
                        std::min(triangle.blocks.x1, square.blocks.x1), std::min(triangle.blocks.y1, square.blocks.y1)};
   if ((span.marks() & square.wanted) == 0) return;
@@ -112,7 +112,7 @@ HWY_INLINE void rasterWide(const WideTriangle& triangle, const Square& square) {
       const auto depthOf = [&](int s) HWY_ATTR {
         return clamp(most + (rest + depthWithin[s]), triangle.least, triangle.most);
       };
-      addToBlock<range, samples>(square, marks, column, row, covered, depthOf);
+      addToBlock<range, samples>(square, marks, column, row, covered, depthOf, holed);
     }
   }
 }

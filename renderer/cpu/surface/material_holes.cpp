@@ -3,6 +3,7 @@
 #include "renderer/cpu/surface/material_holes.h"
 
 #include <algorithm>
+#include <bit>
 #include <hwy/foreach_target.h>
 #include <iterator>
 
@@ -11,17 +12,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Of the triangles of a block's places those whose alpha is at least `least`, a number a place.
-unsigned filledPlaces(const HolesInput& input, std::uint32_t number, const glm::ivec2& first, const float* least,
-                      unsigned covered) {
-  const std::uint32_t instance = input.scene.slots[number / kClusterTriangles].instance;
-  const std::uint32_t triangle = number - input.scene.geometry.firstSlot[instance] * kClusterTriangles;
-  static_assert(kBlockSide == 4);
-  const Int x = (laneNumbers() & Int(3)) + Int(first.x), y = shiftRight<2>(laneNumbers()) + Int(first.y);
-  const Float alpha = alphaOf(input.scene, input.textures, instance, input.clipFromLocal[instance],
-                              Int(static_cast<std::int32_t>(triangle)), glm::vec2(input.size),
-                              Float2(toFloat(x) + 0.5f, toFloat(y) + 0.5f), maskOf(covered));
-  return covered & bitsOf(alpha >= load(least));
+/// Of the places that are `asked` for those where alpha is at least `least`, a number a place.
+unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, const float* least, unsigned asked) {
+  const std::uint32_t first = input.scene.geometry.firstSlot[places.instance] * kClusterTriangles;
+  const Mask where = maskOf(asked);
+  // The others have a triangle of the instance, too.
+  const auto any = static_cast<std::int32_t>(places.number[std::countr_zero(asked)]);
+  const Int triangle = select(where, load(places.number), Int(any)) - Int(static_cast<std::int32_t>(first));
+  const Float alpha =
+      alphaOf(input.scene, input.textures, places.instance, input.clipFromLocal[places.instance], triangle,
+              glm::vec2(input.size), Float2(toFloat(load(places.x)) + 0.5f, toFloat(load(places.y)) + 0.5f), where);
+  return asked & bitsOf(alpha >= load(least));
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE
@@ -32,6 +33,8 @@ namespace gnomon::cpu {
 namespace {
 
 GNOMON_EXPORT_KERNEL(filledPlaces);
+
+constexpr std::size_t kPlaces = 16; ///< that are asked about at once
 
 /// A well mixed number. (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: pcg.)
 std::uint32_t hashOf(std::uint32_t seed) {
@@ -60,22 +63,20 @@ std::uint32_t surfaceHash(const FrameScene& scene, std::uint32_t number) {
 
 } // namespace
 
-unsigned MaterialHoles::filled(std::uint32_t number, bool counterClockwise, int column, int row,
-                               unsigned covered) const {
+unsigned MaterialHoles::filled(const HoledPlaces& places, unsigned asked) const {
   const FrameScene& scene = input_.scene;
-  const auto material = static_cast<std::size_t>(scene.slots[number / kClusterTriangles].material);
-  const glm::ivec2 first = glm::ivec2(column, row) * kBlockSide;
-  alignas(64) float least[kBlockPlaces];
+  const auto material = static_cast<std::size_t>(scene.slots[scene.geometry.firstSlot[places.instance]].material);
+  alignas(64) float least[kPlaces] = {};
   if (input_.dithers && scene.scene.materials[material].alphaMode == AlphaMode::blend) {
-    const std::uint32_t surface = surfaceHash(scene, number);
-    for (int i = 0; i < kBlockPlaces; ++i) {
-      const glm::uvec2 texel(input_.corner + first + glm::ivec2(i % kBlockSide, i / kBlockSide));
-      least[i] = patternAt(texel, surface, counterClockwise);
+    for (unsigned left = asked; left != 0; left &= left - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(left));
+      const glm::uvec2 texel(input_.corner + glm::ivec2(places.x[i], places.y[i]));
+      least[i] = patternAt(texel, surfaceHash(scene, places.number[i]), (places.counterClockwise >> i & 1u) != 0);
     }
   } else {
     std::fill(std::begin(least), std::end(least), scene.materials[material].emissiveFactor.w);
   }
-  return GNOMON_KERNEL(filledPlaces)(input_, number, first, least, covered);
+  return GNOMON_KERNEL(filledPlaces)(input_, places, least, asked);
 }
 
 } // namespace gnomon::cpu

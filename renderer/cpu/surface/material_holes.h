@@ -22,7 +22,7 @@ struct HolesInput {
 class MaterialHoles final : public Holes {
  public:
   explicit MaterialHoles(const HolesInput& input) : input_(input) {}
-  unsigned filled(std::uint32_t number, bool counterClockwise, int column, int row, unsigned covered) const override;
+  unsigned filled(const HoledPlaces& places, unsigned asked) const override;
 
  private:
   HolesInput input_;

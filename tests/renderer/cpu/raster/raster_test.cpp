@@ -1,74 +1,13 @@
 #include "renderer/cpu/raster/raster.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
-#include <random>
 #include <utility>
 
 #include "tests/renderer/cpu/instruction_sets.h"
+#include "tests/renderer/cpu/raster/mesh.h"
 
 namespace gnomon::cpu {
 namespace {
-
-using Random = std::mt19937;
-
-double between(Random& random, double low, double high) {
-  return std::uniform_real_distribution(low, high)(random);
-}
-
-/// Triangles that stand in clip space as they are, after `clip`.
-struct Mesh {
-  Scene scene;
-  std::vector<Slot> slots;
-  std::vector<RasterDraw> draws;
-  glm::mat4 clip{1};
-
-  RasterInput input() const { return {scene, slots, std::span(&clip, 1), draws}; }
-};
-
-Mesh meshOf(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices, Facing facing = Facing::both) {
-  Mesh mesh;
-  mesh.scene.positions = std::move(positions);
-  for (std::uint32_t first = 0; first < indices.size(); first += 3 * kClusterTriangles) {
-    const auto left = static_cast<std::uint32_t>(indices.size()) - first;
-    mesh.draws.push_back({static_cast<std::uint32_t>(mesh.slots.size()), facing});
-    mesh.slots.push_back({0, first, std::min(left / 3, kClusterTriangles), 0, 0});
-  }
-  mesh.scene.welded = std::move(indices);
-  return mesh;
-}
-
-DepthBuffer drawn(const Mesh& mesh, int width, int height, int samples = 1, DepthRange range = DepthRange::reversed) {
-  DepthBuffer buffer = unfilledBuffer(width, height, samples, true);
-  RasterScratch scratch;
-  RasterInput input = mesh.input();
-  input.fresh = true;
-  raster(input, range, buffer, scratch);
-  return buffer;
-}
-
-/// A net of triangles over the whole picture and beyond, whose inner corners are moved at random; some of it slivers.
-Mesh net(Random& random, int cells, double reach) {
-  std::vector<glm::vec3> positions;
-  for (int y = 0; y <= cells; ++y) {
-    for (int x = 0; x <= cells; ++x) {
-      const bool inner = x > 0 && x < cells && y > 0 && y < cells;
-      const double move = inner ? 0.45 * 2 * reach / cells : 0;
-      positions.emplace_back((2.0 * x / cells - 1) * reach + between(random, -move, move),
-                             (2.0 * y / cells - 1) * reach + between(random, -move, move), between(random, 0, 1));
-    }
-  }
-  std::vector<std::uint32_t> indices;
-  const auto across = static_cast<std::uint32_t>(cells) + 1;
-  for (std::uint32_t y = 0; y + 1 < across; ++y) {
-    for (std::uint32_t x = 0; x + 1 < across; ++x) {
-      const std::uint32_t at = y * across + x;
-      indices.insert(indices.end(), {at, at + 1, at + across + 1, at, at + across + 1, at + across});
-    }
-  }
-  return meshOf(std::move(positions), std::move(indices));
-}
 
 TEST(Raster, EverySampleLiesInExactlyOneTriangleOfANet) {
   onEachInstructionSet([] {
@@ -241,50 +180,6 @@ TEST(Raster, ComesOutTheSameOnEveryRunAndInstructionSetForOrthographicNets) {
     const DepthBuffer again = drawn(mesh, 300, 200, 4);
     EXPECT_TRUE(again.triangles == first.triangles);
   });
-}
-
-/// Leaves out every other pixel.
-class Chequers : public Holes {
- public:
-  unsigned filled(std::uint32_t, bool, int column, int row, unsigned covered) const override {
-    const std::lock_guard lock(mutex_);
-    ++asked_[{column, row}];
-    return covered & 0x5a5au;
-  }
-
-  int mostAsked() const {
-    int most = 0;
-    for (const auto& [block, times] : asked_) most = std::max(most, times);
-    return most;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<int, int>, int> asked_;
-};
-
-TEST(Raster, HoledTrianglesShowWhatLiesBehind) {
-  const std::vector<glm::vec3> positions{{-3, -1, 0.9f}, {3, -1, 0.9f}, {0, 4, 0.9f},
-                                         {-3, -1, 0.5f}, {3, -1, 0.5f}, {0, 4, 0.5f}};
-  Mesh mesh = meshOf(positions, {0, 1, 2});
-  mesh.scene.welded = {0, 1, 2, 3, 4, 5};
-  mesh.slots.push_back({0, 3, 1, 0, 0});
-  mesh.draws.front().holed = true;
-  mesh.draws.push_back({1, Facing::both, false});
-  for (const int samples : {1, 4}) {
-    const Chequers chequers;
-    RasterInput input = mesh.input();
-    input.holes = &chequers;
-    input.fresh = true;
-    DepthBuffer buffer = unfilledBuffer(16, 16, samples, true);
-    RasterScratch scratch;
-    EXPECT_EQ(raster(input, DepthRange::reversed, buffer, scratch), 2u);
-    for (int s = 0; s < samples; ++s) {
-      EXPECT_EQ(buffer.triangles[buffer.at(9, 8, s)], 0u);
-      EXPECT_EQ(buffer.triangles[buffer.at(8, 8, s)], kClusterTriangles);
-    }
-    EXPECT_EQ(chequers.mostAsked(), 1) << "once for all samples of a block";
-  }
 }
 
 /// Depths that no triangle has.

@@ -21,6 +21,33 @@ HolesInput inputOf(const MadeScene& made, const std::vector<glm::mat4>& clip) {
   return {made.frameScene(), made.textures(), clip, {made.frameScene().width, made.frameScene().height}};
 }
 
+std::uint32_t instanceOf(const MadeScene& made, std::uint32_t number) {
+  return made.frameScene().slots[number / kClusterTriangles].instance;
+}
+
+/// A pixel as the place `at` of those that are asked about.
+HoledPlaces placed(const MadeScene& made, std::uint32_t number, const glm::ivec2& pixel, std::size_t at) {
+  HoledPlaces places;
+  places.instance = instanceOf(made, number);
+  places.number[at] = number;
+  places.x[at] = pixel.x;
+  places.y[at] = pixel.y;
+  return places;
+}
+
+/// Sixteen pixels of one triangle, four by four.
+HoledPlaces block(const MadeScene& made, std::uint32_t number, bool counterClockwise) {
+  HoledPlaces places;
+  places.instance = instanceOf(made, number);
+  places.counterClockwise = counterClockwise ? 0xffff : 0;
+  for (int i = 0; i < 16; ++i) {
+    places.number[i] = number;
+    places.x[i] = 12 + i % 4;
+    places.y[i] = 20 + i / 4;
+  }
+  return places;
+}
+
 std::vector<Material> maskedMaterials() {
   std::vector<Material> materials(3);
   for (Material& material : materials) material.alphaMode = AlphaMode::mask;
@@ -53,10 +80,9 @@ TEST(CpuMaterialHoles, LeaveOutWhatTheCutoffDoes) {
         seen.place = glm::dvec2(pixel) + 0.5;
         seen.weights = weightsAt(made.frameScene(), made.view(), seen, seen.place);
         if (glm::length(seen.weights) > 4) continue;
-        const glm::ivec2 block = pixel / kBlockSide, within = pixel % kBlockSide;
-        const unsigned bit = 1u << (within.y * kBlockSide + within.x);
-        const unsigned found = holes.filled(seen.triangle, true, block.x, block.y, bit);
-        ASSERT_TRUE(found == 0 || found == bit) << "no place that isn't covered";
+        const unsigned bit = 1u << (filled % 16);
+        const unsigned found = holes.filled(placed(made, seen.triangle, pixel, filled % 16), bit);
+        ASSERT_TRUE(found == 0 || found == bit) << "no place that isn't asked for";
         const Place place(made, seen);
         const double over = place.alpha() - static_cast<double>(place.material().alphaCutoff);
         off += std::abs(over) > 0.01 && (found != 0) != (over > 0) ? 1 : 0;
@@ -90,16 +116,17 @@ TEST(CpuMaterialHoles, DitherAsManyTexelsAsAlphaSays) {
   onEachInstructionSet([&] {
     for (std::uint32_t instance = 0; instance < materials.size(); ++instance) {
       const std::uint32_t number = made.frameScene().geometry.firstSlot[instance] * kClusterTriangles + 7;
-      const unsigned front = dithered.filled(number, true, 3, 5, 0xffff);
-      const unsigned back = dithered.filled(number, false, 3, 5, 0xffff);
+      const HoledPlaces counterClockwise = block(made, number, true), clockwise = block(made, number, false);
+      const unsigned front = dithered.filled(counterClockwise, 0xffff);
+      const unsigned back = dithered.filled(clockwise, 0xffff);
       EXPECT_EQ(std::popcount(front), static_cast<int>(instance));
       EXPECT_EQ(std::popcount(back), static_cast<int>(instance));
       // The pattern lies still in the atlas: column 1 from the first corner is column 0 from the next.
-      EXPECT_EQ(front >> 1 & 0x7777u, beside.filled(number, true, 3, 5, 0xffff) & 0x7777u);
-      EXPECT_EQ(masked.filled(number, true, 3, 5, 0xffff), instance >= 8 ? 0xffffu : 0u);
+      EXPECT_EQ(front >> 1 & 0x7777u, beside.filled(counterClockwise, 0xffff) & 0x7777u);
+      EXPECT_EQ(masked.filled(counterClockwise, 0xffff), instance >= 8 ? 0xffffu : 0u);
     }
     const std::uint32_t half = made.frameScene().geometry.firstSlot[8] * kClusterTriangles + 7;
-    EXPECT_NE(dithered.filled(half, true, 3, 5, 0xffff), dithered.filled(half, false, 3, 5, 0xffff));
+    EXPECT_NE(dithered.filled(block(made, half, true), 0xffff), dithered.filled(block(made, half, false), 0xffff));
   });
 }
 
