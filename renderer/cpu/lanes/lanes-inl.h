@@ -187,13 +187,6 @@ HWY_INLINE Float floatOf(const Int& bits) {
   GNOMON_EACH_PART(Float, r, hn::BitCast(kFloats, bits.part[i]));
 }
 
-/// Leaves the other lanes' values as they are.
-HWY_INLINE void storeWhere(const Mask& where, const Float& a, float* to) {
-  for (std::size_t i = 0; i < kParts; ++i) hn::BlendedStore(a.part[i], where.part[i], kFloats, to + i * kPerPart);
-}
-HWY_INLINE void storeWhere(const Mask& where, const Int& a, std::uint32_t* to) {
-  storeWhere(where, floatOf(a), reinterpret_cast<float*>(to));
-}
 /// Of 48 values the first, the second and the third of each three.
 HWY_INLINE void loadTriples(const std::uint32_t* from, Int& a, Int& b, Int& c) {
   const auto* ints = reinterpret_cast<const std::int32_t*>(from);

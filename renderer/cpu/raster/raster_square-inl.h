@@ -51,15 +51,13 @@ template <DepthRange range, int samples, class Covered, class Depth>
 HWY_INLINE void addToBlock(const Square& square, const TriangleMarks& triangle, int column, int row,
                            const Covered& covered, const Depth& depthOf, HoledPixels<range, samples>& holed) {
   const std::size_t first = square.blockAt<samples>(column, row);
-  const auto shown = [&](int s, const Float& depth) HWY_ATTR {
-    return covered(s) & isNearer<range>(depth, load(square.depths + first + s * kBlockPlaces));
-  };
+  const auto at = [&](int s) { return first + static_cast<std::size_t>(s * kBlockPlaces); };
   if (triangle.holed) {
     Float depths[samples];
     Mask asked = maskOf(0);
     for (int s = 0; s < samples; ++s) {
       const Float depth = depthOf(s);
-      const Mask own = shown(s, depth);
+      const Mask own = covered(s) & isNearer<range>(depth, load(square.depths + at(s)));
       asked = asked | own;
       depths[s] = select(own, depth, Float(HoledPixels<range, samples>::kBehind));
     }
@@ -69,12 +67,13 @@ HWY_INLINE void addToBlock(const Square& square, const TriangleMarks& triangle, 
   // Of two at one depth the first one is shown.
   if (square.numbers != nullptr) holed.settle();
   for (int s = 0; s < samples; ++s) {
-    const std::size_t at = first + static_cast<std::size_t>(s * kBlockPlaces);
-    const Float depth = depthOf(s);
-    const Mask own = shown(s, depth);
-    storeWhere(own, depth, square.depths + at);
+    const Float depth = depthOf(s), before = load(square.depths + at(s));
+    const Mask own = covered(s) & isNearer<range>(depth, before);
+    // Whole vectors are stored in less time than some of their lanes.
+    store(select(own, depth, before), square.depths + at(s));
     if (square.numbers == nullptr) continue;
-    storeWhere(own, Int(static_cast<std::int32_t>(triangle.number)), square.numbers + at);
+    std::uint32_t* const numbers = square.numbers + at(s);
+    store(select(own, Int(static_cast<std::int32_t>(triangle.number)), load(numbers)), numbers);
   }
 }
 
