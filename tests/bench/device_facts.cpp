@@ -150,7 +150,8 @@ json onlyFrame(const BenchScene& demo, int number) {
   return spec;
 }
 
-/// Frames a second that so many clients get together, each asking again as soon as it has its picture.
+/// Frames a second that so many clients get together, each asking again as soon as it has its picture, of as many
+/// workers as a server starts by itself.
 double framesPerSecond(const Program& program, int clients, const BenchScene& demo, const Bytes& glb) {
   const Server server(program);
   const std::string scene = Connection(server.origin()).upload(glb);
@@ -178,13 +179,13 @@ DeviceFact crowd(const DeviceRun& run, const BenchScene& demo) {
   DeviceFact fact{"30 clients at once over one client on one core, times the cores (frames a second, demo, 320 x 180)",
                   {}};
   for (const std::string& device : run.devices) {
-    const std::vector<double> rates =
-        mediansInTurns(std::min(run.rounds, 3), {[&](int) {
-                                                   return framesPerSecond({run.program, device, "", 1}, 1, demo, glb);
-                                                 },
-                                                 [&](int) {
-                                                   return framesPerSecond({run.program, device}, kClients, demo, glb);
-                                                 }});
+    const std::vector<double> rates = mediansInTurns(
+        std::min(run.rounds, 3), {[&](int) {
+                                    return framesPerSecond({run.program, device, "", 1, 0}, 1, demo, glb);
+                                  },
+                                  [&](int) {
+                                    return framesPerSecond({run.program, device, "", 0, 0}, kClients, demo, glb);
+                                  }});
     fact.devices.emplace_back(rates[1] / (coreCount() * rates[0]));
   }
   return fact;

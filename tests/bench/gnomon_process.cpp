@@ -142,9 +142,10 @@ Server::Server(const Program& program) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be made");
   const auto begin = Clock::now();
-  process_ =
-      start(program, {"serve", "--port", "0", "--device", program.device, "--workers", "1", "--reply-cache-bytes", "0"},
-            ends[1]);
+  process_ = start(program,
+                   {"serve", "--port", "0", "--device", program.device, "--workers", std::to_string(program.workers),
+                    "--reply-cache-bytes", "0"},
+                   ends[1]);
   close(ends[1]);
   const std::string line = firstLine(ends[0]);
   close(ends[0]);

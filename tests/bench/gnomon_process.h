@@ -16,6 +16,7 @@ struct Program {
   std::string device;              ///< cpu, gl
   std::string instructionSet = {}; ///< GNOMON_CPU_TARGET; empty = the best one
   int cores = 0;                   ///< it may use the first so many; 0 = all
+  int workers = 1;                 ///< of a server; 0 = as many as it starts by itself
 };
 
 /// One kept connection to a server. Whatever is refused throws, with what the server says.
@@ -35,7 +36,7 @@ class Connection {
   std::unique_ptr<Client> client_;
 };
 
-/// `gnomon serve` with one worker on a free port of the loopback, which draws every frame anew. Ends with this.
+/// `gnomon serve` on a free port of the loopback, which draws every frame anew. Ends with this.
 class Server {
  public:
   /// Waits until it is ready. Throws where the server ends first.
@@ -46,8 +47,8 @@ class Server {
 
   const std::string& origin() const { return origin_; } ///< "http://127.0.0.1:PORT"
   double readyMilliseconds() const { return ready_; }   ///< from the process's start to the first 200 of /readyz
-  double peakBytes() const;                             ///< most memory in use so far, by the server and its worker
-  double processorMilliseconds() const;                 ///< of all threads of both so far
+  double peakBytes() const;                             ///< most memory in use so far, by the server and its workers
+  double processorMilliseconds() const;                 ///< of all their threads so far
 
  private:
   int process_ = 0;

@@ -5,6 +5,8 @@
 #include <set>
 #include <strings.h>
 
+#include "renderer/reference/ray_vectors.h"
+
 namespace gnomon {
 namespace {
 
@@ -29,6 +31,15 @@ TEST(CpuDevice, APinnedInstructionSetIsNamedAndInTheFingerprint) {
   }
   EXPECT_FALSE(names.empty());
   EXPECT_EQ(fingerprints.size(), names.size());
+}
+
+TEST(CpuDevice, RaysAreTracedWithThePinnedInstructionSet) {
+  if (!pinned("sse4")) GTEST_SKIP() << "this processor has no SSE4";
+  EXPECT_NE(std::string(rayDeviceOptions()).find("max_isa=sse4.2"), std::string::npos);
+  const bool avx2 = bool(pinned("avx2"));
+  EXPECT_EQ(std::string(rayDeviceOptions()).find("max_isa=avx2") != std::string::npos, avx2);
+  if (pinned("avx3")) EXPECT_EQ(std::string(rayDeviceOptions()).find("max_isa"), std::string::npos);
+  ASSERT_TRUE(pinned(""));
 }
 
 TEST(CpuDevice, WithoutAPinItTakesTheBestSetAgain) {
