@@ -38,7 +38,9 @@ TEST(CpuDevice, RaysAreTracedWithThePinnedInstructionSet) {
   EXPECT_NE(std::string(rayDeviceOptions()).find("max_isa=sse4.2"), std::string::npos);
   const bool avx2 = bool(pinned("avx2"));
   EXPECT_EQ(std::string(rayDeviceOptions()).find("max_isa=avx2") != std::string::npos, avx2);
-  if (pinned("avx3")) EXPECT_EQ(std::string(rayDeviceOptions()).find("max_isa"), std::string::npos);
+  if (pinned("avx3")) {
+    EXPECT_EQ(std::string(rayDeviceOptions()).find("max_isa"), std::string::npos);
+  }
   ASSERT_TRUE(pinned(""));
 }
 
