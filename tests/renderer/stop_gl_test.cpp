@@ -113,15 +113,16 @@ TEST_P(StoppedFrame, EndsAFrameAtOnceAndTheNextOneIsAsIfItHadNotBeen) {
     small.shadow.lightMap.samples = 1; // another bake
     ASSERT_TRUE(renderer.render(scene, small));
     int stopped = 0;
+    const double latest = std::max(kLatest, whole / 40); // a draw call of a slow machine takes longer, too
     for (const double share : {0.05, 0.25, 0.5, 0.75}) {
       // The machine may be busy with something else, but not each time.
       double least = 1e9;
-      for (int attempt = 0; attempt < 3 && least > kLatest; ++attempt) {
+      for (int attempt = 0; attempt < 3 && least > latest; ++attempt) {
         const Attempt made = drawFor(renderer, scene, spec, share * whole);
         stopped += made.stopped ? 1 : 0;
         least = std::min(least, made.late);
       }
-      EXPECT_LE(least, kLatest) << "stopped after " << share * whole << " of " << whole << " ms";
+      EXPECT_LE(least, latest) << "stopped after " << share * whole << " of " << whole << " ms";
     }
     EXPECT_GE(stopped, 1);
     const auto frame = renderer.render(scene, spec);
