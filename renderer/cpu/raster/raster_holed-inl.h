@@ -6,6 +6,7 @@
 #define GNOMON_CPU_RASTER_HOLED_INL_H
 #endif
 
+#include <algorithm>
 #include <bit>
 
 #include "renderer/cpu/lanes/packing-inl.h"
