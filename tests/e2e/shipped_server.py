@@ -161,7 +161,10 @@ def workers_of(server):
     """The process ids of a server's workers."""
     found = set()
     for task in Path(f"/proc/{server.process.pid}/task").iterdir():
-        found.update(int(pid) for pid in (task / "children").read_text().split())
+        try:
+            found.update(int(pid) for pid in (task / "children").read_text().split())
+        except OSError:
+            pass  # the thread has ended
     return found
 
 
