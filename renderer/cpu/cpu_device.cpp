@@ -23,14 +23,14 @@ std::string spelledTarget(std::int64_t target) {
   return name;
 }
 
-/// Rays, too.
+/// Kernels and rays run on it from now on, in the whole process.
 void use(std::int64_t target) {
   cpu::useInstructionSet(target);
   useRayVectors(target == HWY_AVX2 ? RayVectors::avx2 : target == HWY_SSE4 ? RayVectors::sse4 : RayVectors::widest);
 }
 
-/// The instruction set of the kernels from now on, for the whole process: the best one that the processor knows, or
-/// that which GNOMON_CPU_TARGET names.
+/// The instruction set that is used from now on: the best one that the processor knows, or that which GNOMON_CPU_TARGET
+/// names.
 Result<std::int64_t> chosenTarget() {
   const std::vector<std::int64_t> targets = cpu::instructionSets();
   const char* wanted = std::getenv("GNOMON_CPU_TARGET");

@@ -28,10 +28,10 @@ struct RasterDraw {
   bool holed = false;           ///< its triangles leave samples out: RasterInput::holes tells which
 };
 
-/// Pixels and the triangles that cover them, all of one instance. Sixteen are asked about at once; there is room for as
-/// many more.
+/// Pixels and the triangles that cover them, all of one instance. There is room for twice as many as are asked about at
+/// once.
 struct HoledPlaces {
-  static constexpr std::size_t kRoom = 32;
+  static constexpr std::size_t kAsked = 16, kRoom = 2 * kAsked;
   std::uint32_t instance = kNoNumber;
   alignas(64) std::uint32_t number[kRoom] = {}; ///< of the triangle
   alignas(64) std::int32_t x[kRoom] = {}, y[kRoom] = {};
@@ -42,7 +42,7 @@ struct HoledPlaces {
 class Holes {
  public:
   virtual ~Holes() = default;
-  /// Of the first sixteen, a bit each, those that their triangles fill. `asked`: those that count.
+  /// Of the first kAsked, a bit each, those that their triangles fill. `asked`: those that count.
   virtual unsigned filled(const HoledPlaces& places, unsigned asked) const = 0;
 };
 

@@ -21,6 +21,8 @@ HWY_INLINE auto isNearer(const Number& depth, const Number& than) {
   if constexpr (range == DepthRange::clamped) return depth < than;
 }
 
+static_assert(HoledPlaces::kAsked == kLanes);
+
 /// Pixels that such triangles cover and nothing drawn before hides. They wait until there are sixteen, and take their
 /// places in the order in which they came.
 template <DepthRange range, int samples>

@@ -34,8 +34,6 @@ namespace {
 
 GNOMON_EXPORT_KERNEL(filledPlaces);
 
-constexpr std::size_t kPlaces = 16; ///< that are asked about at once
-
 /// A well mixed number. (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: pcg.)
 std::uint32_t hashOf(std::uint32_t seed) {
   const std::uint32_t state = seed * 747796405u + 2891336453u;
@@ -66,7 +64,7 @@ std::uint32_t surfaceHash(const FrameScene& scene, std::uint32_t number) {
 unsigned MaterialHoles::filled(const HoledPlaces& places, unsigned asked) const {
   const FrameScene& scene = input_.scene;
   const auto material = static_cast<std::size_t>(scene.slots[scene.geometry.firstSlot[places.instance]].material);
-  alignas(64) float least[kPlaces] = {};
+  alignas(64) float least[HoledPlaces::kAsked] = {};
   if (input_.dithers && scene.scene.materials[material].alphaMode == AlphaMode::blend) {
     for (unsigned left = asked; left != 0; left &= left - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(left));

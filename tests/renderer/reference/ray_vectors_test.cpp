@@ -77,12 +77,7 @@ TEST(RayVectors, AllOfThemFindTheSame) {
       SCOPED_TRACE(std::to_string(count) + (vectors == RayVectors::avx2 ? " avx2" : " sse4"));
       const Traced narrow = balls(count, vectors);
       EXPECT_LE(narrow.scene.tree().packets, vectors == RayVectors::avx2 ? 8u : 4u);
-      const std::vector<SurfacePoint> found = narrow.surface();
-      int others = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        others += found[i].instance != points[i].instance || found[i].triangle != points[i].triangle;
-      }
-      EXPECT_LE(others, 2);
+      EXPECT_LE(testing::showingOthers(narrow.surface(), points), 2);
       for (int light = 0; light < 2; ++light) {
         const std::vector<float> shares = drawnShares(narrow, light, points);
         EXPECT_GT(std::count(shares.begin(), shares.end(), 1.0f), 200);

@@ -55,12 +55,7 @@ TEST(SortTriangles, InstancesOfOneTreeAreMetWhereTheirTrianglesLie) {
     watch(shared);
     watch(flat);
     const std::vector<SurfacePoint> points = flat.surface();
-    const std::vector<SurfacePoint> found = shared.surface();
-    int other = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      other += found[i].instance != points[i].instance || found[i].triangle != points[i].triangle;
-    }
-    EXPECT_LE(other, 2);
+    EXPECT_LE(testing::showingOthers(shared.surface(), points), 2);
     for (int light = 0; light < 3; ++light) {
       const std::vector<float> expected = lightVisibility(flat.input(), light, points, 8);
       const std::vector<float> shares = lightVisibility(shared.input(), light, points, 8);

@@ -36,6 +36,15 @@ struct Traced {
   std::vector<NodeSwitches> nodes;
 };
 
+/// How many show another triangle.
+inline int showingOthers(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    count += a[i].instance != b[i].instance || a[i].triangle != b[i].triangle;
+  }
+  return count;
+}
+
 /// From `eye` along `forward`; orthographic `height` metres high, or perspective with `fovY` degrees.
 inline CameraView parallelView(const glm::dvec3& eye, const glm::dvec3& forward, double height, double far = 1e9) {
   CameraView view;
