@@ -36,8 +36,6 @@ class Buffer {
 
   /// REQUIRES: made with a size, and offset + contents within it.
   void update(std::size_t offset, std::span<const std::byte> contents);
-  /// Makes every byte 0. REQUIRES: made with a size.
-  void clear();
   /// The bytes from `offset` on. Waits for the GPU. REQUIRES: offset + contents within it.
   void read(std::size_t offset, std::span<std::byte> contents) const;
 

@@ -5,7 +5,9 @@ layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;
 layout(location = GNOMON_MATERIAL) uniform int materialIndex;
 in MaskVertex {
   vec2 uv;
+#ifdef VERTEX_COLORS // else 1, which a GPU's interpolation would leave a little short of
   float alpha;
+#endif
 } mask;
 
 #ifdef ALPHA_DITHER
@@ -44,7 +46,10 @@ float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 
 void discardMasked() {
   MaterialData material = materials[materialIndex];
-  float alpha = material.baseColorFactor.a * mask.alpha;
+  float alpha = material.baseColorFactor.a;
+#ifdef VERTEX_COLORS
+  alpha *= mask.alpha;
+#endif
 #ifdef BASE_COLOR_TEXTURE
   alpha *= MASK_TEXEL.a;
 #endif

@@ -4,7 +4,9 @@ layout(location = GNOMON_UV1) in vec2 uv1;
 layout(location = GNOMON_COLOR) in vec4 color;
 out MaskVertex {
   vec2 uv;
+#ifdef VERTEX_COLORS
   float alpha;
+#endif
 } mask;
 
 void passMask() {
@@ -15,8 +17,6 @@ void passMask() {
 #endif
 #ifdef VERTEX_COLORS
   mask.alpha = color.a;
-#else
-  mask.alpha = 1.0;
 #endif
 }
 #else
