@@ -121,12 +121,18 @@ double shimmerOf(const ScenePtr& scene, const HardCase& hard, const Json& reques
   return shimmer ? shimmer->perThousand() : HUGE_VAL;
 }
 
+/// A metric's bound where `strays` of the receivers may be wrong besides those that it allows.
+double widened(const std::string& metric, double bound, double strays) {
+  if (metric == "edgeDisplacement") return strays > 0 ? 1.5 * bound : bound;
+  return metric == "rms" ? std::sqrt(bound * bound + strays) : bound + strays;
+}
+
 /// Every metric is held by a bound, and every bound holds a metric.
-void expectWithin(const Json& metrics, const Json& bounds) {
+void expectWithin(const Json& metrics, const Json& bounds, double strays) {
   for (const auto& [metric, value] : metrics.items()) {
     if (metric == "receivers") continue;
     ASSERT_TRUE(bounds.contains(metric)) << metric << " has no bound; it is " << value;
-    EXPECT_LE(value.get<double>(), bounds.at(metric).get<double>()) << metric;
+    EXPECT_LE(value.get<double>(), widened(metric, bounds.at(metric).get<double>(), strays)) << metric;
   }
   for (const auto& [metric, limit] : bounds.items()) {
     // Of few pixels of shadow, one that goes the other way can leave no edge to follow: the bounds are those of OpenGL.
@@ -147,7 +153,12 @@ void judge(const ScenePtr& scene, const HardCase& hard, const Way& way) {
   if (hard.file.contains("path")) metrics["shimmer"] = shimmerOf(scene, hard, request);
   rows().push_back({hard.name, way.name, metrics, bright.milliseconds});
   ASSERT_TRUE(hard.file.at("bounds").contains(way.name)) << "no bounds for " << way.name;
-  expectWithin(metrics, hard.file.at("bounds").at(way.name));
+  // The bounds are llvmpipe's. GPUs snap corners otherwise, by up to a 256th of a pixel, which single pixels show where
+  // volumes are as thin as that.
+  const RendererInfo& by = renderer().info();
+  const bool snapsOtherwise = way.name == "shadowVolume" && by.device == DeviceChoice::gl && !by.software;
+  const double strays = snapsOtherwise ? 2 / metrics.at("receivers").get<double>() : 0;
+  expectWithin(metrics, hard.file.at("bounds").at(way.name), strays);
 }
 
 void expectRefused(const ScenePtr& scene, const HardCase& hard, const Way& way) {

@@ -12,13 +12,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Renderer& rendererBy(DeviceChoice device) {
-  static std::map<DeviceChoice, Renderer> made;
-  const auto found = made.find(device);
-  if (found != made.end()) return found->second;
+Renderer madeFor(DeviceChoice device) {
   auto renderer = Renderer::create({.backend = {.device = device}});
   if (!renderer) throw std::runtime_error(renderer.problems()[0].detail);
-  return made.emplace(device, std::move(*renderer)).first->second;
+  return std::move(*renderer);
+}
+
+/// Each ends before the driver that was loaded for it, and so calls none that has been unloaded.
+Renderer& rendererBy(DeviceChoice device) {
+  static Renderer cpu = madeFor(DeviceChoice::cpu);
+  static Renderer gl = madeFor(DeviceChoice::gl);
+  return device == DeviceChoice::cpu ? cpu : gl;
 }
 
 struct Shown {

@@ -110,8 +110,9 @@ TEST(Formats, SixteenBitsHoldNumbersOrAreAFinerPicture) {
     const auto& bytes = pixelsOf<std::uint8_t>(png, i);
     EXPECT_EQ(fine.images[i].image.channels, png.images[i].image.channels);
     ASSERT_EQ(words.size(), bytes.size());
-    // A driver's sRGB bytes may be the next, and what is painted over bytes is rounded twice.
-    const double rounding = traitsOf(kViews[i]).srgb || traitsOf(kViews[i]).backdrop ? 1.01 : 0.51;
+    // A driver's sRGB bytes may be the next, and what is painted over bytes is rounded twice. GPUs round others to
+    // within 0.6 of a level.
+    const double rounding = traitsOf(kViews[i]).srgb || traitsOf(kViews[i]).backdrop ? 1.01 : 0.61;
     for (std::size_t p = 0; p < words.size(); ++p) ASSERT_LE(std::abs(words[p] / 257.0 - bytes[p]), rounding) << p;
   }
   const auto isWidened = [](std::uint16_t word) { return word % 257 == 0; };

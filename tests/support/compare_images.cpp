@@ -37,6 +37,13 @@ ImageDifference compareImages(const Image& a, const Image& b) {
   return difference;
 }
 
+double shareBeyond(const Image& a, const Image& b, int levels) {
+  const std::size_t pixels = texels(a).size() / 4;
+  std::size_t count = 0;
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) count += pixelDifference(a, b, pixel) > levels ? 1 : 0;
+  return pixels == 0 ? 0 : static_cast<double>(count) / static_cast<double>(pixels);
+}
+
 Image differenceMap(const Image& a, const Image& b) {
   Image map{a.width, a.height, {"R", "G", "B", "A"}, {}};
   std::vector<std::uint8_t> out(texels(a).size());

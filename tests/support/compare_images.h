@@ -17,6 +17,9 @@ struct ImageDifference {
 
 ImageDifference compareImages(const Image& a, const Image& b);
 
+/// Which share of the pixels differs by more than so many levels in a channel. REQUIRES: images of the same size.
+double shareBeyond(const Image& a, const Image& b, int levels);
+
 /// Grey where equal, yellow to red where not: eight times the difference.
 Image differenceMap(const Image& a, const Image& b);
 

@@ -76,13 +76,23 @@ TEST_F(StageClocks, addUpToTheTimeThatPassed) {
   EXPECT_LE(stages[0].milliseconds + stages[1].milliseconds, elapsed(begin));
 }
 
-/// Some hundred milliseconds of work for a software driver, or a few for a GPU.
-void drawSlowly(const Framebuffer& target, const Program& slow, const VertexArray& nothing) {
+/// `times` times some hundred milliseconds of work for a software driver, or one for a GPU.
+void drawSlowly(const Framebuffer& target, const Program& slow, const VertexArray& nothing, int times) {
   PipelineState state;
   state.framebuffer = target.id();
   state.viewport = {0, 0, 256, 256};
   apply(state);
-  drawFullscreen(slow, nothing);
+  for (int i = 0; i < times; ++i) drawFullscreen(slow, nothing);
+}
+
+/// How often it must draw for the device to be busy for 50 ms.
+int timesToBeBusy(const Framebuffer& target, const Program& slow, const VertexArray& nothing) {
+  for (int times = 1;; times *= 2) {
+    Timer timer = Timer::start();
+    drawSlowly(target, slow, nothing, times);
+    timer.stop();
+    if (timer.gpuMilliseconds().value_or(50) >= 50) return times;
+  }
 }
 
 TEST_F(StageClocks, bookDeviceTimeForTheStageThatAskedForIt) {
@@ -98,15 +108,16 @@ void main() {
   const Texture texture({.width = 256, .height = 256}, "slow");
   const Framebuffer target = *Framebuffer::create({{{.texture = &texture}}, {}}, "slow");
   const VertexArray nothing({}, {}, nullptr, "nothing");
-  drawSlowly(target, slow, nothing); // what the driver does once is no part of it
-  glFinish();
+  std::vector<std::byte> texels(256 * 256 * 4);
+  // What the driver does once is no part of it.
+  const int times = timesToBeBusy(target, slow, nothing);
+  target.readColor(0, {0, 0, 256, 256}, {GL_RGBA, GL_UNSIGNED_BYTE}, texels);
 
   StageClock clock;
   const auto begin = std::chrono::steady_clock::now();
-  drawSlowly(target, slow, nothing);
+  drawSlowly(target, slow, nothing, times);
   clock.finishDrawing("draw");
   const double waited = elapsed(begin);
-  std::vector<std::byte> texels(256 * 256 * 4);
   target.readColor(0, {0, 0, 256, 256}, {GL_RGBA, GL_UNSIGNED_BYTE}, texels);
   clock.finish("read");
   const std::vector<StageTime> stages = clock.take();
