@@ -18,7 +18,9 @@ template <>
 inline constexpr std::array kSpellings<ShadowTechnique>{
     spelling(ShadowTechnique::shadowMap, "shadowMap",
              "depths seen from the light, filtered: fast, and as exact as its texels are fine"),
-    spelling(ShadowTechnique::hybrid, "hybrid", "shadow maps where they are certain, rays elsewhere: exact and sharp"),
+    spelling(
+        ShadowTechnique::hybrid, "hybrid",
+        "rays, but for what a shadow map that a view shows is certain of: exact, and soft where the light has a size"),
     spelling(ShadowTechnique::shadowVolume, "shadowVolume",
              "stencilled shadow volumes: exact and sharp, drawn by the device"),
     spelling(ShadowTechnique::rayTraced, "rayTraced",

@@ -123,8 +123,7 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
   const auto receivers = drawing.survey();
   if (!receivers) return receivers.problems();
   ProbedFrame probed;
-  probed.plan = planShadows(
-      planInput(frame, view, *receivers, mappedLights(frame, view, device.info()), device.info().maxTextureSize));
+  probed.plan = planShadows(planInput(frame, view, *receivers, mappedLights(frame), device.info().maxTextureSize));
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
   const auto lights = litLights(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
   const ShowInput nothing{.plan = probed.plan, .lights = lights};

@@ -49,8 +49,7 @@ Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const R
   const ReceiverDepths receivers =
       boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
   const std::vector<int> layered = layeredLights(*frame);
-  const ShadowPlan plan =
-      planShadows(planInput(*frame, view, receivers, mappedLights(*frame, view, device), device.maxTextureSize));
+  const ShadowPlan plan = planShadows(planInput(*frame, view, receivers, mappedLights(*frame), device.maxTextureSize));
   if (const auto subject = debugSubject(frame->spec, plan, layered); !subject) return subject.problems();
   if (const Status fits = checkAtlas(plan, frame->spec.atlas.samples); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(frame->view, receivers, plan);

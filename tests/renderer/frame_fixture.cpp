@@ -2,7 +2,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "tests/support/files.h"
-#include "tests/support/gpu_renderer.h"
+#include "tests/support/uncached_renderer.h"
 
 namespace gnomon::testing {
 namespace {
@@ -17,7 +17,7 @@ std::string told(const Problems& problems) {
 
 Renderer& sharedRenderer() {
   static Renderer renderer = [] {
-    auto made = gpuRenderer();
+    auto made = uncachedRenderer();
     if (!made) throw std::runtime_error(told(made.problems()));
     return std::move(*made);
   }();
