@@ -145,7 +145,9 @@ TEST(ShadowVolumes, N3_ALightMayStandInTheMiddleOfTheScene) {
   builder.addRoot(placed(0, {-3, 0.6, 2}, {0.5, 0.5, 0.5}));
   builder.addRoot(placed(0, {2.5, 1, -3}, {0.4, 1, 0.4}));
   const ScenePtr scene = testing::sceneOf(builder);
-  for (const Json& position : Json{{-1.6, 0.7, 0.4}, {1.5, 0.2, -1.6}, {0, 0.25, 0}, {0, 2.5001, 0}}) {
+  // So far above the first box. Nearer, a GPU's raster darkens the rim of its top: see LIMITATIONS.md.
+  const double above = testing::sharedRenderer().info().software ? 1e-4 : 1e-3;
+  for (const Json& position : Json{{-1.6, 0.7, 0.4}, {1.5, 0.2, -1.6}, {0, 0.25, 0}, {0, 2.5 + above, 0}}) {
     const Json point = {{"type", "point"}, {"position", position}};
     const Json spot = {
         {"type", "spot"}, {"position", position}, {"direction", {-0.6, -0.2, 0.7}}, {"outerConeDegrees", 85}};
