@@ -1,7 +1,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE \
   "renderer/cpu/show/fragment_list.cpp" // NOLINT: Highway's foreach_target.h includes this file again
+#include <algorithm>
+#include <array>
 #include <hwy/foreach_target.h>
+#include <numeric>
 
 #include "renderer/cpu/lanes/packing-inl.h"
 #include "renderer/cpu/show/show_view.h"
@@ -61,14 +64,6 @@ HWY_INLINE void listBlocks(const DepthBuffer& buffer, int x, int y, unsigned wit
 void listFragmentsOn(const DepthBuffer& buffer, int x, int y, unsigned without, FragmentList& list) {
   list.count = 0;
   buffer.samples == 1 ? listBlocks<1>(buffer, x, y, without, list) : listBlocks<4>(buffer, x, y, without, list);
-  if (list.count == 0) return;
-  // Whole packets may be read.
-  const std::size_t last = list.count - 1;
-  for (std::size_t i = list.count; i % kLanes != 0; ++i) {
-    list.triangle[i] = list.triangle[last];
-    list.pixel[i] = list.pixel[last];
-    list.samples[i] = list.samples[last];
-  }
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE
@@ -79,8 +74,63 @@ namespace gnomon::cpu {
 
 GNOMON_EXPORT_KERNEL(listFragmentsOn);
 
+namespace {
+
+/// Moves the fragments of each slot together, slots in their order, so that those of an instance follow each other:
+/// what works on a packet goes through it once for each of its instances. Of more slots than that all stay where they
+/// are.
+void gatherSlots(FragmentList& list) {
+  static_assert(kClusterTriangles == 1 << 10);
+  constexpr std::size_t kMost = 64;
+  struct Found {
+    std::uint32_t slot;
+    std::size_t count, next;
+  };
+  std::array<Found, kMost> found;
+  std::array<std::uint8_t, FragmentList::kMost> of; // which of these each fragment shows
+  std::size_t slots = 0, last = 0;
+  for (std::size_t i = 0; i < list.count; ++i) {
+    const std::uint32_t slot = list.triangle[i] >> 10;
+    if (slots == 0 || found[last].slot != slot) {
+      for (last = 0; last < slots && found[last].slot != slot;) ++last;
+      if (last == kMost) return;
+      if (last == slots) found[slots++] = {slot, 0, 0};
+    }
+    ++found[last].count;
+    of[i] = static_cast<std::uint8_t>(last);
+  }
+  if (slots < 2) return;
+  std::array<std::uint8_t, kMost> order;
+  std::iota(order.begin(), order.begin() + slots, std::uint8_t{0});
+  std::sort(order.begin(), order.begin() + slots,
+            [&](std::uint8_t a, std::uint8_t b) { return found[a].slot < found[b].slot; });
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < slots; ++i) {
+    found[order[i]].next = next;
+    next += found[order[i]].count;
+  }
+  FragmentList gathered;
+  for (std::size_t i = 0; i < list.count; ++i) {
+    const std::size_t to = found[of[i]].next++;
+    gathered.triangle[to] = list.triangle[i];
+    gathered.pixel[to] = list.pixel[i];
+    gathered.samples[to] = list.samples[i];
+  }
+  std::copy_n(gathered.triangle.begin(), list.count, list.triangle.begin());
+  std::copy_n(gathered.pixel.begin(), list.count, list.pixel.begin());
+  std::copy_n(gathered.samples.begin(), list.count, list.samples.begin());
+}
+
+} // namespace
+
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without) {
   GNOMON_KERNEL(listFragmentsOn)(buffer, x, y, without, list);
+  gatherSlots(list);
+  for (std::size_t i = list.count; list.count > 0 && i % FragmentList::kPacket != 0; ++i) {
+    list.triangle[i] = list.triangle[list.count - 1];
+    list.pixel[i] = list.pixel[list.count - 1];
+    list.samples[i] = list.samples[list.count - 1];
+  }
 }
 
 } // namespace gnomon::cpu

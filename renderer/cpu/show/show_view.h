@@ -47,9 +47,10 @@ struct TileColors {
 /// What pixels of a square show. `samples` of a pixel, a bit each, show this triangle.
 struct FragmentList {
   static constexpr std::size_t kMost = 4 * kTilePixels;
-  alignas(64) std::array<std::uint32_t, kMost + 16> triangle; ///< FrameScene's number
-  alignas(64) std::array<std::int32_t, kMost + 16> pixel;     ///< of TileColors
-  alignas(64) std::array<std::int32_t, kMost + 16> samples;
+  static constexpr std::size_t kPacket = 16; ///< read at a time; behind the last there are some more like it
+  alignas(64) std::array<std::uint32_t, kMost + kPacket> triangle; ///< FrameScene's number
+  alignas(64) std::array<std::int32_t, kMost + kPacket> pixel;     ///< of TileColors
+  alignas(64) std::array<std::int32_t, kMost + kPacket> samples;
   std::size_t count = 0;
 };
 
@@ -61,8 +62,9 @@ constexpr int rowOf(int pixel) {
   return (pixel >> 4 & 12) | (pixel >> 2 & 3);
 }
 
-/// The fragments of the square whose lower left pixel is x, y: block by block, of each first what its pixels'
-/// first samples show, then what others show. `without`: the blocks that are left out, a bit each.
+/// The fragments of the square whose lower left pixel is x, y, those of an instance one behind the other: block by
+/// block, of each first what its pixels' first samples show, then what others show. Where dozens of instances show,
+/// they stay mixed. `without`: the blocks that are left out, a bit each.
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without = 0);
 
 } // namespace gnomon::cpu
