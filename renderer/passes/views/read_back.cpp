@@ -1,23 +1,34 @@
 #include "renderer/passes/views/read_back.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "renderer/core/parallel.h"
+#include "renderer/core/unfilled.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
 
 namespace gnomon {
 namespace {
 
+/// The first `channels` of four. All four are written where the row has room for them; the next pixel's go over those
+/// that are not wanted.
+template <class T>
+void pickRow(const T* rgba, std::size_t pixels, std::size_t channels, T* to) {
+  std::size_t x = 0;
+  for (; x * channels + 4 <= pixels * channels; ++x) std::memcpy(to + x * channels, rgba + x * 4, 4 * sizeof(T));
+  for (; x < pixels; ++x) std::copy_n(rgba + x * 4, channels, to + x * channels);
+}
+
 /// The first `channels` of four, rows turned over.
 template <class T>
-std::vector<T> picked(const std::vector<T>& rgba, std::size_t width, std::size_t height, std::size_t channels) {
+std::vector<T> picked(const UnfilledVector<T>& rgba, std::size_t width, std::size_t height, std::size_t channels) {
   std::vector<T> out(width * height * channels);
-  for (std::size_t y = 0; y < height; ++y) {
-    const T* from = rgba.data() + (height - 1 - y) * width * 4;
-    T* to = out.data() + y * width * channels;
-    for (std::size_t x = 0; x < width; ++x) {
-      for (std::size_t c = 0; c < channels; ++c) to[x * channels + c] = from[x * 4 + c];
+  forEachPiece(height, 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t y = first; y < last; ++y) {
+      pickRow(rgba.data() + (height - 1 - y) * width * 4, width, channels, out.data() + y * width * channels);
     }
-  }
+  });
   return out;
 }
 
@@ -26,7 +37,7 @@ std::vector<T> readPicked(const DrawnView& drawn, GLenum type, std::size_t chann
   const gl::TextureShape& shape = drawn.color.shape();
   const auto width = static_cast<std::size_t>(shape.width);
   const auto height = static_cast<std::size_t>(shape.height);
-  std::vector<T> rgba(width * height * 4);
+  UnfilledVector<T> rgba(width * height * 4);
   drawn.framebuffer.readColor(0, {0, 0, shape.width, shape.height}, {GL_RGBA, type},
                               std::as_writable_bytes(std::span(rgba)));
   return picked(rgba, width, height, channels);
