@@ -308,11 +308,11 @@ class Shadow:
         False = the light casts no shadow, and takes no place in the atlas. Default: true.
     technique:
         How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only. shadowMap =
-        depths seen from the light, filtered: fast, and as exact as its texels are fine; hybrid = shadow maps where
-        they are certain, rays elsewhere: exact and sharp; shadowVolume = stencilled shadow volumes: exact and
-        sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the light has a size;
-        lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame: soft where the
-        light has a size, for scenes that stand still. Default: "shadowMap".
+        depths seen from the light, filtered: fast, and as exact as its texels are fine; hybrid = rays, but for what
+        a shadow map that a view shows is certain of: exact, and soft where the light has a size; shadowVolume =
+        stencilled shadow volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact,
+        and soft where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a
+        lookup in each frame: soft where the light has a size, for scenes that stand still. Default: "shadowMap".
     strength:
         0 = no shadow, 1 = no direct light in shadow. Default: 1.0.
     color:
