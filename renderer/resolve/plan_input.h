@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "protocol/report/replies.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"

@@ -51,7 +51,7 @@ Drawn renderCase(const Json& golden) {
   const auto frame = renderer->render(*scene, *spec);
   EXPECT_TRUE(frame) << frame.problems().front().detail;
   if (!frame) return {};
-  return {*encodePng(*frame, 0), renderer->info().device == DeviceChoice::gl && !renderer->info().software};
+  return {*encodePng(*frame, 0), !renderer->info().software};
 }
 
 Image decoded(const Bytes& png) {

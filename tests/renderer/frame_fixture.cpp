@@ -24,6 +24,10 @@ Renderer& sharedRenderer() {
   return renderer;
 }
 
+bool drawnByGpu() {
+  return !sharedRenderer().info().software;
+}
+
 const Json& everyFilter() {
   static const Json filters = Json::parse(R"([
       {"type":"hard"},{"type":"pcf","size":3},{"type":"pcf","size":5},{"type":"pcf","size":7},{"type":"pcf","radius":0.1},

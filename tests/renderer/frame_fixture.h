@@ -12,6 +12,10 @@ namespace gnomon::testing {
 /// One renderer for all cases of a program: a context is made once.
 Renderer& sharedRenderer();
 
+/// Whether a GPU draws its frames: it rounds and rasterizes otherwise than llvmpipe, by whose pictures tests are
+/// strict.
+bool drawnByGpu();
+
 /// A shadow.filter of every kind and size, as JSON.
 const Json& everyFilter();
 

@@ -135,8 +135,8 @@ TEST(PredictedDisplacement, H2_OfAFreeEdgeOverAPlaneItIsTheMeasuredOne) {
        {R"({"type": "hard"})", R"({"type": "pcf", "size": 3})", R"({"type": "pcf", "radius": 0.05})"}) {
     const auto sun = compared(scene, view, filter);
     ASSERT_TRUE(sun) << filter;
-    // Of a tenth of a pixel, a hundredth is how the drivers' rasters differ.
-    EXPECT_NEAR(sun->predicted, sun->measured, 0.25 * sun->measured + 0.01) << filter;
+    const double raster = testing::drawnByGpu() ? 0.01 : 0; // pixels of displacement by which a GPU's differs
+    EXPECT_NEAR(sun->predicted, sun->measured, 0.25 * sun->measured + raster) << filter;
   }
 }
 

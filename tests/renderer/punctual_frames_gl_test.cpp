@@ -27,7 +27,8 @@ std::ptrdiff_t darkPixels(const Frame& frame, float below) {
 
 /// Four moments in 32 bits leave so few digits that rounding alone decides in single pixels; which, differs by device.
 std::ptrdiff_t darkByRounding(const Json& filter) {
-  return filter.at("type") == "msm" ? 2 : 0;
+  const bool differs = testing::testedDevice() == DeviceChoice::cpu || testing::drawnByGpu();
+  return filter.at("type") == "msm" && differs ? 2 : 0;
 }
 
 /// What a plane tilted by that much shows of one light's shadow, seen from its lit side.

@@ -13,6 +13,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
+static_assert(FragmentList::kPacket == kLanes);
+
 struct Packet {
   Fragments fragments;
   Int samples;
