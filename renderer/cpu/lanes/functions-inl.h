@@ -6,6 +6,8 @@
 #define GNOMON_CPU_FUNCTIONS_INL_H
 #endif
 
+#include <bit>
+#include <cstdint>
 #include <hwy/contrib/math/math-inl.h>
 
 #include "renderer/cpu/lanes/lanes-inl.h"
@@ -25,6 +27,13 @@ HWY_INLINE Float sqrt(const Float& a) {
 HWY_INLINE Float inversesqrt(const Float& a) {
   Float root = floatOf(Int(0x5f3759df) - shiftRight<1>(bitsOf(a)));
   const Float half = a * -0.5f;
+  for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
+  return root;
+}
+/// Of one number, to the bit as of each of sixteen.
+HWY_INLINE float inversesqrt(float a) {
+  float root = std::bit_cast<float>(0x5f3759df - (std::bit_cast<std::int32_t>(a) >> 1));
+  const float half = a * -0.5f;
   for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
   return root;
 }

@@ -234,6 +234,9 @@ HWY_INLINE Float& operator/=(Float& a, const Float& b) {
 HWY_INLINE std::int32_t firstLane(const Int& a) {
   return hn::GetLane(a.part[0]);
 }
+HWY_INLINE float firstLane(const Float& a) {
+  return hn::GetLane(a.part[0]);
+}
 
 /// Of all lanes.
 HWY_INLINE float leastLane(const Float& a) {
@@ -323,6 +326,13 @@ HWY_INLINE std::int32_t mostOf(const Mask& where, const Int& a) {
 /// a * b + c, rounded once where the processor can.
 HWY_INLINE Float mulAdd(const Float& a, const Float& b, const Float& c) {
   GNOMON_EACH_PART(Float, r, hn::MulAdd(a.part[i], b.part[i], c.part[i]));
+}
+HWY_INLINE float mulAdd(float a, float b, float c) {
+#if HWY_NATIVE_FMA
+  return __builtin_fmaf(a, b, c);
+#else
+  return a * b + c;
+#endif
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

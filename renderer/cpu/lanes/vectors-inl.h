@@ -84,6 +84,10 @@ HWY_INLINE Float dot(const Float2& a, const Float2& b) {
 HWY_INLINE Float dot(const Float3& a, const Float3& b) {
   return mulAdd(a.x, b.x, mulAdd(a.y, b.y, a.z * b.z));
 }
+/// Of one vector, to the bit as of each of sixteen.
+HWY_INLINE float dot(const glm::vec3& a, const glm::vec3& b) {
+  return mulAdd(a.x, b.x, mulAdd(a.y, b.y, a.z * b.z));
+}
 HWY_INLINE Float3 cross(const Float3& a, const Float3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -112,14 +116,27 @@ HWY_INLINE Float3 select(const Mask& where, const Float3& yes, const Float3& no)
   return {select(where, yes.x, no.x), select(where, yes.y, no.y), select(where, yes.z, no.z)};
 }
 
-/// Unit length; `otherwise` where it has no direction. Of any size: squares of triangles a million kilometres wide are
-/// no floats.
-HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
+/// As directionOf, where squares may be no floats.
+inline HWY_NOINLINE Float3 directionOfAnySize(const Float3& v, const Float3& otherwise) {
   const Float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
   const Mask directed = (largest > 1e-37f) & (largest < 1e37f);
   // By the power of two that brings the largest to 1..2.
   const Float3 scaled = v * floatOf(Int(0x7f000000) - (bitsOf(largest) & Int(0x7f800000)));
   return select(directed, scaled * inversesqrt(select(directed, dot(scaled, scaled), 1.0f)), otherwise);
+}
+
+/// Unit length; `otherwise` where it has no direction. Of any size: squares of triangles a million kilometres wide are
+/// no floats. Where they are, powers of two change no bit.
+HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
+  const Float squared = dot(v, v);
+  if (all((squared > 1e-20f) & (squared < 1e20f))) return v * inversesqrt(squared);
+  return directionOfAnySize(v, otherwise);
+}
+/// Of one vector that all lanes have.
+HWY_INLINE Float3 directionOf(const glm::vec3& v, const Float3& otherwise) {
+  const float squared = dot(v, v);
+  if (squared > 1e-20f && squared < 1e20f) return Float3(v * inversesqrt(squared));
+  return directionOfAnySize(Float3(v), otherwise);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -66,6 +66,15 @@ void listFragmentsOn(const DepthBuffer& buffer, int x, int y, unsigned without, 
   buffer.samples == 1 ? listBlocks<1>(buffer, x, y, without, list) : listBlocks<4>(buffer, x, y, without, list);
 }
 
+/// REQUIRES: the list is padded.
+bool showsOneSlotOn(const FragmentList& list) {
+  static_assert(kClusterTriangles == 1 << 10);
+  const Int first(static_cast<std::int32_t>(list.triangle[0]));
+  Int differs(0);
+  for (std::size_t i = 0; i < list.count; i += kLanes) differs = differs | (load(&list.triangle[i]) ^ first);
+  return all(shiftRightUnsigned<10>(differs) == Int(0));
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -75,6 +84,17 @@ namespace gnomon::cpu {
 GNOMON_EXPORT_KERNEL(listFragmentsOn);
 
 namespace {
+
+GNOMON_EXPORT_KERNEL(showsOneSlotOn);
+
+/// Fills the last packet with the last fragment.
+void pad(FragmentList& list) {
+  for (std::size_t i = list.count; list.count > 0 && i % FragmentList::kPacket != 0; ++i) {
+    list.triangle[i] = list.triangle[list.count - 1];
+    list.pixel[i] = list.pixel[list.count - 1];
+    list.samples[i] = list.samples[list.count - 1];
+  }
+}
 
 /// Moves the fragments of each slot together, slots in their order, so that those of an instance follow each other:
 /// what works on a packet goes through it once for each of its instances. Of more slots than that all stay where they
@@ -99,7 +119,6 @@ void gatherSlots(FragmentList& list) {
     ++found[last].count;
     of[i] = static_cast<std::uint8_t>(last);
   }
-  if (slots < 2) return;
   std::array<std::uint8_t, kMost> order;
   std::iota(order.begin(), order.begin() + slots, std::uint8_t{0});
   std::sort(order.begin(), order.begin() + slots,
@@ -125,12 +144,10 @@ void gatherSlots(FragmentList& list) {
 
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without) {
   GNOMON_KERNEL(listFragmentsOn)(buffer, x, y, without, list);
+  pad(list);
+  if (list.count == 0 || GNOMON_KERNEL(showsOneSlotOn)(list)) return;
   gatherSlots(list);
-  for (std::size_t i = list.count; list.count > 0 && i % FragmentList::kPacket != 0; ++i) {
-    list.triangle[i] = list.triangle[list.count - 1];
-    list.pixel[i] = list.pixel[list.count - 1];
-    list.samples[i] = list.samples[list.count - 1];
-  }
+  pad(list);
 }
 
 } // namespace gnomon::cpu

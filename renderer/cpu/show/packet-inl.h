@@ -18,15 +18,18 @@ static_assert(FragmentList::kPacket == kLanes);
 struct Packet {
   Fragments fragments;
   Int samples;
+  bool whole; ///< each of its pixels shows it in all samples
 };
 
 /// Places within a pixel: the mean of each set of its samples, a bit each.
 struct SampleMeans {
   alignas(64) float x[16] = {}, y[16] = {};
+  std::int32_t all = 1; ///< the set of all samples
 };
 
 HWY_INLINE SampleMeans sampleMeans(int samples) {
   SampleMeans means;
+  means.all = (1 << samples) - 1;
   const std::span<const glm::ivec2> places = samplePlaces(samples);
   for (std::size_t set = 1; set < std::size_t{1} << samples; ++set) {
     glm::vec2 sum(0);
@@ -53,8 +56,10 @@ HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squa
   packet.fragments.x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
   packet.fragments.y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
   packet.fragments.center = {toFloat(packet.fragments.x) + 0.5f, toFloat(packet.fragments.y) + 0.5f};
-  packet.fragments.place = {toFloat(packet.fragments.x) + gather(means.x, packet.samples),
-                            toFloat(packet.fragments.y) + gather(means.y, packet.samples)};
+  packet.whole = all(packet.samples == Int(means.all));
+  const Float withinX = packet.whole ? Float(means.x[means.all]) : gather(means.x, packet.samples);
+  const Float withinY = packet.whole ? Float(means.y[means.all]) : gather(means.y, packet.samples);
+  packet.fragments.place = {toFloat(packet.fragments.x) + withinX, toFloat(packet.fragments.y) + withinY};
   return packet;
 }
 

@@ -22,9 +22,8 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Sur
     return radianceToEye(job.scene, lighting, packet.fragments, surface, visibility);
   }
   if (job.debugLight < 0) return Float3(0.0f);
-  Receiver receiver = surface.receiver;
-  receiver.shown = andNot(surface.unlit, receiver.shown);
-  return radianceFrom(lighting, static_cast<std::uint32_t>(job.debugLight), pointOf(surface), receiver, visibility);
+  return radianceFrom(lighting, static_cast<std::uint32_t>(job.debugLight), pointOf(surface), surface.receiver,
+                      andNot(surface.unlit, packet.fragments.shown), visibility);
 }
 
 /// What volumes send, and what share of the light behind them they let through.
@@ -75,10 +74,10 @@ HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
 }
 
 /// Whether the sixteen fragments from `first` on are those of a block's pixels, one of each.
-HWY_INLINE bool fillsBlock(const FragmentList& list, std::size_t first, std::int32_t whole) {
-  if (list.count - first < kLanes || (list.pixel[first] & 15) != 0) return false;
-  return all((load(&list.pixel[first]) == Int(list.pixel[first]) + laneNumbers()) &
-             (load(&list.samples[first]) == Int(whole)));
+HWY_INLINE bool fillsBlock(const Packet& packet, const FragmentList& list, std::size_t first) {
+  const std::int32_t pixel = list.pixel[first];
+  return packet.whole && list.count - first >= kLanes && pixel % static_cast<int>(kLanes) == 0 &&
+         all(load(&list.pixel[first]) == Int(pixel) + laneNumbers());
 }
 
 void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
@@ -92,11 +91,10 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
     behind = colors;
   }
   const float share = 1.0f / static_cast<float>(job.buffer.samples);
-  const std::int32_t whole = (1 << job.buffer.samples) - 1;
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const Packet packet = packetAt(list, i, x, y, means);
     const Float3 color = shownColor(job, packet);
-    if (fillsBlock(list, i, whole)) {
+    if (fillsBlock(packet, list, i)) {
       const auto first = static_cast<std::size_t>(list.pixel[i]);
       store(color.x, &colors.channels[0][first]);
       store(color.y, &colors.channels[1][first]);
@@ -111,7 +109,7 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
     for (std::size_t lane = 0; lane < std::min(kLanes, list.count - i); ++lane) {
       const auto pixel = static_cast<std::size_t>(list.pixel[i + lane]);
       const std::int32_t samples = list.samples[i + lane];
-      if (samples == whole) {
+      if (samples == means.all) {
         for (std::size_t c = 0; c < 3; ++c) colors.channels[c][pixel] = shown[c][lane];
         colors.channels[3][pixel] = 1.0f;
         continue;

@@ -34,7 +34,7 @@ HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std:
   const glm::mat4 columns = glm::transpose(clipFromLocal);
   const glm::vec4 rows[3] = {columns[0], columns[1], columns[3]};
   const Sight sight = sightThrough(size, place);
-  const Triangle seen = placed(rows, corners.triangle());
+  const SeenTriangle seen = corners.seen(rows, sight);
   const Meeting meeting = meetingOf(sight, seen);
   if (material.hasVertexColors) alpha *= corners.color(meeting).a;
   if (!material.baseColor || material.baseColor->image < 0) return alpha;

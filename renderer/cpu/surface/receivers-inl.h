@@ -17,19 +17,9 @@ inline HWY_NOINLINE Receiver instanceReceivers(const FrameScene& scene, const Of
                                                const Fragments& fragments) {
   const Corners corners(scene, scene.slots[scene.geometry.firstSlot[own.instance]], own.triangle);
   const shared::InstanceData& placed = scene.instances[own.instance];
-  const Triangle local = corners.triangle();
-  const auto turned = [&](const Float3& v) HWY_ATTR {
-    Float parts[3];
-    for (int row = 0; row < 3; ++row) {
-      const glm::vec4& r = placed.relativeFromLocal[row];
-      parts[row] = dot(Float3(r.x, r.y, r.z), v);
-    }
-    return Float3(parts[0], parts[1], parts[2]);
-  };
-  const auto& rows = placed.relativeFromLocal;
-  const Float3 offset(rows[0].w, rows[1].w, rows[2].w);
   const Sight sight = sightThrough(scene.frame, fragments.place);
-  const Meeting meeting = meetingOf(sight, {turned(local.corner) + offset, turned(local.edge1), turned(local.edge2)});
+  const SeenTriangle seen = corners.seen(placed.relativeFromLocal, sight);
+  const Meeting meeting = meetingOf(sight, seen);
   Receiver receiver;
   receiver.shown = fragments.shown;
   receiver.relative = sight.origin + sight.way * meeting.depth;
@@ -39,11 +29,8 @@ inline HWY_NOINLINE Receiver instanceReceivers(const FrameScene& scene, const Of
   receiver.samples = 1;
   receiver.triangle = fragments.triangle;
   receiver.weights = {meeting.u, meeting.v};
-  // As surfaces have them, to the bit: what is marked for these receivers is read for those.
-  const Float3 toEye = scene.frame.forward.w > 0.0f ? directionOf(-receiver.relative, -sight.way)
-                                                    : Float3(-glm::vec3(scene.frame.forward));
-  const Float3 face = directionOf(meeting.normal, toEye);
-  receiver.normal = select(dot(face, toEye) < 0.0f, -face, face);
+  // As surfaces have it, to the bit: what is marked for these receivers is read for those.
+  receiver.normal = corners.face(seen, towardsEye(sight, scene.frame));
   return receiver;
 }
 

@@ -24,14 +24,15 @@ HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
   return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
 }
 
-/// What one light adds. `visibility(light, receiver, toLight, where)`: the share of it that arrives, 0..1, asked for
-/// the lanes `where`, of which it reflects something; in the others it may be any number.
+/// What one light adds to the lanes `asked`, all of which show a surface. `visibility(light, receiver, toLight,
+/// where)`: the share of it that arrives, 0..1, asked for the lanes `where`, of which it reflects something; in the
+/// others it may be any number.
 template <class Visibility>
 HWY_INLINE Float3 radianceFrom(const Lighting& lighting, std::uint32_t light, const SurfacePoint& point,
-                               const Receiver& receiver, const Visibility& visibility) {
+                               const Receiver& receiver, const Mask& asked, const Visibility& visibility) {
   const LightData& data = lighting.lights[light];
   const Int lit = receiver.groupBit & Int(static_cast<std::int32_t>(data.litGroups));
-  const Mask reached = receiver.shown & (lit != Int(0));
+  const Mask reached = asked & (lit != Int(0));
   if (none(reached)) return Float3(0.0f);
   Float3 toLight;
   const Float3 arriving = irradiance(data, receiver.relative, toLight);
@@ -46,11 +47,10 @@ HWY_INLINE Float3 radianceFrom(const Lighting& lighting, std::uint32_t light, co
 
 /// Adds what the lights of a list, a range of Lighting::lists, send to the lanes `where`.
 template <class Visibility>
-HWY_INLINE void addListed(const Lighting& lighting, std::size_t square, const SurfacePoint& point, Receiver receiver,
-                          const Mask& where, const Visibility& visibility, Float3& sum) {
-  receiver.shown = where;
+HWY_INLINE void addListed(const Lighting& lighting, std::size_t square, const SurfacePoint& point,
+                          const Receiver& receiver, const Mask& where, const Visibility& visibility, Float3& sum) {
   for (std::uint32_t k = lighting.lists[2 * square]; k < lighting.lists[2 * square + 1]; ++k) {
-    sum += radianceFrom(lighting, lighting.lists[k], point, receiver, visibility);
+    sum += radianceFrom(lighting, lighting.lists[k], point, receiver, where, visibility);
   }
 }
 
@@ -58,14 +58,13 @@ HWY_INLINE void addListed(const Lighting& lighting, std::size_t square, const Su
 template <class Visibility>
 HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lighting, const Fragments& fragments,
                                 const Surface& surface, const Visibility& visibility) {
-  Receiver receiver = surface.receiver;
-  receiver.shown = andNot(surface.unlit, fragments.shown);
-  if (none(receiver.shown)) return surface.emission;
+  const Mask lit = andNot(surface.unlit, fragments.shown);
+  if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
   Float3 sum = surface.emission + Float3(glm::vec3(scene.frame.ambient)) * ambientReflected(point) * surface.occlusion;
   if (lighting.lists.empty()) {
     for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
-      sum += radianceFrom(lighting, k, point, receiver, visibility);
+      sum += radianceFrom(lighting, k, point, surface.receiver, lit, visibility);
     }
   } else {
     // Squares count from the top of the picture, so that a packet may lie in two of them, or in four.
@@ -75,10 +74,10 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
                        shiftRight<6>(fragments.x);
     alignas(64) std::int32_t squares[kLanes];
     store(square, squares);
-    for (unsigned left = bitsOf(receiver.shown); left != 0;) {
+    for (unsigned left = bitsOf(lit); left != 0;) {
       const std::int32_t own = squares[__builtin_ctz(left)];
-      const Mask where = receiver.shown & (square == Int(own));
-      addListed(lighting, static_cast<std::size_t>(own), point, receiver, where, visibility, sum);
+      const Mask where = lit & (square == Int(own));
+      addListed(lighting, static_cast<std::size_t>(own), point, surface.receiver, where, visibility, sum);
       left &= ~bitsOf(where);
     }
   }

@@ -33,6 +33,11 @@ HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& plac
   return sight;
 }
 
+/// From what is seen to the eye, unit length.
+HWY_INLINE Float3 towardsEye(const Sight& sight, const shared::FrameData& frame) {
+  return sight.spreads ? normalize(-sight.way) : Float3(-glm::vec3(frame.forward));
+}
+
 /// The view depth of what the survey saw. Its corners lie on a grid, so that a line of sight may miss a triangle seen
 /// edge-on, and meet its plane far off; but what is shown lies in the range that tiles are fitted to.
 HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDepth) {
@@ -40,32 +45,56 @@ HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDep
   return range.x < range.y ? clamp(viewDepth, range.x, range.y) : viewDepth;
 }
 
-/// A triangle: a corner, and from there to the other two.
-struct Triangle {
-  Float3 corner; ///< as Sight::origin
-  Float3 edge1, edge2;
+/// A triangle: a corner, and from there to the other two. `V`: Float3, or glm::vec3 of one that all lanes have.
+template <class V>
+struct TriangleOf {
+  V corner; ///< as Sight::origin
+  V edge1, edge2;
 };
+using Triangle = TriangleOf<Float3>;
+
+/// A triangle, and what says of any line of sight from one origin where it meets the triangle's plane.
+template <class V>
+struct SeenTriangleOf {
+  TriangleOf<V> triangle;
+  V normal;               ///< of the plane, cross(edge1, edge2)
+  V ofU, ofV;             ///< a way's product with these over that with the normal: the weights
+  decltype(V::x) towards; ///< over a way's product with the normal: the depth
+};
+using SeenTriangle = SeenTriangleOf<Float3>;
+
+/// `start`: where lines of sight begin, from the triangle's corner.
+template <class V>
+HWY_INLINE SeenTriangleOf<V> seenFrom(const V& start, const TriangleOf<V>& triangle) {
+  const V normal = cross(triangle.edge1, triangle.edge2);
+  return {triangle, normal, cross(start, triangle.edge2), cross(triangle.edge1, start), -dot(start, normal)};
+}
+
+HWY_INLINE Triangle inAllLanes(const TriangleOf<glm::vec3>& one) {
+  return {Float3(one.corner), Float3(one.edge1), Float3(one.edge2)};
+}
+HWY_INLINE SeenTriangle inAllLanes(const SeenTriangleOf<glm::vec3>& one) {
+  return {inAllLanes(one.triangle), Float3(one.normal), Float3(one.ofU), Float3(one.ofV), Float(one.towards)};
+}
 
 /// Where a line of sight meets a triangle's plane: corner + u * edge1 + v * edge2.
 struct Meeting {
   Float u, v;
   Float depth;
-  Float3 normal; ///< of the plane, cross(edge1, edge2)
 };
 
 /// Always finite: of a triangle that is seen edge-on, some point near it.
-HWY_INLINE Meeting meetingOf(const Sight& sight, const Triangle& triangle) {
-  const Float3 start = sight.origin - triangle.corner;
-  Meeting m;
-  m.normal = cross(triangle.edge1, triangle.edge2);
-  const Float steepness = dot(sight.way, m.normal);
+HWY_INLINE Meeting meetingOf(const Sight& sight, const SeenTriangle& seen) {
+  const Float steepness = dot(sight.way, seen.normal);
   const Float over = 1.0f / steepness;
-  m.u = dot(sight.way, cross(start, triangle.edge2)) * over;
-  m.v = dot(sight.way, cross(triangle.edge1, start)) * over;
-  m.depth = -dot(start, m.normal) * over;
+  Meeting m;
+  m.u = dot(sight.way, seen.ofU) * over;
+  m.v = dot(sight.way, seen.ofV) * over;
+  m.depth = seen.towards * over;
   // Comparisons with what is not a number are false.
   const Mask sound = (abs(m.u) < 1e4f) & (abs(m.v) < 1e4f) & (abs(m.depth) < 1e30f) & (steepness != Float(0.0f));
   if (all(sound)) return m;
+  const Triangle& triangle = seen.triangle;
   const Float3 middle = triangle.corner + (triangle.edge1 + triangle.edge2) * (1.0f / 3.0f);
   m.u = select(sound, m.u, 1.0f / 3.0f);
   m.v = select(sound, m.v, 1.0f / 3.0f);
@@ -78,18 +107,11 @@ struct MeetingSteps {
   Float2 right, up;
 };
 
-HWY_INLINE MeetingSteps stepsOf(const Sight& sight, const Triangle& triangle, const Meeting& m) {
-  const Float steepness = dot(sight.way, m.normal);
+HWY_INLINE MeetingSteps stepsOf(const Sight& sight, const SeenTriangle& seen, const Meeting& m) {
+  const Float steepness = dot(sight.way, seen.normal);
   const Float over = 1.0f / select(steepness == Float(0.0f), 1e-30f, steepness);
-  if (sight.spreads) {
-    const Float3 start = sight.origin - triangle.corner;
-    const Float3 ofU = cross(start, triangle.edge2) - m.normal * m.u;
-    const Float3 ofV = cross(triangle.edge1, start) - m.normal * m.v;
-    const Float3 x(sight.stepX), y(sight.stepY);
-    return {Float2(dot(x, ofU), dot(x, ofV)) * over, Float2(dot(y, ofU), dot(y, ofV)) * over};
-  }
-  const Float3 ofU = cross(triangle.edge2, sight.way);
-  const Float3 ofV = cross(sight.way, triangle.edge1);
+  const Float3 ofU = sight.spreads ? seen.ofU - seen.normal * m.u : cross(seen.triangle.edge2, sight.way);
+  const Float3 ofV = sight.spreads ? seen.ofV - seen.normal * m.v : cross(sight.way, seen.triangle.edge1);
   const Float3 x(sight.stepX), y(sight.stepY);
   return {Float2(dot(x, ofU), dot(x, ofV)) * over, Float2(dot(y, ofU), dot(y, ofV)) * over};
 }

@@ -64,8 +64,8 @@ class InstanceSurface {
             scene.scene.primitives[static_cast<std::size_t>(scene.view.instances[own.instance].primitive)].hasTangents),
         corners_(scene, slot_, own.triangle),
         sight_(sightThrough(scene.frame, fragments.center)) {
-    triangle_ = placed(placed_.relativeFromLocal, corners_.triangle());
-    meeting_ = meetingOf(sight_, triangle_);
+    seen_ = corners_.seen(placed_.relativeFromLocal, sight_);
+    meeting_ = meetingOf(sight_, seen_);
     findTextureSpots();
   }
 
@@ -74,23 +74,26 @@ class InstanceSurface {
     s.receiver.shown = fragments.shown;
     const bool central = all((fragments.place.x == fragments.center.x) & (fragments.place.y == fragments.center.y));
     const Sight sight = central ? sight_ : sightThrough(frame_, fragments.place);
-    const Meeting meeting = central ? meeting_ : meetingOf(sight, triangle_);
+    const Meeting meeting = central ? meeting_ : meetingOf(sight, seenAlong(sight));
     s.receiver.relative = sight.origin + sight.way * meeting.depth;
     s.receiver.viewDepth = asSurveyed(frame_, meeting.depth);
     s.receiver.weights = {meeting.u, meeting.v};
     s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
     s.receiver.place = fragments.place;
     s.receiver.triangle = fragments.triangle;
-    s.toEye =
-        frame_.forward.w > 0.0f ? directionOf(-s.receiver.relative, -sight.way) : Float3(-glm::vec3(frame_.forward));
-    const Float3 face = directionOf(meeting_.normal, s.toEye);
-    s.receiver.normal = select(dot(face, s.toEye) < 0.0f, -face, face);
+    s.toEye = towardsEye(sight, frame_);
+    s.receiver.normal = corners_.face(seen_, s.toEye);
     s.normal = shadingNormal(s.receiver.normal);
     addMaterial(s);
     return s;
   }
 
  private:
+  /// Along another line of sight.
+  HWY_INLINE SeenTriangle seenAlong(const Sight& sight) const {
+    return sight.spreads ? seen_ : seenFrom(sight.origin - seen_.triangle.corner, seen_.triangle);
+  }
+
   /// What materials read of a vertex's coordinates: those of sets that they use.
   HWY_INLINE void findTextureSpots() {
     bool used[2] = {};
@@ -99,7 +102,7 @@ class InstanceSurface {
       if (*use) used[(*use)->texCoord == 0 ? 0 : 1] = true;
     }
     if (!used[0] && !used[1]) return;
-    steps_ = stepsOf(sight_, triangle_, meeting_);
+    steps_ = stepsOf(sight_, seen_, meeting_);
     for (int set = 0; set < 2; ++set) {
       if (used[set]) spots_[set] = spotOf(corners_, meeting_, steps_, set);
     }
@@ -115,8 +118,8 @@ class InstanceSurface {
   }
 
   HWY_INLINE Float3 shadingNormal(const Float3& face) const {
-    const Float3 own = turned(placed_.normalFromLocal, corners_.triple(offsetof(VertexAttributes, normal), meeting_));
-    const Float3 n = directionOf(material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own, face);
+    const Float3 own = corners_.direction(placed_.normalFromLocal, offsetof(VertexAttributes, normal), meeting_, face);
+    const Float3 n = material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own;
     return material_.normal ? directionOf(bent(n, *material_.normal), n) : n;
   }
 
@@ -132,7 +135,7 @@ class InstanceSurface {
     }
     const TextureSpot spot = spotOfUse(use, GNOMON_NORMAL_UNIT);
     const auto movedPlace = [&](const Float2& step)
-                                HWY_ATTR { return triangle_.edge1 * step.x + triangle_.edge2 * step.y; };
+                                HWY_ATTR { return seen_.triangle.edge1 * step.x + seen_.triangle.edge2 * step.y; };
     return bentBySteps(n, movedPlace(steps_.right), movedPlace(steps_.up), spot.right, spot.up, direction);
   }
 
@@ -199,7 +202,7 @@ class InstanceSurface {
   const bool tangents_; ///< vertices bring their own
   Corners corners_;
   Sight sight_;
-  Triangle triangle_; ///< relative to the eye
+  SeenTriangle seen_; ///< relative to the eye, along sight_
   Meeting meeting_;
   MeetingSteps steps_;   ///< where textures are used
   TextureSpot spots_[2]; ///< of the sets of coordinates that textures use

@@ -28,17 +28,6 @@ HWY_INLINE TextureSpot moved(const shared::MaterialData& material, std::size_t u
   return {turn(spot.uv) + Float2(glm::vec2(material.uvOffsets[unit])), turn(spot.right), turn(spot.up)};
 }
 
-/// A vector of the primitive's own space, by the rows of a matrix.
-HWY_INLINE Float3 turned(const glm::vec4 (&rows)[3], const Float3& v) {
-  return {dot(Float3(glm::vec3(rows[0])), v), dot(Float3(glm::vec3(rows[1])), v), dot(Float3(glm::vec3(rows[2])), v)};
-}
-
-/// A triangle of the primitive's own space, by the rows of an affine matrix.
-HWY_INLINE Triangle placed(const glm::vec4 (&rows)[3], const Triangle& local) {
-  return {turned(rows, local.corner) + Float3(glm::vec3(rows[0].w, rows[1].w, rows[2].w)), turned(rows, local.edge1),
-          turned(rows, local.edge2)};
-}
-
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,4 +1,4 @@
-// The corners of sixteen triangles of one instance, fetched and interpolated.
+// The corners of sixteen triangles of one instance, fetched, placed and interpolated.
 #if defined(GNOMON_CPU_VERTICES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GNOMON_CPU_VERTICES_INL_H
 #undef GNOMON_CPU_VERTICES_INL_H
@@ -13,6 +13,19 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
+
+/// A vector of the primitive's own space, by the rows of a matrix. `V`: as in TriangleOf.
+template <class V>
+HWY_INLINE V turned(const glm::vec4 (&rows)[3], const V& v) {
+  return {dot(V(glm::vec3(rows[0])), v), dot(V(glm::vec3(rows[1])), v), dot(V(glm::vec3(rows[2])), v)};
+}
+
+/// A triangle of the primitive's own space, by the rows of an affine matrix.
+template <class V>
+HWY_INLINE TriangleOf<V> placed(const glm::vec4 (&rows)[3], const TriangleOf<V>& local) {
+  return {turned(rows, local.corner) + V(glm::vec3(rows[0].w, rows[1].w, rows[2].w)), turned(rows, local.edge1),
+          turned(rows, local.edge2)};
+}
 
 /// Vertices of triangles. Where all lanes have one triangle, its numbers are read once.
 class Corners {
@@ -31,23 +44,49 @@ class Corners {
     }
   }
 
-  /// In the primitive's own space.
-  HWY_INLINE Triangle triangle() const {
-    const float* positions = &scene_.scene.positions.data()->x;
-    Float3 p[3];
-    for (int c = 0; c < 3; ++c) p[c] = {at(positions, 3, c), at(positions + 1, 3, c), at(positions + 2, 3, c)};
-    return {p[0], p[1] - p[0], p[2] - p[0]};
+  /// As lines of sight meet them. `rows`: from the primitive's own space to the sight's.
+  HWY_INLINE SeenTriangle seen(const glm::vec4 (&rows)[3], const Sight& sight) const {
+    if (!same_) {
+      const Triangle each = placed(rows, eachTriangle());
+      return seenFrom(sight.origin - each.corner, each);
+    }
+    const TriangleOf<glm::vec3> one = placed(rows, oneTriangle());
+    if (sight.spreads) return inAllLanes(seenFrom(0.0f - one.corner, one));
+    return seenFrom(sight.origin - Float3(one.corner), inAllLanes(one));
   }
 
   /// Fields of VertexAttributes, a float each, by their offset; interpolated at a meeting.
   HWY_INLINE Float number(std::size_t offset, const Meeting& m) const {
-    return blend(attribute(offset, 0), attribute(offset, 1), attribute(offset, 2), m);
+    if (!same_) return blend(attribute(offset, 0), attribute(offset, 1), attribute(offset, 2), m);
+    const float first = oneNumber(offset, 0);
+    return mulAdd(Float(oneNumber(offset, 1) - first), m.u, mulAdd(Float(oneNumber(offset, 2) - first), m.v, first));
   }
   HWY_INLINE Float2 pair(std::size_t offset, const Meeting& m) const {
     return {number(offset, m), number(offset + sizeof(float), m)};
   }
   HWY_INLINE Float3 triple(std::size_t offset, const Meeting& m) const {
     return {number(offset, m), number(offset + sizeof(float), m), number(offset + 2 * sizeof(float), m)};
+  }
+
+  /// A triple, turned by the rows of a matrix and of unit length; `otherwise` where it has no direction. Of one flat
+  /// triangle it is the same everywhere.
+  HWY_INLINE Float3 direction(const glm::vec4 (&rows)[3], std::size_t offset, const Meeting& m,
+                              const Float3& otherwise) const {
+    if (same_) {
+      const glm::vec3 first = oneTriple(offset, 0);
+      if (first == oneTriple(offset, 1) && first == oneTriple(offset, 2)) {
+        return directionOf(turned(rows, first), otherwise);
+      }
+    }
+    return directionOf(turned(rows, triple(offset, m)), otherwise);
+  }
+
+  /// The normal of their planes, unit length, on the eye's side.
+  HWY_INLINE Float3 face(const SeenTriangle& seen, const Float3& toEye) const {
+    const Float3& n = seen.normal;
+    const Float3 face =
+        same_ ? directionOf(glm::vec3(firstLane(n.x), firstLane(n.y), firstLane(n.z)), toEye) : directionOf(n, toEye);
+    return select(dot(face, toEye) < 0.0f, -face, face);
   }
 
   /// How a pair changes by a step of u and v.
@@ -83,6 +122,27 @@ class Corners {
   }
 
  private:
+  HWY_INLINE Triangle eachTriangle() const {
+    const float* positions = &scene_.scene.positions.data()->x;
+    Float3 p[3];
+    for (int c = 0; c < 3; ++c) p[c] = {at(positions, 3, c), at(positions + 1, 3, c), at(positions + 2, 3, c)};
+    return {p[0], p[1] - p[0], p[2] - p[0]};
+  }
+  HWY_INLINE TriangleOf<glm::vec3> oneTriangle() const {
+    const glm::vec3* positions = scene_.scene.positions.data();
+    const glm::vec3 corner = positions[one_[0]];
+    return {corner, positions[one_[1]] - corner, positions[one_[2]] - corner};
+  }
+  HWY_INLINE float oneNumber(std::size_t offset, int corner) const {
+    return oneAttributes(corner)[offset / sizeof(float)];
+  }
+  HWY_INLINE glm::vec3 oneTriple(std::size_t offset, int corner) const {
+    const float* numbers = oneAttributes(corner) + offset / sizeof(float);
+    return {numbers[0], numbers[1], numbers[2]};
+  }
+  HWY_INLINE const float* oneAttributes(int corner) const {
+    return reinterpret_cast<const float*>(&scene_.scene.attributes.data()[one_[corner]]);
+  }
   static HWY_INLINE Float blend(const Float& a, const Float& b, const Float& c, const Meeting& m) {
     return mulAdd(b - a, m.u, mulAdd(c - a, m.v, a));
   }
