@@ -10,6 +10,8 @@
 #include <optional>
 #include <zlib.h>
 
+#include "renderer/core/unfilled.h"
+
 namespace gnomon {
 namespace {
 
@@ -53,8 +55,7 @@ Bytes byIsal(Data data, int level, std::size_t room) {
   if (data.size() <= kStored || data.size() > kMost) return {};
   const Data rest = data.subspan(kStored);
   Bytes blocks = stored(data.first(kStored));
-  const std::size_t begin = blocks.size();
-  blocks.resize(std::min(room, kMost));
+  UnfilledVector<std::uint8_t> more(std::min(room, kMost) - blocks.size());
   // Zeroed: ISA-L reads members that its init leaves alone, hist_bits among them, and the bytes must not depend on
   // them.
   const auto tokens = std::make_unique<std::uint8_t[]>(ISAL_DEF_LVL1_SMALL);
@@ -69,10 +70,10 @@ Bytes byIsal(Data data, int level, std::size_t room) {
   if (isal_deflate_set_dict(stream.get(), const_cast<std::uint8_t*>(data.data()), kStored) != COMP_OK) return {};
   stream->next_in = const_cast<std::uint8_t*>(rest.data());
   stream->avail_in = static_cast<std::uint32_t>(rest.size());
-  stream->next_out = blocks.data() + begin;
-  stream->avail_out = static_cast<std::uint32_t>(blocks.size() - begin);
+  stream->next_out = more.data();
+  stream->avail_out = static_cast<std::uint32_t>(more.size());
   if (isal_deflate(stream.get()) != COMP_OK || stream->avail_in != 0 || stream->avail_out == 0) return {};
-  blocks.resize(begin + stream->total_out);
+  blocks.insert(blocks.end(), more.begin(), more.begin() + stream->total_out);
   return blocks;
 }
 

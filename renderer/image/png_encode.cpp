@@ -9,6 +9,7 @@
 
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/parallel.h"
+#include "renderer/core/unfilled.h"
 #include "renderer/image/deflate_stripe.h"
 
 namespace gnomon {
@@ -97,10 +98,10 @@ void filterRow(Row row, const std::uint8_t* above, std::size_t pixel, bool filte
   subtract(samples + pixel, samples, rest, filtered + 1 + pixel);
 }
 
-Bytes filteredRows(const PngFormat& format, Row rows) {
+UnfilledVector<std::uint8_t> filteredRows(const PngFormat& format, Row rows) {
   const std::size_t rowBytes = format.rowBytes();
   const std::size_t count = rows.size() / rowBytes;
-  Bytes filtered(count * (rowBytes + 1));
+  UnfilledVector<std::uint8_t> filtered(count * (rowBytes + 1));
   for (std::size_t y = 0; y < count; ++y) {
     const Row row = rows.subspan(y * rowBytes, rowBytes);
     filterRow(row, y == 0 ? nullptr : row.data() - rowBytes, format.pixelBytes(), format.level > 0,
@@ -131,7 +132,7 @@ std::size_t PngFormat::stripeCount() const {
 }
 
 PngStripe pngStripe(const PngFormat& format, std::span<const std::uint8_t> rows) {
-  const Bytes filtered = filteredRows(format, rows);
+  const auto filtered = filteredRows(format, rows);
   PngStripe stripe;
   stripe.adler = libdeflate_adler32(1, filtered.data(), filtered.size());
   stripe.filteredBytes = filtered.size();
