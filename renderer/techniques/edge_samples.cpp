@@ -9,10 +9,30 @@ namespace {
 
 constexpr std::size_t kPixels = 512; ///< that one core has in hand at a time: what is kept of them stays in its caches
 
+/// The pixels square by square of the picture: a packet of rays from pixels side by side meets the same nodes of a
+/// tree, one from a row of the picture does not.
+Pixels inSquares(const SampleGrid& grid, const Pixels& pixels) {
+  constexpr auto kSide = 16u; // pixels
+  const auto width = static_cast<std::uint32_t>(grid.width);
+  const std::uint32_t columns = (width + kSide - 1) / kSide;
+  const std::uint32_t rows = (static_cast<std::uint32_t>(grid.height) + kSide - 1) / kSide;
+  std::vector<std::uint32_t> squares(pixels.size());
+  std::vector<std::uint32_t> next(columns * rows + 1);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    squares[i] = pixels[i] / width / kSide * columns + pixels[i] % width / kSide;
+    ++next[squares[i] + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  Pixels ordered(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) ordered[next[squares[i]]++] = pixels[i];
+  return ordered;
+}
+
 /// Calls `trace(piece)` for pieces of the pixels, in parallel, which sets the values of their samples. Then no more is
 /// asked of these pixels. Gives those that other shares came of.
 template <class Trace>
-Pixels traceEach(const Pixels& pixels, PictureShares& shares, const Trace& trace) {
+Pixels traceEach(const Pixels& asked, PictureShares& shares, const Trace& trace) {
+  const Pixels pixels = inSquares(shares.grid, asked);
   std::vector<std::uint8_t> changed(pixels.size());
   forEachPiece(pixels.size(), kPixels, [&](std::size_t first, std::size_t last) {
     const auto piece = std::span(pixels).subspan(first, last - first);

@@ -66,4 +66,12 @@ std::vector<std::uint32_t> pixelsWhere(const SampleGrid& grid, std::span<const s
   return pixels;
 }
 
+/// The pixels whose value, or one beside or at a corner of which, differs by `apart` or more from another of these.
+inline std::vector<std::uint32_t> pixelsApart(const SampleGrid& grid, std::span<const std::uint8_t> values,
+                                              std::uint8_t apart) {
+  return pixelsWhere(grid, values, [apart](std::uint8_t least, std::uint8_t most) {
+    return static_cast<std::uint8_t>(most - least) >= apart; // in bytes, many at a time
+  });
+}
+
 } // namespace gnomon

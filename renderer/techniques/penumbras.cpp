@@ -75,11 +75,7 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
     return mark / PictureShares::kRound == static_cast<int>(round) && (mark & PictureShares::kAway) == 0 &&
            points.numberAt(shares.grid.pixelAt(pixel)) != kNoNumber;
   };
-  const auto inDoubt = [&] {
-    return pixelsWhere(shares.grid, shares.shares, [](std::uint8_t least, std::uint8_t highest) {
-      return static_cast<int>(highest) - static_cast<int>(least) >= kEdge;
-    });
-  };
+  const auto inDoubt = [&] { return pixelsApart(shares.grid, shares.shares, kEdge); };
   const auto isAsked = [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return isIn(0, pixel); };
   for (Pixels next = pixelsBeside(shares, inDoubt(), isAsked); !next.empty();) {
     trace(points, light, rounds[0], next, shares);

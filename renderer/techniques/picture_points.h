@@ -59,6 +59,9 @@ struct ShownNumbers {
   std::uint32_t at(int x, int y, std::uint32_t sample = 0) const {
     return numbers.data()[ofRow.data()[y] + ofColumn.data()[x] + sample * step];
   }
+
+  /// Whether that is `number` for all pixels from `first` to before `last` of a row.
+  bool areAll(std::uint32_t number, int y, int first, int last, std::uint32_t sample = 0) const;
 };
 
 /// Samples of pixels, up to DrawnPlaces::kCount of them, and the numbers that they show.

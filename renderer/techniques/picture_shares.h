@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ inline constexpr int kBlockWidth = 32;
 inline constexpr int kBlockHeight = 16;
 
 /// Shares of 255 that differ by less show no edge between them, and are as sure as rays have to make them.
-inline constexpr int kEdge = 26;
+inline constexpr std::uint8_t kEdge = 26;
 
 using Pixels = std::vector<std::uint32_t>;
 
@@ -101,6 +102,15 @@ struct PictureShares {
     shares[pixel] = unorm8(share);
   }
 };
+
+/// The pixels of both, each once.
+inline Pixels either(PictureShares& shares, Pixels some, const Pixels& others) {
+  for (const std::uint32_t pixel : some) shares.taken[pixel] = 1;
+  std::copy_if(others.begin(), others.end(), std::back_inserter(some),
+               [&](std::uint32_t pixel) { return shares.taken[pixel] == 0; });
+  for (const std::uint32_t pixel : some) shares.taken[pixel] = 0;
+  return some;
+}
 
 /// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; each once.
 template <class Keep>

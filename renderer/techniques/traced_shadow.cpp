@@ -16,7 +16,7 @@ namespace {
 constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 
 /// Shares of a soft shadow that differ by less lie within a penumbra some pixels wide.
-constexpr int kSoftEdge = 128;
+constexpr std::uint8_t kSoftEdge = 128;
 
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
@@ -51,12 +51,10 @@ class ShadowTracing {
 
   /// The pixels next to masks, and to both sides of where surfaces that are turned away end. REQUIRES: no point is
   /// exact yet.
-  Pixels doubtful() const {
-    Pixels pixels = points_.besideMasks();
-    const Pixels ends =
-        pixelsWhere(grid(), known_.marks, [](std::uint8_t least, std::uint8_t most) { return least != most; });
-    pixels.insert(pixels.end(), ends.begin(), ends.end());
-    return eachOnce(std::move(pixels));
+  Pixels doubtful() {
+    return either(
+        known_, points_.besideMasks(),
+        pixelsWhere(grid(), known_.marks, [](std::uint8_t least, std::uint8_t most) { return least != most; }));
   }
 
   /// Sends the other rays to a light that has a size. REQUIRES: no point is exact yet.
@@ -65,18 +63,13 @@ class ShadowTracing {
   }
 
   /// The pixels at edges of the shadow whose points are not exact yet.
-  Pixels atEdges() const {
-    const auto apartBy = [&](int apart) {
-      return pixelsWhere(grid(), known_.shares, [&](std::uint8_t least, std::uint8_t most) {
-        return static_cast<int>(most) - static_cast<int>(least) >= apart;
-      });
-    };
+  Pixels atEdges() {
+    const auto apartBy = [&](std::uint8_t apart) { return pixelsApart(grid(), known_.shares, apart); };
     Pixels pixels = apartBy(isSoft() ? kSoftEdge : kEdge);
     if (isSoft()) {
       Pixels apart = apartBy(kEdge);
       std::erase_if(apart, [&](std::uint32_t pixel) { return !isEdge(pixel, kEdge); });
-      pixels.insert(pixels.end(), apart.begin(), apart.end());
-      pixels = eachOnce(std::move(pixels));
+      pixels = either(known_, std::move(pixels), apart);
     }
     std::erase_if(pixels, [&](std::uint32_t pixel) { return isExact(pixel); });
     return pixels;
