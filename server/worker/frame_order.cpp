@@ -28,6 +28,13 @@ Result<FrameFile> sensorFile(const ScenePtr& scene, Frame frame, const Order& or
   return FrameFile{order.mediaType, std::string(asText(*file)), std::move(frame.report.stages)};
 }
 
+/// What the order wants of the frame.
+Result<FrameFile> fileOf(Frame frame, const ScenePtr& scene, const FrameSpec& spec, const OrderCall& call) {
+  const Order& order = call.order;
+  if (wantsSensor(order)) return sensorFile(scene, std::move(frame), order, call.goOn);
+  return frameFile(std::move(frame), spec.output.format, order.mediaType, order.boundary, call.goOn);
+}
+
 } // namespace
 
 Answer frameOrder(WorkContext& context, const OrderCall& call) {
@@ -52,22 +59,22 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
   if (auto taken = takeMemory(memory, context.frameMemory, frameBytes(spec), "/views", call); !taken) {
     return {.problems = taken.problems()};
   }
-  auto drawn = context.renderer.render(scene.scene, spec, TileUse::kept, call.goOn);
+  std::optional<Result<FrameFile>> file;
+  const auto drawn = context.renderer.renderAndFinish(scene.scene, spec, call.goOn, [&](DrawnFrame& frame) {
+    FrameReport& report = frame.frame.report;
+    report.stages.insert(
+        report.stages.begin(),
+        {StageTime{"queue", call.order.queuedMilliseconds + frame.queuedMilliseconds}, StageTime{"load", loadMs}});
+    report.quality = quality;
+    context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
+    file = fileOf(std::move(frame.frame), scene.scene, spec, call);
+  });
   if (!drawn) {
     return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
   }
-  FrameReport& report = drawn->frame.report;
-  report.stages.insert(
-      report.stages.begin(),
-      {StageTime{"queue", call.order.queuedMilliseconds + drawn->queuedMilliseconds}, StageTime{"load", loadMs}});
-  report.quality = quality;
-  context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
-  auto file = wantsSensor(call.order) ? sensorFile(scene.scene, std::move(drawn->frame), call.order, call.goOn)
-                                      : frameFile(std::move(drawn->frame), spec.output.format, call.order.mediaType,
-                                                  call.order.boundary, call.goOn);
-  if (!file) return {.problems = call.goOn() ? file.problems() : Problems{stoppedProblem("the frame", call)}};
-  return {
-      .contentType = std::move(file->contentType), .body = std::move(file->body), .stages = std::move(file->stages)};
+  if (!*file) return {.problems = call.goOn() ? file->problems() : Problems{stoppedProblem("the frame", call)}};
+  FrameFile& made = **file;
+  return {.contentType = std::move(made.contentType), .body = std::move(made.body), .stages = std::move(made.stages)};
 }
 
 } // namespace gnomon

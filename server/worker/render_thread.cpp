@@ -75,15 +75,38 @@ Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions&
   return thread;
 }
 
+Result<DrawnFrame> RenderThread::draw(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn,
+                                      Clock::time_point asked) {
+  const double queued = millisecondsSince(asked);
+  if (!goOn()) return stopped();
+  auto frame = renderer_->render(scene, spec, tiles, goOn);
+  if (!frame) return std::move(frame).problems();
+  return DrawnFrame{*std::move(frame), queued};
+}
+
+bool RenderThread::isAwaited() {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty();
+}
+
 Result<DrawnFrame> RenderThread::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {
   const auto asked = Clock::now();
-  return ask<DrawnFrame>([&]() -> Result<DrawnFrame> {
-    const double queued = millisecondsSince(asked);
-    if (!goOn()) return stopped();
-    auto frame = renderer_->render(scene, spec, tiles, goOn);
-    if (!frame) return std::move(frame).problems();
-    return DrawnFrame{*std::move(frame), queued};
+  return ask<DrawnFrame>([&] { return draw(scene, spec, tiles, goOn, asked); });
+}
+
+Status RenderThread::renderAndFinish(const ScenePtr& scene, const FrameSpec& spec, const GoOn& goOn,
+                                     const Finish& finish) {
+  const auto asked = Clock::now();
+  auto unfinished = ask<std::optional<DrawnFrame>>([&]() -> Result<std::optional<DrawnFrame>> {
+    auto drawn = draw(scene, spec, TileUse::kept, goOn, asked);
+    if (!drawn) return std::move(drawn).problems();
+    if (spec.output.format != ImageFormat::png || isAwaited()) return std::optional(*std::move(drawn));
+    finish(*drawn);
+    return std::optional<DrawnFrame>();
   });
+  if (!unfinished) return std::move(unfinished).problems();
+  if (*unfinished) finish(**unfinished);
+  return Done{};
 }
 
 Result<double> RenderThread::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,

@@ -38,6 +38,12 @@ class RenderThread {
   /// that throws: std::bad_alloc where the worker may use no more memory.
   Result<DrawnFrame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn);
 
+  /// The same, and calls `finish` with the frame, which encodes it: on this thread where that keeps all cores busy and
+  /// nobody waits for them, since the cores that have drawn it are awake; else on the caller's. Throws what `finish`
+  /// throws.
+  using Finish = std::function<void(DrawnFrame&)>;
+  Status renderAndFinish(const ScenePtr& scene, const FrameSpec& spec, const GoOn& goOn, const Finish& finish);
+
   /// Renderer::shimmer as flips in 1,000 points and a frame.
   Result<double> shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path, const GoOn& goOn);
 
@@ -48,6 +54,9 @@ class RenderThread {
   template <class T>
   Result<T> ask(const std::function<Result<T>()>& work);
   void serve();
+  Result<DrawnFrame> draw(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn,
+                          Clock::time_point asked);
+  bool isAwaited();
 
   std::optional<Renderer> renderer_; ///< touched on the thread only
   RendererInfo info_;
