@@ -122,5 +122,40 @@ TEST(CpuSurface, IsFiniteOfTrianglesSeenEdgeOnOrWithoutArea) {
   });
 }
 
+/// Packets of sixteen places that show one triangle.
+std::size_t packetsOfOne(const std::vector<MadeScene::Seen>& seen) {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < seen.size(); row += 16) {
+    const auto isOther = [&](const MadeScene::Seen& other) { return other.triangle != seen[row].triangle; };
+    const auto first = seen.begin() + static_cast<std::ptrdiff_t>(row);
+    count += std::none_of(first, first + 16, isOther) ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(CpuSurface, ATriangleShowsAloneWhatItShowsBesideOthersToTheBit) {
+  for (const bool perspective : {true, false}) {
+    MadeScene made(perspective);
+    made.place(plainMaterials());
+    const std::vector<MadeScene::Seen> seen = made.seen(9600);
+    const auto elsewhere = [&](std::size_t row) { return row * 37 % seen.size(); };
+    std::vector<MadeScene::Seen> mixed(seen.size());
+    for (std::size_t row = 0; row < seen.size(); ++row) mixed[elsewhere(row)] = seen[row];
+    ASSERT_GT(packetsOfOne(seen), 10u);
+    ASSERT_EQ(packetsOfOne(mixed), 0u);
+    onEachInstructionSet([&] {
+      const NumberTable alone = surfacesByLanes(made.frameScene(), made.fragmentsOf(seen));
+      const NumberTable beside = surfacesByLanes(made.frameScene(), made.fragmentsOf(mixed));
+      std::size_t differ = 0;
+      for (std::size_t row = 0; row < seen.size(); ++row) {
+        for (std::size_t column = 0; column < kSurfaceNumbers; ++column) {
+          differ += alone.at(row, column) == beside.at(elsewhere(row), column) ? 0 : 1;
+        }
+      }
+      EXPECT_EQ(differ, 0u);
+    });
+  }
+}
+
 } // namespace
 } // namespace gnomon::cpu
