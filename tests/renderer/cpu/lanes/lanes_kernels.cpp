@@ -5,7 +5,7 @@
 
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/lanes/functions-inl.h"
+#include "renderer/cpu/lanes/vectors-inl.h"
 #include "tests/renderer/cpu/lanes/lanes_cases.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -42,6 +42,16 @@ void laneGroups(const NumberTable& in, NumberTable& out) {
   }
 }
 
+void directions(const NumberTable& in, NumberTable& out) {
+  for (std::size_t row = 0; row < in.rows; row += kLanes) {
+    const Float3 v(load(in.column(0) + row), load(in.column(1) + row), load(in.column(2) + row));
+    const Float3 direction = directionOf(v, Float3(glm::vec3(0, 0, 1)));
+    store(direction.x, out.column(0) + row);
+    store(direction.y, out.column(1) + row);
+    store(direction.z, out.column(2) + row);
+  }
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -50,6 +60,7 @@ namespace gnomon::cpu {
 
 GNOMON_EXPORT_KERNEL(laneCases);
 GNOMON_EXPORT_KERNEL(laneGroups);
+GNOMON_EXPORT_KERNEL(directions);
 
 NumberTable casesByLanes(const NumberTable& in) {
 #define GNOMON_COUNT_CASE(name, share, expression) +1
@@ -62,6 +73,12 @@ NumberTable casesByLanes(const NumberTable& in) {
 NumberTable groupsByLanes(const NumberTable& in) {
   NumberTable out(in.rows, kLaneGroupColumns);
   GNOMON_KERNEL(laneGroups)(in, out);
+  return out;
+}
+
+NumberTable directionsByLanes(const NumberTable& in) {
+  NumberTable out(in.rows, 3);
+  GNOMON_KERNEL(directions)(in, out);
   return out;
 }
 

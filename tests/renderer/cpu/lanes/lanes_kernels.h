@@ -22,4 +22,7 @@ enum LaneGroupColumn : std::size_t {
 };
 NumberTable groupsByLanes(const NumberTable& in);
 
+/// directionOf, three columns; 0, 0, 1 where there is none. `in`: x, y and z.
+NumberTable directionsByLanes(const NumberTable& in);
+
 } // namespace gnomon::cpu

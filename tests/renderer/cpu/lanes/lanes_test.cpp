@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/lanes/lanes_cases.h"
@@ -143,6 +144,50 @@ TEST(CpuLanes, KnowWhatTheySayTogether) {
         ASSERT_EQ(out.at(row, kNumber), static_cast<float>(lane));
       }
     }
+  });
+}
+
+/// Vectors of 1e-33 to 1e33, some of them flat.
+NumberTable vectorsOfAnySize() {
+  NumberTable in = randomNumbers(kRows, 4, -1.0f, 1.0f);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const float size = std::pow(10.0f, 33.0f * in.at(row, 3));
+    for (std::size_t axis = 0; axis < 3; ++axis) in.column(axis)[row] *= row % 7 == axis ? 0.0f : size;
+  }
+  return in;
+}
+
+TEST(CpuLanes, DirectionsHaveUnitLengthWhateverTheSize) {
+  const NumberTable in = vectorsOfAnySize();
+  onEachInstructionSet([&] {
+    const NumberTable out = directionsByLanes(in);
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const glm::dvec3 expected = glm::normalize(glm::dvec3(in.triple(row, 0)));
+      ASSERT_LT(glm::length(glm::dvec3(out.triple(row, 0)) - expected), 1e-6) << row;
+    }
+  });
+}
+
+TEST(CpuLanes, ADirectionIsTheSameBitsWhateverIsBesideIt) {
+  NumberTable in = randomNumbers(kRows, 4, -1.0f, 1.0f);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const float size = std::pow(10.0f, 9.0f * in.at(row, 3));
+    for (std::size_t axis = 0; axis < 3; ++axis) in.column(axis)[row] *= size;
+  }
+  NumberTable beside = in; // of each sixteen the last is too large for its square, has no direction or is no number
+  constexpr float kOdd[] = {1e25f, 0.0f, std::numeric_limits<float>::quiet_NaN()};
+  for (std::size_t row = 15; row < kRows; row += 16) beside.column(row / 16 % 3)[row] = kOdd[row / 16 % 3];
+  for (std::size_t row = 31; row < kRows; row += 48) beside.column(0)[row] = beside.column(2)[row] = 0;
+  onEachInstructionSet([&] {
+    const NumberTable alone = directionsByLanes(in);
+    const NumberTable mixed = directionsByLanes(beside);
+    std::size_t differ = 0;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      for (std::size_t axis = 0; axis < 3 && row % 16 != 15; ++axis) {
+        differ += alone.at(row, axis) == mixed.at(row, axis) ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(differ, 0u);
   });
 }
 
