@@ -107,4 +107,9 @@ DepthBuffer rasterVisible(const CameraRaster& camera, const Survey& survey, int 
   return buffer;
 }
 
+void rasterOver(const CameraRaster& camera, std::span<const std::uint8_t> keep, DepthBuffer& buffer,
+                std::uint64_t& triangles) {
+  addSlots(camera, keep, false, buffer, triangles);
+}
+
 } // namespace gnomon::cpu

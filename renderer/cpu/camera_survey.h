@@ -36,6 +36,10 @@ Survey surveyScene(const CameraRaster& raster, int samples, DepthBuffer storage 
 /// The same surfaces at another number of samples; adds the triangles drawn.
 DepthBuffer rasterVisible(const CameraRaster& raster, const Survey& survey, int samples, std::uint64_t& triangles);
 
+/// Rasters the slots that `keep` marks (a byte each) over what is there; adds the triangles drawn.
+void rasterOver(const CameraRaster& raster, std::span<const std::uint8_t> keep, DepthBuffer& buffer,
+                std::uint64_t& triangles);
+
 /// The slots that `keep` marks (a byte each), in the order in which every device draws them.
 std::vector<RasterDraw> rasterDraws(const FrameScene& scene, DrawUse use, std::span<const std::uint8_t> keep);
 

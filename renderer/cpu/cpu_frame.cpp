@@ -89,7 +89,7 @@ Result<ReceiverDepths> CpuFrame::survey() {
   return survey_.receivers;
 }
 
-const DepthBuffer& CpuFrame::surfaces(int samples) {
+DepthBuffer& CpuFrame::surfaces(int samples) {
   if (samples == survey_.buffer.samples) {
     facts_.shadedTriangles += surveyShown_ ? 0 : survey_.triangles;
     surveyShown_ = true;
@@ -107,7 +107,7 @@ const DepthBuffer& CpuFrame::surfaces(int samples) {
 
 Status CpuFrame::needLayers(int samples) {
   if (work_.layered.empty() || layers_.contains(samples)) return Done{};
-  const DepthBuffer& shown = surfaces(samples);
+  DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();
   auto made = exactLayers(camera(), work_, survey_, shown);
   if (!made) return made.problems();

@@ -50,7 +50,7 @@ class CpuFrame : public FrameDrawing {
  private:
   CameraRaster camera() const;
   CastInput castInput(const ShadowPlan& plan) const;
-  const DepthBuffer& surfaces(int samples);
+  DepthBuffer& surfaces(int samples);
   Status needHoles();                              ///< textures that tell where surfaces have holes
   std::vector<TextureImage> shownTextures() const; ///< of all that may be seen
   Status needLayers(int samples);

@@ -6,6 +6,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/limits.h"
+#include "renderer/core/parallel.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/techniques/traced_shadow.h"
 
@@ -25,19 +26,17 @@ ShownNumbers shownNumbers(const DepthBuffer& surfaces) {
   return shown;
 }
 
-/// Marks where triangles lie, and lets none of them hide anything.
+/// Marks the places that it is asked about, and lets no triangle hide anything.
 class Coverage : public Holes {
  public:
-  Coverage(int width, int height)
-      : width_(width), height_(height), masks_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+  Coverage(int width, std::vector<std::uint8_t> masks) : width_(width), masks_(std::move(masks)) {}
 
   unsigned filled(const HoledPlaces& places, unsigned asked) const override {
+    const auto width = static_cast<std::size_t>(width_);
     for (unsigned left = asked; left != 0; left &= left - 1) {
       const int place = std::countr_zero(left);
-      const int x = places.x[place], y = places.y[place];
-      if (x < width_ && y < height_) {
-        masks_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = 255;
-      }
+      const auto x = static_cast<std::size_t>(places.x[place]), y = static_cast<std::size_t>(places.y[place]);
+      if (x < width && y * width + x < masks_.size()) masks_[y * width + x] = 255;
     }
     return 0;
   }
@@ -45,13 +44,30 @@ class Coverage : public Holes {
   std::vector<std::uint8_t> take() { return std::move(masks_); }
 
  private:
-  int width_, height_;
+  int width_;
   mutable std::vector<std::uint8_t> masks_; ///< each square of the picture is rastered by one thread
 };
 
-/// Where masked and blended triangles lie, holes and all, in front or behind: a byte a pixel, not 0 there. Filtered as
-/// they are shown, their holes differ from those that rays meet. Empty where the view holds none.
-std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey& survey) {
+/// The pixels that show one of the slots: a byte each, not 0 there.
+std::vector<std::uint8_t> showing(std::span<const std::uint8_t> slots, const DepthBuffer& surfaces) {
+  const auto width = static_cast<std::size_t>(surfaces.width);
+  std::vector<std::uint8_t> shown(width * static_cast<std::size_t>(surfaces.height));
+  forEach(static_cast<std::size_t>(surfaces.height), [&](std::size_t y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t first = surfaces.at(static_cast<int>(x), static_cast<int>(y));
+      for (int s = 0; s < surfaces.samples; ++s) {
+        const std::uint32_t number = surfaces.triangles[first + static_cast<std::size_t>(s * kBlockPlaces)];
+        if (number != kNoNumber && slots[number / kClusterTriangles] != 0) shown[y * width + x] = 255;
+      }
+    }
+  });
+  return shown;
+}
+
+/// Where masked and blended triangles lie, holes and all, that no surface hides: a byte a pixel, not 0 there. Filtered
+/// as they are shown, their holes differ from those that rays meet. Empty where the view holds none. `surfaces` is left
+/// as it is.
+std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey& survey, DepthBuffer& surfaces) {
   const FrameScene& scene = camera.scene;
   std::vector<std::uint8_t> slots = survey.visible;
   for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -59,13 +75,11 @@ std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey&
     if (material.alphaMode == AlphaMode::opaque) slots[i] = 0;
   }
   if (std::none_of(slots.begin(), slots.end(), [](std::uint8_t slot) { return slot != 0; })) return {};
-  Coverage coverage(scene.width, scene.height);
+  Coverage coverage(scene.width, showing(slots, surfaces));
   CameraRaster covering = camera;
   covering.coverage = &coverage;
-  Survey masked;
-  masked.visible = std::move(slots);
   std::uint64_t triangles = 0;
-  rasterVisible(covering, masked, 1, triangles);
+  rasterOver(covering, slots, surfaces, triangles);
   return coverage.take();
 }
 
@@ -87,14 +101,14 @@ BakedMap bakedMap(const FrameScene& scene, const BakedLight& baked) {
 }
 
 /// Adds what rays find for the lights of `traced`, indices into FrameWork::layered.
-Status traceLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey, const DepthBuffer& surfaces,
+Status traceLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey, DepthBuffer& surfaces,
                    std::span<const std::size_t> traced, ExactLayers& exact) {
   const auto scene = work.traced();
   if (!scene) return scene.problems();
   const std::vector<Light>& lights = *work.frame.spec.lights;
   const SampleGrid grid = gridOf(surfaces);
   const ShownNumbers shown = shownNumbers(surfaces);
-  const std::vector<std::uint8_t> masks = maskCoverage(camera, survey);
+  const std::vector<std::uint8_t> masks = maskCoverage(camera, survey, surfaces);
   const TriangleNumbers numbers(camera.scene.geometry);
   const TraceInput rays{**scene, camera.camera, surfaces.width, surfaces.height, lights, camera.nodes};
   const PicturePoints points(rays, grid, numbers, shown, masks);
@@ -119,7 +133,7 @@ std::vector<Layer> ExactLayers::layers(const DepthBuffer& surfaces) const {
 }
 
 Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,
-                                const DepthBuffer& surfaces) {
+                                DepthBuffer& surfaces) {
   ExactLayers exact;
   std::vector<std::size_t> traced;
   for (const int light : work.layered) {
