@@ -1,0 +1,80 @@
+#include "server/worker/render_thread.h"
+
+#include <atomic>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "tests/support/glb_builder.h"
+
+namespace gnomon {
+namespace {
+
+class RenderThreads : public ::testing::Test {
+ protected:
+  RenderThreads() {
+    RendererOptions options;
+    options.backend.device = DeviceChoice::cpu;
+    thread_ = *RenderThread::start(options);
+    scene_ = *loadScene(testing::cube().bundle());
+    spec_.width = spec_.height = 64;
+    spec_.camera.lookAt = EyeTarget{};
+  }
+
+  std::unique_ptr<RenderThread> thread_;
+  ScenePtr scene_;
+  FrameSpec spec_;
+};
+
+TEST_F(RenderThreads, ALonePngIsFinishedWhereItWasDrawn) {
+  std::thread::id by;
+  ASSERT_TRUE(thread_->renderAndFinish(
+      scene_, spec_, [] { return true; },
+      [&](DrawnFrame& drawn) {
+        by = std::this_thread::get_id();
+        EXPECT_EQ(drawn.frame.images.size(), 1u);
+      }));
+  EXPECT_NE(by, std::this_thread::get_id());
+  EXPECT_NE(by, std::thread::id());
+}
+
+TEST_F(RenderThreads, OtherFormatsAreFinishedByTheirCaller) {
+  spec_.output.format = ImageFormat::jpeg;
+  std::thread::id by;
+  ASSERT_TRUE(thread_->renderAndFinish(
+      scene_, spec_, [] { return true; }, [&](DrawnFrame&) { by = std::this_thread::get_id(); }));
+  EXPECT_EQ(by, std::this_thread::get_id());
+}
+
+TEST_F(RenderThreads, WhileAnotherWaitsEachFinishesItsOwn) {
+  std::thread other;
+  std::atomic<bool> begun = false;
+  const auto goOn = [&] {
+    if (begun.exchange(true)) return true;
+    other = std::thread([&] { EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // until that waits, surely
+    return true;
+  };
+  std::thread::id by;
+  EXPECT_TRUE(thread_->renderAndFinish(scene_, spec_, goOn, [&](DrawnFrame&) { by = std::this_thread::get_id(); }));
+  other.join();
+  EXPECT_EQ(by, std::this_thread::get_id());
+}
+
+TEST_F(RenderThreads, AFrameThatIsStoppedIsNotFinished) {
+  bool finished = false;
+  EXPECT_FALSE(thread_->renderAndFinish(
+      scene_, spec_, [] { return false; }, [&](DrawnFrame&) { finished = true; }));
+  EXPECT_FALSE(finished);
+}
+
+TEST_F(RenderThreads, WhatFinishingThrowsReachesTheCaller) {
+  const auto fail = [](DrawnFrame&) { throw std::bad_alloc(); };
+  EXPECT_THROW(static_cast<void>(thread_->renderAndFinish(
+                   scene_, spec_, [] { return true; }, fail)),
+               std::bad_alloc);
+  EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })) << "the thread goes on";
+}
+
+} // namespace
+} // namespace gnomon
