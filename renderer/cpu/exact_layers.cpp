@@ -54,9 +54,8 @@ std::vector<std::uint8_t> showing(std::span<const std::uint8_t> slots, const Dep
   std::vector<std::uint8_t> shown(width * static_cast<std::size_t>(surfaces.height));
   forEach(static_cast<std::size_t>(surfaces.height), [&](std::size_t y) {
     for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t first = surfaces.at(static_cast<int>(x), static_cast<int>(y));
       for (int s = 0; s < surfaces.samples; ++s) {
-        const std::uint32_t number = surfaces.triangles[first + static_cast<std::size_t>(s * kBlockPlaces)];
+        const std::uint32_t number = surfaces.triangles[surfaces.at(static_cast<int>(x), static_cast<int>(y), s)];
         if (number != kNoNumber && slots[number / kClusterTriangles] != 0) shown[y * width + x] = 255;
       }
     }

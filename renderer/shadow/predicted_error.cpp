@@ -99,8 +99,10 @@ std::optional<PredictedError> errorOf(std::vector<float> extents) {
 PredictedErrors predictErrors(const CameraView& view, const ReceiverDepths& receivers, const ShadowPlan& plan) {
   PredictedErrors errors;
   errors.tiles.resize(plan.tiles.size());
-  errors.lights.resize(plan.lights.size());
-  if (plan.tiles.empty()) return errors;
+  if (plan.tiles.empty()) {
+    errors.lights.resize(plan.lights.size());
+    return errors;
+  }
   const SeenBlocks seen = seenBlocks(view, receivers);
   std::vector<std::vector<float>> extents(plan.tiles.size());
   forEach(extents.size(), [&](std::size_t tile) {
@@ -108,15 +110,14 @@ PredictedErrors predictErrors(const CameraView& view, const ReceiverDepths& rece
     errors.tiles[tile] = errorOf(extents[tile]);
   });
   std::vector<float> all;
-  for (std::size_t index = 0; index < plan.lights.size(); ++index) {
-    const PlannedLight& light = plan.lights[index];
+  for (const PlannedLight& light : plan.lights) {
     std::vector<float> ofLight;
     for (int i = 0; i < light.tileCount; ++i) {
       const std::vector<float>& ofTile = extents[static_cast<std::size_t>(light.firstTile + i)];
       ofLight.insert(ofLight.end(), ofTile.begin(), ofTile.end());
     }
     all.insert(all.end(), ofLight.begin(), ofLight.end());
-    errors.lights[index] = errorOf(std::move(ofLight));
+    errors.lights.push_back(errorOf(std::move(ofLight)));
   }
   errors.all = errors.lights.size() == 1 ? errors.lights.front() : errorOf(std::move(all));
   return errors;

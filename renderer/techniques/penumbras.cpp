@@ -1,5 +1,6 @@
 #include "renderer/techniques/penumbras.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "renderer/core/parallel.h"
@@ -51,7 +52,8 @@ void trace(const PicturePoints& points, const TracedLight& light, const Round& r
     const auto block = static_cast<std::uint32_t>(at.y / kBlockHeight * columns + at.x / kBlockWidth);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
   }
-  blocks = eachOnce(std::move(blocks));
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   forEach(blocks.size(), [&](std::size_t i) {
     ShownSamples waiting;
     forEachPixel(shares.grid, blockOf(shares.grid, blocks[i]), [&](const glm::ivec2& pixel) {

@@ -24,13 +24,6 @@ inline constexpr std::uint8_t kEdge = 26;
 
 using Pixels = std::vector<std::uint32_t>;
 
-/// In order, each once.
-inline Pixels eachOnce(Pixels pixels) {
-  std::sort(pixels.begin(), pixels.end());
-  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
-  return pixels;
-}
-
 inline int blockColumns(const SampleGrid& grid) {
   return (grid.width + kBlockWidth - 1) / kBlockWidth;
 }

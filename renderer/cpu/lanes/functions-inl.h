@@ -21,21 +21,24 @@ HWY_INLINE Float abs(const Float& a) {
 HWY_INLINE Float sqrt(const Float& a) {
   GNOMON_EACH_PART(Float, r, hn::Sqrt(a.part[i]));
 }
+inline constexpr std::int32_t kInverseRootGuess = 0x5f3759df; ///< less half of a number's bits
+
+/// Newton's steps towards the inverse root of a number, from a guess.
+template <class Number>
+HWY_INLINE Number inverseRootFrom(Number root, const Number& a) {
+  const Number half = a * -0.5f;
+  for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
+  return root;
+}
 /// To within a few roundings, and without a division or a root, which take as long as twenty products: a guess by the
 /// exponent, and Newton's steps from there (Lomont, "Fast Inverse Square Root", 2003). A large number, not infinity,
 /// of 0.
 HWY_INLINE Float inversesqrt(const Float& a) {
-  Float root = floatOf(Int(0x5f3759df) - shiftRight<1>(bitsOf(a)));
-  const Float half = a * -0.5f;
-  for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
-  return root;
+  return inverseRootFrom(floatOf(Int(kInverseRootGuess) - shiftRight<1>(bitsOf(a))), a);
 }
 /// Of one number, to the bit as of each of sixteen.
 HWY_INLINE float inversesqrt(float a) {
-  float root = std::bit_cast<float>(0x5f3759df - (std::bit_cast<std::int32_t>(a) >> 1));
-  const float half = a * -0.5f;
-  for (int step = 0; step < 3; ++step) root = root * mulAdd(half * root, root, 1.5f);
-  return root;
+  return inverseRootFrom(std::bit_cast<float>(kInverseRootGuess - (std::bit_cast<std::int32_t>(a) >> 1)), a);
 }
 HWY_INLINE Float floor(const Float& a) {
   GNOMON_EACH_PART(Float, r, hn::Floor(a.part[i]));

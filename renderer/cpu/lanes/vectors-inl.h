@@ -125,17 +125,19 @@ inline HWY_NOINLINE Float3 directionOfAnySize(const Float3& v, const Float3& oth
   return select(directed, scaled * inversesqrt(select(directed, dot(scaled, scaled), 1.0f)), otherwise);
 }
 
+inline constexpr float kLeastSquare = 1e-20f, kMostSquare = 1e20f; ///< of lengths, between which floats lose nothing
+
 /// Unit length; `otherwise` where it has no direction. Of any size: squares of triangles a million kilometres wide are
 /// no floats. Where they are, powers of two change no bit.
 HWY_INLINE Float3 directionOf(const Float3& v, const Float3& otherwise) {
   const Float squared = dot(v, v);
-  if (all((squared > 1e-20f) & (squared < 1e20f))) return v * inversesqrt(squared);
+  if (all((squared > kLeastSquare) & (squared < kMostSquare))) return v * inversesqrt(squared);
   return directionOfAnySize(v, otherwise);
 }
 /// Of one vector that all lanes have.
 HWY_INLINE Float3 directionOf(const glm::vec3& v, const Float3& otherwise) {
   const float squared = dot(v, v);
-  if (squared > 1e-20f && squared < 1e20f) return Float3(v * inversesqrt(squared));
+  if (squared > kLeastSquare && squared < kMostSquare) return Float3(v * inversesqrt(squared));
   return directionOfAnySize(Float3(v), otherwise);
 }
 

@@ -48,11 +48,15 @@ TEST_F(RenderThreads, OtherFormatsAreFinishedByTheirCaller) {
 
 TEST_F(RenderThreads, WhileAnotherWaitsEachFinishesItsOwn) {
   std::thread other;
-  std::atomic<bool> begun = false;
+  std::atomic<bool> begun = false, asks = false;
   const auto goOn = [&] {
     if (begun.exchange(true)) return true;
-    other = std::thread([&] { EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // until that waits, surely
+    other = std::thread([&] {
+      asks = true;
+      EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; }));
+    });
+    while (!asks) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // until it waits, surely
     return true;
   };
   std::thread::id by;
