@@ -103,6 +103,8 @@ void RedisServer::start() {
                                directory_.string(),
                                "--appendonly",
                                "yes",
+                               "--appendfsync",
+                               "always",
                                "--save",
                                ""};
   if (isEncrypted_) {
