@@ -7,23 +7,21 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/core/parallel.h"
-#include "renderer/cpu/raster/raster.h"
-#include "renderer/cpu/shadow/certainty-inl.h"
 #include "renderer/cpu/shadow/map_footprints-inl.h"
 #include "renderer/cpu/surface/receivers-inl.h"
+#include "renderer/prepare/draw_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Sixteen pixels, and how many of a row of theirs lie in the picture.
+/// Sixteen pixels of one sample, and how many of a row of theirs lie in the picture.
 struct PixelBlock {
-  Fragments fragments; ///< of their first samples, in the middle of all
-  Mask whole;          ///< lanes whose samples show the same
-  int x, y;            ///< its lower left pixel
+  Fragments fragments;
+  int x, y; ///< its lower left pixel
   int columns, rows;
 };
 
-inline PixelBlock pixelBlock(const DepthBuffer& surfaces, int column, int row, const glm::vec2& middle) {
+inline PixelBlock pixelBlock(const DepthBuffer& surfaces, int column, int row) {
   PixelBlock block{};
   block.x = column * kBlockSide;
   block.y = row * kBlockSide;
@@ -33,28 +31,17 @@ inline PixelBlock pixelBlock(const DepthBuffer& surfaces, int column, int row, c
   fragments.triangle = load(&surfaces.triangles[surfaces.blockAt(column, row)]);
   fragments.x = Int(block.x) + (laneNumbers() & Int(kBlockSide - 1));
   fragments.y = Int(block.y) + shiftRight<2>(laneNumbers());
-  fragments.place = {toFloat(fragments.x) + middle.x, toFloat(fragments.y) + middle.y};
-  block.whole = (fragments.x < Int(surfaces.width)) & (fragments.y < Int(surfaces.height));
-  fragments.shown = block.whole & (fragments.triangle != Int(static_cast<std::int32_t>(kNoNumber)));
-  for (int sample = 1; sample < surfaces.samples; ++sample) {
-    const Int other = load(&surfaces.triangles[surfaces.blockAt(column, row, sample)]);
-    block.whole = block.whole & (other == fragments.triangle);
-  }
+  fragments.place = {toFloat(fragments.x) + 0.5f, toFloat(fragments.y) + 0.5f};
+  fragments.shown = (fragments.x < Int(surfaces.width)) & (fragments.y < Int(surfaces.height)) &
+                    (fragments.triangle != Int(static_cast<std::int32_t>(kNoNumber)));
   return block;
-}
-
-/// Within a pixel.
-inline glm::vec2 middleOf(int samples) {
-  glm::vec2 sum(0);
-  for (const glm::ivec2& place : samplePlaces(samples)) sum += glm::vec2(place) / 256.0f;
-  return sum / static_cast<float>(samples);
 }
 
 void footprintRow(const MapQuery& query, int row, MapFootprint* out) {
   const DebugLight debug{query.maps, query.scene.frame, query.light};
   const DepthBuffer& surfaces = query.surfaces;
   for (int column = 0; column < surfaces.blocksAcross(); ++column) {
-    const PixelBlock block = pixelBlock(surfaces, column, row, middleOf(1));
+    const PixelBlock block = pixelBlock(surfaces, column, row);
     if (none(block.fragments.shown)) continue;
     const Receiver receiver = receiversOf(query.scene, block.fragments);
     MapFootprint footprints[kLanes];
@@ -67,24 +54,6 @@ void footprintRow(const MapQuery& query, int row, MapFootprint* out) {
   }
 }
 
-void verdictRow(const MapQuery& query, std::span<const TileOutlines> outlines, int row, Verdict* out) {
-  const DebugLight debug{query.maps, query.scene.frame, query.light};
-  const DepthBuffer& surfaces = query.surfaces;
-  const glm::vec2 middle = middleOf(surfaces.samples);
-  for (int column = 0; column < surfaces.blocksAcross(); ++column) {
-    PixelBlock block = pixelBlock(surfaces, column, row, middle);
-    block.fragments.shown = block.fragments.shown & block.whole;
-    Int known = verdictNumber(Verdict::lit);
-    if (any(block.fragments.shown)) known = verdicts(debug, receiversOf(query.scene, block.fragments), outlines);
-    alignas(64) std::int32_t lanes[kLanes];
-    store(select(block.whole, known, verdictNumber(Verdict::unsure)), lanes);
-    for (int y = 0; y < block.rows; ++y) {
-      Verdict* to = out + static_cast<std::ptrdiff_t>(block.y + y) * surfaces.width + block.x;
-      for (int x = 0; x < block.columns; ++x) to[x] = static_cast<Verdict>(lanes[y * kBlockSide + x]);
-    }
-  }
-}
-
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -93,7 +62,6 @@ namespace gnomon::cpu {
 namespace {
 
 GNOMON_EXPORT_KERNEL(footprintRow);
-GNOMON_EXPORT_KERNEL(verdictRow);
 
 std::size_t pixelsOf(const DepthBuffer& surfaces) {
   return static_cast<std::size_t>(surfaces.width) * static_cast<std::size_t>(surfaces.height);
@@ -107,14 +75,6 @@ std::vector<MapFootprint> mapFootprints(const MapQuery& query) {
     GNOMON_KERNEL(footprintRow)(query, static_cast<int>(row), footprints.data());
   });
   return footprints;
-}
-
-std::vector<Verdict> mapVerdicts(const MapQuery& query, std::span<const TileOutlines> outlines) {
-  std::vector<Verdict> verdicts(pixelsOf(query.surfaces));
-  forEach(static_cast<std::size_t>(query.surfaces.blocksUp()), [&](std::size_t row) {
-    GNOMON_KERNEL(verdictRow)(query, outlines, static_cast<int>(row), verdicts.data());
-  });
-  return verdicts;
 }
 
 } // namespace gnomon::cpu

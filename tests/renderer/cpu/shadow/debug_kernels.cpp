@@ -5,7 +5,6 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/shadow/caster_ids-inl.h"
-#include "renderer/cpu/shadow/certainty-inl.h"
 #include "renderer/cpu/shadow/map_footprints-inl.h"
 #include "renderer/cpu/surface/receivers-inl.h"
 #include "tests/renderer/cpu/shadow/asked_points-inl.h"
@@ -40,15 +39,6 @@ void footprints(const DebugMaps& debug, std::span<const AskedPoint> points, MapF
   for (std::size_t first = 0; first < points.size(); first += kLanes) {
     const PointPacket packet = pointPacket(points, first);
     storeFootprints(footprintsOf(debugLight(debug), packet.receiver), packet.receiver, packet.count, out + first);
-  }
-}
-
-void verdictNumbers(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
-  for (std::size_t first = 0; first < points.size(); first += kLanes) {
-    const PointPacket packet = pointPacket(points, first);
-    alignas(64) std::int32_t lanes[kLanes];
-    store(verdicts(debugLight(debug), packet.receiver, debug.outlines), lanes);
-    std::copy_n(lanes, packet.count, out + first);
   }
 }
 
@@ -97,7 +87,6 @@ namespace gnomon::cpu {
 GNOMON_EXPORT_KERNEL(debugValues);
 GNOMON_EXPORT_KERNEL(grids);
 GNOMON_EXPORT_KERNEL(footprints);
-GNOMON_EXPORT_KERNEL(verdictNumbers);
 GNOMON_EXPORT_KERNEL(receivers);
 
 void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span<const AskedPoint> points,
@@ -112,10 +101,6 @@ void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<
 
 void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out) {
   GNOMON_KERNEL(footprints)(debug, points, out);
-}
-
-void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out) {
-  GNOMON_KERNEL(verdictNumbers)(debug, points, out);
 }
 
 void receiversByLanes(const FrameScene& scene, const ShownPlaces& shown, AskedPoint* out) {

@@ -3,7 +3,6 @@
 #include "protocol/spec/output_options.h"
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/device/device.h"
-#include "renderer/prepare/outlines.h"
 #include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
 namespace gnomon::cpu {
@@ -14,7 +13,6 @@ struct DebugMaps {
   const shared::FrameData& frame;
   std::span<const TileMap> casters = {};
   std::span<const std::int32_t> slotNodes = {};
-  std::span<const TileOutlines> outlines = {};
 };
 
 // Sixteen points at a time; `points` and `out` are of one length, which may be any.
@@ -24,7 +22,6 @@ void debugDataByLanes(const DebugMaps& debug, View view, bool encoded, std::span
 void texelGridByLanes(const DebugMaps& debug, const glm::vec3& shown, std::span<const AskedPoint> points,
                       glm::vec3* out);
 void footprintsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, MapFootprint* out);
-void verdictsByLanes(const DebugMaps& debug, std::span<const AskedPoint> points, int* out);
 
 /// Places of the picture, pixels from the lower left corner, and the triangles that they show.
 struct ShownPlaces {

@@ -185,33 +185,6 @@ TEST(MapFootprints, AreWhatTheShadersTextGives) {
   });
 }
 
-TEST(Certainty, VerdictsAreWhatTheShadersTextGives) {
-  onEachScene([](DebugScene scene) {
-    std::mt19937 random(3);
-    std::vector<TileOutlines> outlines;
-    for (DepthBuffer& buffer : scene.random.depths) {
-      TileOutlines& marks = outlines.emplace_back(static_cast<std::size_t>(buffer.width * buffer.height));
-      for (std::uint8_t& mark : marks) mark = random() % 5 == 0 ? 255 : 0;
-      // Whole sheets near or far, so that there are cells of which all is known.
-      for (std::size_t i = 0; i < buffer.depths.size(); ++i) buffer.depths[i] = i / 64 % 2 == 0 ? 0.05f : 0.999f;
-    }
-    const DebugMaps debug{scene.maps, scene.frame, {}, {}, outlines};
-    std::vector<int> expected;
-    for (const AskedPoint& point : scene.points) expected.push_back(static_cast<int>(truth::verdict(debug, point)));
-    for (const Verdict verdict : {Verdict::lit, Verdict::shadow, Verdict::unsure}) {
-      EXPECT_GE(std::count(expected.begin(), expected.end(), static_cast<int>(verdict)), kPoints / 100)
-          << static_cast<int>(verdict);
-    }
-    onEachInstructionSet([&] {
-      std::vector<int> seen(scene.points.size());
-      verdictsByLanes(debug, scene.points, seen.data());
-      int off = 0;
-      for (std::size_t i = 0; i < seen.size(); ++i) off += seen[i] != expected[i];
-      EXPECT_LE(off, kPoints / 1000);
-    });
-  });
-}
-
 TEST(Probe, PointsGetTheirShareOfTheTiles) {
   onEachScene([](DebugScene scene) {
     scene.random.lights[0].visibilityLayer = 1; // which no probe reads

@@ -3,11 +3,9 @@
 #include <optional>
 
 #include "renderer/device/device.h"
-#include "renderer/prepare/outlines.h"
-#include "renderer/techniques/traced_shadow.h"
 #include "tests/renderer/cpu/shadow/debug_kernels.h"
 
-/// What shaders/common_debug.glsl, displacement.frag and certainty.frag compute, a number at a time.
+/// What shaders/common_debug.glsl and displacement.frag compute, a number at a time.
 namespace gnomon::cpu::truth {
 
 struct DebugTexel {
@@ -25,6 +23,5 @@ int casterNode(const DebugMaps& debug, const AskedPoint& receiver);
 glm::vec3 nodeColor(int node);
 glm::vec3 texelGrid(const DebugMaps& debug, const glm::vec3& shown, const AskedPoint& receiver);
 MapFootprint footprint(const DebugMaps& debug, const AskedPoint& receiver);
-Verdict verdict(const DebugMaps& debug, const AskedPoint& receiver);
 
 } // namespace gnomon::cpu::truth

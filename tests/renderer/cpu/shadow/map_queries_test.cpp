@@ -18,15 +18,14 @@ struct Queried {
   RandomMaps random;
   ShadowMaps maps;
 
-  explicit Queried(int samples) {
+  Queried() {
     made.place(std::vector<Material>(4));
     surfaces.width = made.frameScene().width;
     surfaces.height = made.frameScene().height;
-    surfaces.samples = samples;
-    surfaces.triangles.resize(surfaces.blocks() * kBlockPlaces * static_cast<std::size_t>(samples), kNoNumber);
+    surfaces.triangles.resize(surfaces.blocks() * kBlockPlaces, kNoNumber);
     for (const MadeScene::Seen& seen : made.seen(40'000)) {
       const glm::ivec2 pixel(seen.place);
-      for (int s = 0; s < samples; ++s) surfaces.triangles[surfaces.at(pixel.x, pixel.y, s)] = seen.triangle;
+      surfaces.triangles[surfaces.at(pixel.x, pixel.y)] = seen.triangle;
     }
     std::mt19937 generator(4);
     random = randomMaps(generator, {.lightType = GNOMON_POINT});
@@ -85,7 +84,7 @@ bool isNear(const glm::vec2& a, const glm::vec2& b) {
 }
 
 TEST(MapQueries, FootprintsAreThoseOfEachPixel) {
-  const Queried queried(1);
+  const Queried queried;
   const FrameScene& scene = queried.made.frameScene();
   const DepthBuffer& surfaces = queried.surfaces;
   const std::vector<AskedPoint> points = queried.points();
@@ -114,40 +113,6 @@ TEST(MapQueries, FootprintsAreThoseOfEachPixel) {
     EXPECT_GE(found, 1000);
     EXPECT_LE(off, found / 100);
   });
-}
-
-TEST(MapQueries, VerdictsAreThoseOfPixelsThatShowOneTriangle) {
-  for (const int samples : {1, 4}) {
-    Queried queried(samples);
-    const FrameScene& scene = queried.made.frameScene();
-    DepthBuffer& surfaces = queried.surfaces;
-    std::vector<TileOutlines> outlines;
-    for (const TileMap& map : queried.random.maps) {
-      outlines.emplace_back(static_cast<std::size_t>(map.rect.width * map.rect.height));
-    }
-    std::vector<AskedPoint> points = queried.points();
-    if (samples > 1) surfaces.triangles[surfaces.at(3, 2, 3)] = surfaces.triangles[surfaces.at(3, 2, 0)] + 1;
-    onEachInstructionSet([&] {
-      std::vector<int> expected(points.size());
-      verdictsByLanes({queried.maps, scene.frame, {}, {}, outlines}, points, expected.data());
-      const std::vector<Verdict> seen = mapVerdicts({scene, surfaces, queried.maps, 0}, outlines);
-      ASSERT_EQ(seen.size(), expected.size());
-      int off = 0;
-      for (int y = 0; y < surfaces.height; ++y) {
-        for (int x = 0; x < surfaces.width; ++x) {
-          const auto at = static_cast<std::size_t>(y * surfaces.width + x);
-          const bool isTorn = samples > 1 && x == 3 && y == 2;
-          const int known = isTorn                ? static_cast<int>(Verdict::unsure)
-                            : queried.shows(x, y) ? expected[at]
-                                                  : static_cast<int>(Verdict::lit);
-          off += static_cast<int>(seen[at]) != known;
-        }
-      }
-      const Verdict torn = seen[static_cast<std::size_t>(2 * surfaces.width + 3)];
-      EXPECT_TRUE(samples == 1 || torn == Verdict::unsure);
-      EXPECT_LE(off, static_cast<int>(seen.size()) / 100);
-    });
-  }
 }
 
 } // namespace
