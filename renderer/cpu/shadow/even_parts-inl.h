@@ -11,15 +11,16 @@
 #include <bit>
 #include <span>
 
+#include "renderer/cpu/shadow/caster_grid.h"
+#include "renderer/cpu/shadow/lit_parts.h"
 #include "renderer/cpu/shadow/read_texels-inl.h"
+#include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/cpu/surface/receivers-inl.h"
 #include "renderer/prepare/draw_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-inline constexpr int kPartSide = 8;       ///< pixels
-inline constexpr unsigned kPartCount = 4; ///< of a square of the picture, two by two, from the lower left one
 inline constexpr unsigned kCorners = kLanes / kPartCount;
 
 /// The parts of a square, a bit each.
@@ -79,57 +80,82 @@ HWY_INLINE bool readsAlike(const LightData& light) {
   return light.type == GNOMON_DIRECTIONAL && light.filterKind != GNOMON_FILTER_PCSS;
 }
 
-/// The one tile that each lane reads, and -1 where it may read two, or its neighbours another one.
-HWY_INLINE Int onlyTile(const ShadowMaps& maps, const LightData& light, const Float& viewDepth) {
+/// The first and the last of a light's tiles that each lane, and what is rounded otherwise beside it, may read.
+struct TileSpans {
+  Int first, last;
+};
+
+HWY_INLINE TileSpans tileSpans(const ShadowMaps& maps, const LightData& light, const Float& viewDepth) {
   constexpr float kRounding = 1e-5f;
-  const TileChoice nearer = chooseCascade(maps, light, viewDepth * (1.0f - kRounding));
-  const TileChoice farther = chooseCascade(maps, light, viewDepth * (1.0f + kRounding));
-  const Mask one =
-      (nearer.first == farther.first) & (nearer.first == nearer.second) & (farther.first == farther.second);
-  return select(one, nearer.first, Int(-1));
+  return {chooseCascade(maps, light, viewDepth * (1.0f - kRounding)).first,
+          chooseCascade(maps, light, viewDepth * (1.0f + kRounding)).second};
 }
 
-/// Marks what the covered parts read of a light. Gives those of which the corners tell.
-HWY_INLINE unsigned markCorners(const ShadowMaps& maps, const LightData& light, const Receiver& corners,
-                                unsigned covered, std::span<TexelMarks> marks) {
+/// The texels of a tile that the lanes may read, and those of all places between them.
+HWY_INLINE TexelBox texelsBetween(const ShadowMaps& maps, const LightData& light, std::size_t tile,
+                                  const Receiver& corners, const Mask& lanes) {
+  const Lookup at = lookupIn(light, maps.tiles[tile], corners, Float3(glm::vec3(light.direction)));
+  const Float2 rounding(Float(0.5f)); // of places: pixels between the corners are rounded in ways of their own
+  const Reached reached =
+      reachedAround(placeIn(maps, maps.maps[tile], at), filterReach(maps, light, maps.tiles[tile], at) + rounding);
+  return {leastOf(lanes, reached.left), leastOf(lanes, reached.low), mostOf(lanes, reached.right),
+          mostOf(lanes, reached.high)};
+}
+
+/// What the corners tell of the parts, a bit each.
+struct ToldParts {
+  unsigned told = 0; ///< nothing more need be marked of these
+  unsigned lit = 0;  ///< of these, they see all of the light: nothing is read of its tiles
+};
+
+/// Marks what the covered parts read of a light. `grids`: parallel to the maps' tiles, or none.
+HWY_INLINE ToldParts markCorners(const ShadowMaps& maps, const LightData& light, std::span<const CasterGrid> grids,
+                                 const Fragments& shown, const Receiver& corners, unsigned covered,
+                                 std::span<TexelMarks> marks) {
   constexpr float kTurnedAway = 5e-5f; // where a corner is, isTurnedAway says so of all
   constexpr std::int32_t kWidest = 48; // a box around more than that holds much that no pixel reads
   const Float3 toLight(glm::vec3(light.direction));
   const unsigned lit = bitsOf(receivesShadow(light, corners) & (dot(corners.normal, toLight) > kTurnedAway));
-  alignas(64) std::int32_t tiles[kLanes];
-  store(onlyTile(maps, light, corners.viewDepth), tiles);
-  unsigned told = 0;
+  const TileSpans spans = tileSpans(maps, light, corners.viewDepth);
+  alignas(64) std::int32_t triangles[kLanes];
+  store(shown.triangle, triangles);
+  ToldParts parts;
   for (unsigned left = covered; left != 0; left &= left - 1) {
     const auto part = static_cast<unsigned>(std::countr_zero(left));
     if ((lit & lanesOf(part)) == 0) {
-      told |= 1u << part;
+      parts.told |= 1u << part;
       continue;
     }
-    const std::int32_t* own = &tiles[kCorners * part];
-    if (own[0] < 0 || !std::all_of(own, own + kCorners, [&](int tile) { return tile == own[0]; })) continue;
-    const std::size_t index = light.firstTile + static_cast<std::size_t>(own[0]);
-    if (maps.maps[index].depths != nullptr) {
-      const Lookup at = lookupIn(light, maps.tiles[index], corners, toLight);
-      const Float2 rounding(Float(0.5f)); // of places: pixels between the corners are rounded in ways of their own
-      const Reached reached = reachedAround(placeIn(maps, maps.maps[index], at),
-                                            filterReach(maps, light, maps.tiles[index], at) + rounding);
-      const Mask lanes = maskOf(lanesOf(part));
-      const std::int32_t x0 = leastOf(lanes, reached.left), x1 = mostOf(lanes, reached.right);
-      const std::int32_t y0 = leastOf(lanes, reached.low), y1 = mostOf(lanes, reached.high);
-      if (x1 - x0 >= kWidest || y1 - y0 >= kWidest) continue;
-      marks[index].mark(x0, y0, x1, y1);
+    const Mask lanes = maskOf(lanesOf(part));
+    const std::size_t first = light.firstTile + static_cast<std::size_t>(leastOf(lanes, spans.first));
+    const std::size_t count = light.firstTile + static_cast<std::size_t>(mostOf(lanes, spans.last)) - first + 1;
+    TexelBox read[2];
+    if (count > std::size(read)) continue;
+    bool open = !grids.empty(), wide = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (maps.maps[first + i].depths == nullptr) continue;
+      read[i] = texelsBetween(maps, light, first + i, corners, lanes);
+      open = open && grids[first + i].isOpen(static_cast<std::uint32_t>(triangles[kCorners * part]), read[i]);
+      wide = wide || read[i].x1 - read[i].x0 >= kWidest || read[i].y1 - read[i].y0 >= kWidest;
     }
-    told |= 1u << part;
+    if (!open && wide) continue;
+    parts.told |= 1u << part;
+    parts.lit |= (open ? 1u : 0u) << part;
+    for (std::size_t i = 0; i < count && !open; ++i) {
+      if (maps.maps[first + i].depths == nullptr) continue;
+      marks[first + i].mark(read[i].x0, read[i].y0, read[i].x1, read[i].y1);
+    }
   }
-  return told;
+  return parts;
 }
 
-/// Marks what these lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
-/// corners tell for all of them.
-HWY_INLINE unsigned markCorners(const FrameScene& scene, const ShadowMaps& maps, std::span<const std::uint32_t> lights,
-                                const EvenParts& parts, std::span<TexelMarks> marks) {
+/// Marks what the lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
+/// corners tell for all of them. `told(light, parts)` hears of each light's.
+template <class Told>
+HWY_INLINE unsigned markCorners(const ReadQuery& query, std::span<const std::uint32_t> lights, const EvenParts& parts,
+                                std::span<TexelMarks> marks, const Told& tell) {
   if (parts.covered == 0) return 0;
-  const Receiver corners = receiversOf(scene, parts.corners);
+  const Receiver corners = receiversOf(query.scene, parts.corners);
   // Of a triangle that is seen edge-on some point is taken, by each pixel another one.
   constexpr float kOutside = 0.1f;
   const Mask sound = (corners.weights.x > -kOutside) & (corners.weights.y > -kOutside) &
@@ -139,7 +165,12 @@ HWY_INLINE unsigned markCorners(const FrameScene& scene, const ShadowMaps& maps,
     const bool whole = (bitsOf(sound) & lanesOf(part)) == lanesOf(part);
     told |= whole ? parts.covered & 1u << part : 0u;
   }
-  for (const std::uint32_t light : lights) told &= markCorners(maps, maps.lights[light], corners, told, marks);
+  for (const std::uint32_t light : lights) {
+    const ToldParts own =
+        markCorners(query.maps, query.maps.lights[light], query.casters, parts.corners, corners, told, marks);
+    tell(light, own);
+    told &= own.told;
+  }
   return told;
 }
 
