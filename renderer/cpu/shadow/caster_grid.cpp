@@ -130,7 +130,7 @@ CasterGrid::CasterGrid(const FrameScene& scene, const ShadowTile& tile, std::spa
   }
 }
 
-/// As a whole where its triangles are small: one by one they take longer. Those that are seen have been added.
+/// As a whole where its triangles are not large: one by one they take longer. Those that are seen have been added.
 void CasterGrid::addSlot(std::size_t slot, std::span<const std::uint32_t> seen) {
   const Aabb box = transformed(texelsFromRelative_, scene_->geometry.slotBounds[slot]);
   const TexelBox cells = cellsAround(glm::dvec2(box.min), glm::dvec2(box.max));
@@ -139,7 +139,8 @@ void CasterGrid::addSlot(std::size_t slot, std::span<const std::uint32_t> seen) 
   const auto seenHere = std::lower_bound(seen.begin(), seen.end(), first);
   const bool holdsSeen = seenHere != seen.end() && *seenHere < first + kClusterTriangles;
   const int count = std::max(cells.x1 - cells.x0 + 1, 0) * std::max(cells.y1 - cells.y0 + 1, 0);
-  if (!holdsSeen && count <= 2 * triangles) {
+  constexpr int kLargeTriangle = 32; // cells
+  if (!holdsSeen && count <= kLargeTriangle * triangles) {
     addBox(cells, box.min.z);
     return;
   }
