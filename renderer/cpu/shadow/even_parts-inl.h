@@ -150,7 +150,7 @@ HWY_INLINE ToldParts markCorners(const ShadowMaps& maps, const LightData& light,
 }
 
 /// Marks what the lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
-/// corners tell for all of them. `told(light, parts)` hears of each light's.
+/// corners tell for all of them. `tell(light, told)` hears of each light.
 template <class Told>
 HWY_INLINE unsigned markCorners(const ReadQuery& query, std::span<const std::uint32_t> lights, const EvenParts& parts,
                                 std::span<TexelMarks> marks, const Told& tell) {
