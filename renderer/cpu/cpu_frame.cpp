@@ -7,7 +7,6 @@
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/cpu/atlas_picture.h"
-#include "renderer/cpu/shadow/largest_seen.h"
 #include "renderer/cpu/shadow/map_queries.h"
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
@@ -169,7 +168,7 @@ std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
                                  [](const ViewRequest& request) { return request.view == View::atlas; });
   // Where all texels are made anyway, they are read.
   std::vector<CasterGrid> grids;
-  if (!whole) grids = casterGrids(scene_, input.plan, maps.lights, cast_.casters, largestSeen(survey_.buffer));
+  if (!whole) grids = casterGrids(scene_, input.plan, maps.lights, cast_.casters, survey_.buffer);
   std::set<int> done;
   for (const ViewRequest& request : input.views) {
     if (request.view == View::atlas) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "renderer/core/parallel.h"
+#include "renderer/cpu/shadow/largest_seen.h"
 #include "renderer/prepare/draw_list.h"
 
 namespace gnomon::cpu {
@@ -104,8 +105,7 @@ bool tellsOpen(const shared::LightData& light) {
 
 CasterGrid::CasterGrid(const FrameScene& scene, const ShadowTile& tile, std::span<const std::uint8_t> casters,
                        std::span<const std::uint32_t> seen)
-    : scene_(&scene),
-      tolerance_(0.5 * tile.depthBias),
+    : tolerance_(0.5 * tile.depthBias),
       across_((tile.rect.width + kCellSide - 1) / kCellSide),
       up_((tile.rect.height + kCellSide - 1) / kCellSide),
       nearest_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(up_),
@@ -117,7 +117,7 @@ CasterGrid::CasterGrid(const FrameScene& scene, const ShadowTile& tile, std::spa
   texelsFromClip[3] = glm::dvec4(half, 0.0, 1.0);
   texelsFromRelative_ = texelsFromClip * tile.clipFromRelative;
   for (const std::uint32_t number : seen) {
-    const Corners corners = cornersOf(number);
+    const Corners corners = cornersOf(scene, number);
     const bool casts = casters[number / kClusterTriangles] != 0;
     if (const auto plane = planeThrough(corners.at)) {
       seen_.push_back({number, casts, corners, *plane});
@@ -126,15 +126,15 @@ CasterGrid::CasterGrid(const FrameScene& scene, const ShadowTile& tile, std::spa
     }
   }
   for (std::size_t slot = 0; slot < casters.size(); ++slot) {
-    if (casters[slot] != 0) addSlot(slot, seen);
+    if (casters[slot] != 0) addSlot(scene, slot, seen);
   }
 }
 
 /// As a whole where its triangles are not large: one by one they take longer. Those that are seen have been added.
-void CasterGrid::addSlot(std::size_t slot, std::span<const std::uint32_t> seen) {
-  const Aabb box = transformed(texelsFromRelative_, scene_->geometry.slotBounds[slot]);
+void CasterGrid::addSlot(const FrameScene& scene, std::size_t slot, std::span<const std::uint32_t> seen) {
+  const Aabb box = transformed(texelsFromRelative_, scene.geometry.slotBounds[slot]);
   const TexelBox cells = cellsAround(glm::dvec2(box.min), glm::dvec2(box.max));
-  const auto triangles = static_cast<int>(scene_->slots[slot].triangles);
+  const auto triangles = static_cast<int>(scene.slots[slot].triangles);
   const auto first = static_cast<std::uint32_t>(slot) * kClusterTriangles;
   const auto seenHere = std::lower_bound(seen.begin(), seen.end(), first);
   const bool holdsSeen = seenHere != seen.end() && *seenHere < first + kClusterTriangles;
@@ -145,7 +145,7 @@ void CasterGrid::addSlot(std::size_t slot, std::span<const std::uint32_t> seen) 
     return;
   }
   for (std::uint32_t i = first; i < first + static_cast<std::uint32_t>(triangles); ++i) {
-    if (!std::binary_search(seen.begin(), seen.end(), i)) addTriangle(cornersOf(i));
+    if (!std::binary_search(seen.begin(), seen.end(), i)) addTriangle(cornersOf(scene, i));
   }
 }
 
@@ -183,14 +183,13 @@ void CasterGrid::addBox(const TexelBox& cells, double nearest) {
   }
 }
 
-CasterGrid::Corners CasterGrid::cornersOf(std::uint32_t triangle) const {
-  const Slot& slot = scene_->slots[triangle / kClusterTriangles];
-  const glm::dmat4& relativeFromLocal = scene_->geometry.instances[slot.instance].relativeFromLocal;
-  const std::uint32_t* const indices =
-      scene_->scene.welded.data() + slot.firstIndex + 3 * (triangle % kClusterTriangles);
+CasterGrid::Corners CasterGrid::cornersOf(const FrameScene& scene, std::uint32_t triangle) const {
+  const Slot& slot = scene.slots[triangle / kClusterTriangles];
+  const glm::dmat4& relativeFromLocal = scene.geometry.instances[slot.instance].relativeFromLocal;
+  const std::uint32_t* const indices = scene.scene.welded.data() + slot.firstIndex + 3 * (triangle % kClusterTriangles);
   Corners corners;
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 local(scene_->scene.positions[slot.baseVertex + indices[i]]);
+    const glm::dvec3 local(scene.scene.positions[slot.baseVertex + indices[i]]);
     corners.at[i] = glm::dvec3(texelsFromRelative_ * (relativeFromLocal * glm::dvec4(local, 1.0)));
   }
   return corners;
@@ -229,15 +228,17 @@ bool CasterGrid::isOpen(std::uint32_t triangle, const TexelBox& texels) const {
 
 std::vector<CasterGrid> casterGrids(const FrameScene& scene, const ShadowPlan& plan,
                                     std::span<const shared::LightData> lights, std::span<const TileCasters> casters,
-                                    std::span<const std::uint32_t> seen) {
+                                    const DepthBuffer& surfaces) {
   std::vector<CasterGrid> grids(plan.tiles.size());
-  if (seen.empty()) return grids;
   std::vector<std::size_t> told;
   for (const shared::LightData& light : lights) {
     for (std::uint32_t i = 0; tellsOpen(light) && i < light.tileCount; ++i) {
       if (plan.tiles[light.firstTile + i].rect.width > 0) told.push_back(light.firstTile + i);
     }
   }
+  if (told.empty()) return grids;
+  const std::vector<std::uint32_t> seen = largestSeen(surfaces);
+  if (seen.empty()) return grids;
   forEach(told.size(), [&](std::size_t i) {
     grids[told[i]] = CasterGrid(scene, plan.tiles[told[i]], casters[told[i]].slots, seen);
   });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/raster/depth_buffer.h"
 #include "renderer/cpu/raster/raster_triangles.h"
 #include "renderer/prepare/tile_casters.h"
 #include "renderer/shaders/shared/frame_types.h"
@@ -46,13 +47,12 @@ class CasterGrid {
     DepthPlane plane;
   };
 
-  void addSlot(std::size_t slot, std::span<const std::uint32_t> seen);
+  void addSlot(const FrameScene& scene, std::size_t slot, std::span<const std::uint32_t> seen);
   void addTriangle(const Corners& corners);
   void addBox(const TexelBox& cells, double nearest);
-  Corners cornersOf(std::uint32_t triangle) const;
+  Corners cornersOf(const FrameScene& scene, std::uint32_t triangle) const;
   TexelBox cellsAround(const glm::dvec2& low, const glm::dvec2& high) const;
 
-  const FrameScene* scene_ = nullptr;
   glm::dmat4 texelsFromRelative_{1}; ///< depths stay
   double tolerance_ = 0;             ///< of depths: planes that differ by no more are one
   int across_ = 0, up_ = 0;          ///< cells
@@ -61,9 +61,10 @@ class CasterGrid {
 };
 
 /// One a tile of the plan. They know of the tiles of lights whose lookups say "lit" wherever nothing comes nearer: of
-/// parallel light, by its automatic bias and no filter that guesses. On all cores. `casters`: parallel to the tiles.
+/// parallel light, by its automatic bias and no filter that guesses. On all cores. `casters`: parallel to the tiles;
+/// `surfaces`: what the camera sees.
 std::vector<CasterGrid> casterGrids(const FrameScene& scene, const ShadowPlan& plan,
                                     std::span<const shared::LightData> lights, std::span<const TileCasters> casters,
-                                    std::span<const std::uint32_t> seen);
+                                    const DepthBuffer& surfaces);
 
 } // namespace gnomon::cpu
