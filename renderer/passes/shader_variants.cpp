@@ -125,7 +125,11 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
 gl::ProgramSource viewProgram(const ViewVariant& variant) {
   std::vector<std::string> defines{viewDefine(variant.view)};
   defines.push_back("SAMPLES " + std::to_string(variant.samples));
-  defines.push_back(variant.lightLists ? "LIGHT_LISTS" : "LIGHT_COUNT " + std::to_string(variant.lights));
+  if (variant.lightLists) {
+    defines.emplace_back("LIGHT_LISTS");
+  } else if (variant.lights > 0) {
+    defines.push_back("LIGHT_COUNT " + std::to_string(variant.lights));
+  }
   if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);

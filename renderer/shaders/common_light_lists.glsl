@@ -13,7 +13,7 @@ uvec2 lightList() {
 
 int listedLight(uint place) { return int(lightLists[place]); }
 #else
-uvec2 lightList() { return uvec2(0u, uint(LIGHT_COUNT)); }
+uvec2 lightList() { return uvec2(0u, uint(lights.length())); }
 
 int listedLight(uint place) { return int(place); }
 #endif

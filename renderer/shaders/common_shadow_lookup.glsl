@@ -1,5 +1,11 @@
 // Where a receiver lies in a light's tiles.
+#ifdef LIGHT_COUNT
+// Its loops may be unrolled, and in an array without a length NVIDIA's driver 580 reads zeros at a constant place past the
+// first.
+layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[LIGHT_COUNT]; };
+#else
 layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
+#endif
 layout(std430, binding = GNOMON_TILE_BUFFER) readonly buffer TileBuffer { TileData tiles[]; };
 
 struct Receiver {

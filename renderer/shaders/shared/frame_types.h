@@ -14,13 +14,10 @@ using glm::vec4;
 #ifndef SAMPLES
 #define SAMPLES 1
 #endif
-#ifndef LIGHT_COUNT
-#define LIGHT_COUNT 1
-#endif
-// Tiles of the light that has most of them.
 #ifndef ATLAS_SAMPLES
 #define ATLAS_SAMPLES 1
 #endif
+// Tiles of the light that has most of them.
 #ifndef TILE_COUNT
 #define TILE_COUNT GNOMON_LIGHT_TILES
 #endif
