@@ -83,7 +83,7 @@ class Checklists(unittest.TestCase):
         self.edit("protocol/spec/enum_rows.h", r"spelling\(View::edgeDistance,.*?\),\n", '    spelling(View::scratch, "scratch", "nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
         self.edit("protocol/spec/traits.h", r"ViewTraits\{View::edgeDistance,[^\n]*\n",
-                  "    ViewTraits{View::scratch, ViewSource::data, false, false, false, false, false, false, channels::kValue, channels::kValue},\n")
+                  "    ViewTraits{View::scratch, ViewSource::data, false, false, false, false, false, false, false, channels::kValue, channels::kValue},\n")
         self.assert_fine(rows)
         # 2. What it draws, under the define that follows from its name.
         self.edit("renderer/shaders/view.frag", r"\nvec4 data\(Sample seen\) \{\n", "#ifdef VIEW_SCRATCH\n  return vec4(0.5);\n#endif\n")

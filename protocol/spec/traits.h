@@ -23,6 +23,7 @@ using ChannelNames = std::array<std::string_view, 3>;
 struct ViewTraits {
   View view;
   ViewSource source;
+  bool material;    ///< shows what surfaces are made of: their textures are needed
   bool shadowed;    ///< shows the shadow that the light's technique makes
   bool oneLight;    ///< shows debug.light alone
   bool tiles;       ///< looks into the tiles of a shadow map, whatever decides the light's shadow
@@ -44,29 +45,29 @@ inline constexpr ChannelNames kId{"id"};
 
 // clang-format off
 inline constexpr std::array kViewTraits{
-    //               view               source                shadowed light  tiles  backdrop srgb   wide   PNG              EXR
-    ViewTraits{View::color,             ViewSource::picture,  true,    false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
-    ViewTraits{View::depth,             ViewSource::data,     false,   false, false, false,   false, true,  channels::kValue,channels::kDepth},
-    ViewTraits{View::normal,            ViewSource::data,     false,   false, false, false,   false, false, channels::kRgb,  channels::kXyz},
-    ViewTraits{View::cascades,          ViewSource::picture,  true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
-    ViewTraits{View::shadow,            ViewSource::data,     true,    true,  false, false,   false, false, channels::kValue,channels::kValue},
-    ViewTraits{View::atlas,             ViewSource::atlas,    false,   false, true,  false,   false, true,  channels::kRgb,  channels::kDepth},
-    ViewTraits{View::tile,              ViewSource::atlas,    false,   true,  true,  false,   false, true,  channels::kValue,channels::kDepth},
-    ViewTraits{View::texelGrid,         ViewSource::picture,  true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
-    ViewTraits{View::texelDensity,      ViewSource::data,     false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
-    ViewTraits{View::blendWeight,       ViewSource::data,     false,   true,  true,  false,   false, false, channels::kValue,channels::kValue},
-    ViewTraits{View::bias,              ViewSource::data,     false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
-    ViewTraits{View::casterIds,         ViewSource::data,     false,   true,  true,  false,   false, true,  channels::kRgb,  channels::kId},
-    ViewTraits{View::lightContribution, ViewSource::picture,  true,    true,  false, false,   true,  false, channels::kRgb,  channels::kRgb},
-    ViewTraits{View::reference,         ViewSource::rays,     false,   true,  false, false,   false, false, channels::kValue,channels::kValue},
-    ViewTraits{View::error,             ViewSource::rays,     false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
-    ViewTraits{View::edgeDistance,      ViewSource::rays,     false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
-    ViewTraits{View::ids,               ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
-    ViewTraits{View::instances,         ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
-    ViewTraits{View::materials,         ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
-    ViewTraits{View::albedo,            ViewSource::data,     false,   false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
-    ViewTraits{View::position,          ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kXyz},
-    ViewTraits{View::motion,            ViewSource::geometry, false,   false, false, false,   false, true,  channels::kRgb,  channels::kXy},
+    //               view               source                material shadowed light  tiles  backdrop srgb   wide   PNG              EXR
+    ViewTraits{View::color,             ViewSource::picture,  true,    true,    false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::depth,             ViewSource::data,     false,   false,   false, false, false,   false, true,  channels::kValue,channels::kDepth},
+    ViewTraits{View::normal,            ViewSource::data,     true,    false,   false, false, false,   false, false, channels::kRgb,  channels::kXyz},
+    ViewTraits{View::cascades,          ViewSource::picture,  true,    true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::shadow,            ViewSource::data,     false,   true,    true,  false, false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::atlas,             ViewSource::atlas,    false,   false,   false, true,  false,   false, true,  channels::kRgb,  channels::kDepth},
+    ViewTraits{View::tile,              ViewSource::atlas,    false,   false,   true,  true,  false,   false, true,  channels::kValue,channels::kDepth},
+    ViewTraits{View::texelGrid,         ViewSource::picture,  true,    true,    true,  true,  false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::texelDensity,      ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::blendWeight,       ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::bias,              ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::casterIds,         ViewSource::data,     false,   false,   true,  true,  false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::lightContribution, ViewSource::picture,  true,    true,    true,  false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::reference,         ViewSource::rays,     false,   false,   true,  false, false,   false, false, channels::kValue,channels::kValue},
+    ViewTraits{View::error,             ViewSource::rays,     false,   false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::edgeDistance,      ViewSource::rays,     false,   false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},
+    ViewTraits{View::ids,               ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::instances,         ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::materials,         ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::albedo,            ViewSource::data,     true,    false,   false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
+    ViewTraits{View::position,          ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kXyz},
+    ViewTraits{View::motion,            ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kXy},
 };
 // clang-format on
 static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));

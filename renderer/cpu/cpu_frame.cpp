@@ -136,10 +136,9 @@ const VolumeLayers* CpuFrame::needVolumes(const ViewRequest& request) {
 }
 
 Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
-  const bool shaded = std::any_of(input.views.begin(), input.views.end(), [](const ViewRequest& request) {
-    return traitsOf(request.view).source != ViewSource::atlas;
-  });
-  if (shaded) decoding_ = cached_.textures->decodeAhead(shownTextures());
+  const bool textured = std::any_of(input.views.begin(), input.views.end(),
+                                    [](const ViewRequest& request) { return traitsOf(request.view).material; });
+  if (textured) decoding_ = cached_.textures->decodeAhead(shownTextures());
   passStart_ = Clock::now();
   TileStore none(0);
   const ShadowPlan& plan = input.plan;
@@ -209,7 +208,9 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
-  if (const Status made = cached_.textures->need(shownTextures()); !made) return made.problems();
+  if (traits.material) {
+    if (const Status made = cached_.textures->need(shownTextures()); !made) return made.problems();
+  }
   const VolumeLayers* volumes = needVolumes(request);
   const DepthBuffer& shown = surfaces(samples);
   passStart_ = Clock::now();

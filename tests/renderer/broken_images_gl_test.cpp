@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "protocol/spec/enum_rows.h"
+#include "protocol/spec/traits.h"
 #include "renderer/image/png_encode.h"
 #include "tests/renderer/frame_fixture.h"
 
@@ -19,9 +21,9 @@ testing::GlbBuilder brokenPlane(const char* alphaMode) {
   return plane;
 }
 
-std::string specOn(const char* device, const char* target) {
+std::string specOn(const char* device, const char* target, View view = View::color) {
   return R"({"width":32,"height":32,"camera":{"eye":[0,7,0],"up":[0,0,-1],"target":)" + std::string(target) +
-         R"(},"device":")" + device + "\"}";
+         R"(},"device":")" + device + R"(","views":[")" + std::string(spell(view)) + "\"]}";
 }
 
 /// Drawn by the device that the spec names.
@@ -54,6 +56,11 @@ TEST(BrokenImages, DoNotMatterWhereTheProcessorNeedNotReadThem) {
   const ScenePtr scene = testing::sceneOf(brokenPlane("OPAQUE"));
   const auto frame = rendered(scene, specOn("cpu", kUp));
   EXPECT_TRUE(frame) << frame.problems().front().detail;
+  for (const ViewTraits& view : kViewTraits) {
+    const bool needed = view.material || view.backdrop; // which is painted over the color
+    const auto shown = rendered(scene, specOn("cpu", kDown, view.view));
+    EXPECT_EQ(!shown && shown.problems()[0].pointer == "/images/0", needed) << spell(view.view);
+  }
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
 #include "renderer/cpu/show/view_squares.h"
+#include "renderer/cpu/surface/receivers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -34,26 +35,34 @@ HWY_INLINE DebugValue albedoValue(const Surface& surface) {
   return {select(surface.unlit, surface.emission, surface.baseColor), 1.0f};
 }
 
-HWY_INLINE DebugValue valueOf(const ShowJob& job, const Surface& surface) {
+HWY_INLINE DebugValue surfaceValue(const ShowJob& job, const Surface& surface) {
+  if (job.view == View::albedo) return albedoValue(surface);
+  return {job.encoded ? surface.normal * 0.5f + Float3(0.5f) : surface.normal, 1.0f};
+}
+
+HWY_INLINE DebugValue receiverValue(const ShowJob& job, const Receiver& receiver) {
   switch (job.view) {
     case View::depth:
-      return depthValue(job, surface.receiver);
-    case View::normal:
-      return {job.encoded ? surface.normal * 0.5f + Float3(0.5f) : surface.normal, 1.0f};
-    case View::albedo:
-      return albedoValue(surface);
+      return depthValue(job, receiver);
     case View::shadow:
-      return shadowValue(job, surface.receiver);
+      return shadowValue(job, receiver);
     default:
-      return debugData(debugLightOf(job), job.view, job.encoded, surface.receiver);
+      return debugData(debugLightOf(job), job.view, job.encoded, receiver);
   }
+}
+
+HWY_INLINE DebugValue valueOf(const ShowJob& job, const Packet& packet) {
+  if (traitsOf(job.view).material) return surfaceValue(job, surfaceOf(job, packet));
+  Receiver receiver = receiversOf(job.scene, packet.fragments);
+  receiver.samples = packet.samples;
+  return receiverValue(job, receiver);
 }
 
 void dataSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {
   const SampleMeans means = sampleMeans(1);
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const Packet packet = packetAt(list, i, x, y, means);
-    const DebugValue value = valueOf(job, surfaceOf(job, packet));
+    const DebugValue value = valueOf(job, packet);
     alignas(64) float shown[4][kLanes];
     store(value.color.x, shown[0]);
     store(value.color.y, shown[1]);
