@@ -6,7 +6,7 @@ import io
 import json
 import zipfile
 from pathlib import Path
-from typing import Any, Callable, Dict, Mapping, Optional, Tuple, Union, cast
+from typing import Any, Callable, Dict, Iterator, Mapping, Optional, Tuple, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -46,7 +46,7 @@ class Frame:
 
     def __init__(self, views: Mapping[str, Array], report: FrameReport, content: bytes = b"",
                  redraw: Optional[Redraw] = None, index: int = 0):
-        self.views: Dict[str, Array] = dict(views)
+        self.views = views
         self.report = report
         self.index = index  # in a sequence
         self._content = content
@@ -120,12 +120,35 @@ class Frame:
         return png.encode(self.picture())
 
 
+class StoredArrays(Mapping[str, Array]):
+    """The arrays of a .npz, each of them read when it is first asked for: who only writes a frame on waits for none."""
+
+    def __init__(self, content: bytes, names: Tuple[str, ...]):
+        self._content = content
+        self._names = names
+        self._read: Dict[str, Array] = {}
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._read:
+            with zipfile.ZipFile(io.BytesIO(self._content)) as archive:
+                self._read[name] = np.load(io.BytesIO(archive.read(f"{name}.npy")), allow_pickle=False)
+        return self._read[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
 def read_frame(content: bytes, redraw: Optional[Redraw] = None, index: int = 0) -> Frame:
     """The frame in a .npz as the server sends it, and as `save` writes it."""
-    views: Dict[str, Array] = {}
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         report = json.loads(archive.read("report.json"))
-        for name in archive.namelist():
-            if name.endswith(".npy"):
-                views[name[:-len(".npy")]] = np.load(io.BytesIO(archive.read(name)), allow_pickle=False)
-    return Frame(views, report, content, redraw, index)
+        names = tuple(name[:-len(".npy")] for name in archive.namelist() if name.endswith(".npy"))
+    return Frame(StoredArrays(content, names), report, content, redraw, index)

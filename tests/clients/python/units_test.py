@@ -4,8 +4,10 @@ import base64
 import hashlib
 import io
 import json
+import pickle
 import struct
 import unittest
+import zipfile
 import zlib
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -205,6 +207,39 @@ class Pictures(unittest.TestCase):
             with self.assertRaisesRegex(AssertionError, "shape"):
                 golden.check(picture[1:], stored, folder, golden.Tolerance(255, 255))
 
+
+class FramesTest(unittest.TestCase):
+    """Frames as they are read from an .npz."""
+
+    def stored(self):
+        content = io.BytesIO()
+        with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("report.json", '{"stages": {"shade": 2.5}}')
+            for name, value in {"color": 7, "depth": 1.5}.items():
+                with archive.open(f"{name}.npy", "w") as file:
+                    np.save(file, np.full((2, 3), value))
+        return content.getvalue()
+
+    def test_arrays_are_read_when_they_are_asked_for(self):
+        content = self.stored()
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            entry = archive.getinfo("depth.npy")
+        at = entry.header_offset + 30 + len("depth.npy") + entry.compress_size // 2
+        frame = gnomon.read_frame(content[:at] + bytes([content[at] ^ 0xff]) + content[at + 1:])
+        self.assertEqual(list(frame.views), ["color", "depth"])
+        self.assertEqual(frame.timings, {"shade": 2.5})
+        np.testing.assert_array_equal(frame.color, np.full((2, 3), 7))
+        self.assertIs(frame.color, frame.views["color"])
+        with self.assertRaises((zlib.error, zipfile.BadZipFile)):
+            frame.depth
+
+    def test_a_frame_survives_pickling(self):
+        frame = pickle.loads(pickle.dumps(gnomon.read_frame(self.stored())))
+        np.testing.assert_array_equal(frame.depth, np.full((2, 3), 1.5))
+
+    def test_a_view_that_was_not_drawn_is_named(self):
+        with self.assertRaisesRegex(AttributeError, "no 'normal'; its views are color, depth"):
+            gnomon.read_frame(self.stored()).normal
 
 if __name__ == "__main__":
     unittest.main()
