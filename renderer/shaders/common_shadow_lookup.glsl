@@ -1,7 +1,7 @@
 // Where a receiver lies in a light's tiles.
 #ifdef LIGHT_COUNT
-// Its loops may be unrolled, and in an array without a length NVIDIA's driver 580 reads zeros at a constant place past the
-// first.
+// Loops over them may be unrolled, and of an array without a length NVIDIA's driver 580 reads zeros at a constant place
+// past the first.
 layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[LIGHT_COUNT]; };
 #else
 layout(std430, binding = GNOMON_LIGHT_BUFFER) readonly buffer LightBuffer { LightData lights[]; };
