@@ -8,7 +8,6 @@
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
 #include "renderer/cpu/show/view_squares.h"
-#include "renderer/cpu/surface/receivers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -52,10 +51,8 @@ HWY_INLINE DebugValue receiverValue(const ShowJob& job, const Receiver& receiver
 }
 
 HWY_INLINE DebugValue valueOf(const ShowJob& job, const Packet& packet) {
-  if (traitsOf(job.view).material) return surfaceValue(job, surfaceOf(job, packet));
-  Receiver receiver = receiversOf(job.scene, packet.fragments);
-  receiver.samples = packet.samples;
-  return receiverValue(job, receiver);
+  return traitsOf(job.view).material ? surfaceValue(job, surfaceOf(job, packet))
+                                     : receiverValue(job, receiversOf(job, packet));
 }
 
 void dataSquareOn(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors) {

@@ -8,6 +8,7 @@
 
 #include "renderer/cpu/raster/raster.h"
 #include "renderer/cpu/show/show_view.h"
+#include "renderer/cpu/surface/receivers-inl.h"
 #include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,6 +68,13 @@ HWY_INLINE Surface surfaceOf(const ShowJob& job, const Packet& packet) {
   Surface surface = surfaceOf(job.scene, job.textures, packet.fragments);
   surface.receiver.samples = packet.samples;
   return surface;
+}
+
+/// The same without what surfaces are made of.
+HWY_INLINE Receiver receiversOf(const ShowJob& job, const Packet& packet) {
+  Receiver receiver = receiversOf(job.scene, packet.fragments);
+  receiver.samples = packet.samples;
+  return receiver;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -208,7 +208,7 @@ class Pictures(unittest.TestCase):
                 golden.check(picture[1:], stored, folder, golden.Tolerance(255, 255))
 
 
-class FramesTest(unittest.TestCase):
+class Frames(unittest.TestCase):
     """Frames as they are read from an .npz."""
 
     def stored(self):
@@ -240,6 +240,7 @@ class FramesTest(unittest.TestCase):
     def test_a_view_that_was_not_drawn_is_named(self):
         with self.assertRaisesRegex(AttributeError, "no 'normal'; its views are color, depth"):
             gnomon.read_frame(self.stored()).normal
+
 
 if __name__ == "__main__":
     unittest.main()
