@@ -10,6 +10,7 @@
 #include "renderer/cpu/shadow/map_queries.h"
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
+#include "renderer/cpu/show/read_textures.h"
 #include "renderer/cpu/shown_lights.h"
 
 namespace gnomon::cpu {
@@ -62,17 +63,19 @@ CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
 }
 
 Status CpuFrame::needHoles() {
-  std::vector<TextureImage> holes;
-  for (const int image : alphaImages(*work_.scene, view_)) holes.push_back({image, true});
+  std::vector<ReadTexture> holes;
+  for (const int image : alphaImages(*work_.scene, view_)) holes.push_back({{image, true}});
   return cached_.textures->need(holes);
 }
 
-std::vector<TextureImage> CpuFrame::shownTextures() const {
+std::vector<ReadTexture> CpuFrame::missingTextures(int samples) {
   std::vector<int> materials;
   for (std::size_t i = 0; i < scene_.slots.size(); ++i) {
     if (survey_.visible[i] != 0) materials.push_back(scene_.slots[i].material);
   }
-  return textureImages(*work_.scene, materials);
+  const std::vector<TextureImage> shown = textureImages(*work_.scene, materials);
+  if (cached_.textures->areMade(shown)) return {};
+  return readTextures(scene_, *cached_.textures, surfaces(samples), shown);
 }
 
 Result<ReceiverDepths> CpuFrame::survey() {
@@ -136,9 +139,11 @@ const VolumeLayers* CpuFrame::needVolumes(const ViewRequest& request) {
 }
 
 Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
-  const bool textured = std::any_of(input.views.begin(), input.views.end(),
-                                    [](const ViewRequest& request) { return traitsOf(request.view).material; });
-  if (textured) decoding_ = cached_.textures->decodeAhead(shownTextures());
+  const auto textured = std::find_if(input.views.begin(), input.views.end(),
+                                     [](const ViewRequest& request) { return traitsOf(request.view).material; });
+  if (textured != input.views.end()) {
+    decoding_ = cached_.textures->makeAhead(missingTextures(samplesOf(*textured)));
+  }
   passStart_ = Clock::now();
   TileStore none(0);
   const ShadowPlan& plan = input.plan;
@@ -209,7 +214,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
   if (traits.material) {
-    if (const Status made = cached_.textures->need(shownTextures()); !made) return made.problems();
+    if (const Status made = cached_.textures->need(missingTextures(samples)); !made) return made.problems();
   }
   const VolumeLayers* volumes = needVolumes(request);
   const DepthBuffer& shown = surfaces(samples);

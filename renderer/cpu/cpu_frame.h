@@ -51,8 +51,9 @@ class CpuFrame : public FrameDrawing {
   CameraRaster camera() const;
   CastInput castInput(const ShadowPlan& plan) const;
   DepthBuffer& surfaces(int samples);
-  Status needHoles();                              ///< textures that tell where surfaces have holes
-  std::vector<TextureImage> shownTextures() const; ///< of all that may be seen
+  Status needHoles(); ///< textures that tell where surfaces have holes
+  /// Of all that may be seen, where some of them were never read; none else: kernels make levels that they lack.
+  std::vector<ReadTexture> missingTextures(int samples);
   Status needLayers(int samples);
   const VolumeLayers* needVolumes(const ViewRequest& request); ///< null where the view knows none
   int samplesOf(const ViewRequest& request) const;             ///< a pixel

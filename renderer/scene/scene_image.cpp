@@ -14,29 +14,52 @@ SceneImage::SceneImage(CheckedImage file, std::string pointer)
           std::uint64_t{4} * static_cast<std::uint64_t>(size_.width) * static_cast<std::uint64_t>(size_.height),
           std::uint64_t{file.picture.size()})),
       pointer_(std::move(pointer)),
-      file_(std::move(file)) {}
+      file_(std::make_shared<const CheckedImage>(std::move(file))) {}
 
 SceneImage::SceneImage(Image decoded)
     : size_{decoded.width, decoded.height},
       bytes_(std::get<std::vector<std::uint8_t>>(decoded.pixels).size()),
-      decoded_(std::move(decoded)) {}
+      decoded_(std::make_shared<const Image>(std::move(decoded))) {}
 
-const Result<Image>& SceneImage::decoded() const {
+SceneImage::Pixels SceneImage::decodedFrom(const CheckedImage& file) const {
+  auto image = decodeImage(file);
+  if (image) return std::make_shared<const Image>(*std::move(image));
+  return locatedImageProblems(std::move(image).problems(), pointer_);
+}
+
+const SceneImage::Pixels& SceneImage::decoded() const {
   std::call_once(once_, [this] {
     if (decoded_) return;
-    decoded_ = decodeImage(*file_);
+    decoded_ = decodedFrom(*file_);
+    const std::lock_guard lock(mutex_);
     file_.reset();
   });
   return *decoded_;
 }
 
+Problem SceneImage::noMemory() const {
+  return {ProblemCode::tooLarge, pointer_, "There is not enough memory for this image."};
+}
+
 Status SceneImage::decode() const {
   try {
-    const Result<Image>& image = decoded();
-    if (image) return Done{};
-    return locatedImageProblems(image.problems(), pointer_);
+    if (const Pixels& pixels = decoded(); !pixels) return pixels.problems();
+    return Done{};
   } catch (const std::bad_alloc&) {
-    return Problem{ProblemCode::tooLarge, pointer_, "There is not enough memory for this image."};
+    return noMemory();
+  }
+}
+
+Result<std::shared_ptr<const Image>> SceneImage::read() const {
+  std::shared_ptr<const CheckedImage> file;
+  {
+    const std::lock_guard lock(mutex_);
+    file = file_;
+  }
+  try {
+    return file ? decodedFrom(*file) : decoded();
+  } catch (const std::bad_alloc&) {
+    return noMemory();
   }
 }
 

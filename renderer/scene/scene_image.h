@@ -15,7 +15,7 @@
 namespace gnomon {
 
 /// A picture of a scene's file, whose size and structure have been checked. Its pixels are decoded when they are first
-/// asked for: once, from any thread; the encoded bytes are gone then.
+/// asked for, from any thread.
 class SceneImage {
  public:
   /// `pointer`: its place in the file, for problems.
@@ -28,20 +28,28 @@ class SceneImage {
   /// The most that it takes: its pixels, or its file where that is larger.
   std::uint64_t bytes() const { return bytes_; }
 
-  /// Decodes it now, if that has not been done. A problem, at its place in the file, where its data are broken.
+  /// Decodes it now, if that has not been done, and keeps the pixels instead of the encoded bytes. A problem, at its
+  /// place in the file, where its data are broken.
   Status decode() const;
   /// 8-bit RGBA. REQUIRES: decode() gives no problem.
-  const Image& pixels() const { return *decoded(); }
+  const Image& pixels() const { return **decoded(); }
+
+  /// The same for a caller who needs them but once: those that are kept, or decoded and not kept.
+  Result<std::shared_ptr<const Image>> read() const;
 
  private:
-  const Result<Image>& decoded() const;
+  using Pixels = Result<std::shared_ptr<const Image>>;
+  const Pixels& decoded() const;
+  Pixels decodedFrom(const CheckedImage& file) const;
+  Problem noMemory() const;
 
   ImageSize size_;
   std::uint64_t bytes_ = 0;
   std::string pointer_;
   mutable std::once_flag once_;
-  mutable std::optional<CheckedImage> file_;
-  mutable std::optional<Result<Image>> decoded_;
+  mutable std::mutex mutex_;                         ///< of `file_`
+  mutable std::shared_ptr<const CheckedImage> file_; ///< none once the pixels are kept
+  mutable std::optional<Pixels> decoded_;
 };
 
 /// Puts the place in the glTF on problems of the codec, which knows only bytes.

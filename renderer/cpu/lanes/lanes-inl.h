@@ -165,6 +165,40 @@ HWY_INLINE Int loadRows(const std::uint16_t* first, std::size_t stride) {
   constexpr hn::Rebind<std::uint16_t, IntTag> words;
   GNOMON_EACH_PART(Int, r, hn::PromoteTo(kInts, hn::Load(words, rows + i * kPerPart)));
 }
+/// Four numbers for each lane: `four[k]` holds the one that lies `k` behind base[index]. Of numbers that lie together
+/// they are read far sooner than each by a gather of its own.
+HWY_INLINE void gatherFours(const float* base, const Int& index, Float (&four)[4]) {
+  constexpr hn::Full128<float> quad;
+  constexpr hn::RepartitionToWide<FloatTag> pairs;
+  alignas(64) std::int32_t at[kLanes];
+  store(index, at);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    // Row j: the numbers of lane j, of lane 4 + j and so on, a block each.
+    hn::Vec<FloatTag> rows[4];
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::int32_t* lane = at + i * kPerPart + j;
+      const auto read = [&](std::size_t block) HWY_ATTR { return hn::LoadU(quad, base + lane[4 * block]); };
+#if HWY_MAX_BYTES >= 64
+      constexpr hn::Half<FloatTag> half;
+      rows[j] = hn::Combine(kFloats, hn::Combine(half, read(3), read(2)), hn::Combine(half, read(1), read(0)));
+#elif HWY_MAX_BYTES == 32
+      rows[j] = hn::Combine(kFloats, read(1), read(0));
+#else
+      rows[j] = read(0);
+#endif
+    }
+    const auto lower = [&](const auto& a, const auto& b)
+                           HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveLower(kFloats, a, b)); };
+    const auto upper = [&](const auto& a, const auto& b)
+                           HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveUpper(kFloats, a, b)); };
+    const auto first = lower(rows[0], rows[1]), second = lower(rows[2], rows[3]);
+    const auto third = upper(rows[0], rows[1]), last = upper(rows[2], rows[3]);
+    four[0].part[i] = hn::BitCast(kFloats, hn::InterleaveLower(pairs, first, second));
+    four[1].part[i] = hn::BitCast(kFloats, hn::InterleaveUpper(pairs, first, second));
+    four[2].part[i] = hn::BitCast(kFloats, hn::InterleaveLower(pairs, third, last));
+    four[3].part[i] = hn::BitCast(kFloats, hn::InterleaveUpper(pairs, third, last));
+  }
+}
 /// 0, 1, ... 15.
 HWY_INLINE Int laneNumbers() {
   GNOMON_EACH_PART(Int, r, hn::Iota(kInts, static_cast<std::int32_t>(i * kPerPart)));

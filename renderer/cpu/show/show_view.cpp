@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "renderer/core/parallel.h"
 #include "renderer/cpu/show/srgb_bytes.h"
 #include "renderer/cpu/show/view_squares.h"
 #include "renderer/device/view_image.h"
@@ -40,22 +39,6 @@ void writeBytes(const TileBytes& bytes, int x, int y, Image& image, std::vector<
   }
 }
 
-/// Calls `each(list, x, y)` with the fragments of every square of the picture.
-template <class Each>
-void forEachSquare(const ShowJob& job, const Each& each) {
-  const auto across = static_cast<std::size_t>((job.scene.width + kTileSide - 1) / kTileSide);
-  const auto up = static_cast<std::size_t>((job.scene.height + kTileSide - 1) / kTileSide);
-  forEachPiece(across * up, 8, [&](std::size_t first, std::size_t last) {
-    FragmentList list;
-    for (std::size_t i = first; i < last; ++i) {
-      const int x = static_cast<int>(i % across) * kTileSide;
-      const int y = static_cast<int>(i / across) * kTileSide;
-      listFragments(job.buffer, x, y, list);
-      each(list, x, y);
-    }
-  });
-}
-
 /// `turned`: what is written of a square's colors.
 template <class T, class Turn, class Write>
 void fill(const ShowJob& job, Image& image, const Turn& turned, const Write& write) {
@@ -69,7 +52,7 @@ void fill(const ShowJob& job, Image& image, const Turn& turned, const Write& wri
   };
   const bool alike = picture && job.volumes.empty(); // squares that show no surface
   const auto background = square(FragmentList{}, 0, 0);
-  forEachSquare(job, [&](const FragmentList& list, int x, int y) {
+  forEachSquare(job.buffer, [&](const FragmentList& list, int x, int y) {
     if (alike && list.count == 0) {
       write(background, x, y, pixels);
     } else {

@@ -39,9 +39,12 @@ HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std:
   if (material.hasVertexColors) alpha *= corners.color(meeting).a;
   if (!material.baseColor || material.baseColor->image < 0) return alpha;
   const TextureUse& use = *material.baseColor;
-  const TextureSpot spot = spotOf(corners, meeting, stepsOf(sight, seen, meeting), use.texCoord);
-  return alpha * sampledAlpha(textures.of(use.image, true), use,
-                              use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where);
+  const SpotsOfSets spots = spotsOf(corners, meeting, stepsOf(sight, seen, meeting));
+  const TextureSpot& spot = spots.of[use.texCoord == 0 ? 0 : 1];
+  const Texture& texture = textures.of(use.image, true);
+  Taps taps;
+  findTaps(texture, use, use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where, taps);
+  return alpha * sampled<kAlpha>(texture, taps).a;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

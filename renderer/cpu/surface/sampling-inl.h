@@ -9,7 +9,8 @@
 #include <algorithm>
 
 #include "renderer/cpu/lanes/vectors-inl.h"
-#include "renderer/cpu/surface/textures.h"
+#include "renderer/cpu/surface/texture.h"
+#include "renderer/scene/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -20,10 +21,8 @@ struct Texel {
   Float a{0.0f};
 };
 
-/// Of a texel its alpha alone.
-struct TexelAlpha {
-  Float a{0.0f};
-};
+/// What is read of a texel, a bit each: the others stay 0.
+enum Channels : unsigned { kRed = 1, kGreen = 2, kBlue = 4, kAlpha = 8, kColor = 7, kAllChannels = 15 };
 
 /// Where a texture is read, and how that moves as the picture's place moves by a pixel to the right and up.
 struct TextureSpot {
@@ -67,46 +66,59 @@ HWY_INLINE Axis axisOf(const Float& coordinate, Wrap wrap, int size, bool neares
   return axis;
 }
 
+/// The texels of a level that each place lies between, and their weights.
+struct LevelTaps {
+  std::size_t level;
+  std::size_t count; ///< four, or the nearest alone
+  Int at[4];
+  Float weight[4];
+};
+
+/// What is read of a texture. Of one of the same size that is read alike it is the same.
+struct Taps {
+  static constexpr std::size_t kMost = 34; ///< each size once, and the largest by another filter
+  std::size_t count = 0;
+  std::size_t finest = 0; ///< the largest level among them
+  LevelTaps of[kMost];
+};
+
+HWY_INLINE void setTaps(const TextureUse& use, int width, int height, bool nearest, const Float2& uv,
+                        const Float& weight, LevelTaps& taps) {
+  const Axis x = axisOf(uv.x, use.wrapS, width, nearest);
+  const Axis y = axisOf(uv.y, use.wrapT, height, nearest);
+  taps.count = nearest ? 1 : 4;
+  const Int first = y.first * Int(width);
+  taps.at[0] = first + x.first;
+  taps.weight[0] = weight;
+  if (nearest) return;
+  const Int second = y.second * Int(width);
+  const Float upper = weight * (1.0f - y.share), lower = weight * y.share;
+  taps.at[1] = first + x.second;
+  taps.at[2] = second + x.first;
+  taps.at[3] = second + x.second;
+  taps.weight[0] = upper * (1.0f - x.share);
+  taps.weight[1] = upper * x.share;
+  taps.weight[2] = lower * (1.0f - x.share);
+  taps.weight[3] = lower * x.share;
+}
+
 /// Adds the texels of a level at those places, times `weight`; of bytes.
+template <unsigned channels>
 HWY_INLINE void addTexels(const TextureLevel& level, bool srgb, const Int& at, const Float& weight, Texel& sum) {
   const Int bits = gather(level.texels, at);
-  const Int byte(255);
-  Float r = toFloat(bits & byte);
-  Float g = toFloat(shiftRight<8>(bits) & byte);
-  Float b = toFloat(shiftRight<16>(bits) & byte);
-  if (srgb) {
-    r = decoded(r);
-    g = decoded(g);
-    b = decoded(b);
-  }
-  sum.rgb.x = mulAdd(r, weight, sum.rgb.x);
-  sum.rgb.y = mulAdd(g, weight, sum.rgb.y);
-  sum.rgb.z = mulAdd(b, weight, sum.rgb.z);
-  sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(bits)), weight, sum.a);
-}
-
-HWY_INLINE void addTexels(const TextureLevel& level, bool, const Int& at, const Float& weight, TexelAlpha& sum) {
-  sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(gather(level.texels, at))), weight, sum.a);
-}
-
-template <class Sum>
-HWY_INLINE void addLevel(const TextureLevel& level, bool srgb, const TextureUse& use, bool nearest, const Float2& uv,
-                         const Float& weight, Sum& sum) {
-  const Axis x = axisOf(uv.x, use.wrapS, level.width, nearest);
-  const Axis y = axisOf(uv.y, use.wrapT, level.height, nearest);
-  const Int first = y.first * Int(level.width);
-  if (nearest) return addTexels(level, srgb, first + x.first, weight, sum);
-  const Int second = y.second * Int(level.width);
-  const Float upper = weight * (1.0f - y.share), lower = weight * y.share;
-  addTexels(level, srgb, first + x.first, upper * (1.0f - x.share), sum);
-  addTexels(level, srgb, first + x.second, upper * x.share, sum);
-  addTexels(level, srgb, second + x.first, lower * (1.0f - x.share), sum);
-  addTexels(level, srgb, second + x.second, lower * x.share, sum);
+  const auto add = [&](const Int& byte, Float& to) HWY_ATTR {
+    const Float number = toFloat(byte);
+    to = mulAdd(srgb ? decoded(number) : number, weight, to);
+  };
+  if (channels & kRed) add(bits & Int(255), sum.rgb.x);
+  if (channels & kGreen) add(shiftRight<8>(bits) & Int(255), sum.rgb.y);
+  if (channels & kBlue) add(shiftRight<16>(bits) & Int(255), sum.rgb.z);
+  if (channels & kAlpha) sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(bits)), weight, sum.a);
 }
 
 /// How often the texture is halved until a texel is as large as a pixel; below 0 it is shown larger than it is.
-HWY_INLINE Float levelOfDetail(const TextureLevel& base, const TextureSpot& spot) {
-  const Float2 size(Float(static_cast<float>(base.width)), Float(static_cast<float>(base.height)));
+HWY_INLINE Float levelOfDetail(const Texture& texture, const TextureSpot& spot) {
+  const Float2 size(Float(static_cast<float>(texture.width())), Float(static_cast<float>(texture.height())));
   const Float2 right = spot.right * size, up = spot.up * size;
   const Float squared = max(dot(right, right), dot(up, up));
   return 0.5f * log2(clamp(squared, 1e-20f, 1e20f));
@@ -117,36 +129,73 @@ inline bool nearestTexel(MinFilter filter) {
          filter == MinFilter::nearestMipmapNearest;
 }
 
-/// The texture's bytes at each place. Lanes differ in their levels by few, so all lanes read one level at a time.
-template <class Sum>
-HWY_INLINE Sum bytesAt(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot, const Mask& where) {
-  // Not a number compares as false: what a triangle without area leads to is some texel.
-  const Mask placed = (abs(spot.uv.x) < 1e6f) & (abs(spot.uv.y) < 1e6f);
-  const Float2 uv = select(placed, spot.uv, Float2(Float(0.0f)));
-  const float last = static_cast<float>(texture.levels.size() - 1);
-  const Float detail = levelOfDetail(texture.levels[0], spot);
-  const Mask larger = detail <= 0.0f;
+/// Which sizes of a texture each place reads.
+struct ReadLevels {
+  Mask larger;           ///< it is shown larger than it is, by a filter of its own
+  Float level;           ///< where levels are blended, with the share of the next
+  Float lowest, highest; ///< the levels that are read where it is not
+  bool ownFilter;        ///< what is shown larger and smaller differ by their filters
+};
+
+HWY_INLINE ReadLevels levelsOf(const Texture& texture, const TextureUse& use, const TextureSpot& spot) {
+  const Float detail = levelOfDetail(texture, spot);
   const bool mipmapped = use.minFilter != MinFilter::linear && use.minFilter != MinFilter::nearest;
   const bool blended =
       use.minFilter == MinFilter::linearMipmapLinear || use.minFilter == MinFilter::nearestMipmapLinear;
-  Float level(0.0f); // and where levels are blended, the share of the next
-  if (mipmapped) level = clamp(blended ? detail : ceil(detail - 0.5f), 0.0f, last);
+  const auto last = static_cast<float>(texture.levels() - 1);
+  ReadLevels read;
+  read.larger = detail <= 0.0f;
+  const Float smaller = mipmapped ? clamp(blended ? detail : ceil(detail - 0.5f), 0.0f, last) : Float(0.0f);
+  read.level = select(detail > 0.0f, smaller, 0.0f); // not of what is not a number
+  read.lowest = floor(read.level);
+  read.highest = blended ? ceil(read.level) : read.level;
+  read.ownFilter = use.nearest != nearestTexel(use.minFilter);
+  return read;
+}
 
-  Sum sum{};
-  const auto add = [&](const TextureLevel& from, bool nearest, const Mask& lanes, const Float& weight) HWY_ATTR {
-    addLevel(from, texture.srgb, use, nearest, uv, select(lanes, weight, Float(0.0f)), sum);
+/// The largest level that the lanes `where` read; one of them is set.
+HWY_INLINE std::size_t finestRead(const Texture& texture, const TextureUse& use, const TextureSpot& spot,
+                                  const Mask& where) {
+  return static_cast<std::size_t>(leastOf(where, levelsOf(texture, use, spot).lowest));
+}
+
+/// Lanes differ in their levels by few, so all lanes read one level at a time.
+inline HWY_NOINLINE void findTaps(const Texture& texture, const TextureUse& use, const TextureSpot& spot,
+                                  const Mask& where, Taps& taps) {
+  // Not a number compares as false: what a triangle without area leads to is some texel.
+  const Mask placed = (abs(spot.uv.x) < 1e6f) & (abs(spot.uv.y) < 1e6f);
+  const Float2 uv = select(placed, spot.uv, Float2(Float(0.0f)));
+  const ReadLevels read = levelsOf(texture, use, spot);
+  taps.count = 0;
+  const auto add = [&](std::size_t level, bool nearest, const Mask& lanes, const Float& weight) HWY_ATTR {
+    LevelTaps& of = taps.of[taps.count++];
+    of.level = level;
+    setTaps(use, std::max(texture.width() >> level, 1), std::max(texture.height() >> level, 1), nearest, uv,
+            select(lanes, weight, Float(0.0f)), of);
   };
-  // What is shown larger and smaller than it is differ where their filters do.
-  const bool sameFilter = use.nearest == nearestTexel(use.minFilter);
-  if (!sameFilter && any(larger & where)) add(texture.levels[0], use.nearest, larger, 1.0f);
-  const Mask levelled = sameFilter ? where : andNot(larger, where);
-  const Float lowest = floor(level);
-  const Float highest = blended ? ceil(level) : level;
-  for (std::size_t i = 0; i < texture.levels.size(); ++i) {
-    const Float number(static_cast<float>(i));
-    const Mask reads = levelled & (lowest <= number) & (highest >= number);
-    if (none(reads)) continue;
-    add(texture.levels[i], nearestTexel(use.minFilter), reads, 1.0f - abs(level - number));
+  if (read.ownFilter && any(read.larger & where)) add(0, use.nearest, read.larger, 1.0f);
+  const Mask levelled = read.ownFilter ? andNot(read.larger, where) : where;
+  if (any(levelled)) {
+    const auto first = static_cast<std::size_t>(leastOf(levelled, read.lowest));
+    const auto last = static_cast<std::size_t>(mostOf(levelled, read.highest));
+    for (std::size_t i = first; i <= last; ++i) {
+      const Float number(static_cast<float>(i));
+      const Mask reads = levelled & (read.lowest <= number) & (read.highest >= number);
+      if (any(reads)) add(i, nearestTexel(use.minFilter), reads, 1.0f - abs(read.level - number));
+    }
+  }
+  taps.finest = taps.count > 0 ? taps.of[0].level : texture.levels() - 1;
+}
+
+/// The texture's bytes at each place.
+template <unsigned channels>
+HWY_INLINE Texel bytesAt(const Texture& texture, const Taps& taps) {
+  const Pyramid& pyramid = texture.from(taps.finest);
+  Texel sum{};
+  for (std::size_t i = 0; i < taps.count; ++i) {
+    const LevelTaps& of = taps.of[i];
+    const TextureLevel& level = pyramid.levels.data()[of.level];
+    for (std::size_t k = 0; k < of.count; ++k) addTexels<channels>(level, texture.srgb(), of.at[k], of.weight[k], sum);
   }
   return sum;
 }
@@ -154,16 +203,10 @@ HWY_INLINE Sum bytesAt(const Pyramid& texture, const TextureUse& use, const Text
 inline constexpr float kOfByte = 1.0f / 255.0f;
 
 /// The texture at each place.
-inline HWY_NOINLINE Texel sampled(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot,
-                                  const Mask& where) {
-  const Texel bytes = bytesAt<Texel>(texture, use, spot, where);
-  return {bytes.rgb * Float(texture.srgb ? 1.0f : kOfByte), bytes.a * kOfByte};
-}
-
-/// Its alpha, to the bit.
-inline HWY_NOINLINE Float sampledAlpha(const Pyramid& texture, const TextureUse& use, const TextureSpot& spot,
-                                       const Mask& where) {
-  return bytesAt<TexelAlpha>(texture, use, spot, where).a * kOfByte;
+template <unsigned channels>
+inline HWY_NOINLINE Texel sampled(const Texture& texture, const Taps& taps) {
+  const Texel bytes = bytesAt<channels>(texture, taps);
+  return {bytes.rgb * Float(texture.srgb() ? 1.0f : kOfByte), bytes.a * kOfByte};
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

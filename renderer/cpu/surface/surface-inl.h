@@ -69,7 +69,20 @@ class InstanceSurface {
     findTextureSpots();
   }
 
-  HWY_INLINE Surface surface(const Fragments& fragments) const {
+  /// Calls each(texture, use, spot) for the textures that the material reads.
+  template <class Each>
+  HWY_INLINE void forEachTexture(const Each& each) const {
+    const auto tell = [&](const std::optional<TextureUse>& use, std::size_t unit, bool srgb) HWY_ATTR {
+      if (use && use->image >= 0) each(TextureImage{use->image, srgb}, *use, spotOfUse(*use, unit));
+    };
+    tell(material_.baseColor, GNOMON_BASE_COLOR_UNIT, true);
+    tell(material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, material_.specularGlossiness.has_value());
+    tell(material_.normal, GNOMON_NORMAL_UNIT, false);
+    tell(material_.occlusion, GNOMON_OCCLUSION_UNIT, false);
+    tell(material_.emissive, GNOMON_EMISSIVE_UNIT, true);
+  }
+
+  HWY_INLINE Surface surface(const Fragments& fragments) {
     Surface s;
     s.receiver.shown = fragments.shown;
     const bool central = all((fragments.place.x == fragments.center.x) & (fragments.place.y == fragments.center.y));
@@ -94,44 +107,50 @@ class InstanceSurface {
     return sight.spreads ? seen_ : seenFrom(sight.origin - seen_.triangle.corner, seen_.triangle);
   }
 
-  /// What materials read of a vertex's coordinates: those of sets that they use.
   HWY_INLINE void findTextureSpots() {
-    bool used[2] = {};
-    for (const auto* use : {&material_.baseColor, &material_.metallicRoughness, &material_.normal, &material_.occlusion,
-                            &material_.emissive}) {
-      if (*use) used[(*use)->texCoord == 0 ? 0 : 1] = true;
-    }
-    if (!used[0] && !used[1]) return;
-    steps_ = stepsOf(sight_, seen_, meeting_);
-    for (int set = 0; set < 2; ++set) {
-      if (used[set]) spots_[set] = spotOf(corners_, meeting_, steps_, set);
-    }
+    const bool used = material_.baseColor || material_.metallicRoughness || material_.normal || material_.occlusion ||
+                      material_.emissive;
+    if (used) spots_ = spotsOf(corners_, meeting_, steps_ = stepsOf(sight_, seen_, meeting_));
   }
 
   HWY_INLINE TextureSpot spotOfUse(const TextureUse& use, std::size_t unit) const {
-    const TextureSpot& spot = spots_[use.texCoord == 0 ? 0 : 1];
+    const TextureSpot& spot = spots_.of[use.texCoord == 0 ? 0 : 1];
     return use.transform ? moved(data_, unit, spot) : spot;
   }
-  HWY_INLINE Texel texel(const TextureUse& use, std::size_t unit, bool srgb) const {
-    if (use.image < 0) return {Float3(0.0f), Float(1.0f)};
-    return sampled(textures_.of(use.image, srgb), use, spotOfUse(use, unit), own_);
+  /// Materials mostly read all their textures alike.
+  HWY_INLINE const Taps& tapsOf(const Texture& texture, const TextureUse& use, std::size_t unit) {
+    const bool same = tapped_ != nullptr && readAlike(*tapped_, use) && tappedWidth_ == texture.width() &&
+                      tappedHeight_ == texture.height();
+    if (!same) {
+      findTaps(texture, use, spotOfUse(use, unit), own_, taps_);
+      tapped_ = &use;
+      tappedWidth_ = texture.width();
+      tappedHeight_ = texture.height();
+    }
+    return taps_;
   }
 
-  HWY_INLINE Float3 shadingNormal(const Float3& face) const {
+  template <unsigned channels>
+  HWY_INLINE Texel texel(const TextureUse& use, std::size_t unit, bool srgb) {
+    if (use.image < 0) return {Float3(0.0f), Float(1.0f)};
+    const Texture& texture = textures_.of(use.image, srgb);
+    return sampled<channels>(texture, tapsOf(texture, use, unit));
+  }
+
+  HWY_INLINE Float3 shadingNormal(const Float3& face) {
     const Float3 own = corners_.direction(placed_.normalFromLocal, offsetof(VertexAttributes, normal), meeting_, face);
     const Float3 n = material_.doubleSided ? select(dot(own, face) < 0.0f, -own, own) : own;
     return material_.normal ? directionOf(bent(n, *material_.normal), n) : n;
   }
 
-  HWY_INLINE Float3 bent(const Float3& n, const TextureUse& use) const {
-    Float3 direction = texel(use, GNOMON_NORMAL_UNIT, false).rgb * 2.0f - Float3(1.0f);
+  HWY_INLINE Float3 bent(const Float3& n, const TextureUse& use) {
+    Float3 direction = texel<kColor>(use, GNOMON_NORMAL_UNIT, false).rgb * 2.0f - Float3(1.0f);
     direction.x *= data_.surface.z;
     direction.y *= data_.surface.z;
     if (tangents_) {
-      const Float3 tangent =
-          turned(placed_.relativeFromLocal, corners_.triple(offsetof(VertexAttributes, tangent), meeting_));
-      const Float sign = corners_.number(offsetof(VertexAttributes, tangent) + 3 * sizeof(float), meeting_);
-      return bentByTangent(n, tangent, sign, direction);
+      const Corners::Fields tangent = corners_.fields(offsetof(VertexAttributes, tangent));
+      return bentByTangent(n, turned(placed_.relativeFromLocal, tangent.triple(meeting_)), tangent.of[3].at(meeting_),
+                           direction);
     }
     const TextureSpot spot = spotOfUse(use, GNOMON_NORMAL_UNIT);
     const auto movedPlace = [&](const Float2& step)
@@ -139,19 +158,19 @@ class InstanceSurface {
     return bentBySteps(n, movedPlace(steps_.right), movedPlace(steps_.up), spot.right, spot.up, direction);
   }
 
-  HWY_INLINE Float3 ownColor() const {
+  HWY_INLINE Float3 ownColor() {
     Float3 color{glm::vec3(data_.baseColorFactor)};
-    if (material_.baseColor) color = color * texel(*material_.baseColor, GNOMON_BASE_COLOR_UNIT, true).rgb;
+    if (material_.baseColor) color = color * texel<kColor>(*material_.baseColor, GNOMON_BASE_COLOR_UNIT, true).rgb;
     if (material_.hasVertexColors) color = color * corners_.color(meeting_).rgb;
     return color;
   }
 
   /// Turns the diffuse color into a base color.
-  HWY_INLINE void addGlossiness(Float3& color, Float& metallic, Float& roughness) const {
+  HWY_INLINE void addGlossiness(Float3& color, Float& metallic, Float& roughness) {
     Float3 specular{glm::vec3(data_.specularGlossiness)};
     Float glossiness(data_.specularGlossiness.w);
     if (material_.metallicRoughness) {
-      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, true);
+      const Texel factor = texel<kAllChannels>(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, true);
       specular = specular * factor.rgb;
       glossiness *= factor.a;
     }
@@ -160,18 +179,19 @@ class InstanceSurface {
     roughness = 1.0f - glossiness;
   }
 
-  HWY_INLINE void addMaterial(Surface& s) const {
+  HWY_INLINE void addMaterial(Surface& s) {
     Float3 color = ownColor();
     Float metallic(data_.surface.x), roughness(data_.surface.y);
     if (material_.specularGlossiness) {
       addGlossiness(color, metallic, roughness);
     } else if (material_.metallicRoughness) {
-      const Texel factor = texel(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, false);
+      const Texel factor = texel<kGreen | kBlue>(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, false);
       metallic *= factor.rgb.z;
       roughness *= factor.rgb.y;
     }
     s.emission = Float3(glm::vec3(data_.emissiveFactor));
-    if (material_.emissive) s.emission = s.emission * texel(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
+    if (material_.emissive)
+      s.emission = s.emission * texel<kColor>(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
     s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
     if (material_.unlit) {
       s.emission = color;
@@ -187,7 +207,7 @@ class InstanceSurface {
     s.roughness = clamp(roughness, 0.0f, 1.0f);
     s.occlusion = 1.0f;
     if (material_.occlusion) {
-      const Float open = texel(*material_.occlusion, GNOMON_OCCLUSION_UNIT, false).rgb.x;
+      const Float open = texel<kRed>(*material_.occlusion, GNOMON_OCCLUSION_UNIT, false).rgb.x;
       s.occlusion = clamp(mix(Float(1.0f), open, data_.surface.w), 0.0f, 1.0f);
     }
   }
@@ -204,8 +224,11 @@ class InstanceSurface {
   Sight sight_;
   SeenTriangle seen_; ///< relative to the eye, along sight_
   Meeting meeting_;
-  MeetingSteps steps_;   ///< where textures are used
-  TextureSpot spots_[2]; ///< of the sets of coordinates that textures use
+  MeetingSteps steps_; ///< where textures are used
+  SpotsOfSets spots_;  ///< there, too
+  const TextureUse* tapped_ = nullptr;
+  int tappedWidth_ = 0, tappedHeight_ = 0;
+  Taps taps_; ///< of a texture of that size, used like `tapped_`
 };
 
 /// Lanes that show something else hold anything.

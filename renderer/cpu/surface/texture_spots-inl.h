@@ -14,10 +14,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// By the vertices' own coordinates of a set, 0 or 1.
-HWY_INLINE TextureSpot spotOf(const Corners& corners, const Meeting& meeting, const MeetingSteps& steps, int set) {
-  const std::size_t offset = set == 0 ? offsetof(VertexAttributes, uv0) : offsetof(VertexAttributes, uv1);
-  return {corners.pair(offset, meeting), corners.moved(offset, steps.right), corners.moved(offset, steps.up)};
+/// Whether two textures of one size are read at the same places, alike.
+inline bool readAlike(const TextureUse& a, const TextureUse& b) {
+  return a.texCoord == b.texCoord && a.wrapS == b.wrapS && a.wrapT == b.wrapT && a.nearest == b.nearest &&
+         a.minFilter == b.minFilter && a.transform == b.transform;
+}
+
+/// By the vertices' own coordinates, of both sets.
+struct SpotsOfSets {
+  TextureSpot of[2];
+};
+HWY_INLINE SpotsOfSets spotsOf(const Corners& corners, const Meeting& meeting, const MeetingSteps& steps) {
+  static_assert(offsetof(VertexAttributes, uv1) == offsetof(VertexAttributes, uv0) + 2 * sizeof(float));
+  const Corners::Fields fields = corners.fields(offsetof(VertexAttributes, uv0));
+  SpotsOfSets spots;
+  for (std::size_t set = 0; set < 2; ++set) {
+    const Field& u = fields.of[2 * set];
+    const Field& v = fields.of[2 * set + 1];
+    spots.of[set] = {{u.at(meeting), v.at(meeting)},
+                     {u.moved(steps.right), v.moved(steps.right)},
+                     {u.moved(steps.up), v.moved(steps.up)}};
+  }
+  return spots;
 }
 
 /// KHR_texture_transform of one of a material's textures (GNOMON_..._UNIT).

@@ -27,6 +27,15 @@ HWY_INLINE TriangleOf<V> placed(const glm::vec4 (&rows)[3], const TriangleOf<V>&
           turned(rows, local.edge2)};
 }
 
+/// A number that a triangle's vertices have, from corner to corner.
+struct Field {
+  Float first, toSecond, toThird;
+
+  HWY_INLINE Float at(const Meeting& m) const { return mulAdd(toSecond, m.u, mulAdd(toThird, m.v, first)); }
+  /// How it changes by a step of u and v.
+  HWY_INLINE Float moved(const Float2& step) const { return toSecond * step.x + toThird * step.y; }
+};
+
 /// Vertices of triangles. Where all lanes have one triangle, its numbers are read once.
 class Corners {
  public:
@@ -55,17 +64,27 @@ class Corners {
     return seenFrom(sight.origin - Float3(one.corner), inAllLanes(one));
   }
 
-  /// Fields of VertexAttributes, a float each, by their offset; interpolated at a meeting.
-  HWY_INLINE Float number(std::size_t offset, const Meeting& m) const {
-    if (!same_) return blend(attribute(offset, 0), attribute(offset, 1), attribute(offset, 2), m);
-    const float first = oneNumber(offset, 0);
-    return mulAdd(Float(oneNumber(offset, 1) - first), m.u, mulAdd(Float(oneNumber(offset, 2) - first), m.v, first));
-  }
-  HWY_INLINE Float2 pair(std::size_t offset, const Meeting& m) const {
-    return {number(offset, m), number(offset + sizeof(float), m)};
-  }
-  HWY_INLINE Float3 triple(std::size_t offset, const Meeting& m) const {
-    return {number(offset, m), number(offset + sizeof(float), m), number(offset + 2 * sizeof(float), m)};
+  /// Four of the vertices' numbers, whose first lies at this offset of VertexAttributes.
+  struct Fields {
+    Field of[4];
+
+    HWY_INLINE Float3 triple(const Meeting& m) const { return {of[0].at(m), of[1].at(m), of[2].at(m)}; }
+  };
+  HWY_INLINE Fields fields(std::size_t offset) const {
+    Fields fields;
+    if (same_) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const float first = oneNumber(offset, 0, k);
+        fields.of[k] = {first, oneNumber(offset, 1, k) - first, oneNumber(offset, 2, k) - first};
+      }
+      return fields;
+    }
+    Float corner[3][4];
+    for (int c = 0; c < 3; ++c) readFours(offset, c, corner[c]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      fields.of[k] = {corner[0][k], corner[1][k] - corner[0][k], corner[2][k] - corner[0][k]};
+    }
+    return fields;
   }
 
   /// A triple, turned by the rows of a matrix and of unit length; `otherwise` where it has no direction. Of one flat
@@ -78,7 +97,7 @@ class Corners {
         return directionOf(turned(rows, first), otherwise);
       }
     }
-    return directionOf(turned(rows, triple(offset, m)), otherwise);
+    return directionOf(turned(rows, fields(offset).triple(m)), otherwise);
   }
 
   /// The normal of their planes, unit length, on the eye's side.
@@ -89,31 +108,20 @@ class Corners {
     return select(dot(face, toEye) < 0.0f, -face, face);
   }
 
-  /// How a pair changes by a step of u and v.
-  HWY_INLINE Float2 moved(std::size_t offset, const Float2& step) const {
-    Float2 result;
-    Float* out[] = {&result.x, &result.y};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t field = offset + axis * sizeof(float);
-      const Float first = attribute(field, 0);
-      *out[axis] = (attribute(field, 1) - first) * step.x + (attribute(field, 2) - first) * step.y;
-    }
-    return result;
-  }
-
   struct Color {
     Float3 rgb;
     Float a;
   };
   HWY_INLINE Color color(const Meeting& m) const {
+    constexpr std::size_t kBefore = 2; // numbers: the last four end with the color
+    static_assert(offsetof(VertexAttributes, color) + 2 * sizeof(float) == sizeof(VertexAttributes));
+    Float corner[3][4];
+    for (int c = 0; c < 3; ++c) readFours(offsetof(VertexAttributes, color) - kBefore * sizeof(float), c, corner[c]);
     Float channels[4];
     for (std::size_t two = 0; two < 2; ++two) {
-      Int bits[3];
-      for (int c = 0; c < 3; ++c) {
-        bits[c] = bitsOf(attribute(offsetof(VertexAttributes, color) + two * sizeof(float), c));
-      }
       const auto half = [&](int c, bool upper) HWY_ATTR {
-        return toFloat(upper ? shiftRightUnsigned<16>(bits[c]) : bits[c] & Int(0xffff)) * (1.0f / 65535.0f);
+        const Int bits = bitsOf(corner[c][kBefore + two]);
+        return toFloat(upper ? shiftRightUnsigned<16>(bits) : bits & Int(0xffff)) * (1.0f / 65535.0f);
       };
       channels[2 * two] = blend(half(0, false), half(1, false), half(2, false), m);
       channels[2 * two + 1] = blend(half(0, true), half(1, true), half(2, true), m);
@@ -124,8 +132,18 @@ class Corners {
  private:
   HWY_INLINE Triangle eachTriangle() const {
     const float* positions = &scene_.scene.positions.data()->x;
+    const Int last(static_cast<std::int32_t>(scene_.scene.positions.size() - 1)); // behind which nothing lies
     Float3 p[3];
-    for (int c = 0; c < 3; ++c) p[c] = {at(positions, 3, c), at(positions + 1, 3, c), at(positions + 2, 3, c)};
+    for (int c = 0; c < 3; ++c) {
+      const Int at = each_[c] * 3;
+      if (any(each_[c] == last)) {
+        p[c] = {gather(positions, at), gather(positions + 1, at), gather(positions + 2, at)};
+      } else {
+        Float numbers[4];
+        gatherFours(positions, at, numbers);
+        p[c] = {numbers[0], numbers[1], numbers[2]};
+      }
+    }
     return {p[0], p[1] - p[0], p[2] - p[0]};
   }
   HWY_INLINE TriangleOf<glm::vec3> oneTriangle() const {
@@ -133,8 +151,8 @@ class Corners {
     const glm::vec3 corner = positions[one_[0]];
     return {corner, positions[one_[1]] - corner, positions[one_[2]] - corner};
   }
-  HWY_INLINE float oneNumber(std::size_t offset, int corner) const {
-    return oneAttributes(corner)[offset / sizeof(float)];
+  HWY_INLINE float oneNumber(std::size_t offset, int corner, std::size_t behind) const {
+    return oneAttributes(corner)[offset / sizeof(float) + behind];
   }
   HWY_INLINE glm::vec3 oneTriple(std::size_t offset, int corner) const {
     const float* numbers = oneAttributes(corner) + offset / sizeof(float);
@@ -146,14 +164,15 @@ class Corners {
   static HWY_INLINE Float blend(const Float& a, const Float& b, const Float& c, const Meeting& m) {
     return mulAdd(b - a, m.u, mulAdd(c - a, m.v, a));
   }
-  HWY_INLINE Float at(const float* base, int stride, int corner) const {
-    return same_ ? Float(base[static_cast<std::size_t>(one_[corner]) * static_cast<std::size_t>(stride)])
-                 : gather(base, each_[corner] * stride);
-  }
-  HWY_INLINE Float attribute(std::size_t offset, int corner) const {
+  HWY_INLINE void readFours(std::size_t offset, int corner, Float (&numbers)[4]) const {
     static_assert(sizeof(VertexAttributes) % sizeof(float) == 0);
-    const auto* attributes = reinterpret_cast<const float*>(scene_.scene.attributes.data());
-    return at(attributes + offset / sizeof(float), sizeof(VertexAttributes) / sizeof(float), corner);
+    constexpr std::size_t kNumbers = sizeof(VertexAttributes) / sizeof(float);
+    if (same_) {
+      for (std::size_t k = 0; k < 4; ++k) numbers[k] = oneNumber(offset, corner, k);
+    } else {
+      const auto* attributes = reinterpret_cast<const float*>(scene_.scene.attributes.data());
+      gatherFours(attributes + offset / sizeof(float), each_[corner] * static_cast<int>(kNumbers), numbers);
+    }
   }
 
   const FrameScene& scene_;

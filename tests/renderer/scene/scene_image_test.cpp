@@ -47,6 +47,18 @@ TEST(SceneImage, KnowsItsSizeAndDecodesOnceForAllThreads) {
   EXPECT_EQ(std::get<0>(image->pixels().pixels)[0], 7);
 }
 
+TEST(SceneImage, ForAReaderWhoNeedsThemOnceItsPixelsAreNotKept) {
+  const auto image = imageOf(pngOf(20, 7), "/images/0");
+  const auto once = image->read();
+  ASSERT_TRUE(once);
+  EXPECT_EQ(std::get<0>((*once)->pixels)[0], 7);
+  EXPECT_EQ(once->use_count(), 1);
+  EXPECT_NE(once->get(), &image->pixels());
+  const auto kept = image->read();
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->get(), &image->pixels()) << "what is kept is not decoded again";
+}
+
 TEST(SceneImage, CountsAFileThatIsLargerThanItsPixels) {
   const auto image = imageOf(pngOf(1, 7), "/images/0");
   EXPECT_GT(image->bytes(), 4u);
@@ -57,6 +69,7 @@ TEST(SceneImage, TellsOfBrokenPixelsEachTimeTheyAreAskedFor) {
                            imageOf(brokenPng(4), "/images/5")};
   for (int i = 0; i < 2; ++i) {
     const std::vector<int> all{0, 1, 2};
+    EXPECT_EQ(images[1]->read().problems().front().pointer, "/images/1");
     const Status decoded = decodeImages(images, all);
     ASSERT_FALSE(decoded);
     EXPECT_THAT(decoded.problems(), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/1"),

@@ -39,7 +39,7 @@ class Place {
   }
   glm::vec4 texel(const std::optional<TextureUse>& use, bool srgb) const {
     if (!use) return glm::vec4(1);
-    return glm::vec4(sampledTruth(textures_.of(use->image, srgb), *use, coordinates(*use, seen_.weights, 1),
+    return glm::vec4(sampledTruth(textures_.of(use->image, srgb).from(0), *use, coordinates(*use, seen_.weights, 1),
                                   coordinates(*use, right_, 0), coordinates(*use, up_, 0)));
   }
   glm::vec3 normal(const glm::vec3& face) const {

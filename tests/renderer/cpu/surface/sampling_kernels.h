@@ -9,6 +9,6 @@ namespace gnomon::cpu {
 inline constexpr std::size_t kSamplingInputs = 6;
 
 /// Red, green, blue and alpha of sampling-inl.h, and alpha read alone.
-NumberTable sampledByLanes(const Pyramid& texture, const TextureUse& use, const NumberTable& in);
+NumberTable sampledByLanes(const Texture& texture, const TextureUse& use, const NumberTable& in);
 
 } // namespace gnomon::cpu

@@ -19,7 +19,7 @@ TextureUse useOf(int image, int texCoord, bool transformed) {
 
 /// Those of odd numbers have tangents of their own (MadeScene).
 std::vector<Material> texturedMaterials() {
-  std::vector<Material> materials(5);
+  std::vector<Material> materials(8);
   materials[0].baseColor = useOf(0, 0, false);
   materials[0].normal = useOf(1, 0, true);
   materials[1].normal = useOf(1, 1, false);
@@ -36,6 +36,20 @@ std::vector<Material> texturedMaterials() {
   materials[3].emissiveFactor = {1, 2, 3};
   materials[4].unlit = true;
   materials[4].baseColor = useOf(0, 0, true);
+  // Read alike, and each time alike but for one thing.
+  Material& alike = materials[5];
+  alike.baseColor = alike.metallicRoughness = alike.normal = alike.occlusion = alike.emissive = useOf(0, 0, false);
+  alike.emissiveFactor = {1, 1, 1};
+  materials[6] = alike;
+  materials[6].metallicRoughness->wrapS = Wrap::clampToEdge;
+  materials[6].normal->wrapT = Wrap::mirroredRepeat;
+  materials[6].occlusion->minFilter = MinFilter::linearMipmapNearest;
+  materials[6].emissive->nearest = true;
+  materials[7] = alike;
+  materials[7].metallicRoughness = useOf(2, 0, false);
+  materials[7].normal = useOf(3, 0, false);
+  materials[7].occlusion = useOf(3, 1, false);
+  materials[7].emissive = useOf(3, 1, true);
   return materials;
 }
 
@@ -73,7 +87,7 @@ TEST(CpuTexturedSurface, ReadsItsTexturesWhereThePictureShowsThem) {
                                          kOcclusion};
   for (const bool perspective : {true, false}) {
     MadeScene made(perspective);
-    made.place(texturedMaterials(), {noise(32, 64), noise(19, 16)});
+    made.place(texturedMaterials(), {noise(32, 64), noise(19, 16), noise(32, 16), noise(64, 16)});
     const std::vector<MadeScene::Seen> seen = made.seen(16'000);
     const FragmentInput in = made.fragmentsOf(seen);
     onEachInstructionSet([&] {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "renderer/core/unfilled.h"
+#include "renderer/image/image.h"
+
+namespace gnomon::cpu {
+
+/// One size of a texture. RGBA, 8 bits each, red in the lowest; row by row from the image's first, which is at v = 0.
+struct TextureLevel {
+  const std::uint32_t* texels = nullptr; ///< null: this size is not there
+  int width = 0;
+  int height = 0;
+};
+
+/// A texture in all of its sizes: the image's own, then halves, rounded down, to one texel.
+struct Pyramid {
+  using Texels = UnfilledVector<std::uint32_t>;
+
+  bool srgb = false;
+  std::size_t finest = 0;                           ///< the first level that is there; all smaller ones are
+  std::vector<TextureLevel> levels;                 ///< the first is as large as the image
+  std::vector<std::shared_ptr<const Texels>> owned; ///< what they point to, one a level; null for the image's own
+};
+
+/// How many sizes an image of this size has.
+std::size_t levelsOf(int width, int height);
+
+/// Whether work is shared out. One core alone where a parallel loop is running already.
+enum class Cores { one, all };
+
+/// The smaller levels average in linear light where the image is sRGB, as OpenGL's do. Levels from `finest` on are
+/// made, but for those that `known`, an earlier one of the same image, has already. With `finest` 0 the image outlives
+/// it.
+Pyramid pyramidOf(const Image& image, bool srgb, std::size_t finest = 0, const Pyramid& known = {},
+                  Cores cores = Cores::one);
+
+} // namespace gnomon::cpu
