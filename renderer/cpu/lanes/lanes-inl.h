@@ -165,6 +165,40 @@ HWY_INLINE Int loadRows(const std::uint16_t* first, std::size_t stride) {
   constexpr hn::Rebind<std::uint16_t, IntTag> words;
   GNOMON_EACH_PART(Int, r, hn::PromoteTo(kInts, hn::Load(words, rows + i * kPerPart)));
 }
+/// A vector of the blocks of sixteen bytes that `read(i)` gives.
+template <class Tag, class Read>
+HWY_INLINE hn::Vec<Tag> eachBlock(Tag tag, const Read& read) {
+#if HWY_MAX_BYTES >= 64
+  constexpr hn::Half<Tag> half;
+  return hn::Combine(tag, hn::Combine(half, read(3), read(2)), hn::Combine(half, read(1), read(0)));
+#elif HWY_MAX_BYTES == 32
+  return hn::Combine(tag, read(1), read(0));
+#else
+  (void)tag;
+  return read(0);
+#endif
+}
+/// Two numbers for each lane, base[index] and the one behind it. They are read far sooner than by two gathers.
+HWY_INLINE void gatherTwos(const std::uint32_t* base, const Int& index, Int& first, Int& second) {
+  constexpr hn::Full64<std::int32_t> pair;
+  constexpr hn::Full128<std::int32_t> quad;
+  alignas(64) std::int32_t at[kLanes];
+  store(index, at);
+  const auto* numbers = reinterpret_cast<const std::int32_t*>(base);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    // In each block the pairs of two of its four lanes: the first and the third, or the second and the last.
+    const auto pairsFrom = [&](std::size_t lane) HWY_ATTR {
+      const auto read = [&](std::size_t block) HWY_ATTR {
+        const std::int32_t* own = at + i * kPerPart + 4 * block + lane;
+        return hn::Combine(quad, hn::LoadU(pair, numbers + own[2]), hn::LoadU(pair, numbers + own[0]));
+      };
+      return eachBlock(kInts, read);
+    };
+    const auto even = pairsFrom(0), odd = pairsFrom(1);
+    first.part[i] = hn::OddEven(hn::Shuffle2301(odd), even);
+    second.part[i] = hn::OddEven(odd, hn::Shuffle2301(even));
+  }
+}
 /// Four numbers for each lane: `four[k]` holds the one that lies `k` behind base[index]. Of numbers that lie together
 /// they are read far sooner than each by a gather of its own.
 HWY_INLINE void gatherFours(const float* base, const Int& index, Float (&four)[4]) {
@@ -177,15 +211,7 @@ HWY_INLINE void gatherFours(const float* base, const Int& index, Float (&four)[4
     hn::Vec<FloatTag> rows[4];
     for (std::size_t j = 0; j < 4; ++j) {
       const std::int32_t* lane = at + i * kPerPart + j;
-      const auto read = [&](std::size_t block) HWY_ATTR { return hn::LoadU(quad, base + lane[4 * block]); };
-#if HWY_MAX_BYTES >= 64
-      constexpr hn::Half<FloatTag> half;
-      rows[j] = hn::Combine(kFloats, hn::Combine(half, read(3), read(2)), hn::Combine(half, read(1), read(0)));
-#elif HWY_MAX_BYTES == 32
-      rows[j] = hn::Combine(kFloats, read(1), read(0));
-#else
-      rows[j] = read(0);
-#endif
+      rows[j] = eachBlock(kFloats, [&](std::size_t block) HWY_ATTR { return hn::LoadU(quad, base + lane[4 * block]); });
     }
     const auto lower = [&](const auto& a, const auto& b)
                            HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveLower(kFloats, a, b)); };

@@ -70,6 +70,7 @@ HWY_INLINE Axis axisOf(const Float& coordinate, Wrap wrap, int size, bool neares
 struct LevelTaps {
   std::size_t level;
   std::size_t count; ///< four, or the nearest alone
+  bool adjacent;     ///< the second lies behind the first, the last behind the third
   Int at[4];
   Float weight[4];
 };
@@ -87,6 +88,7 @@ HWY_INLINE void setTaps(const TextureUse& use, int width, int height, bool neare
   const Axis x = axisOf(uv.x, use.wrapS, width, nearest);
   const Axis y = axisOf(uv.y, use.wrapT, height, nearest);
   taps.count = nearest ? 1 : 4;
+  taps.adjacent = !nearest && all(x.second == x.first + Int(1));
   const Int first = y.first * Int(width);
   taps.at[0] = first + x.first;
   taps.weight[0] = weight;
@@ -102,10 +104,9 @@ HWY_INLINE void setTaps(const TextureUse& use, int width, int height, bool neare
   taps.weight[3] = lower * x.share;
 }
 
-/// Adds the texels of a level at those places, times `weight`; of bytes.
+/// Adds texels times `weight`; of bytes.
 template <unsigned channels>
-HWY_INLINE void addTexels(const TextureLevel& level, bool srgb, const Int& at, const Float& weight, Texel& sum) {
-  const Int bits = gather(level.texels, at);
+HWY_INLINE void addTexels(const Int& bits, bool srgb, const Float& weight, Texel& sum) {
   const auto add = [&](const Int& byte, Float& to) HWY_ATTR {
     const Float number = toFloat(byte);
     to = mulAdd(srgb ? decoded(number) : number, weight, to);
@@ -114,6 +115,22 @@ HWY_INLINE void addTexels(const TextureLevel& level, bool srgb, const Int& at, c
   if (channels & kGreen) add(shiftRight<8>(bits) & Int(255), sum.rgb.y);
   if (channels & kBlue) add(shiftRight<16>(bits) & Int(255), sum.rgb.z);
   if (channels & kAlpha) sum.a = mulAdd(toFloat(shiftRightUnsigned<24>(bits)), weight, sum.a);
+}
+
+template <unsigned channels>
+HWY_INLINE void addTaps(const TextureLevel& level, bool srgb, const LevelTaps& taps, Texel& sum) {
+  if (taps.adjacent) {
+    for (std::size_t row = 0; row < 4; row += 2) {
+      Int first, second;
+      gatherTwos(level.texels, taps.at[row], first, second);
+      addTexels<channels>(first, srgb, taps.weight[row], sum);
+      addTexels<channels>(second, srgb, taps.weight[row + 1], sum);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < taps.count; ++i) {
+    addTexels<channels>(gather(level.texels, taps.at[i]), srgb, taps.weight[i], sum);
+  }
 }
 
 /// How often the texture is halved until a texel is as large as a pixel; below 0 it is shown larger than it is.
@@ -193,9 +210,7 @@ HWY_INLINE Texel bytesAt(const Texture& texture, const Taps& taps) {
   const Pyramid& pyramid = texture.from(taps.finest);
   Texel sum{};
   for (std::size_t i = 0; i < taps.count; ++i) {
-    const LevelTaps& of = taps.of[i];
-    const TextureLevel& level = pyramid.levels.data()[of.level];
-    for (std::size_t k = 0; k < of.count; ++k) addTexels<channels>(level, texture.srgb(), of.at[k], of.weight[k], sum);
+    addTaps<channels>(pyramid.levels.data()[taps.of[i].level], texture.srgb(), taps.of[i], sum);
   }
   return sum;
 }
