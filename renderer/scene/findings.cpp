@@ -36,6 +36,12 @@ void Findings::take(Problems problems) {
   for (Problem& problem : problems) refuse(std::move(problem));
 }
 
+void Findings::take(Findings other) {
+  take(std::move(other.problems_));
+  for (std::string& warning : other.warnings_) warn(std::move(warning));
+  unsaidWarnings_ += other.unsaidWarnings_;
+}
+
 void Findings::warn(std::string sentence) {
   if (std::find(warnings_.begin(), warnings_.end(), sentence) != warnings_.end()) return;
   if (warnings_.size() < kMaxWarnings) {

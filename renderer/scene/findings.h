@@ -16,6 +16,7 @@ class Findings {
   void tooLarge(std::string pointer, std::string detail, std::string limit, std::string actual);
   void unsupported(std::string pointer, std::string detail);
   void take(Problems problems);
+  void take(Findings other); ///< as if all of it had been found here
 
   /// One sentence; said once, however often it is reported.
   void warn(std::string sentence);

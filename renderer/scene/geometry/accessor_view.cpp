@@ -87,7 +87,7 @@ int componentsOf(ElementType type) {
   return 0;
 }
 
-const std::uint8_t* AccessorView::bytesOfElement(std::size_t element) const {
+const std::uint8_t* AccessorView::sparseBytes(std::size_t element) const {
   const std::size_t indexBytes = bytesOf(sparseIndexType);
   std::size_t first = 0;
   std::size_t last = sparseCount;
@@ -101,12 +101,16 @@ const std::uint8_t* AccessorView::bytesOfElement(std::size_t element) const {
       last = middle;
     }
   }
-  return data ? data + element * stride : nullptr;
+  return nullptr;
 }
 
 glm::dvec4 AccessorView::read(std::size_t element, glm::dvec4 missing) const {
   assert(element < count && components > 0);
   const std::uint8_t* bytes = bytesOfElement(element);
+  if (bytes && componentType == ComponentType::float32) { // nearly all
+    for (int i = 0; i < components; ++i) missing[i] = load<float>(bytes + sizeof(float) * static_cast<std::size_t>(i));
+    return missing;
+  }
   const std::size_t step = bytesOf(componentType);
   for (int i = 0; i < components; ++i) {
     missing[i] = bytes ? componentAt(bytes + static_cast<std::size_t>(i) * step, componentType, normalized) : 0.0;

@@ -42,7 +42,11 @@ struct AccessorView {
   std::uint32_t readIndex(std::size_t element) const;
 
  private:
-  const std::uint8_t* bytesOfElement(std::size_t element) const;
+  const std::uint8_t* bytesOfElement(std::size_t element) const {
+    if (const std::uint8_t* own = sparseCount == 0 ? nullptr : sparseBytes(element)) return own;
+    return data ? data + element * stride : nullptr;
+  }
+  const std::uint8_t* sparseBytes(std::size_t element) const; ///< null: it is not among the sparse ones
 };
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "renderer/scene/geometry/mesh_build.h"
 
 #include <algorithm>
+#include <bit>
 #include <meshoptimizer.h>
 #include <numeric>
 #include <span>
@@ -87,18 +88,26 @@ int appendKnown(const KnownContent::Mesh& known, int material, Scene& scene) {
   return static_cast<int>(scene.primitives.size()) - 1;
 }
 
-/// A primitive between being read and being appended.
+/// A primitive on its way from the file into the scene.
 struct ReadPrimitive {
   const PrimitiveSource& source;
   BuiltMesh& of;
-  TriangleMesh mesh;
   std::string content{};                     ///< empty = it may not be kept for other files
   std::optional<KnownContent::Mesh> known{}; ///< instead of `mesh`
+  TriangleMesh mesh{};
   Outline outline{};
+  Findings findings{};
 };
 
-/// Primitives are read and appended one after the other, and worked on in parallel in between: so many at a time that
-/// there is work to share and little memory lies in between.
+void readVertices(ReadPrimitive& of) {
+  of.mesh = buildVertices(of.source, of.findings);
+  if (of.mesh.indices.empty()) return;
+  of.mesh = ordered(std::move(of.mesh));
+  if (!of.source.deforms()) of.outline = outlineOf(of.mesh);
+}
+
+/// Primitives are read in parallel and appended one after the other: so many at a time that there is work to share and
+/// little memory lies in between.
 class MeshBuilder {
  public:
   MeshBuilder(int defaultMaterial, Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
@@ -112,29 +121,21 @@ class MeshBuilder {
   void read(const PrimitiveSource& source, BuiltMesh& of) {
     stopIfAsked();
     std::string content = known_ != nullptr ? meshContent(source) : std::string();
-    if (auto known = content.empty() ? std::nullopt : known_->mesh(content)) {
-      read_.push_back({source, of, {}, std::move(content), std::move(known)});
-      return;
-    }
-    const std::size_t said = findings_.count();
-    TriangleMesh mesh = buildVertices(source, findings_);
-    if (mesh.indices.empty()) return;
-    if (findings_.count() != said) content.clear(); // what it says must be said for each file
-    corners_ += mesh.indices.size();
-    read_.push_back({source, of, std::move(mesh), std::move(content)});
+    auto known = content.empty() ? std::nullopt : known_->mesh(content);
+    if (!known) corners_ += source.corners();
+    read_.push_back({source, of, std::move(content), std::move(known)});
     if (corners_ >= kMostCorners) build();
   }
 
   void build() {
     forEach(read_.size(), [&](std::size_t i) {
-      ReadPrimitive& each = read_[i];
-      if (each.known) return;
-      each.mesh = ordered(std::move(each.mesh));
-      if (!each.source.deforms()) each.outline = outlineOf(each.mesh);
+      if (!read_[i].known) readVertices(read_[i]);
     });
     for (ReadPrimitive& each : read_) {
       stopIfAsked();
-      add(each);
+      if (each.findings.count() > 0) each.content.clear(); // what it says must be said for each file
+      findings_.take(std::move(each.findings));
+      if (each.known || !each.mesh.indices.empty()) add(each);
     }
     read_.clear();
     corners_ = 0;
@@ -189,19 +190,37 @@ std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource
 
 namespace {
 
+/// The vertices of a cluster, ascending; `indices` become places among them.
+std::vector<std::uint32_t> numberAnew(std::span<std::uint32_t> indices) {
+  const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
+  const std::uint32_t first = *least;
+  constexpr std::uint32_t kBits = 64;
+  std::vector<std::uint64_t> used((*most - first) / kBits + 1);
+  for (const std::uint32_t vertex : indices)
+    used[(vertex - first) / kBits] |= std::uint64_t{1} << (vertex - first) % kBits;
+  std::vector<std::uint32_t> before(used.size()); // how many lie in the words before each
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t word = 0; word < used.size(); ++word) {
+    before[word] = static_cast<std::uint32_t>(vertices.size());
+    for (std::uint64_t bits = used[word]; bits != 0; bits &= bits - 1) {
+      vertices.push_back(first + static_cast<std::uint32_t>(word) * kBits +
+                         static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+  }
+  for (std::uint32_t& vertex : indices) {
+    const std::size_t word = (vertex - first) / kBits;
+    const std::uint64_t lower = (std::uint64_t{1} << (vertex - first) % kBits) - 1;
+    vertex = before[word] + static_cast<std::uint32_t>(std::popcount(used[word] & lower));
+  }
+  return vertices;
+}
+
 /// Reorders the triangles of one cluster. Its vertices are numbered anew for that, so that the library's tables are as
 /// small as the cluster.
 void orderCluster(std::span<std::uint32_t> indices) {
-  std::vector<std::uint32_t> vertices(indices.begin(), indices.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::vector<std::uint32_t> local(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    local[i] =
-        static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), indices[i]) - vertices.begin());
-  }
-  std::vector<std::uint32_t> sorted(local.size());
-  meshopt_optimizeVertexCache(sorted.data(), local.data(), local.size(), vertices.size());
+  const std::vector<std::uint32_t> vertices = numberAnew(indices);
+  std::vector<std::uint32_t> sorted(indices.size());
+  meshopt_optimizeVertexCache(sorted.data(), indices.data(), indices.size(), vertices.size());
   for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = vertices[sorted[i]];
 }
 
