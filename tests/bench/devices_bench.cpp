@@ -9,6 +9,7 @@
 #include "renderer/passes/gl_device.h"
 #include "tests/bench/device_facts.h"
 #include "tests/bench/gnomon_process.h"
+#include "tests/bench/hall_scene.h"
 #include "tests/bench/svg_plot.h"
 #include "tests/support/files.h"
 
@@ -198,7 +199,7 @@ int main(int argc, char** argv) {
     std::sort(descriptions.begin(), descriptions.end());
     for (const fs::path& description : descriptions) scenes.push_back(orbitScene(description));
     const BenchScene busy = scenes.empty() ? city : scenes.front();
-    scenes.insert(scenes.end(), {demo, city});
+    scenes.insert(scenes.end(), {hallScene(build / "tests"), demo, city});
     if (!only.empty()) {
       std::erase_if(scenes, [&](const BenchScene& scene) {
         return std::find(only.begin(), only.end(), scene.name) == only.end();
