@@ -225,6 +225,13 @@ HWY_INLINE void gatherFours(const float* base, const Int& index, Float (&four)[4
     four[3].part[i] = hn::BitCast(kFloats, hn::InterleaveUpper(pairs, third, last));
   }
 }
+/// The reverse, for lanes that follow each other: four numbers of the first lane, four of the second and so on.
+HWY_INLINE void storeFours(const Float (&four)[4], float* to) {
+  for (std::size_t i = 0; i < kParts; ++i) {
+    hn::StoreInterleaved4(four[0].part[i], four[1].part[i], four[2].part[i], four[3].part[i], kFloats,
+                          to + 4 * i * kPerPart);
+  }
+}
 /// 0, 1, ... 15.
 HWY_INLINE Int laneNumbers() {
   GNOMON_EACH_PART(Int, r, hn::Iota(kInts, static_cast<std::int32_t>(i * kPerPart)));

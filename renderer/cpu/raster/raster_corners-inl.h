@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/core/unfilled.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "renderer/cpu/raster/raster_view.h"
 
@@ -19,8 +20,9 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// The corners of a draw's vertices. One that lies outside of what may be rastered has no place, and is clipped with
 /// its triangle.
 struct PlacedCorners {
-  std::vector<float> x, y; ///< 1/256 of a pixel from the picture's lower left corner; kNowhere = has no place
-  std::vector<float> z;
+  /// Four numbers a corner: x and y, 1/256 of a pixel from the picture's lower left corner, x = kNowhere where it has
+  /// no place; z; and one that means nothing.
+  UnfilledVector<float> places;
   std::vector<std::uint32_t> sources; ///< corner k is of vertex sources[k]; empty = of vertex first + k
   std::uint32_t first = 0;
 
@@ -63,9 +65,7 @@ HWY_INLINE VertexRun vertexRun(const std::uint32_t* indices, std::size_t count) 
 HWY_INLINE void placeCorners(const RasterView& view, const glm::mat4& m, std::span<const glm::vec3> vertices,
                              std::size_t count, PlacedCorners& out) {
   const std::size_t whole = (count + kLanes - 1) / kLanes * kLanes;
-  for (std::vector<float>* values : {&out.x, &out.y, &out.z}) {
-    if (values->size() < whole) values->resize(whole);
-  }
+  if (out.places.size() < 4 * whole) out.places.resize(4 * whole);
   const glm::vec2 guard(view.guard());
   const glm::vec2 middle(view.middle());
   const float* positions = &vertices[0].x;
@@ -88,9 +88,9 @@ HWY_INLINE void placeCorners(const RasterView& view, const glm::mat4& m, std::sp
     Mask inside = (w > 0.0f) & (abs(x) <= w * guard.x) & (abs(y) <= w * guard.y);
     if (view.range == DepthRange::reversed) inside = inside & (z >= 0.0f) & (z <= w);
     const Float over = Float(1.0f) / select(inside, w, 1.0f);
-    store(select(inside, mulAdd(x * over, middle.x, middle.x), kNowhere), &out.x[i]);
-    store(mulAdd(y * over, middle.y, middle.y), &out.y[i]);
-    store(z * over, &out.z[i]);
+    const Float place[4] = {select(inside, mulAdd(x * over, middle.x, middle.x), kNowhere),
+                            mulAdd(y * over, middle.y, middle.y), z * over, Float(0.0f)};
+    storeFours(place, &out.places[4 * i]);
   }
 }
 

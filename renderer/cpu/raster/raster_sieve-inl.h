@@ -20,6 +20,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 struct Sieved {
   Int at[3];        ///< of their corners in PlacedCorners
   Float x[3], y[3]; ///< 1/256 of a pixel
+  Float z[3];
   Int snappedX[3], snappedY[3];
   Int area;                         ///< twice, signed; means something where they are small
   Int firstX, firstY, lastX, lastY; ///< pixels that they may cover a sample of
@@ -62,7 +63,7 @@ class TriangleSieve {
       const Mask candidates = real & ((close & faces & sampled) | andNot(close, sampled | !placed));
       if (none(candidates)) continue;
       const Mask kept = touching(s, corners, t, candidates, close & broad, clipOf);
-      if (any(kept)) setUp(s, corners, t, kept);
+      if (any(kept)) setUp(s, t, kept);
     }
   }
 
@@ -80,8 +81,11 @@ class TriangleSieve {
       if (indices != nullptr) at = at - Int(static_cast<std::int32_t>(corners.first));
     }
     for (int c = 0; c < 3; ++c) {
-      s.x[c] = gather(corners.x.data(), s.at[c]);
-      s.y[c] = gather(corners.y.data(), s.at[c]);
+      Float place[4];
+      gatherFours(corners.places.data(), s.at[c] * 4, place);
+      s.x[c] = place[0];
+      s.y[c] = place[1];
+      s.z[c] = place[2];
       s.snappedX[c] = nearest(s.x[c]);
       s.snappedY[c] = nearest(s.y[c]);
     }
@@ -152,16 +156,17 @@ class TriangleSieve {
                                                    const ClipOf& clipOf) const {
     std::array<WideCorner, 3> wide;
     for (std::size_t c = 0; c < 3; ++c) {
-      wide[c].at = glm::dvec2(corners.x[own[c]], corners.y[own[c]]);
-      wide[c].z = static_cast<double>(corners.z[own[c]]);
-      wide[c].placed = corners.x[own[c]] > kNowhere;
+      const float* place = &corners.places[4 * std::size_t{own[c]}];
+      wide[c].at = glm::dvec2(place[0], place[1]);
+      wide[c].z = static_cast<double>(place[2]);
+      wide[c].placed = place[0] > kNowhere;
       wide[c].clip = clipOf(own[c]);
     }
     return wide;
   }
 
   /// Puts the fields of the triangles `kept`, one behind the other, into the group.
-  HWY_INLINE void setUp(const Sieved& s, const PlacedCorners& corners, std::uint32_t t, const Mask& kept) {
+  HWY_INLINE void setUp(const Sieved& s, std::uint32_t t, const Mask& kept) {
     const std::size_t end = group_.small.end();
     float* const to = group_.small.at(end);
     const Packing packing(kept);
@@ -193,9 +198,7 @@ class TriangleSieve {
         put(static_cast<std::size_t>(kLeastValues + i * view_.samples + k), toFloat(Int(0) - own));
       }
     }
-    Float z[3];
-    for (int c = 0; c < 3; ++c) z[c] = gather(corners.z.data(), s.at[c]);
-    const Float p[3] = {z[0], corner(z, 1), corner(z, 2)};
+    const Float p[3] = {s.z[0], corner(s.z, 1), corner(s.z, 2)};
     putPlane(s, turned, p, toFloat(originX), toFloat(originY), put);
     putInt(kFirstBlock, firstColumn | shiftLeft<14>(firstRow));
     const Int flags = select(turned, Int(static_cast<std::int32_t>(kTurned)), Int(0)) |
