@@ -42,6 +42,27 @@ void laneGroups(const NumberTable& in, NumberTable& out) {
   }
 }
 
+void together(const NumberTable& in, NumberTable& out) {
+  const float* numbers = in.column(0);
+  for (std::size_t row = 0; row < in.rows; row += kLanes) {
+    alignas(64) std::int32_t places[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      places[lane] = static_cast<std::int32_t>((row + lane) * kPlaceStep % (in.rows - 3));
+    }
+    const Int at = load(places);
+    Float four[4];
+    gatherFours(numbers, at, four);
+    for (std::size_t k = 0; k < 4; ++k) store(four[k], out.column(k) + row);
+    Int first, second;
+    gatherTwos(reinterpret_cast<const std::uint32_t*>(numbers), at, first, second);
+    store(floatOf(first), out.column(4) + row);
+    store(floatOf(second), out.column(5) + row);
+    alignas(64) float rows[4 * kLanes];
+    storeFours(four, rows);
+    for (std::size_t i = 0; i < 4 * kLanes; ++i) out.column(6 + i % 4)[row + i / 4] = rows[i];
+  }
+}
+
 void directions(const NumberTable& in, NumberTable& out) {
   for (std::size_t row = 0; row < in.rows; row += kLanes) {
     const Float3 v(load(in.column(0) + row), load(in.column(1) + row), load(in.column(2) + row));
@@ -60,6 +81,7 @@ namespace gnomon::cpu {
 
 GNOMON_EXPORT_KERNEL(laneCases);
 GNOMON_EXPORT_KERNEL(laneGroups);
+GNOMON_EXPORT_KERNEL(together);
 GNOMON_EXPORT_KERNEL(directions);
 
 NumberTable casesByLanes(const NumberTable& in) {
@@ -73,6 +95,12 @@ NumberTable casesByLanes(const NumberTable& in) {
 NumberTable groupsByLanes(const NumberTable& in) {
   NumberTable out(in.rows, kLaneGroupColumns);
   GNOMON_KERNEL(laneGroups)(in, out);
+  return out;
+}
+
+NumberTable togetherByLanes(const NumberTable& in) {
+  NumberTable out(in.rows, kTogetherColumns);
+  GNOMON_KERNEL(together)(in, out);
   return out;
 }
 

@@ -22,6 +22,12 @@ enum LaneGroupColumn : std::size_t {
 };
 NumberTable groupsByLanes(const NumberTable& in);
 
+/// Numbers that lie together: those that gatherFours reads, four columns; gatherTwos, two; and what storeFours makes of
+/// the four, four again. `in`: a, read from row `row` * kPlaceStep, modulo all but three of the rows, on.
+inline constexpr std::size_t kPlaceStep = 7919;
+inline constexpr std::size_t kTogetherColumns = 10;
+NumberTable togetherByLanes(const NumberTable& in);
+
 /// directionOf, three columns; 0, 0, 1 where there is none. `in`: x, y and z.
 NumberTable directionsByLanes(const NumberTable& in);
 

@@ -147,6 +147,20 @@ TEST(CpuLanes, KnowWhatTheySayTogether) {
   });
 }
 
+TEST(CpuLanes, ReadWhatLiesTogether) {
+  const NumberTable in = randomNumbers(kRows, 1, -1.0f, 1.0f);
+  onEachInstructionSet([&] {
+    const NumberTable out = togetherByLanes(in);
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const std::size_t place = row * kPlaceStep % (kRows - 3);
+      for (std::size_t column = 0; column < kTogetherColumns; ++column) {
+        const std::size_t behind = column < 6 ? column % 4 : column - 6;
+        ASSERT_EQ(out.at(row, column), in.at(place + behind, 0)) << row << ' ' << column;
+      }
+    }
+  });
+}
+
 /// Vectors of 1e-33 to 1e33, some of them flat.
 NumberTable vectorsOfAnySize() {
   NumberTable in = randomNumbers(kRows, 4, -1.0f, 1.0f);
