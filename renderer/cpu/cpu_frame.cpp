@@ -68,14 +68,18 @@ Status CpuFrame::needHoles() {
   return cached_.textures->need(holes);
 }
 
-std::vector<ReadTexture> CpuFrame::missingTextures(int samples) {
+const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
+  const auto [found, isNew] = missing_.try_emplace(samples);
+  if (!isNew) return found->second;
   std::vector<int> materials;
   for (std::size_t i = 0; i < scene_.slots.size(); ++i) {
     if (survey_.visible[i] != 0) materials.push_back(scene_.slots[i].material);
   }
   const std::vector<TextureImage> shown = textureImages(*work_.scene, materials);
-  if (cached_.textures->areMade(shown)) return {};
-  return readTextures(scene_, *cached_.textures, surfaces(samples), shown);
+  if (!cached_.textures->areMade(shown)) {
+    found->second = readTextures(scene_, *cached_.textures, surfaces(samples), shown);
+  }
+  return found->second;
 }
 
 Result<ReceiverDepths> CpuFrame::survey() {

@@ -53,7 +53,7 @@ class CpuFrame : public FrameDrawing {
   DepthBuffer& surfaces(int samples);
   Status needHoles(); ///< textures that tell where surfaces have holes
   /// Of all that may be seen, where some of them were never read; none else: kernels make levels that they lack.
-  std::vector<ReadTexture> missingTextures(int samples);
+  const std::vector<ReadTexture>& missingTextures(int samples);
   Status needLayers(int samples);
   const VolumeLayers* needVolumes(const ViewRequest& request); ///< null where the view knows none
   int samplesOf(const ViewRequest& request) const;             ///< a pixel
@@ -73,12 +73,13 @@ class CpuFrame : public FrameDrawing {
   FrameScene scene_;
   Survey survey_;
   CastTiles cast_;
-  std::map<int, DepthBuffer> otherSurfaces_; ///< by samples a pixel, where they aren't the survey's
-  bool surveyShown_ = false;                 ///< its surfaces are those of a view
-  std::future<void> decoding_;               ///< of the textures, while shadows are made
-  std::map<int, ExactLayers> layers_;        ///< by samples a pixel
-  std::map<int, LitParts> lit_;              ///< by samples a pixel
-  std::map<int, VolumeLayers> volumes_;      ///< by samples a pixel
+  std::map<int, DepthBuffer> otherSurfaces_;        ///< by samples a pixel, where they aren't the survey's
+  std::map<int, std::vector<ReadTexture>> missing_; ///< by samples a pixel
+  bool surveyShown_ = false;                        ///< its surfaces are those of a view
+  std::future<void> decoding_;                      ///< of the textures, while shadows are made
+  std::map<int, ExactLayers> layers_;               ///< by samples a pixel
+  std::map<int, LitParts> lit_;                     ///< by samples a pixel
+  std::map<int, VolumeLayers> volumes_;             ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;
   std::chrono::steady_clock::time_point stageStart_, passStart_;
