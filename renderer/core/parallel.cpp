@@ -8,6 +8,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "renderer/core/stop.h"
 
@@ -100,6 +102,19 @@ void forEachPiece(std::size_t count, std::size_t size, const std::function<void(
 
 void forEach(std::size_t count, const std::function<void(std::size_t)>& each) {
   forEachPiece(count, 1, [&](std::size_t i, std::size_t) { each(i); });
+}
+
+Status forEachOrProblems(std::size_t count, const std::function<Status(std::size_t)>& each) {
+  std::vector<Problems> found(count);
+  forEach(count, [&](std::size_t i) {
+    if (const Status done = each(i); !done) found[i] = done.problems();
+  });
+  ProblemList all;
+  for (Problems& problems : found) {
+    for (Problem& problem : problems) all.add(std::move(problem));
+  }
+  if (all.empty()) return Done{};
+  return std::move(all).take();
 }
 
 } // namespace gnomon

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/base/result.h"
+
 namespace gnomon {
 
 /// How many cores' time a control group may use, from its settings; empty = no limit, or not readable.
@@ -32,5 +34,8 @@ void forEachPiece(std::size_t count, std::size_t size, const std::function<void(
 
 /// Calls `each(i)` for every i of 0..count, in parallel; returns when all are done.
 void forEach(std::size_t count, const std::function<void(std::size_t)>& each);
+
+/// The same of what may fail: the problems of all, in their order.
+Status forEachOrProblems(std::size_t count, const std::function<Status(std::size_t)>& each);
 
 } // namespace gnomon

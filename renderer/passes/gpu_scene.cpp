@@ -6,6 +6,7 @@
 
 #include "renderer/device/shader_data.h"
 #include "renderer/prepare/frame_geometry.h"
+#include "renderer/scene/texture_images.h"
 
 namespace gnomon {
 namespace {
@@ -94,10 +95,10 @@ std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene) {
   auto gpu = std::make_shared<GpuTextures>();
   TextureUpload upload(scene, *gpu);
   for (const Material& material : scene.materials) {
-    gpu->materials.push_back({{upload.use(material.baseColor, true),
-                               upload.use(material.metallicRoughness, material.specularGlossiness.has_value()),
-                               upload.use(material.normal, false), upload.use(material.occlusion, false),
-                               upload.use(material.emissive, true)}});
+    GpuMaterial made;
+    std::size_t unit = 0;
+    for (const auto& [use, srgb] : texturesAsRead(material)) made.textures[unit++] = upload.use(*use, srgb);
+    gpu->materials.push_back(made);
   }
   return gpu;
 }

@@ -74,16 +74,8 @@ Problems locatedImageProblems(Problems problems, const std::string& pointer) {
 }
 
 Status decodeImages(const SceneImages& images, std::span<const int> indices) {
-  std::vector<Problems> found(indices.size());
-  forEach(indices.size(), [&](std::size_t i) {
-    if (const Status done = images[static_cast<std::size_t>(indices[i])]->decode(); !done) found[i] = done.problems();
-  });
-  ProblemList all;
-  for (Problems& problems : found) {
-    for (Problem& problem : problems) all.add(std::move(problem));
-  }
-  if (all.empty()) return Done{};
-  return std::move(all).take();
+  return forEachOrProblems(indices.size(),
+                           [&](std::size_t i) { return images[static_cast<std::size_t>(indices[i])]->decode(); });
 }
 
 } // namespace gnomon

@@ -30,16 +30,10 @@ std::vector<int> alphaImages(const Scene& scene, const SceneView& view) {
 
 std::vector<TextureImage> textureImages(const Scene& scene, std::span<const int> materials) {
   std::vector<TextureImage> images;
-  const auto add = [&](const std::optional<TextureUse>& use, bool srgb) {
-    if (use && use->image >= 0) images.push_back({use->image, srgb});
-  };
   for (const int index : materials) {
-    const Material& material = scene.materials[static_cast<std::size_t>(index)];
-    add(material.baseColor, true);
-    add(material.metallicRoughness, material.specularGlossiness.has_value());
-    add(material.normal, false);
-    add(material.occlusion, false);
-    add(material.emissive, true);
+    for (const auto& [use, srgb] : texturesAsRead(scene.materials[static_cast<std::size_t>(index)])) {
+      if (*use && (*use)->image >= 0) images.push_back({(*use)->image, srgb});
+    }
   }
   return eachOnce(std::move(images));
 }

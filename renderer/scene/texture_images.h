@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,21 @@ struct TextureImage {
 
   auto operator<=>(const TextureImage&) const = default;
 };
+
+/// A texture of a material, and the color space in which it is read.
+struct TextureAsRead {
+  const std::optional<TextureUse>* use = nullptr;
+  bool srgb = false;
+};
+
+/// In the order in which shaders number them.
+inline std::array<TextureAsRead, 5> texturesAsRead(const Material& material) {
+  return {{{&material.baseColor, true},
+           {&material.metallicRoughness, material.specularGlossiness.has_value()},
+           {&material.normal, false},
+           {&material.occlusion, false},
+           {&material.emissive, true}}};
+}
 
 /// What these materials read, in order, each once. `materials`: indices into Scene::materials.
 std::vector<TextureImage> textureImages(const Scene& scene, std::span<const int> materials);

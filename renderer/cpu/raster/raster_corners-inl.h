@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/core/unfilled.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "renderer/cpu/raster/raster_view.h"
 

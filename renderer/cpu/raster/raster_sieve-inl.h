@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/packing-inl.h"
 #include "renderer/cpu/raster/raster_corners-inl.h"
 #include "renderer/cpu/raster/raster_wide.h"

@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "renderer/bake/even_blocks.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
 #include "renderer/cpu/surface/fragments-inl.h"
 

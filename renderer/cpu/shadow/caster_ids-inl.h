@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "protocol/spec/output_options.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/prepare/draw_list.h"
 

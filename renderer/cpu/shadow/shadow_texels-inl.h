@@ -6,6 +6,7 @@
 #define GNOMON_CPU_SHADOW_TEXELS_INL_H
 #endif
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
 

@@ -6,6 +6,7 @@
 #define GNOMON_CPU_SHADOW_VISIBILITY_INL_H
 #endif
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/shadow/baked_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_disc-inl.h"
 #include "renderer/cpu/shadow/shadow_filter-inl.h"

@@ -6,6 +6,7 @@
 #define GNOMON_CPU_PACKET_INL_H
 #endif
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/raster/raster.h"
 #include "renderer/cpu/show/show_view.h"
 #include "renderer/cpu/surface/receivers-inl.h"

@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <optional>
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "renderer/cpu/show/packet-inl.h"

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/lanes/functions-inl.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 
 #ifndef GNOMON_CPU_SRGB_TABLE
 #define GNOMON_CPU_SRGB_TABLE

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "renderer/cpu/surface/texture.h"
 #include "renderer/scene/scene.h"

@@ -9,6 +9,7 @@
 #include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/surface/fragments-inl.h"
 #include "renderer/cpu/surface/texture_spots-inl.h"
+#include "renderer/cpu/surface/textures.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -72,14 +73,13 @@ class InstanceSurface {
   /// Calls each(texture, use, spot) for the textures that the material reads.
   template <class Each>
   HWY_INLINE void forEachTexture(const Each& each) const {
-    const auto tell = [&](const std::optional<TextureUse>& use, std::size_t unit, bool srgb) HWY_ATTR {
-      if (use && use->image >= 0) each(TextureImage{use->image, srgb}, *use, spotOfUse(*use, unit));
-    };
-    tell(material_.baseColor, GNOMON_BASE_COLOR_UNIT, true);
-    tell(material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, material_.specularGlossiness.has_value());
-    tell(material_.normal, GNOMON_NORMAL_UNIT, false);
-    tell(material_.occlusion, GNOMON_OCCLUSION_UNIT, false);
-    tell(material_.emissive, GNOMON_EMISSIVE_UNIT, true);
+    static_assert(GNOMON_BASE_COLOR_UNIT == 0 && GNOMON_METALLIC_ROUGHNESS_UNIT == 1 && GNOMON_NORMAL_UNIT == 2 &&
+                  GNOMON_OCCLUSION_UNIT == 3 && GNOMON_EMISSIVE_UNIT == 4);
+    std::size_t unit = 0;
+    for (const auto& [use, srgb] : texturesAsRead(material_)) {
+      if (*use && (*use)->image >= 0) each(TextureImage{(*use)->image, srgb}, **use, spotOfUse(**use, unit));
+      ++unit;
+    }
   }
 
   HWY_INLINE Surface surface(const Fragments& fragments) {
@@ -119,13 +119,12 @@ class InstanceSurface {
   }
   /// Materials mostly read all their textures alike.
   HWY_INLINE const Taps& tapsOf(const Texture& texture, const TextureUse& use, std::size_t unit) {
-    const bool same = tapped_ != nullptr && readAlike(*tapped_, use) && tappedWidth_ == texture.width() &&
-                      tappedHeight_ == texture.height();
+    const bool same = tapped_ != nullptr && readAlike(*tappedUse_, use) && tapped_->width() == texture.width() &&
+                      tapped_->height() == texture.height();
     if (!same) {
       findTaps(texture, use, spotOfUse(use, unit), own_, taps_);
-      tapped_ = &use;
-      tappedWidth_ = texture.width();
-      tappedHeight_ = texture.height();
+      tapped_ = &texture;
+      tappedUse_ = &use;
     }
     return taps_;
   }
@@ -226,9 +225,9 @@ class InstanceSurface {
   Meeting meeting_;
   MeetingSteps steps_; ///< where textures are used
   SpotsOfSets spots_;  ///< there, too
-  const TextureUse* tapped_ = nullptr;
-  int tappedWidth_ = 0, tappedHeight_ = 0;
-  Taps taps_; ///< of a texture of that size, used like `tapped_`
+  const Texture* tapped_ = nullptr;
+  const TextureUse* tappedUse_ = nullptr;
+  Taps taps_; ///< of a texture of that size, used so
 };
 
 /// Lanes that show something else hold anything.

@@ -19,21 +19,9 @@ std::vector<ReadTexture> missing(const Textures& textures, std::span<const ReadT
   return missing;
 }
 
-/// The problems of all, in their order.
-Status makeAll(const Textures& textures, std::span<const ReadTexture> wanted) {
-  const Cores cores = wanted.size() == 1 ? Cores::all : Cores::one;
-  std::vector<Problems> found(wanted.size());
-  forEach(wanted.size(), [&](std::size_t i) {
-    if (const Status made = textures.of(wanted[i].texture).make(wanted[i].finest, cores); !made) {
-      found[i] = made.problems();
-    }
-  });
-  ProblemList all;
-  for (Problems& problems : found) {
-    for (Problem& problem : problems) all.add(std::move(problem));
-  }
-  if (all.empty()) return Done{};
-  return std::move(all).take();
+Status makeAll(const Textures& textures, std::span<const ReadTexture> wanted, Cores cores) {
+  return forEachOrProblems(wanted.size(),
+                           [&](std::size_t i) { return textures.of(wanted[i].texture).make(wanted[i].finest, cores); });
 }
 
 } // namespace
@@ -55,7 +43,8 @@ std::future<void> Textures::makeAhead(std::span<const ReadTexture> wanted) const
   try {
     return std::async(std::launch::async, [this, lacking = std::move(lacking), stop = Stop::current()] {
       const Listening listening(stop);
-      (void)untilStopped({}, [&] { return makeAll(*this, lacking); }); // need() tells what is broken
+      // need() tells what is broken. Cores that wait for one of these must not be what it waits for.
+      (void)untilStopped({}, [&] { return makeAll(*this, lacking, Cores::one); });
     });
   } catch (const std::system_error&) { // no thread to be had: need() does it all
     return {};
@@ -63,7 +52,8 @@ std::future<void> Textures::makeAhead(std::span<const ReadTexture> wanted) const
 }
 
 Status Textures::need(std::span<const ReadTexture> wanted) const {
-  return makeAll(*this, missing(*this, wanted));
+  const std::vector<ReadTexture> lacking = missing(*this, wanted);
+  return makeAll(*this, lacking, lacking.size() == 1 ? Cores::all : Cores::one);
 }
 
 std::size_t Textures::bytes() const {

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "renderer/cpu/frame_scene.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/surface/sight-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -5,6 +5,7 @@
 
 #include <hwy/foreach_target.h>
 
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "tests/renderer/cpu/lanes/lanes_cases.h"
 
