@@ -11,9 +11,6 @@ namespace {
 constexpr int kSide = ShareSquare::kSide;
 constexpr int kReach = ShareSquare::kReach;
 
-/// Times what noise would have the shares of a surface vary by.
-constexpr float kMost = 2.5f;
-
 bool hadRounds(const PictureShares& shares, std::uint32_t pixel) {
   return shares.marks[pixel] >= PictureShares::kRound;
 }
@@ -34,7 +31,24 @@ Rect within(const SampleGrid& grid, const Rect& square, int around) {
           std::min(square.y + kSide + around, grid.height) - lowest};
 }
 
-/// Sets where a square's pixels lie. `all`: the square and those around it, as far as the picture goes.
+/// Sets `square.shows` where a pixel of the square that had rounds is compared to what is there. `inner`: those of the
+/// square that lie in the picture; `all`: those around it, too.
+void setCompared(const PictureShares& shares, const Rect& inner, const Rect& all, const glm::ivec2& corner,
+                 ShareSquare& square) {
+  std::fill_n(square.shows, ShareSquare::kCount, 0);
+  for (int y = inner.y; y < inner.y + inner.height; ++y) {
+    for (int x = inner.x; x < inner.x + inner.width; ++x) {
+      if (!hadRounds(shares, shares.grid.numberOf({x, y}))) continue;
+      const int left = std::max(x - kReach, all.x);
+      const int right = std::min(x + kReach + 1, all.x + all.width);
+      for (int row = std::max(y - kReach, all.y); row < std::min(y + kReach + 1, all.y + all.height); ++row) {
+        std::fill_n(square.shows + (row - corner.y) * ShareSquare::kWidth + left - corner.x, right - left, -1);
+      }
+    }
+  }
+}
+
+/// Sets where the pixels lie that `square.shows`. `all`: the square and those around it, as far as the picture goes.
 void setSurfaces(const PicturePoints& points, const Rect& all, const glm::ivec2& corner, ShareSquare& square) {
   const auto placeOf = [&](const glm::ivec2& pixel) {
     return static_cast<std::size_t>((pixel.y - corner.y) * ShareSquare::kWidth + pixel.x - corner.x);
@@ -52,6 +66,7 @@ void setSurfaces(const PicturePoints& points, const Rect& all, const glm::ivec2&
     waiting.count = 0;
   };
   forEachPixel(points.grid(), all, [&](const glm::ivec2& pixel) {
+    if (square.shows[placeOf(pixel)] == 0) return;
     waiting.add(pixel, 0, points.numberAt(pixel));
     if (waiting.full()) put();
   });
@@ -72,9 +87,9 @@ ShareSquare squareAt(const PicturePoints& points, std::span<const int> raysOf, c
   ShareSquare square;
   std::fill_n(square.share, ShareSquare::kCount, 0.0f);
   std::fill_n(square.noise, ShareSquare::kCount, 0.0f);
-  std::fill_n(square.shows, ShareSquare::kCount, 0);
   const glm::ivec2 corner(inner.x - kReach, inner.y - kReach);
   const Rect all = within(grid, inner, kReach);
+  setCompared(shares, within(grid, inner, 0), all, corner, square);
   for (int y = all.y; y < all.y + all.height; ++y) {
     const std::size_t row = static_cast<std::size_t>((y - corner.y) * ShareSquare::kWidth);
     for (int x = all.x; x < all.x + all.width; ++x) {
@@ -82,7 +97,7 @@ ShareSquare squareAt(const PicturePoints& points, std::span<const int> raysOf, c
       const std::uint32_t pixel = grid.numberOf({x, y});
       const bool away = (shares.marks[pixel] & PictureShares::kAway) != 0;
       square.share[place] = static_cast<float>(*shares.valuesOf(pixel)) / 65535.0f;
-      square.shows[place] = away || points.numberAt({x, y}) == kNoNumber ? 0 : -1;
+      if (away || points.numberAt({x, y}) == kNoNumber) square.shows[place] = 0;
       if (hadRounds(shares, pixel))
         square.noise[place] = noiseOf(raysOf[shares.marks[pixel] / PictureShares::kRound - 1u]);
     }
@@ -109,7 +124,7 @@ std::vector<std::vector<EvenShare>> evenShares(const PicturePoints& points, std:
     const Rect inner{i % columns * kSide, i / columns * kSide, kSide, kSide};
     const Rect shown = within(grid, inner, 0);
     if (!anyHadRounds(shares, shown)) return;
-    const EvenSquare even = evenOut(squareAt(points, raysOf, shares, inner), kMost);
+    const EvenSquare even = evenOut(squareAt(points, raysOf, shares, inner));
     for (int y = shown.y; y < shown.y + shown.height; ++y) {
       for (int x = shown.x; x < shown.x + shown.width; ++x) {
         const std::uint32_t pixel = grid.numberOf({x, y});

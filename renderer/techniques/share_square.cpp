@@ -15,6 +15,7 @@ constexpr std::size_t kUp = ShareSquare::kWidth; ///< from a pixel to the one ab
 constexpr float kFlat = 0.01f;       ///< squared sine of the steepest way from a pixel to one of the same surface
 constexpr float kLeastCosine = 0.9f; ///< of their normals
 constexpr float kLeastVariance = 1e-9f;
+constexpr float kFewest = 1e-3f; ///< squared pixels; without a second direction there is no slope
 
 /// Whether a pixel shows the same surface as another: -1, or 0.
 [[gnu::always_inline]] inline int isBeside(const ShareSquare& square, std::size_t other, std::size_t pixel) {
@@ -50,63 +51,116 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findDifferences(const ShareSquare& square, 
   }
 }
 
-/// Over the pixels of one surface around each pixel of a row.
+/// How far around a pixel shares are asked for, and how many times noise's variance they may differ by.
+struct Reach {
+  int pixels;
+  float most;
+};
+constexpr Reach kReaches[] = {{1, 3.0f}, {ShareSquare::kReach, 2.0f}};
+
+/// Sums over the pixels of one surface around each pixel of a row: of their weights, and of those times where they lie
+/// from the pixel and what share they have.
 struct RowSums {
-  alignas(64) float share[kRow], squares[kRow], weight[kRow];
+  alignas(64) float one[kRow], x[kRow], y[kRow], xx[kRow], xy[kRow], yy[kRow];
+  float share[kRow], shareX[kRow], shareY[kRow], squares[kRow];
 };
 
-/// Adds the pixels `to` off those from `first` on, and those opposite.
-[[gnu::always_inline]] inline void addPair(const ShareSquare& square, std::size_t first, std::size_t to, float part,
-                                           RowSums& sums) {
-  for (std::size_t x = 0; x < kRow; ++x) {
-    const std::size_t pixel = first + x;
-    const int same = isBeside(square, pixel - to, pixel) & isBeside(square, pixel + to, pixel);
-    const float a = square.share[pixel - to];
-    const float b = square.share[pixel + to];
-    const float counted = same != 0 ? part : 0.0f;
-    sums.share[x] += counted * (a + b);
-    sums.squares[x] += counted * (a * a + b * b);
-    sums.weight[x] += 2 * counted;
+/// The pixels of the row themselves, which have no slope.
+[[gnu::always_inline]] inline RowSums ownSums(const ShareSquare& square, std::size_t first) {
+  RowSums sums{};
+  for (std::size_t i = 0; i < kRow; ++i) {
+    const float own = square.share[first + i];
+    sums.one[i] = 1;
+    sums.xx[i] = kFewest;
+    sums.yy[i] = kFewest;
+    sums.share[i] = own;
+    sums.squares[i] = own * own;
+  }
+  return sums;
+}
+
+/// Adds the pixels that lie so far from those of the row.
+[[gnu::always_inline]] inline void add(const ShareSquare& square, std::size_t first, int right, int up, float part,
+                                       RowSums& sums) {
+  const auto to = static_cast<std::size_t>(up * ShareSquare::kWidth + right);
+  const auto x = static_cast<float>(right);
+  const auto y = static_cast<float>(up);
+  for (std::size_t i = 0; i < kRow; ++i) {
+    const std::size_t pixel = first + i;
+    const float share = square.share[pixel + to];
+    const float one = isBeside(square, pixel + to, pixel) != 0 ? part : 0.0f;
+    sums.one[i] += one;
+    sums.x[i] += one * x;
+    sums.y[i] += one * y;
+    sums.xx[i] += one * x * x;
+    sums.xy[i] += one * x * y;
+    sums.yy[i] += one * y * y;
+    sums.share[i] += one * share;
+    sums.shareX[i] += one * share * x;
+    sums.shareY[i] += one * share * y;
+    sums.squares[i] += one * share * share;
   }
 }
 
-GNOMON_FOR_EACH_INSTRUCTION_SET RowSums sumsAround(const ShareSquare& square, std::size_t first) {
-  RowSums sums;
-  for (std::size_t x = 0; x < kRow; ++x) {
-    const float own = square.share[first + x];
-    sums.share[x] = own;
-    sums.squares[x] = own * own;
-    sums.weight[x] = 1;
-  }
-  constexpr int kFar = ShareSquare::kReach;
-  for (int dy = 0; dy <= kFar; ++dy) {
-    for (int dx = dy == 0 ? 1 : -kFar; dx <= kFar; ++dx) {
-      const float part = (std::abs(dx) == kFar ? 0.5f : 1.0f) * (dy == kFar ? 0.5f : 1.0f);
-      addPair(square, first, static_cast<std::size_t>(dy * ShareSquare::kWidth + dx), part, sums);
+/// Those farthest off count by halves.
+[[gnu::always_inline]] inline RowSums sumsAround(const ShareSquare& square, std::size_t first, int reach) {
+  RowSums sums = ownSums(square, first);
+  for (int up = -reach; up <= reach; ++up) {
+    for (int right = -reach; right <= reach; ++right) {
+      if (right == 0 && up == 0) continue;
+      const float part = (std::abs(right) == reach ? 0.5f : 1.0f) * (std::abs(up) == reach ? 0.5f : 1.0f);
+      add(square, first, right, up, part, sums);
     }
   }
   return sums;
 }
 
+/// Brings the shares of a row closer to planes through those around (least squares). `noise`: its variance at a share
+/// of a half, as rays explain it; `measured`: as neighbours show it.
+[[gnu::always_inline]] inline void fit(const RowSums& sums, const float* noise, const float* measured, float most,
+                                       float* shares) {
+  for (std::size_t i = 0; i < kRow; ++i) {
+    const float over = 1 / sums.one[i];
+    const float x = sums.x[i] * over;
+    const float y = sums.y[i] * over;
+    const float mean = sums.share[i] * over;
+    const float xx = sums.xx[i] * over - x * x;
+    const float xy = sums.xy[i] * over - x * y;
+    const float yy = sums.yy[i] * over - y * y;
+    const float shareX = sums.shareX[i] * over - x * mean;
+    const float shareY = sums.shareY[i] * over - y * mean;
+    const float determinant = xx * yy - xy * xy;
+    const float slopeX = (yy * shareX - xy * shareY) / determinant;
+    const float slopeY = (xx * shareY - xy * shareX) / determinant;
+    const float squares = sums.squares[i] * over - mean * mean - slopeX * shareX - slopeY * shareY;
+    const float free = sums.one[i] - 3; // a plane takes three
+    const float varies = squares * sums.one[i] / (free > 0.5f ? free : 0.5f);
+    const float there = mean - slopeX * x - slopeY * y;
+    const float plane = there < 0 ? 0.0f : there > 1 ? 1.0f : there;
+    const float explained = noise[i] * 4 * plane * (1 - plane);
+    const float expected = most * (measured[i] < explained ? measured[i] : explained);
+    const float beyond = varies / (expected > kLeastVariance ? expected : kLeastVariance) - 1;
+    const float kept = beyond < 0 ? 0.0f : beyond > 1 ? 1.0f : beyond;
+    shares[i] = plane + kept * (shares[i] - plane);
+  }
+}
+
 GNOMON_FOR_EACH_INSTRUCTION_SET void evenRow(const ShareSquare& square, const Differences& differences,
-                                             std::size_t first, float most, float* share) {
-  const RowSums sums = sumsAround(square, first);
-  for (std::size_t x = 0; x < kRow; ++x) {
+                                             std::size_t first, float* shares) {
+  alignas(64) float measured[kRow];
+  for (std::size_t i = 0; i < kRow; ++i) {
     float sum = 0;
     float count = 0;
-    for (std::size_t row = first + x - kUp; row <= first + x + kUp; row += kUp) {
+    for (std::size_t row = first + i - kUp; row <= first + i + kUp; row += kUp) {
       sum += differences.sum[row - 1] + differences.sum[row] + differences.sum[row + 1];
       count += differences.count[row - 1] + differences.count[row] + differences.count[row + 1];
     }
-    const float mean = sums.share[x] / sums.weight[x];
-    const float varies = sums.squares[x] / sums.weight[x] - mean * mean;
     // The mean of two differs from a third by 3/2 of their variance.
-    const float measured = sum / (count > 0 ? 1.5f * count : 1.0f);
-    const float explained = square.noise[first + x] * 4 * mean * (1 - mean);
-    const float expected = most * (measured < explained ? measured : explained);
-    const float beyond = varies / (expected > kLeastVariance ? expected : kLeastVariance) - 1;
-    const float kept = beyond < 0 ? 0.0f : beyond > 1 ? 1.0f : beyond;
-    share[x] = mean + kept * (square.share[first + x] - mean);
+    measured[i] = sum / (count > 0 ? 1.5f * count : 1.0f);
+    shares[i] = square.share[first + i];
+  }
+  for (const Reach& reach : kReaches) {
+    fit(sumsAround(square, first, reach.pixels), square.noise + first, measured, reach.most, shares);
   }
 }
 
@@ -117,7 +171,7 @@ float noiseOf(int rays) {
   return 1.3f / 6 / (n * std::sqrt(n));
 }
 
-EvenSquare evenOut(const ShareSquare& square, float most) {
+EvenSquare evenOut(const ShareSquare& square) {
   Differences differences;
   findDifferences(square, differences);
   EvenSquare even;
@@ -125,7 +179,7 @@ EvenSquare evenOut(const ShareSquare& square, float most) {
     const std::size_t first = (row + ShareSquare::kReach) * kUp + ShareSquare::kReach;
     const float* noise = square.noise + first;
     if (std::all_of(noise, noise + kRow, [](float variance) { return variance == 0; })) continue;
-    evenRow(square, differences, first, most, even.share + row * kRow);
+    evenRow(square, differences, first, even.share + row * kRow);
   }
   return even;
 }

@@ -30,11 +30,11 @@ struct EvenSquare {
   alignas(64) float share[kCount];
 };
 
-/// The mean is taken over the pixels of one surface, in pairs opposite each other, so that no slope changes it; of
-/// those around, every fourth along a row or a column counts as much as any other fourth. A pixel keeps its own share
-/// where the ones around vary by twice `most` times what noise would have them or more, and is the mean up to half of
-/// that. Noise is what the differences of neighbours measure, and no more than their rays explain. Rows without noise
-/// are left out.
-EvenSquare evenOut(const ShareSquare& square, float most);
+/// Fits planes to the shares of one surface around each pixel, so that no slope changes them: first over 3 x 3 pixels,
+/// then over 5 x 5, of which every fourth along a row or a column counts as much as any other fourth. A pixel takes the
+/// plane's share where those around vary from it as noise would have them, its own where they vary by much more, and
+/// between, some of both. Noise is what the differences of neighbours measure, and no more than their rays explain.
+/// Rows without noise are left out.
+EvenSquare evenOut(const ShareSquare& square);
 
 } // namespace gnomon

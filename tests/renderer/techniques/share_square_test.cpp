@@ -52,21 +52,38 @@ TEST(ShareSquare, TakesNoiseFromAWidePenumbra) {
   const ShareSquare square = flat(noisy(truth, 16), 16);
   const double before = off(square.share + ShareSquare::kReach * (ShareSquare::kWidth + 1), ShareSquare::kWidth, truth);
   EXPECT_NEAR(before, std::sqrt(noiseOf(16)), 0.02);
-  EXPECT_LT(off(evenOut(square, 2.5f).share, kSide, truth), 0.4 * before);
+  EXPECT_LT(off(evenOut(square).share, kSide, truth), 0.4 * before);
+}
+
+TEST(ShareSquare, TakesNoiseFromASteepPenumbraUpToTheRimOfItsSurface) {
+  const auto truth = [](int x, int y) { return 0.1f + 0.05f * float(x) + 0.01f * float(y); };
+  ShareSquare square = flat(noisy(truth, 16), 16);
+  for (int i = 0; i < int(ShareSquare::kCount); ++i) {
+    const int y = i / ShareSquare::kWidth - ShareSquare::kReach;
+    if (y < 0 || y >= kSide) square.shows[i] = 0;
+  }
+  const double before = off(square.share + ShareSquare::kReach * (ShareSquare::kWidth + 1), ShareSquare::kWidth, truth);
+  EXPECT_LT(off(evenOut(square).share, kSide, truth), 0.48 * before);
 }
 
 TEST(ShareSquare, LeavesSlopesAndEdgesWithoutNoiseAsTheyAre) {
   const std::function<float(int, int)> truths[] = {[](int x, int y) { return 0.3f + 0.01f * float(x + y); },
                                                    [](int x, int /*y*/) { return x < 7 ? 0.0f : 1.0f; },
                                                    [](int x, int y) { return x == 5 || y == 9 ? 0.2f : 0.9f; }};
-  for (const auto& truth : truths) EXPECT_LT(off(evenOut(flat(truth, 16), 2.5f).share, kSide, truth), 1e-6);
+  for (const auto& truth : truths) EXPECT_LT(off(evenOut(flat(truth, 16)).share, kSide, truth), 1e-6);
+  ShareSquare strip = flat(truths[0], 16); // one column wide
+  for (int i = 0; i < int(ShareSquare::kCount); ++i) {
+    if (i % ShareSquare::kWidth % 2 == 1) strip.shows[i] = 0;
+  }
+  const EvenSquare even = evenOut(strip);
+  for (int y = 0; y < kSide; ++y) EXPECT_NEAR(even.share[y * kSide], truths[0](0, y), 1e-6);
 }
 
 TEST(ShareSquare, KeepsTheEdgesOfNarrowPenumbras) {
   const auto truth = [](int x, int y) { return std::clamp(0.5f + 0.3f * float(x) - 0.2f * float(y), 0.0f, 1.0f); };
   const ShareSquare square = flat(noisy(truth, 16), 16);
   const double before = off(square.share + ShareSquare::kReach * (ShareSquare::kWidth + 1), ShareSquare::kWidth, truth);
-  EXPECT_LT(off(evenOut(square, 2.5f).share, kSide, truth), 1.1 * before);
+  EXPECT_LT(off(evenOut(square).share, kSide, truth), 1.1 * before);
 }
 
 TEST(ShareSquare, MixesNoSurfaces) {
@@ -75,10 +92,10 @@ TEST(ShareSquare, MixesNoSurfaces) {
     for (int i = 0; i < int(ShareSquare::kCount); ++i) {
       if (i % ShareSquare::kWidth - ShareSquare::kReach >= 8) change(square, i);
     }
-    return evenOut(square, 2.5f);
+    return evenOut(square);
   };
   const ShareSquare square = flat(share, 4);
-  EXPECT_GT(off(evenOut(square, 2.5f).share, kSide, share), 0.003) << "one surface";
+  EXPECT_GT(off(evenOut(square).share, kSide, share), 0.003) << "one surface";
   const auto isKept = [&](const std::function<void(ShareSquare&, int)>& change) {
     return off(columns(square, change).share, kSide, share) < 1e-6;
   };
