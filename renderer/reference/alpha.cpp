@@ -10,6 +10,7 @@ namespace {
 /// The texel that texture coordinates outside of the image mean (OpenGL 4.5, table 8.20).
 std::size_t wrapped(double texel, int size, Wrap wrap) {
   const double n = size;
+  if (texel >= 0 && texel < n) return static_cast<std::size_t>(texel);
   if (wrap == Wrap::repeat) texel -= std::floor(texel / n) * n;
   if (wrap == Wrap::mirroredRepeat) {
     texel -= std::floor(texel / (2 * n)) * (2 * n);
@@ -25,14 +26,11 @@ glm::dvec2 moved(const glm::dvec2& uv, const std::optional<TextureTransform>& tr
 
 } // namespace
 
-double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv) {
-  const auto& bytes = std::get<std::vector<std::uint8_t>>(image.pixels);
-  const auto column = [&](double x) { return wrapped(x, image.width, use.wrapS); };
-  const auto row = [&](double y) {
-    return wrapped(y, image.height, use.wrapT) * static_cast<std::size_t>(image.width);
-  };
-  const auto texel = [&](std::size_t x, std::size_t y) { return bytes[4 * (y + x) + 3] / 255.0; };
-  const glm::dvec2 place = uv * glm::dvec2(image.width, image.height);
+double textureAlpha(const AlphaPlane& alpha, const TextureUse& use, const glm::dvec2& uv) {
+  const auto column = [&](double x) { return wrapped(x, alpha.width(), use.wrapS); };
+  const auto row = [&](double y) { return wrapped(y, alpha.height(), use.wrapT); };
+  const auto texel = [&](std::size_t x, std::size_t y) { return alpha.at(x, y) / 255.0; };
+  const glm::dvec2 place = uv * glm::dvec2(alpha.width(), alpha.height());
   if (use.nearest) return texel(column(std::floor(place.x)), row(std::floor(place.y)));
   const glm::dvec2 low = glm::floor(place - 0.5);
   const glm::dvec2 share = place - 0.5 - low;
@@ -56,7 +54,7 @@ double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint3
   if (material.baseColor && material.baseColor->image >= 0) {
     const TextureUse& use = *material.baseColor;
     const auto uv = use.texCoord == 1 ? &VertexAttributes::uv1 : &VertexAttributes::uv0;
-    alpha *= textureAlpha(tree.scene->images[static_cast<std::size_t>(use.image)]->pixels(), use,
+    alpha *= textureAlpha(tree.scene->images[static_cast<std::size_t>(use.image)]->alpha(), use,
                           moved(at.mix(glm::dvec2(a.*uv), glm::dvec2(b.*uv), glm::dvec2(c.*uv)), use.transform));
   }
   return alpha;

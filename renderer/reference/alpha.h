@@ -9,7 +9,7 @@ namespace gnomon {
 /// Any material; opaque ones ignore it.
 double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const Barycentric& at);
 
-/// Alpha of a texture (0..1) at a place of it.
-double textureAlpha(const Image& image, const TextureUse& use, const glm::dvec2& uv);
+/// 0..1, at a place of the texture.
+double textureAlpha(const AlphaPlane& alpha, const TextureUse& use, const glm::dvec2& uv);
 
 } // namespace gnomon

@@ -107,9 +107,9 @@ TracedScene::~TracedScene() = default;
 Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int index) {
   try {
     const SceneView& view = scene->scenes[static_cast<std::size_t>(index)];
-    if (Status decoded = decodeImages(scene->images, alphaImages(*scene, view)); !decoded) {
-      return std::move(decoded).problems();
-    }
+    const std::vector<int> masks = alphaImages(*scene, view);
+    if (Status decoded = decodeImages(scene->images, masks); !decoded) return std::move(decoded).problems();
+    forEach(masks.size(), [&](std::size_t i) { scene->images[static_cast<std::size_t>(masks[i])]->alpha(); });
     auto tree = std::make_unique<Tree>();
     tree->view = &scene->scenes[static_cast<std::size_t>(index)];
     tree->scene = std::move(scene);
@@ -137,7 +137,11 @@ const SceneView& TracedScene::view() const {
 }
 
 std::size_t TracedScene::bytes() const {
-  return static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
+  std::size_t masks = 0;
+  for (const int image : alphaImages(scene(), view())) {
+    masks += scene().images[static_cast<std::size_t>(image)]->alpha().bytes();
+  }
+  return masks + static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
          tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
          tree_->mirrored.capacity() + tree_->boxes.bytes() +
          KeptFronts::mostBytes(tree_->boxes.runs(), tree_->view->instances.size());

@@ -20,7 +20,7 @@ class TracedScene {
 
   const Scene& scene() const;
   const SceneView& view() const;
-  std::size_t bytes() const; ///< of the tree, the placed triangles, and the most of what is kept
+  std::size_t bytes() const; ///< of the tree, the placed triangles, their masks, and the most of what is kept
 
   struct Tree; ///< Embree's side, for the files of this folder
   const Tree& tree() const { return *tree_; }

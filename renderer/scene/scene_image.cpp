@@ -50,6 +50,11 @@ Status SceneImage::decode() const {
   }
 }
 
+const AlphaPlane& SceneImage::alpha() const {
+  std::call_once(alphaOnce_, [this] { alpha_.emplace(pixels()); });
+  return *alpha_;
+}
+
 Result<std::shared_ptr<const Image>> SceneImage::read() const {
   std::shared_ptr<const CheckedImage> file;
   {

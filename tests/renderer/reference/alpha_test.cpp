@@ -8,11 +8,11 @@ namespace gnomon {
 namespace {
 
 /// 4 x 2 texels, alpha 0, 51, 102, 153 in the upper row, 204 in all of the lower one.
-Image image() {
+AlphaPlane image() {
   std::vector<std::uint8_t> pixels;
   for (const int alpha : {0, 51, 102, 153, 204, 204, 204, 204})
     pixels.insert(pixels.end(), {9, 9, 9, std::uint8_t(alpha)});
-  return {4, 2, {"R", "G", "B", "A"}, pixels};
+  return AlphaPlane({4, 2, {"R", "G", "B", "A"}, pixels});
 }
 
 TextureUse use(Wrap wrapS, Wrap wrapT, bool nearest) {

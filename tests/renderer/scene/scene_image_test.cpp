@@ -1,5 +1,6 @@
 #include "renderer/scene/scene_image.h"
 
+#include <glm/glm.hpp>
 #include <gmock/gmock.h>
 #include <thread>
 
@@ -57,6 +58,22 @@ TEST(SceneImage, ForAReaderWhoNeedsThemOnceItsPixelsAreNotKept) {
   const auto kept = image->read();
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->get(), &image->pixels()) << "what is kept is not decoded again";
+}
+
+TEST(SceneImage, ItsAlphaIsThatOfItsPixelsWhateverItsSize) {
+  for (const glm::ivec2& size : {glm::ivec2(1, 1), glm::ivec2(8, 16), glm::ivec2(13, 9), glm::ivec2(7, 30)}) {
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(4 * size.x * size.y));
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(i * 37 + i / 251);
+    const SceneImage image(Image{size.x, size.y, {"R", "G", "B", "A"}, pixels});
+    const AlphaPlane& alpha = image.alpha();
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        const auto texel = static_cast<std::size_t>(y * size.x + x);
+        ASSERT_EQ(alpha.at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)), pixels[4 * texel + 3]);
+      }
+    }
+    EXPECT_EQ(&image.alpha(), &alpha);
+  }
 }
 
 TEST(SceneImage, CountsAFileThatIsLargerThanItsPixels) {
