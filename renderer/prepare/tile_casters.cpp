@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "protocol/base/bytes.h"
 #include "renderer/core/stop.h"
 
 namespace gnomon {
@@ -52,7 +53,10 @@ TileKey tileKey(std::uint64_t scene, int view, const ShadowTile& tile, const Lig
   append(key, tile.space.fit.radius);
   // Moments are of depths between these; those of parallel light, linear as they are, know no distances.
   if (tile.space.fit.perspective) append(key, glm::vec2(tile.near, tile.far));
-  key.append(casters.slots.begin(), casters.slots.end());
+  Sha256 slots; // which may be a byte for every few triangles of the scene
+  slots.add(casters.slots);
+  const Bytes digest = slots.bytes();
+  key.append(digest.begin(), digest.end());
   return key;
 }
 

@@ -54,7 +54,7 @@ double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint3
   if (material.baseColor && material.baseColor->image >= 0) {
     const TextureUse& use = *material.baseColor;
     const auto uv = use.texCoord == 1 ? &VertexAttributes::uv1 : &VertexAttributes::uv0;
-    alpha *= textureAlpha(tree.scene->images[static_cast<std::size_t>(use.image)]->alpha(), use,
+    alpha *= textureAlpha(*tree.masks[static_cast<std::size_t>(use.image)], use,
                           moved(at.mix(glm::dvec2(a.*uv), glm::dvec2(b.*uv), glm::dvec2(c.*uv)), use.transform));
   }
   return alpha;

@@ -109,8 +109,12 @@ Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int i
     const SceneView& view = scene->scenes[static_cast<std::size_t>(index)];
     const std::vector<int> masks = alphaImages(*scene, view);
     if (Status decoded = decodeImages(scene->images, masks); !decoded) return std::move(decoded).problems();
-    forEach(masks.size(), [&](std::size_t i) { scene->images[static_cast<std::size_t>(masks[i])]->alpha(); });
     auto tree = std::make_unique<Tree>();
+    tree->masks.resize(scene->images.size());
+    forEach(masks.size(), [&](std::size_t i) {
+      const auto image = static_cast<std::size_t>(masks[i]);
+      tree->masks[image] = scene->images[image]->alpha();
+    });
     tree->view = &scene->scenes[static_cast<std::size_t>(index)];
     tree->scene = std::move(scene);
     tree->anchor = anchorOf(*tree->view);
@@ -138,10 +142,9 @@ const SceneView& TracedScene::view() const {
 
 std::size_t TracedScene::bytes() const {
   std::size_t masks = 0;
-  for (const int image : alphaImages(scene(), view())) {
-    masks += scene().images[static_cast<std::size_t>(image)]->alpha().bytes();
-  }
-  return masks + static_cast<std::size_t>(tree_->embreeBytes.load()) + tree_->positions.capacity() * sizeof(glm::vec3) +
+  for (const auto& mask : tree_->masks) masks += mask ? mask->bytes() : 0;
+  return masks + static_cast<std::size_t>(tree_->embreeBytes.load()) +
+         (tree_->positions.capacity() + tree_->shared.capacity()) * sizeof(glm::vec3) +
          tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
          tree_->mirrored.capacity() + tree_->boxes.bytes() +
          KeptFronts::mostBytes(tree_->boxes.runs(), tree_->view->instances.size());

@@ -42,7 +42,9 @@ struct TracedScene::Tree {
   std::vector<std::size_t> firstIndex;    ///< of each instance, into the scene's
   std::vector<glm::vec3> shared;          ///< positions of primitives with a tree of their own, in their own space
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
-  Aabb bounds;                            ///< of the placed triangles, metres
+  /// By the image; none where no hole depends on it.
+  std::vector<std::shared_ptr<const AlphaPlane>> masks;
+  Aabb bounds; ///< of the placed triangles, metres
   TriangleBoxes boxes;
   mutable KeptFronts fronts;
   std::atomic<std::int64_t> embreeBytes = 0;

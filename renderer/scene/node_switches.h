@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// A node's switches (protocol/node_options.h), nothing left open.
+/// A node's switches (NodeOptions, protocol/spec/scene_options.h), nothing left open.
 struct NodeSwitches {
   bool visible = true;
   bool castShadow = true;

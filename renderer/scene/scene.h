@@ -46,7 +46,7 @@ struct Primitive {
   std::uint32_t firstCluster = 0; ///< into Scene::clusters; cluster k holds triangles [k, k+1) * kClusterTriangles
   std::uint32_t clusterCount = 0;
   bool hasTangents = false;
-  bool solid = false;    ///< its triangles bound solids, front faces outside (welding.h)
+  bool solid = false;    ///< its triangles bound solids, front faces outside (geometry/mesh_build.h)
   Aabb bounds;           ///< in its own space
   std::string content{}; ///< SHA-256 of what its vertices and indices were made from; empty = not known
 };
@@ -185,7 +185,7 @@ struct Scene {
   SharedVector<glm::vec3> positions;         ///< of all primitives
   SharedVector<VertexAttributes> attributes; ///< parallel to positions
   SharedVector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
-  SharedVector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
+  SharedVector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (mesh_build.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
   std::vector<Material> materials;                           ///< at least one (the default material)

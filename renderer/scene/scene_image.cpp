@@ -50,9 +50,12 @@ Status SceneImage::decode() const {
   }
 }
 
-const AlphaPlane& SceneImage::alpha() const {
-  std::call_once(alphaOnce_, [this] { alpha_.emplace(pixels()); });
-  return *alpha_;
+std::shared_ptr<const AlphaPlane> SceneImage::alpha() const {
+  const Image& image = pixels();
+  const std::lock_guard lock(mutex_);
+  auto alpha = alpha_.lock();
+  if (alpha == nullptr) alpha_ = alpha = std::make_shared<const AlphaPlane>(image);
+  return alpha;
 }
 
 Result<std::shared_ptr<const Image>> SceneImage::read() const {

@@ -34,8 +34,8 @@ class SceneImage {
   Status decode() const;
   /// 8-bit RGBA. REQUIRES: decode() gives no problem.
   const Image& pixels() const { return **decoded(); }
-  /// Their alpha, made when it is first asked for, from any thread. REQUIRES: as pixels(). Throws std::bad_alloc.
-  const AlphaPlane& alpha() const;
+  /// Their alpha: one plane for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
+  std::shared_ptr<const AlphaPlane> alpha() const;
 
   /// The same for a caller who needs them but once: those that are kept, or decoded and not kept.
   Result<std::shared_ptr<const Image>> read() const;
@@ -50,11 +50,10 @@ class SceneImage {
   std::uint64_t bytes_ = 0;
   std::string pointer_;
   mutable std::once_flag once_;
-  mutable std::mutex mutex_;                         ///< of `file_`
+  mutable std::mutex mutex_;                         ///< of `file_` and `alpha_`
   mutable std::shared_ptr<const CheckedImage> file_; ///< none once the pixels are kept
   mutable std::optional<Pixels> decoded_;
-  mutable std::once_flag alphaOnce_;
-  mutable std::optional<AlphaPlane> alpha_;
+  mutable std::weak_ptr<const AlphaPlane> alpha_;
 };
 
 /// Puts the place in the glTF on problems of the codec, which knows only bytes.

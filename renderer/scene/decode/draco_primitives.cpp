@@ -58,10 +58,10 @@ class PrimitiveDecoding {
     }
     std::set<std::uint32_t> wanted;
     for (const auto& [name, id] : *ids) wanted.insert(id);
-    const auto mesh = decodeDraco(document_.bufferViews[primitive_.draco->bufferView], claims, wanted, limits_, budget,
-                                  at, findings_);
+    auto mesh = decodeDraco(document_.bufferViews[primitive_.draco->bufferView], claims, wanted, limits_, budget, at,
+                            findings_);
     if (!mesh) return std::nullopt;
-    return viewed(*mesh, *ids, at + "/attributes");
+    return viewed(*std::move(mesh), *ids, at + "/attributes");
   }
 
  private:
@@ -85,9 +85,11 @@ class PrimitiveDecoding {
     return ids;
   }
 
-  std::optional<DracoPrimitive> viewed(const DracoMesh& mesh, const std::map<std::string, std::uint32_t>& ids,
+  std::optional<DracoPrimitive> viewed(DracoMesh decodedMesh, const std::map<std::string, std::uint32_t>& ids,
                                        const std::string& pointer) {
     DracoPrimitive decoded;
+    decoded.mesh = std::move(decodedMesh);
+    const DracoMesh& mesh = decoded.mesh;
     for (const auto& [name, id] : ids) {
       const DracoAttribute& attribute = mesh.attributes.at(id);
       const gltf::Accessor& accessor = accessorOf(name);
@@ -105,16 +107,13 @@ class PrimitiveDecoding {
       view.componentType = type;
       view.normalized = accessor.normalized && type != ComponentType::float32;
       view.stride = bytesOf(type) * static_cast<std::size_t>(components);
-      decoded.storage.push_back(attribute.bytes);
-      view.data = decoded.storage.back().data();
+      view.data = attribute.bytes.data();
       decoded.attributes[name] = view;
     }
-    const auto* corners = reinterpret_cast<const std::uint8_t*>(mesh.corners.data());
-    decoded.storage.emplace_back(corners, corners + mesh.corners.size() * sizeof(std::uint32_t));
     decoded.indices.componentType = ComponentType::uint32;
     decoded.indices.count = mesh.corners.size();
     decoded.indices.stride = sizeof(std::uint32_t);
-    decoded.indices.data = decoded.storage.back().data();
+    decoded.indices.data = reinterpret_cast<const std::uint8_t*>(mesh.corners.data());
     return decoded;
   }
 

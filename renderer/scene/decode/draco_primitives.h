@@ -22,7 +22,7 @@ namespace gnomon {
 struct DracoPrimitive {
   std::map<std::string, AccessorView> attributes; ///< by their names in the primitive
   AccessorView indices;                           ///< a triangle list
-  std::vector<Bytes> storage;                     ///< what the views read
+  DracoMesh mesh;                                 ///< what the views read; several may read one of its attributes
 };
 
 /// By the number of the mesh and of the primitive in it.

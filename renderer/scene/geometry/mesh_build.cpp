@@ -120,7 +120,7 @@ class MeshBuilder {
 
   void read(const PrimitiveSource& source, BuiltMesh& of) {
     stopIfAsked();
-    std::string content = known_ != nullptr ? meshContent(source) : std::string();
+    std::string content = known_ != nullptr ? contents_.of(source) : std::string();
     auto known = content.empty() ? std::nullopt : known_->mesh(content);
     if (!known) corners_ += source.corners();
     read_.push_back({source, of, std::move(content), std::move(known)});
@@ -166,6 +166,7 @@ class MeshBuilder {
   std::vector<Deformable>& deformables_;
   Findings& findings_;
   KnownContent* const known_;
+  MeshContents contents_;
   std::vector<ReadPrimitive> read_;
   std::size_t corners_ = 0; ///< of all that are read
 };

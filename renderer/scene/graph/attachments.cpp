@@ -28,6 +28,9 @@ void checkPerspective(const gltf::PerspectiveLens& lens, const std::string& poin
 void checkOrthographic(const gltf::OrthographicLens& lens, const std::string& pointer, Findings& findings) {
   for (const auto& [key, magnification] : {std::pair("xmag", lens.xmag), std::pair("ymag", lens.ymag)}) {
     if (magnification == 0) findings.invalid(pointerTo(pointer, key), "The magnification is zero.");
+    if (!std::isfinite(2.0 * magnification)) {
+      findings.invalid(pointerTo(pointer, key), "The picture would be wider than any finite number.");
+    }
   }
   if (!(lens.zfar > lens.znear)) {
     findings.invalid(pointer + "/zfar", "The far plane is not beyond the near plane.");
@@ -95,12 +98,21 @@ double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
+/// How many times a light's color is beyond 1.
+double brightest(const gltf::PunctualLight& light) {
+  return light.color ? std::max({1.0, (*light.color)[0], (*light.color)[1], (*light.color)[2]}) : 1.0;
+}
+
 } // namespace
 
 void checkLights(const std::vector<gltf::PunctualLight>& lights, Findings& findings) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
+    const std::string light = pointerTo("/extensions/KHR_lights_punctual/lights", i);
+    if (!std::isfinite(lights[i].intensity * brightest(lights[i]))) {
+      findings.invalid(light + "/intensity", "Multiplied by the color it is no finite number.");
+    }
     if (lights[i].type != LightType::spot) continue;
-    const std::string pointer = pointerTo("/extensions/KHR_lights_punctual/lights", i) + "/spot";
+    const std::string pointer = light + "/spot";
     if (!lights[i].spot) {
       findings.invalid(pointer, "A spot light needs the member spot.");
     } else if (!(lights[i].spot->inner < lights[i].spot->outer)) {
@@ -125,7 +137,7 @@ Light lightFrom(const gltf::PunctualLight& source) {
   if (source.color) {
     const glm::dvec3& rgb = *source.color;
     // Colours beyond 1 become intensity, so that the light stays what it was.
-    const double greatest = std::max({1.0, rgb[0], rgb[1], rgb[2]});
+    const double greatest = brightest(source);
     light.color = {rgb[0] / greatest, rgb[1] / greatest, rgb[2] / greatest};
     light.intensity *= greatest;
   }

@@ -94,6 +94,24 @@ TEST(KnownContent, AMeshIsFoundBehindOthersAndWithAnotherMaterial) {
   EXPECT_FALSE(sameMeshes(*first, *second));
 }
 
+TEST(KnownContent, PrimitivesOfOneSetOfVerticesAreToldApart) {
+  testing::GlbBuilder file = testing::cube();
+  auto primitive = file.json["meshes"][0]["primitives"][0];
+  auto part = file.json["accessors"][primitive["indices"].get<std::size_t>()];
+  part["count"] = 6;
+  part.erase("min");
+  part.erase("max");
+  primitive["indices"] = file.add("accessors", part);
+  file.json["meshes"][0]["primitives"].push_back(primitive);
+  KnownContent known;
+  const auto first = loadedBy(known, file);
+  const auto second = loadedBy(known, file);
+  EXPECT_EQ(known.reused().meshes, 2u);
+  ASSERT_THAT(second->primitives, SizeIs(2));
+  EXPECT_NE(second->primitives[0].content, second->primitives[1].content);
+  expectSameMeshes(*second, load(file));
+}
+
 TEST(KnownContent, WhatDiffersInAByteIsAnother) {
   KnownContent known;
   const auto first = loadedBy(known, testing::cube());

@@ -88,6 +88,8 @@ TEST(Cameras, RefusesBrokenLenses) {
   EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/yfov")));
   camera.erase("perspective");
   EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective")));
+  camera = {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 1.5e308}, {"znear", 0}, {"zfar", 9}}}};
+  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/orthographic/ymag")));
 }
 
 TEST(Cameras, ScaledToNothingAreLeftOut) {
@@ -199,6 +201,8 @@ TEST(Lights, RefusesBrokenLights) {
   EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"range", 0}})),
               ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/range")));
   EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"intensity", -1}})),
+              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/intensity")));
+  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"intensity", 1e200}, {"color", {1, 1e200, 1}}})),
               ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/intensity")));
 }
 
