@@ -336,6 +336,7 @@ Result<FrameFacts> CpuFrame::finish() {
   facts_.memory.scene = cached_.textures->bytes();
   facts_.memory.targets += bytesOf(survey_.buffer);
   for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
+  for (const auto& [samples, layers] : layers_) facts_.memory.targets += layers.bytes();
   for (const auto& [samples, layers] : volumes_) facts_.memory.targets += bytesOf(layers);
   return std::move(facts_);
 }

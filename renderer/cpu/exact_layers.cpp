@@ -5,10 +5,10 @@
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/limits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/techniques/traced_shadow.h"
+#include "renderer/techniques/visibility_bytes.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -123,6 +123,12 @@ Status traceLayers(const CameraRaster& camera, const FrameWork& work, const Surv
 
 } // namespace
 
+std::size_t ExactLayers::bytes() const {
+  std::size_t bytes = 0;
+  for (const Known& each : known) bytes += each.values.size() * sizeof(each.values[0]);
+  return bytes;
+}
+
 std::vector<Layer> ExactLayers::layers(const DepthBuffer& surfaces) const {
   std::vector<Layer> all;
   for (const Known& each : known) {
@@ -144,6 +150,9 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
     }
   }
   if (traced.empty()) return exact;
+  const auto samples = static_cast<std::size_t>(surfaces.samples);
+  const std::int64_t bytes = visibilityBytes(surfaces.width, surfaces.height, samples, traced.size());
+  if (const Status fits = checkVisibilityBytes(bytes); !fits) return fits.problems();
   if (const Status found = traceLayers(camera, work, survey, surfaces, traced, exact); !found) return found.problems();
   return exact;
 }

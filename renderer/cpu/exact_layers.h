@@ -20,6 +20,7 @@ struct ExactLayers {
   std::vector<Known> known;       ///< one a light of FrameWork::layered
   std::vector<LayerFacts> lights; ///< those that rays were sent for
 
+  std::size_t bytes() const; ///< of what was found for this picture
   std::vector<Layer> layers(const DepthBuffer& surfaces) const;
 };
 

@@ -15,7 +15,7 @@ namespace gnomon {
 
 /// How a frame's shadows hold still on surfaces along a path of cameras.
 struct Shimmer {
-  std::size_t points = 0;  ///< watched: world-fixed points of surfaces, counted for every light that they face
+  std::size_t points = 0;  ///< watched: world-fixed, of surfaces; counted for every light they face whose shadow shows
   std::size_t steps = 0;   ///< from one camera of the path to the next
   std::uint64_t flips = 0; ///< points that went from lit (S >= 0.5) to shadowed or back in one step
 

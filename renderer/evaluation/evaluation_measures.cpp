@@ -75,6 +75,13 @@ void addPrediction(const FrameReport& report, int light, std::optional<Predicted
 
 } // namespace
 
+std::vector<int> measuredLights(const ResolvedFrame& frame) {
+  std::vector<int> lights = shadowingLights(frame);
+  std::erase_if(lights,
+                [&](int light) { return (*frame.spec.lights)[static_cast<std::size_t>(light)].shadow->strength <= 0; });
+  return lights;
+}
+
 Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size_t index) {
   const auto posed = posedScene(loaded, poseOf(variant.spec));
   if (!posed) return posed.problems();
@@ -82,10 +89,7 @@ Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size
   auto frame = resolveFrame(scene, variant.spec);
   if (!frame) return frame.problems();
   Subject subject{index, std::move(*frame), {}};
-  for (const int light : shadowingLights(subject.frame)) {
-    const Shadow& shadow = *(*subject.frame.spec.lights)[static_cast<std::size_t>(light)].shadow;
-    if (shadow.strength > 0) subject.lights.push_back(light);
-  }
+  subject.lights = measuredLights(subject.frame);
   if (subject.lights.empty()) {
     return Problem{ProblemCode::invalidValue, "/shadow",
                    "No light casts a shadow here, so there is nothing to measure.", "", ""};
@@ -149,7 +153,10 @@ Result<ErrorMetrics> measureSubject(const Subject& subject, const Reference& tru
   for (const int light : subject.lights) {
     if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
     auto frame = draw(shadowSpec(subject, light));
-    if (!frame) return frame.problems();
+    if (!frame) {
+      steps.finish(static_cast<int>(subject.lights.size() - shown.size())); // this light's and all later ones'
+      return frame.problems();
+    }
     addPrediction(frame->report, light, predicted);
     shown.push_back(std::get<std::vector<float>>(std::move(frame->images.front().image.pixels)));
     steps.finish();

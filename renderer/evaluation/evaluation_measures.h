@@ -44,11 +44,14 @@ inline bool endsEvaluation(const Problems& problems) {
          code == ProblemCode::internal;
 }
 
+/// The lights whose shadows are measured: those that cast with a strength above 0.
+std::vector<int> measuredLights(const ResolvedFrame& frame);
+
 /// A variant that can be drawn.
 struct Subject {
   std::size_t index = 0; ///< of the variant
   ResolvedFrame frame;
-  std::vector<int> lights; ///< whose shadows are measured: those that cast with a strength above 0
+  std::vector<int> lights; ///< measuredLights
 };
 
 /// The variant on its scene; a problem where nothing in it casts a shadow, or where its shadows take too much memory.
@@ -76,7 +79,8 @@ class Truth {
   ReferenceReport report_;
 };
 
-/// The subject's metrics: a frame drawn for each of its lights, held against the truth.
+/// The subject's metrics: a frame drawn for each of its lights, held against the truth. Finishes a step a light, also
+/// where one of the frames cannot be drawn.
 Result<ErrorMetrics> measureSubject(const Subject& subject, const Reference& truth, const DrawFrame& draw,
                                     EvaluationSteps& steps);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
@@ -24,19 +25,8 @@ Problem stopped() {
   return {ProblemCode::unavailable, "", "The measurement was stopped."};
 }
 
-/// Shadows of full strength: a flip is one of visibility.
-FrameSpec measured(const FrameSpec& spec) {
-  FrameSpec full = spec;
-  full.antialiasing = Antialiasing::none; // points are asked, not pixels
-  full.shadow.strength = 1;
-  if (!full.lights) return full;
-  for (Light& light : *full.lights) {
-    if (light.shadow) light.shadow->strength = 1;
-  }
-  return full;
-}
-
 Result<std::vector<ResolvedFrame>> resolvePath(const Scene& scene, FrameSpec spec, std::span<const Camera> path) {
+  spec.antialiasing = Antialiasing::none; // points are asked, not pixels
   std::vector<ResolvedFrame> frames;
   for (const Camera& camera : path) {
     spec.camera = camera;
@@ -51,14 +41,20 @@ TraceInput traceInput(const TracedScene& traced, const ResolvedFrame& frame) {
   return {traced, frame.view, frame.spec.width, frame.spec.height, *frame.spec.lights, frame.nodes};
 }
 
-/// Every light's points: seen by all cameras, the same places of the world for all of them.
+/// Shadows of full strength: a flip is one of visibility. Lights that are not measured keep their tiles, as in the
+/// frame that was asked for.
+void raiseStrengths(ResolvedFrame& frame) {
+  for (Light& light : *frame.spec.lights) light.shadow->strength = 1;
+}
+
+/// Every measured light's points: seen by all cameras, the same places of the world for all of them.
 Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std::vector<ResolvedFrame>& frames) {
   const TraceInput first = traceInput(traced, frames.front());
   std::vector<SurfacePoint> seen = spreadPoints(first, kPoints);
   for (std::size_t i = 1; i < frames.size(); ++i) keepInSight(traceInput(traced, frames[i]), seen);
 
   std::vector<Watched> watched;
-  const std::vector<int> casting = shadowingLights(frames.front());
+  const std::vector<int> casting = measuredLights(frames.front());
   for (const int light : casting) {
     std::vector<SurfacePoint> points = receiversOf(first, light, seen);
     if (!points.empty()) watched.push_back({light, std::move(points), {}});
@@ -150,12 +146,13 @@ Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, c
   const auto posed = posedScene(loaded, poseOf(spec));
   if (!posed) return posed.problems();
   const ScenePtr& scene = *posed;
-  auto frames = resolvePath(*scene, measured(spec), path);
+  auto frames = resolvePath(*scene, spec, path);
   if (!frames) return frames.problems();
   const auto traced = tracedScenes.get(scene, frames->front().scene);
   if (!traced) return traced.problems();
   auto watched = watchedPoints(**traced, *frames);
   if (!watched) return watched.problems();
+  for (ResolvedFrame& frame : *frames) raiseStrengths(frame);
 
   Shimmer shimmer;
   shimmer.steps = path.size() - 1;

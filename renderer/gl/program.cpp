@@ -14,7 +14,7 @@ struct DeleteShader {
 };
 using Shader = Object<DeleteShader{}>;
 
-/// "; 0 = shade.frag, 1 = common_light.glsl": the files behind the numbers in a log.
+/// "; 0 = view.frag, 1 = common_surface.glsl": the files behind the numbers in a log.
 std::string legend(std::string_view text) {
   constexpr std::string_view kMark = "// source ";
   std::string legend;

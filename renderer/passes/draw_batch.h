@@ -53,7 +53,7 @@ struct DrawBatch {
 
 DrawBatch uploadDraws(const DrawList& list);
 
-/// Instances that know the number of their draw's first triangle (prepare/triangle_numbers.h): a copy for each range of
+/// Instances that know the number of their draw's first triangle (prepare/draw_list.h): a copy for each range of
 /// `list`, which names that copy from now on.
 gl::Buffer numberedInstances(const FrameGeometry& geometry, DrawList& list);
 

@@ -197,14 +197,12 @@ MemoryReport memoryOf(const PassResults& results) {
   memory.scene = results.gpu.bytes + results.gpu.materialData.bytes();
   memory.atlas = results.atlas.textures->bytes();
   memory.targets = results.survey.depth.bytes();
-  for (const auto& [samples, surfaces] : results.drawn.surfaces) {
-    memory.targets +=
-        surfaces.bits.bytes() + surfaces.emission.bytes() + surfaces.ownDepth.bytes() + surfaces.bakedShares.bytes();
-  }
+  for (const auto& [samples, surfaces] : results.drawn.surfaces) memory.targets += surfaces.bytes();
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     memory.targets += exact.layers.texture.bytes() + exact.countBytes;
   }
   for (const auto& [samples, layers] : results.drawn.volumes) memory.targets += layers.picture.bytes();
+  memory.targets += results.drawn.casters.bytes() + results.drawn.flatAtlas.bytes();
   for (const DrawnView& view : results.drawn.views) memory.targets += view.color.bytes();
   return memory;
 }

@@ -26,7 +26,7 @@ struct SurfaceVariant {
   bool emission =
       false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
-  bool numbered = false;       ///< says which triangle shows (passes/views/triangle_numbers.h)
+  bool numbered = false;       ///< says which triangle shows (prepare/draw_list.h)
   int bakedLights = 0;         ///< whose light maps are read, 0 to GNOMON_LIGHT_MAPS
   int shownSamples = 0;        ///< of a pixel, where depth says which of them show a triangle; else 0
 };

@@ -141,6 +141,39 @@ TEST(FrameReports, MemoryIsCountedInBytes) {
   EXPECT_GT(memory.scene, 24u * 12u) << "the box's vertices alone";
 }
 
+/// The memory of a small frame of the box; `rest`: members of its spec.
+MemoryReport memoryWith(const std::string& rest, std::uint64_t* atlasTexels = nullptr) {
+  const Frame frame = renderJson(testing::generatedScene("box_on_plane"), R"({"width":96,"height":64,)" + rest + "}");
+  if (atlasTexels != nullptr) {
+    *atlasTexels =
+        static_cast<std::uint64_t>(frame.report.atlasSize[0]) * static_cast<std::uint64_t>(frame.report.atlasSize[1]);
+  }
+  return frame.report.memory;
+}
+
+TEST(FrameReports, MemoryHoldsWhatShadowsAreTracedWith) {
+  const std::uint64_t pixels = 96 * 64;
+  const std::string sun = R"("lights":[{"sun":{}}],"shadow":)";
+  const std::uint64_t unshadowed = memoryWith(sun + R"({"enabled":false})").targets;
+  const std::uint64_t traced = memoryWith(sun + R"({"technique":"rayTraced"})").targets;
+  EXPECT_GE(traced, unshadowed + 2 * pixels) << "a layer of 16 bits a pixel or more";
+  if (testing::testedDevice() == DeviceChoice::cpu) return;
+  // 4 samples of a triangle's number (4 bytes) and of a light's share (2 bytes).
+  EXPECT_EQ(traced, unshadowed + pixels * 4 * (4 + 2));
+}
+
+TEST(FrameReports, MemoryHoldsWhatViewsOfTilesAreMadeFrom) {
+  if (testing::testedDevice() == DeviceChoice::cpu) GTEST_SKIP() << "shows them from the tiles that it has";
+  std::uint64_t texels = 0;
+  const std::uint64_t shares = memoryWith(R"("lights":[{"sun":{}}],"views":["shadow"])").targets;
+  const std::uint64_t casters = memoryWith(R"("lights":[{"sun":{}}],"views":["casterIds"])", &texels).targets;
+  ASSERT_GT(texels, 0u);
+  EXPECT_EQ(casters, shares + texels * (4 + 4)) << "a node and its depth a texel";
+  const std::string atlas = R"("lights":[{"sun":{}}],"views":["atlas"],"atlas":{"samples":)";
+  const std::uint64_t plain = memoryWith(atlas + "1}").targets;
+  EXPECT_EQ(memoryWith(atlas + "4}", &texels).targets, plain + texels * 4) << "one depth of several";
+}
+
 TEST(FrameReports, H2_HalfTheTileShowsTexelsTwiceAsLarge) {
   const ScenePtr scene = testing::generatedScene("box_on_plane");
   Json spec = Json::parse(kThreeLights);

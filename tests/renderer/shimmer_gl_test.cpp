@@ -136,6 +136,18 @@ TEST(Shimmer, H6_WhatIsTracedIsTheSameForAPointFromEverywhere) {
   EXPECT_EQ(shimmer.flips, 0u);
 }
 
+TEST(Shimmer, H6_LightsWhoseShadowsDoNotShowAreNotWatched) {
+  const ScenePtr scene = testing::generatedScene("long_row");
+  const Json faint = Json::parse(
+      R"({"type":"point","position":[0.4,5.5,-9.7],"intensity":200,"shadow":{"strength":0.2,"size":"Small"}})");
+  Json spec = sunned("projectionSnapping", "hard", 1);
+  const std::size_t ofTheSun = measured(scene, spec, kForwards).points;
+  spec["lights"].push_back(faint);
+  EXPECT_GT(measured(scene, spec, kForwards).points, ofTheSun) << "a faint shadow counts as a full one does";
+  spec["lights"][1]["shadow"]["strength"] = 0;
+  EXPECT_EQ(measured(scene, spec, kForwards).points, ofTheSun);
+}
+
 TEST(Shimmer, H6_APathWithNothingToWatchIsAProblem) {
   const ScenePtr scene = testing::generatedScene("box_on_plane");
   const Way away{{0, 30, 0}, {0, 60, 1}, {0, 0, 0}, {0, 0, 0}, 2};
@@ -147,11 +159,13 @@ TEST(Shimmer, H6_APathWithNothingToWatchIsAProblem) {
   const auto one = along(scene, sunned("none", "hard", 1), still);
   ASSERT_FALSE(one);
   EXPECT_EQ(one.problems().front().limit, "at least 2");
-  Json off = sunned("none", "hard", 1);
-  off["shadow"]["enabled"] = false;
-  const auto dark = along(scene, off, kAcross);
-  ASSERT_FALSE(dark);
-  EXPECT_NE(dark.problems().front().detail.find("No light"), std::string::npos);
+  for (const auto& [key, value] : {std::pair<const char*, Json>{"enabled", false}, {"strength", 0}}) {
+    Json off = sunned("none", "hard", 1);
+    off["shadow"][key] = value;
+    const auto dark = along(scene, off, kAcross);
+    ASSERT_FALSE(dark) << key;
+    EXPECT_NE(dark.problems().front().detail.find("No light"), std::string::npos) << key;
+  }
 }
 
 } // namespace

@@ -19,6 +19,8 @@ struct CasterNodes {
   gl::Texture nodes; ///< R32I: the node's index; -1 where nothing casts. Empty where the light has no tiles
   gl::Texture depth; ///< D32F: that node's depth, as in the atlas
   std::size_t drawCalls = 0;
+
+  std::size_t bytes() const { return nodes.bytes() + depth.bytes(); } ///< on the device
 };
 
 /// Draws the casters of one light once more; `planned` is one of the plan's, or null for none. `lights`: effective.

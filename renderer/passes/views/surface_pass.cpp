@@ -37,6 +37,10 @@ class LightMapBindings {
 
 } // namespace
 
+std::size_t Surfaces::bytes() const {
+  return bits.bytes() + emission.bytes() + ownDepth.bytes() + bakedShares.bytes() + triangleNumbers.bytes();
+}
+
 Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, const SurfaceAsks& asks) {
   const bool numbered = asks.numbered;
   const GpuMappedScene* const mapped = asks.maps.empty() ? nullptr : asks.maps[0]->scene.get();

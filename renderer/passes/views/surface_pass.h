@@ -24,6 +24,8 @@ struct Surfaces {
   std::uint64_t triangles = 0;
   std::size_t drawCalls = 0;
   gl::Timer timer;
+
+  std::size_t bytes() const; ///< of the textures, on the device
 };
 
 /// What is asked of surfaces, besides what they are made of.

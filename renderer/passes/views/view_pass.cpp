@@ -1,12 +1,11 @@
 #include "renderer/passes/views/view_pass.h"
 
 #include <algorithm>
-#include <string>
 
-#include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
+#include "renderer/techniques/visibility_bytes.h"
 
 namespace gnomon {
 
@@ -134,13 +133,9 @@ void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint 
 }
 
 Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers) {
-  const std::int64_t bytes = std::int64_t{2} * width * height * samples * layers;
-  if (bytes > kLimits.maxVisibilityBytes) {
-    return Problem{
-        ProblemCode::tooLarge, "/lights",
-        "What rays and shadow volumes decide for every sample and light would take more memory than a frame may have.",
-        std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
-  }
+  const std::int64_t bytes =
+      visibilityBytes(width, height, static_cast<std::size_t>(samples), static_cast<std::size_t>(layers));
+  if (const Status fits = checkVisibilityBytes(bytes); !fits) return fits.problems();
   gl::TextureShape shape{samples > 1 ? GLenum{GL_RGBA16} : GLenum{GL_R16}, width, height};
   shape.layers = layers;
   return VisibilityLayers{gl::Texture(shape, "visibility")};

@@ -193,6 +193,42 @@ TEST(EvaluationTimes, AVariantThatFailsIsLeftOutAndNoOneElse) {
   EXPECT_EQ(last, 8) << "told before the last of 9";
 }
 
+/// Frames of nothing but light, of `lights` lights. Those of exposure 3 cannot be drawn from the debug light `failing`
+/// on.
+DrawFrame litFrames(std::size_t lights, int failing) {
+  return [=](const FrameSpec& spec) -> Result<Frame> {
+    if (spec.exposure == 3 && spec.debug.light >= failing) {
+      return Problem{ProblemCode::unsupportedFeature, "/shadow", "Not this one.", "", ""};
+    }
+    const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+    Frame frame;
+    frame.report.lights.resize(lights);
+    frame.images.emplace_back().image.pixels = std::vector<float>(pixels, 1.0f);
+    return frame;
+  };
+}
+
+TEST(EvaluationSteps, AreAllFinishedWhicheverLightAVariantFailsAt) {
+  const auto scene = std::make_shared<const Scene>(emptyScene());
+  const auto evaluation = decodeEvaluation(R"({"repeats": 2, "variants": [{"exposure": 3}, {}],
+      "spec": {"width": 16, "height": 16, "lights": [{"sun": {}}, {"sun": {}}, {"sun": {}}]}})");
+  ASSERT_TRUE(evaluation);
+  for (const int failing : {0, 1, 2, 3}) {
+    EvaluationStep last;
+    const EvaluationListener listener{[&](const EvaluationStep& step) {
+                                        last = step;
+                                        return true;
+                                      },
+                                      {}};
+    const auto report = evaluate(scene, *evaluation, {}, {litFrames(3, failing), {}}, listener);
+    ASSERT_TRUE(report) << report.problems()[0].detail;
+    EXPECT_EQ(report->rows[0].problems.has_value(), failing < 3) << failing;
+    EXPECT_TRUE(report->rows[1].metrics && report->rows[1].milliseconds) << failing;
+    EXPECT_EQ(last.of, 1 + 2 * (3 + 1 + 2));
+    EXPECT_EQ(last.done, last.of - 1) << "told before the last, which is drawn; failing at " << failing;
+  }
+}
+
 TEST(EvaluationTimes, ADeadlineEndsItAll) {
   Clockwork clock;
   EvaluationSteps steps({}, 12);
