@@ -20,7 +20,9 @@ inline double signedArea(const FlatTriangle& t) {
 /// no area overlaps nothing.
 bool overlap(const FlatTriangle& a, const FlatTriangle& b, double slack);
 
-/// Whether any two of them do. Time grows with their number, and with how unequal their sizes are.
+/// Whether any two of them do. Memory grows as their number n, time about as n log n, for fans and slanted strips of
+/// long triangles too; where many lie across each other's way without an overlap it may come near n squared. Listens to
+/// what the thread's task does (core/stop.h).
 bool anyOverlap(std::span<const FlatTriangle> triangles, double slack);
 
 } // namespace gnomon

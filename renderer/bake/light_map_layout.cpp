@@ -92,13 +92,32 @@ double densityFor(const std::vector<glm::dvec2>& sizes, int size) {
   return low;
 }
 
-Problem tooLarge(const LightMapFineness& fineness, std::size_t charts) {
+/// The least size that the charts fit into; nothing where they fit into none.
+std::optional<int> leastSize(const std::vector<glm::dvec2>& sizes) {
+  const auto coarsest = packed(sizes, 0);
+  if (!coarsest) return std::nullopt;
+  int low = coarsest->longest() - 1; // does not fit
+  int high = low + 1;
+  for (int step = 1; !(densityFor(sizes, high) > 0); step *= 2) {
+    if (high == kLimits.maxLightMapSide) return std::nullopt;
+    low = high;
+    high = std::min(high + step, kLimits.maxLightMapSide);
+  }
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (densityFor(sizes, middle) > 0 ? high : low) = middle;
+  }
+  return high;
+}
+
+Problem tooLarge(const LightMapFineness& fineness, const std::vector<glm::dvec2>& sizes) {
   if (fineness.size) {
-    return {
-        ProblemCode::invalidValue, "/size",
-        "The scene's surfaces fall into " + std::to_string(charts) + " charts, which do not fit into the light map.",
-        std::to_string(*fineness.size + 1) + ".." + std::to_string(kLimits.maxLightMapSide),
-        std::to_string(*fineness.size)};
+    const auto least = leastSize(sizes);
+    return {ProblemCode::invalidValue, "/size",
+            "The scene's surfaces fall into " + std::to_string(sizes.size()) + " charts, which do not fit into " +
+                (least ? "the light map." : "a light map of any size."),
+            least ? std::to_string(*least) + ".." + std::to_string(kLimits.maxLightMapSide) : "",
+            std::to_string(*fineness.size)};
   }
   return {ProblemCode::invalidValue, "/texelsPerMetre",
           "At this fineness the light map of the scene has sides of more than " +
@@ -137,9 +156,9 @@ Result<LightMapLayout> lightMapLayout(const Scene& scene, const SceneView& view,
   const std::vector<glm::dvec2> sizes = sizesOf(all);
   if (sizes.empty()) return LightMapLayout{};
   const double density = fineness.size ? densityFor(sizes, *fineness.size) : fineness.texelsPerMetre.value_or(0);
-  if (!(density > 0)) return tooLarge(fineness, sizes.size());
+  if (!(density > 0)) return tooLarge(fineness, sizes);
   const auto fitted = packed(sizes, density);
-  if (!fitted) return tooLarge(fineness, sizes.size());
+  if (!fitted) return tooLarge(fineness, sizes);
   return placed(scene, view, std::move(all), *fitted, density);
 }
 

@@ -152,5 +152,20 @@ TEST(LightMapLayout, WhatDoesNotFitIsAProblemAtItsField) {
   EXPECT_EQ(small.problems()[0].pointer, "/size");
 }
 
+TEST(LightMapLayout, TheLeastSizeThatIsToldFitsAndNoLesserOneDoes) {
+  const Scene scene = sphereAndFloor();
+  const auto fits = [&](int size) { return lightMapLayout(scene, scene.scenes[0], {{}, size}); };
+  const auto small = fits(6);
+  ASSERT_FALSE(small);
+  const std::string limit = small.problems()[0].limit;
+  EXPECT_TRUE(limit.ends_with(".." + std::to_string(kLimits.maxLightMapSide))) << limit;
+  const int least = std::stoi(limit);
+  ASSERT_GT(least, 7);
+  EXPECT_TRUE(fits(least));
+  const auto less = fits(least - 1);
+  ASSERT_FALSE(less);
+  EXPECT_EQ(less.problems()[0].limit, limit);
+}
+
 } // namespace
 } // namespace gnomon
