@@ -107,11 +107,15 @@ Json queryParameters() {
 
 Json sceneRoute() {
   Json put = operation("putScene", "Upload a scene by name",
-                       sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503", "507"}));
-  Json get = operation("getScene", "What a scene holds", replies(jsonReply("Its summary.", "SceneSummary"), {"404"}));
-  Json head =
-      operation("headScene", "Whether a scene is there", replies({{"200", success("It is there.", Json())}}, {"404"}));
-  Json remove = operation("deleteScene", "Remove a scene", replies({{"204", success("It is gone.", Json())}}, {"404"}));
+                       sceneReplies({"400", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
+  // Where no summary is kept, a worker loads the scene for it, whatever the method.
+  const auto summary = [](Json good) {
+    return replies(std::move(good), {"404", "413", "422", "429", "500", "503", "504"});
+  };
+  Json get = operation("getScene", "What a scene holds", summary(jsonReply("Its summary.", "SceneSummary")));
+  Json head = operation("headScene", "Whether a scene is there", summary({{"200", success("It is there.", Json())}}));
+  Json remove =
+      operation("deleteScene", "Remove a scene", replies({{"204", success("It is gone.", Json())}}, {"404", "503"}));
   return {{"put", withBody(withScene(std::move(put)), sceneBody())},
           {"get", withScene(std::move(get))},
           {"head", withScene(std::move(head))},
@@ -120,7 +124,7 @@ Json sceneRoute() {
 
 Json scenesRoute() {
   Json post = operation("postScene", "Upload a scene; its name is the hash of its bytes",
-                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "503", "507"}));
+                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
   const Json content = {{"application/json", schemaContent("SceneList")}};
   Json get = operation(
       "listScenes", "The scenes that there are, in pages",
@@ -167,13 +171,13 @@ Json framesRoute() {
 Json planRoute() {
   Json post = operation("planFrame", "Decide a frame without rendering it",
                         replies(jsonReply("What it would do.", "PlanReport"),
-                                {"400", "404", "408", "411", "413", "415", "422", "503", "504"}));
+                                {"400", "404", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
   return {{"post", withBody(withScene(std::move(post)), specBody())}};
 }
 
 Json frameRoute() {
   Json get = operation("getFrame", "Render a frame from a query string, for links and <img>",
-                       frameReplies({"304", "400", "404", "406", "422", "429", "500", "503", "504"}));
+                       frameReplies({"304", "400", "404", "406", "413", "422", "429", "500", "503", "504"}));
   get["description"] = "Keys are a field's dotted path; values are JSON or bare words.";
   get["parameters"] = queryParameters();
   return {{"get", std::move(get)}};

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "protocol/base/elapsed.h"
 #include "server/dispatch/dispatcher_parts.h"
 #include "server/system/log.h"
 #include "server/system/memory_file.h"
+#include "server/system/no_thread.h"
 
 namespace gnomon {
 namespace {
@@ -45,12 +48,18 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
   for (std::size_t i = 0; i < dispatcher->options_.workers; ++i) {
     dispatcher->slots_.push_back(std::make_unique<Slot>());
   }
-  for (const auto& slot : dispatcher->slots_) dispatcher->startSlot(*slot);
-  if (dispatcher->options_.each.device == DeviceChoice::auto_) {
+  if (mayStartDriverWorker(dispatcher->options_.each.device)) {
     dispatcher->slots_.push_back(std::make_unique<Slot>());
     dispatcher->slots_.back()->loadsDrivers = true;
   }
-  dispatcher->watching_ = std::thread([&dispatcher = *dispatcher] { dispatcher.watch(); });
+  for (const auto& slot : dispatcher->slots_) {
+    if (!slot->loadsDrivers && !dispatcher->startSlot(*slot)) return noThreadFor("a worker");
+  }
+  try {
+    dispatcher->watching_ = dispatcher->options_.startThread([&dispatcher = *dispatcher] { dispatcher.watch(); });
+  } catch (const std::system_error&) {
+    return noThreadFor("watching the workers");
+  }
   Lock lock(dispatcher->mutex_);
   const auto anyReady = [&] {
     return std::any_of(dispatcher->slots_.begin(), dispatcher->slots_.end(),
@@ -70,8 +79,14 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
   return dispatcher;
 }
 
-void Dispatcher::startSlot(Slot& slot) {
-  slot.thread = std::thread([this, &slot] { keepWorking(slot); });
+/// False where the system has no thread for it.
+bool Dispatcher::startSlot(Slot& slot) {
+  try {
+    slot.thread = options_.startThread([this, &slot] { keepWorking(slot); });
+    return true;
+  } catch (const std::system_error&) {
+    return false;
+  }
 }
 
 Dispatcher::~Dispatcher() {
@@ -103,7 +118,14 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
 
   Lock lock(mutex_);
   waiting_.push_back(ticket);
-  placeWaiting();
+  try {
+    placeWaiting();
+  } catch (const std::exception& error) { // as where there is no memory
+    logEvent("worker", error.what());
+    if (ticket->state == Ticket::State::waiting) {
+      refuse(ticket, failed({ProblemCode::internal, "", "The request could not be given to a worker.", "", ""}));
+    }
+  }
   if (waiting_.size() > options_.queueLimit) refuseOne();
   while (true) {
     const auto deadline = std::min(ticket->task.deadline, endAt_);
@@ -172,7 +194,8 @@ DispatcherState Dispatcher::state() const {
   const Lock lock(mutex_);
   DispatcherState state{.workers = options_.workers, .waiting = waiting_.size(), .limit = options_.queueLimit};
   for (const auto& slot : slots_) {
-    state.ready += slot->ready ? 1 : 0;
+    state.ready += slot->ready && !slot->loadsDrivers ? 1 : 0;
+    state.isDriverReady = state.isDriverReady || (slot->ready && slot->loadsDrivers);
     state.running += slot->running.size();
     for (const auto& [number, ticket] : slot->running)
       ++state.runningByLane[static_cast<std::size_t>(ticket->task.lane)];

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -33,7 +34,18 @@ struct DispatcherOptions {
 
   /// Told of each task that goes to a worker, and how long it waited. It must return at once.
   std::function<void(Lane, double seconds)> waited{};
+
+  /// Starts each thread of the dispatcher. It may throw std::system_error, as std::thread does where the system has no
+  /// thread left.
+  std::function<std::thread(std::function<void()>)> startThread = [](std::function<void()> work) {
+    return std::thread(std::move(work));
+  };
 };
+
+/// Whether a server whose workers draw with this may start a further one, for requests that ask for OpenGL.
+inline bool mayStartDriverWorker(DeviceChoice device) {
+  return device == DeviceChoice::auto_;
+}
 
 /// Why a worker had to be replaced.
 enum class WorkerEnd {
@@ -47,8 +59,9 @@ inline constexpr std::array<std::string_view, kWorkerEnds> kWorkerEndNames{"cras
 
 /// What the workers are doing.
 struct DispatcherState {
-  std::size_t workers = 0;
-  std::size_t ready = 0;
+  std::size_t workers = 0;                               ///< that are to run, without the one for OpenGL
+  std::size_t ready = 0;                                 ///< of these
+  bool isDriverReady = false;                            ///< the one for OpenGL, which draws for no other request
   std::size_t waiting = 0;                               ///< tasks
   std::size_t running = 0;                               ///< tasks
   std::size_t limit = 0;                                 ///< tasks that may wait
@@ -72,7 +85,8 @@ class Dispatcher {
   Dispatcher& operator=(const Dispatcher&) = delete;
 
   /// Waits for the task's result. Problems beside the worker's own: busy where too many tasks wait,
-  /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it.
+  /// deadlineExceeded, unavailable where `gone` became true, the server ends or has no thread for the task's worker,
+  /// internal where workers ended over it or it could not be sent to one.
   /// `gone` is asked some fifty times a second, on the calling thread, as are `events`.
   TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
@@ -103,6 +117,7 @@ class Dispatcher {
 
   explicit Dispatcher(DispatcherOptions options);
   void keepWorking(Slot& slot);
+  void guarded(Slot& slot, const std::function<void()>& work);
   bool startWorker(Slot& slot);
   void listen(Slot& slot);
   bool take(Slot& slot, Packet packet);
@@ -116,9 +131,10 @@ class Dispatcher {
   std::optional<Fault> faultOf(const Slot& slot) const;
   void endWorker(Slot& slot, Fault fault);
   void placeWaiting();
+  void refuse(const TicketPtr& ticket, TaskResult result);
   void refuseOne();
   bool suits(const Slot& slot, bool needsDriver) const;
-  void startSlot(Slot& slot);
+  bool startSlot(Slot& slot);
   void send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
   void callOff(const TicketPtr& ticket);

@@ -3,16 +3,28 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <numeric>
+#include <utility>
 
 #include "protocol/base/elapsed.h"
 #include "server/dispatch/dispatcher_parts.h"
+#include "server/system/log.h"
+#include "server/system/no_thread.h"
 
 namespace gnomon {
 
 bool Dispatcher::suits(const Slot& slot, bool needsDriver) const {
   const bool apart = info_.device == DeviceChoice::cpu && options_.each.device == DeviceChoice::auto_;
   return slot.loadsDrivers == (needsDriver && apart);
+}
+
+/// Ends a task that no worker has. How long it was there says nothing about how long tasks take.
+void Dispatcher::refuse(const TicketPtr& ticket, TaskResult result) {
+  waiting_.remove(ticket);
+  ticket->result = std::move(result);
+  ticket->state = Ticket::State::done;
+  ticket->changed.notify_one();
 }
 
 /// Gives workers what they can take. Those who have to be alone come first, then whoever has the fewest tasks in
@@ -44,7 +56,13 @@ void Dispatcher::placeWaiting() {
     const TicketPtr ticket = *next;
     order.erase(next);
     auto& [slots, workers] = groups[ticket->task.needsDriver];
-    if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable()) startSlot(*slots_[slots[0]]);
+    if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable() && !startSlot(*slots_[slots[0]])) {
+      TaskResult result;
+      result.outcome.problems = {noThreadFor("the worker that draws with OpenGL")};
+      result.outcome.retryAfterSeconds = 1;
+      refuse(ticket, std::move(result));
+      continue;
+    }
     std::optional<std::size_t> place;
     if (ticket->mustBeAlone()) {
       const auto lone = lonePlaceFor(ticket->task, workers);
@@ -54,15 +72,23 @@ void Dispatcher::placeWaiting() {
       place = placeFor(ticket->task, workers);
     }
     if (!place) continue;
-    waiting_.remove(ticket);
     ++inProgress[ticket->task.client];
     ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
     workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
-    send(ticket, slots[*place]);
+    try {
+      send(ticket, slots[*place]);
+    } catch (const std::exception& error) { // as where there is no memory; this task alone has no turn then
+      logEvent("worker", error.what());
+      slots_[slots[*place]]->running.erase(ticket->task.order.number);
+      TaskResult result;
+      result.outcome.problems = {{ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}};
+      refuse(ticket, std::move(result));
+    }
   }
 }
 
 void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
+  waiting_.remove(ticket);
   Slot& slot = *slots_[worker];
   const double waited = millisecondsSince(ticket->since);
   if (options_.waited) options_.waited(ticket->task.lane, waited / 1000);
@@ -93,12 +119,12 @@ void Dispatcher::refuseOne() {
   });
   const TicketPtr ticket = *refused;
   waiting_.erase(refused);
-  ticket->result.outcome.problems = {{ProblemCode::busy, "", "The queue before the workers is full.",
-                                      std::to_string(options_.queueLimit) + " requests", ""}};
-  ticket->result.outcome.retryAfterSeconds = retryAfterSeconds();
-  ticket->result.refusal = TaskRefusal::queue;
-  ticket->state = Ticket::State::done;
-  ticket->changed.notify_one();
+  TaskResult result;
+  result.outcome.problems = {{ProblemCode::busy, "", "The queue before the workers is full.",
+                              std::to_string(options_.queueLimit) + " requests", ""}};
+  result.outcome.retryAfterSeconds = retryAfterSeconds();
+  result.refusal = TaskRefusal::queue;
+  refuse(ticket, std::move(result));
 }
 
 /// Until there is a place in the queue, from what tasks took lately and how long those in progress have run already:

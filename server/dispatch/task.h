@@ -10,6 +10,7 @@
 
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
+#include "server/system/reply_room.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {
@@ -51,6 +52,7 @@ struct TaskResult {
   Outcome outcome;
   std::optional<FileDescriptor> body{}; ///< where there are no problems
   TaskRefusal refusal = TaskRefusal::none;
+  ReplyRoom room{}; ///< for the body, once it may be read as a reply
 };
 
 /// Told of a task's events, in order, on the thread that waits for the task.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
 #include <utility>
 
 #include "server/dispatch/dispatcher_parts.h"
@@ -30,13 +32,34 @@ Problem faultProblem(std::string detail) {
 /// A slot's thread: one worker after the other.
 void Dispatcher::keepWorking(Slot& slot) {
   while (true) {
-    if (startWorker(slot)) listen(slot);
-    replaceWorker(slot);
+    guarded(slot, [&] {
+      if (startWorker(slot)) listen(slot);
+    });
+    guarded(slot, [&] { replaceWorker(slot); });
     Lock lock(mutex_);
     constexpr int kMostDoublings = 7;
     const auto pause =
         std::chrono::milliseconds(slot.failures == 0 ? 0 : 50 << std::min(slot.failures, kMostDoublings));
     if (changed_.wait_for(lock, pause, [&] { return ending_; })) return;
+  }
+}
+
+/// What `work` throws, as where there is no memory, costs the slot's worker. If it left the thread, it would end the
+/// process.
+void Dispatcher::guarded(Slot& slot, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    logEvent("worker", error.what());
+    const Lock lock(mutex_);
+    ++slot.failures; // so that the next one does not follow at once
+    try {
+      const Problem problem = faultProblem("The server could not handle its messages.");
+      if (!slot.ready && !refusal_) refusal_ = Problems{problem};
+      if (slot.fault.problem.detail.empty()) slot.fault = {problem, WorkerEnd::crash};
+    } catch (const std::bad_alloc&) { // it ends without a reason
+    }
+    changed_.notify_all();
   }
 }
 
@@ -51,6 +74,7 @@ bool Dispatcher::startWorker(Slot& slot) {
   slot.process = *std::move(started);
   slot.heard = Clock::now();
   slot.fault = {};
+  slot.isHandled = false;
   if (ending_) slot.process->kill();
   WorkerOptions start = options_.each;
   start.loadsDrivers = slot.loadsDrivers;
@@ -184,9 +208,13 @@ void Dispatcher::replaceWorker(Slot& slot) {
 void Dispatcher::watch() {
   Lock lock(mutex_);
   while (!changed_.wait_for(lock, kWatchPause, [&] { return ending_; })) {
-    for (const auto& slot : slots_) {
-      if (!slot->process || !slot->fault.problem.detail.empty()) continue;
-      if (auto fault = faultOf(*slot)) endWorker(*slot, *std::move(fault));
+    try {
+      for (const auto& slot : slots_) {
+        if (!slot->process || !slot->fault.problem.detail.empty()) continue;
+        if (auto fault = faultOf(*slot)) endWorker(*slot, *std::move(fault));
+      }
+    } catch (const std::exception& error) { // as where there is no memory; it looks again soon
+      logEvent("worker", error.what());
     }
   }
 }

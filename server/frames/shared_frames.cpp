@@ -1,5 +1,7 @@
 #include "server/frames/shared_frames.h"
 
+#include <numeric>
+
 namespace gnomon {
 
 /// Another call's reply; nullptr where there is none for us.
@@ -32,17 +34,33 @@ HttpReply SharedFrames::run(const std::string& etag, Clock::time_point deadline,
   const auto flight = std::make_shared<Flight>();
   flights_[etag] = flight;
   lock.unlock();
-  HttpReply reply = draw([&] {
-    if (!gone()) return false;
-    const std::lock_guard counting(mutex_);
-    return flight->joined == 0;
-  });
-  lock.lock();
-  flights_.erase(etag);
-  flight->done = true;
+  // Nobody waits for what has ended, however it did. Those who wait go on once the lock is let go.
+  const auto land = [&] {
+    lock.lock();
+    flights_.erase(etag);
+    flight->done = true;
+    flight->changed.notify_all();
+  };
+  HttpReply reply;
+  try {
+    reply = draw([&] {
+      if (!gone()) return false;
+      const std::lock_guard counting(mutex_);
+      return flight->joined == 0;
+    });
+  } catch (...) {
+    land();
+    throw;
+  }
+  land();
   if (reply.status == 200 && flight->joined > 0) flight->reply = std::make_shared<HttpReply>(reply);
-  flight->changed.notify_all();
   return reply;
+}
+
+int SharedFrames::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return std::transform_reduce(flights_.begin(), flights_.end(), 0, std::plus<>(),
+                               [](const auto& flight) { return flight.second->joined; });
 }
 
 } // namespace gnomon

@@ -21,14 +21,17 @@ class SharedFrames {
   using Gone = std::function<bool()>;
 
   /// The reply of `draw`, or of another call's with the same tag. `draw` is given what tells it that nobody waits any
-  /// more: neither this caller nor those who joined. A reply that is not 200 is nobody else's: who waited for it calls
-  /// its own `draw`. `gone` is asked some fifty times a second; once it is true, or the deadline has passed, `draw` is
-  /// called at once, which tells why nothing comes of it.
+  /// more: neither this caller nor those who joined. A reply that is not 200 is nobody else's, nor is what `draw`
+  /// throws: who waited for it calls its own `draw`. `gone` is asked some fifty times a second; once it is true, or the
+  /// deadline has passed, `draw` is called at once, which tells why nothing comes of it.
   HttpReply run(const std::string& etag, Clock::time_point deadline, const Gone& gone,
                 const std::function<HttpReply(const Gone&)>& draw);
 
   /// Replies that were drawn for another call, since the start.
   std::uint64_t shared() const { return shared_; }
+
+  /// Calls that wait for what is being drawn for another, now.
+  int waiting() const;
 
  private:
   struct Flight {
@@ -42,7 +45,7 @@ class SharedFrames {
                                          const Gone& gone, std::unique_lock<std::mutex>& lock);
 
   std::atomic<std::uint64_t> shared_{0};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Flight>> flights_;
 };
 

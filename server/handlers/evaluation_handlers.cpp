@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -10,12 +11,24 @@
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
+#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
 
 constexpr int kEvaluationRetrySeconds = 10; ///< where the most evaluations run
 constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv", "image/svg+xml", kEventStream};
+
+/// Tells the report, which has come as the result's body, as the last event.
+void tellReport(TaskResult& result, const TaskEvents& events) {
+  if (!result.outcome.problems.empty()) return;
+  const auto report = result.body ? readFile(*result.body, std::numeric_limits<std::int32_t>::max()) : std::nullopt;
+  if (!report) {
+    result.outcome.problems = {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
+    return;
+  }
+  events({.number = result.outcome.number, .name = "result", .data = std::string(gnomon::asText(*report))});
+}
 
 } // namespace
 
@@ -48,7 +61,9 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
                                  [](const Variant& variant) { return needsDriver(variant.spec); });
   const EventedWork work = [&services, permit, task = std::move(task)](const std::function<bool()>& gone,
                                                                        const TaskEvents& events) {
-    return runTask(services, task, gone, events);
+    TaskResult result = runTask(services, task, gone, events);
+    if (events) tellReport(result, events);
+    return result;
   };
   HttpReply reply = replyAs(kForms[*form], call, work);
   if (reply.status != 200) return reply;

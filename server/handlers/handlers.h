@@ -36,6 +36,7 @@ struct Services {
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
   std::chrono::milliseconds sequenceTimeout{3'600'000}; ///< of all frames of a sequence
   std::chrono::milliseconds replyRoom = ConnectionLimits().replyRoom;
+  const StopSignal* cut = nullptr; ///< once raised, no reply waits for room any more; nullptr = never
   std::vector<StaticFile> page;
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same

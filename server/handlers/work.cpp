@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "protocol/base/text.h"
 #include "server/handlers/event_reply.h"
-#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
@@ -22,6 +24,27 @@ RefusalReason refusalOf(TaskRefusal refusal) {
   return refusal == TaskRefusal::queue    ? RefusalReason::queue
          : refusal == TaskRefusal::memory ? RefusalReason::memory
                                           : RefusalReason::none;
+}
+
+std::optional<std::size_t> sizeOf(const FileDescriptor& file) {
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || status.st_size < 0) return std::nullopt;
+  return static_cast<std::size_t>(status.st_size);
+}
+
+/// All bytes of a worker's reply, read once, to where they are sent from.
+std::optional<std::string> textOf(const FileDescriptor& file) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  const auto size = sizeOf(file);
+  if (!size || *size > kMost) return std::nullopt;
+  std::string text(*size, '\0');
+  std::size_t count = 0;
+  while (count < text.size()) {
+    const ssize_t got = ::pread(file.get(), text.data() + count, text.size() - count, static_cast<off_t>(count));
+    if (got == 0 || (got < 0 && errno != EINTR)) return std::nullopt;
+    if (got > 0) count += static_cast<std::size_t>(got);
+  }
+  return text;
 }
 
 } // namespace
@@ -84,8 +107,18 @@ std::optional<Problem> tooMuchWork(const Services& services, double estimate) {
                  secondsText(allowed), "about " + secondsText(estimate)};
 }
 
+void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
+              const std::function<bool()>& unwanted) {
+  if (!result.outcome.problems.empty() || !result.body) return;
+  if (result.room.await(budget, sizeOf(*result.body).value_or(0), deadline, unwanted)) return;
+  result.body.reset();
+  result.outcome.problems = {noReplyRoom()};
+  result.refusal = TaskRefusal::memory;
+}
+
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events) {
   const std::string scene = task.order.scene;
+  const bool hasOwnRoom = task.order.kind == OrderKind::sequenceFrame;
   const auto allowed = std::chrono::duration_cast<std::chrono::seconds>(task.allowed).count();
   TaskResult result = services.workers.run(std::move(task), gone, events);
   if (result.outcome.damaged) {
@@ -96,6 +129,8 @@ TaskResult runTask(Services& services, Task task, const std::function<bool()>& g
   for (Problem& problem : result.outcome.problems) {
     if (problem.code == ProblemCode::deadlineExceeded) problem.limit = std::to_string(allowed) + " seconds";
   }
+  const auto unwanted = [&] { return gone() || (services.cut != nullptr && services.cut->raised()); };
+  if (!hasOwnRoom) takeRoom(result, services.replyBytes, Clock::now() + services.replyRoom, unwanted);
   return result;
 }
 
@@ -112,8 +147,8 @@ std::string serverTiming(const std::vector<StageTime>& stages) {
 
 HttpReply replyOf(TaskResult result, std::string_view requestId) {
   Outcome& outcome = result.outcome;
-  std::optional<Bytes> body;
-  if (outcome.problems.empty() && result.body) body = readFile(*result.body, std::numeric_limits<std::int32_t>::max());
+  std::optional<std::string> body;
+  if (outcome.problems.empty() && result.body) body = textOf(*result.body);
   if (outcome.problems.empty() && !body) {
     outcome.problems.push_back({ProblemCode::internal, "", "The worker's reply could not be read.", "", ""});
   }
@@ -125,7 +160,8 @@ HttpReply replyOf(TaskResult result, std::string_view requestId) {
   }
   HttpReply reply;
   reply.contentType = std::move(outcome.contentType);
-  reply.body = asText(*body);
+  reply.body = *std::move(body);
+  reply.room = std::move(result.room);
   reply.stages = std::move(outcome.stages);
   if (!reply.stages.empty()) {
     reply.headers.emplace_back("Server-Timing", serverTiming(reply.stages));

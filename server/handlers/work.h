@@ -41,10 +41,16 @@ inline constexpr double kLongFrame = 1'000; ///< milliseconds
 /// Why a frame that is expected to take so many milliseconds can't be done in time.
 std::optional<Problem> tooMuchWork(const Services& services, double estimate);
 
-/// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem.
+/// Takes room for the body of a result before a byte of it is read. Where there is none by the deadline, or nobody
+/// wants it any more, the body is let go and the result is the problem of noReplyRoom().
+void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
+              const std::function<bool()>& unwanted);
+
+/// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem. The body has
+/// room, but that of a sequence's frame, for which its sequence takes it (SequenceFrames).
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
-/// The result as a reply: the body with its type, stages in Server-Timing, or the problems.
+/// The result as a reply: the body with its type and room, stages in Server-Timing, or the problems.
 HttpReply replyOf(TaskResult result, std::string_view requestId);
 
 /// Does the work, given who asks whether it is still wanted and who is told of events.

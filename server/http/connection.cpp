@@ -153,10 +153,11 @@ class Connection {
     return reply;
   }
 
-  /// For a reply beside those that other clients are taking; no longer than the server goes on.
-  bool awaitRoom(ByteLease& lease, std::size_t bytes) {
-    return lease.growBy(bytes, Clock::now() + context_.limits.replyRoom,
-                        [this] { return context_.cutBodies.raised(); });
+  /// For a reply beside those that other clients are taking; no longer than the server goes on. Handlers of large
+  /// replies have taken it already, before they read them.
+  bool awaitRoom(HttpReply& reply) {
+    return reply.room.await(context_.replyBytes, reply.body.size(), Clock::now() + context_.limits.replyRoom,
+                            [this] { return context_.cutBodies.raised(); });
   }
 
   /// Sends a handler's reply, once there is room for it beside those that other clients are taking.
@@ -169,10 +170,7 @@ class Connection {
       context_.ended(record, reply);
       return false;
     }
-    constexpr std::size_t kSmall = 64 * 1024; // problems and probes need no room
-    ByteLease lease(context_.replyBytes);
-    const std::size_t size = std::min(reply.body.size(), context_.replyBytes.total());
-    if (!bodyless && size > kSmall && !awaitRoom(lease, size)) {
+    if (!bodyless && !awaitRoom(reply)) {
       reply = problemReply({noReplyRoom()}, record.id);
       reply.refusal = RefusalReason::memory;
     }

@@ -14,6 +14,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "server/http/refusal.h"
+#include "server/system/reply_room.h"
 
 namespace gnomon {
 
@@ -43,6 +44,7 @@ struct HttpReply {
   std::string route;             ///< for metrics: that of RequestHandler, where the reply is a refusal of it
   RefusalReason refusal = RefusalReason::none; ///< for metrics
   std::string note;                            ///< for the log alone: an internal cause, which no client may read
+  ReplyRoom room{};                            ///< for `body`, where its handler took it already
 };
 
 /// Status line and headers, with the closing empty line. Safety headers are added unless the reply has its own:

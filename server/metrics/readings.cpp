@@ -74,7 +74,7 @@ constexpr std::array kRows{
                [](const Snapshot& s) { return by("lane", kLaneNames, s.workers.runningByLane); }},
     ReadingRow{"gnomon_workers_configured", kGauge, "Workers that are to run; a further one may start for OpenGL.",
                [](const Snapshot& s) { return one(s.workers.workers); }},
-    ReadingRow{"gnomon_workers_ready", kGauge, "Workers that can draw.",
+    ReadingRow{"gnomon_workers_ready", kGauge, "Of these, those that can draw, without the one for OpenGL.",
                [](const Snapshot& s) { return one(s.workers.ready); }},
     ReadingRow{"gnomon_workers_resident_bytes", kGauge, "Memory of all workers.",
                [](const Snapshot& s) { return one(s.workerBytes); }},

@@ -9,15 +9,20 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kThreads = 4;
 constexpr std::size_t kReplyBytes = 8 << 20;
+
+ConnectionLimits connectionLimits() {
+  ConnectionLimits limits;
+  limits.maxWaiting = kAdminWaiting;
+  return limits;
+}
 
 } // namespace
 
 AdminAddress::AdminAddress(const AdminAddressOptions& options, Services& services, RequestObserver& observer)
     : replyBytes_(kReplyBytes),
       context_{withOriginCheck(makeService(makeAdminRoutes(services)), {options.allowedHosts, {}, options.bind}),
-               {},
+               connectionLimits(),
                ByteBudget(0),
                replyBytes_,
                {},
@@ -29,7 +34,7 @@ AdminAddress::AdminAddress(const AdminAddressOptions& options, Services& service
 Result<std::unique_ptr<AdminAddress>> AdminAddress::open(const AdminAddressOptions& options, Services& services,
                                                          RequestObserver& observer) {
   std::unique_ptr<AdminAddress> admin(new AdminAddress(options, services, observer));
-  auto server = HttpServer::listen({options.bind, options.port, kThreads, kThreads}, admin->context_);
+  auto server = HttpServer::listen({options.bind, options.port, kAdminThreads, kAdminThreads}, admin->context_);
   if (!server) return std::move(server).problems();
   admin->server_ = *std::move(server);
   admin->serving_ = std::thread([&server = *admin->server_] { server.run(); });

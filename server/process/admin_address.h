@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <thread>
@@ -9,6 +10,9 @@
 #include "server/http/http_server.h"
 
 namespace gnomon {
+
+inline constexpr std::size_t kAdminThreads = 4;  ///< requests that are served at once
+inline constexpr std::size_t kAdminWaiting = 32; ///< connections that have no request to serve
 
 struct AdminAddressOptions {
   std::string bind;

@@ -16,10 +16,17 @@ struct DescriptorPlan {
 /// Asks the system for as many descriptors as it allows. How many that are.
 std::size_t raiseDescriptorLimit();
 
-/// Shares `descriptors` out: first what `httpThreads` requests and `workers` can need at once, so that none of them
+/// What needs descriptors.
+struct DescriptorUse {
+  std::size_t httpThreads = 0; ///< each with a request
+  std::size_t workers = 0;     ///< the most that may run
+  std::size_t jobFrames = 0;   ///< frames of jobs that are drawn at once
+  bool keepsScenesInMemory = false;
+};
+
+/// Shares `descriptors` out: first what threads, workers and frames of jobs can need at once, so that none of them
 /// meets the limit; then scenes and waiting connections get the rest in equal parts. unavailable where too little is
 /// left.
-Result<DescriptorPlan> planDescriptors(std::size_t descriptors, std::size_t httpThreads, std::size_t workers,
-                                       bool keepsScenesInMemory);
+Result<DescriptorPlan> planDescriptors(std::size_t descriptors, const DescriptorUse& use);
 
 } // namespace gnomon

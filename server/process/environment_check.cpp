@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <unistd.h>
+#include <utility>
 
-#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {
@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::string_view kPrefix = "GNOMON_";
 constexpr std::array<std::string_view, 3> kProtocols{"TCP", "UDP", "SCTP"};
+constexpr int kMostEdits = 2; ///< letters to insert, remove or replace in a name that is suggested
+
+/// Those that only the Python client reads.
+constexpr std::array<std::string_view, 2> kPythonVariables{"GNOMON_BINARY", "GNOMON_SERVER"};
+
+/// What a flag's own name leads to -> the variable. GNOMON_PORT itself is a service's.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOtherNames{
+    {{"GNOMON_PORT", "GNOMON_LISTEN_PORT"}, {"GNOMON_ADMIN_PORT", "GNOMON_ADMIN_LISTEN_PORT"}}};
 
 bool isNumber(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -43,6 +51,31 @@ bool isServiceEnding(const std::vector<std::string>& words, std::size_t first, s
   return isPort && (count == 3 || (count == 4 && (word(3) == "PROTO" || word(3) == "PORT" || word(3) == "ADDR")));
 }
 
+bool isWithin(int edits, std::string_view from, std::string_view to) {
+  while (!from.empty() && !to.empty() && from[0] == to[0]) {
+    from.remove_prefix(1);
+    to.remove_prefix(1);
+  }
+  if (from.empty() && to.empty()) return true;
+  if (edits == 0) return false;
+  return (!from.empty() && isWithin(edits - 1, from.substr(1), to)) ||
+         (!to.empty() && isWithin(edits - 1, from, to.substr(1))) ||
+         (!from.empty() && !to.empty() && isWithin(edits - 1, from.substr(1), to.substr(1)));
+}
+
+/// The variable that may have been meant; empty where none is near.
+std::string_view meantBy(std::string_view name, std::span<const std::string> known) {
+  for (const auto& [other, variable] : kOtherNames) {
+    if (name == other) return variable;
+  }
+  for (int edits = 1; edits <= kMostEdits; ++edits) {
+    for (const std::string& each : known) {
+      if (isWithin(edits, name, each)) return each;
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 bool isServiceVariable(std::string_view name, std::string_view value) {
@@ -62,10 +95,11 @@ std::vector<std::string> unknownVariables(std::span<const std::string> environme
     const std::string name = entry.substr(0, end);
     if (!name.starts_with(kPrefix) || end == std::string::npos) continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::find(kPythonVariables.begin(), kPythonVariables.end(), name) != kPythonVariables.end()) continue;
     if (isServiceVariable(name, std::string_view(entry).substr(end + 1))) continue;
-    const std::string nearest = nearestName(name, known);
+    const std::string meant(meantBy(name, known));
     faults.push_back("There is no environment variable " + asciiExcerpt(name) +
-                     (nearest.empty() ? "." : "; did you mean " + nearest + "?"));
+                     (meant.empty() ? "." : "; did you mean " + meant + "?"));
   }
   return faults;
 }

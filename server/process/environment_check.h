@@ -13,7 +13,8 @@ namespace gnomon {
 bool isServiceVariable(std::string_view name, std::string_view value);
 
 /// What is wrong with the variables whose names begin with GNOMON_: a sentence for each that is neither `known` nor a
-/// service's. `environment`: entries as NAME=VALUE.
+/// service's nor the Python client's, with the known one that may have been meant. `environment`: entries as
+/// NAME=VALUE.
 std::vector<std::string> unknownVariables(std::span<const std::string> environment, std::span<const std::string> known);
 
 /// The entries of this process.

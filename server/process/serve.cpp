@@ -137,11 +137,17 @@ std::size_t workersOf(const ServeOptions& options) {
   return options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memoryLimit());
 }
 
+/// With the one for OpenGL, whether or not it runs.
+std::size_t mostWorkersOf(const ServeOptions& options) {
+  return mostWorkers(options, workersOf(options));
+}
+
 std::size_t jobFramesOf(const ServeOptions& options) {
   return options.jobFrames > 0 ? options.jobFrames : workersOf(options);
 }
 
-/// What all workers may keep together is shared out.
+/// What all workers may keep together is shared out. The one that starts only when OpenGL is asked for has as much as
+/// one of them, on top.
 DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<StoredLightMaps> lightMaps,
                                     metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
@@ -197,7 +203,10 @@ int serve(const ServeOptions& options) {
   auto trusted = ipNetworks(options.trustedProxies);
   if (!trusted) return failed(trusted.problems());
   const auto descriptors =
-      planDescriptors(raiseDescriptorLimit(), options.httpThreads, workersOf(options), keepsScenesInMemory(options));
+      planDescriptors(raiseDescriptorLimit(), {.httpThreads = options.httpThreads,
+                                               .workers = mostWorkersOf(options),
+                                               .jobFrames = jobFramesOf(options),
+                                               .keepsScenesInMemory = keepsScenesInMemory(options)});
   if (!descriptors) return failed(descriptors.problems());
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
@@ -250,6 +259,7 @@ int serve(const ServeOptions& options) {
       {},
       *std::move(trusted),
       &counted};
+  services.cut = &context.cutBodies;
   services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };
   const std::size_t perClient = options.maxConnectionsPerAddress > 0
                                     ? options.maxConnectionsPerAddress

@@ -46,8 +46,8 @@ struct ServeOptions {
   std::size_t bundleMemoryBytes = 1ull << 30;        ///< uploads without a directory, dropped in the same order
   std::size_t maxSceneBytes = kLimits.maxSceneBytes; ///< one upload
   std::size_t uploadMemoryBytes = 1ull << 30;        ///< bodies of all requests in progress together (429)
-  std::size_t frameMemoryBytes =
-      4ull << 30; ///< pictures of all frames in progress together (429), and of one frame (413)
+  std::size_t frameMemoryBytes = 4ull << 30; ///< pictures of all frames in progress together: a frame waits for room
+                                             ///< (504), and may take no more than a worker's share (413)
   std::size_t replyMemoryBytes = 1ull << 30; ///< bodies of replies that clients are taking, together (503)
   std::size_t videoMemoryBytes =
       1ull << 30;                         ///< encoders of videos that are being sent, together (429), and of one (413)

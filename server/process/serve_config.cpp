@@ -85,6 +85,9 @@ Status applyConfig(CLI::App& command, const std::string& file) {
     }
   }
   if (!problems.empty()) return problems;
+  if (const std::string conflict = deviceConflict(command); !conflict.empty()) {
+    return Problem{ProblemCode::invalidValue, file, conflict, "", ""};
+  }
   return Done{};
 }
 

@@ -175,8 +175,9 @@ void addHowMuch(CLI::App& serve, ServeOptions& options) {
            "Ray-tracing structures of scenes, the least recently used dropped first");
   addBytes(serve, "--light-map-bytes", "GNOMON_LIGHT_MAP_BYTES", options.lightMapBytes,
            "Baked light maps kept in memory, the least recently used dropped first");
-  addBytes(serve, "--stored-light-map-bytes", "GNOMON_STORED_LIGHT_MAP_BYTES", options.storedLightMapBytes,
-           "Baked light maps kept in the store's directory, the least recently used dropped first");
+  addBytes(
+      serve, "--stored-light-map-bytes", "GNOMON_STORED_LIGHT_MAP_BYTES", options.storedLightMapBytes,
+      "Baked light maps kept in the store, and settings chosen for a target, the least recently used dropped first");
   addBytes(serve, "--scene-memory-bytes", "GNOMON_SCENE_MEMORY_BYTES", options.sceneMemoryBytes,
            "Loaded scenes of all workers, the least recently used dropped first");
   addBytes(serve, "--bundle-memory-bytes", "GNOMON_BUNDLE_MEMORY_BYTES", options.bundleMemoryBytes,
@@ -242,7 +243,7 @@ void addJobs(CLI::App& serve, ServeOptions& options) {
       ->group("Jobs");
   serve
       .add_option("--job-bytes", options.jobBytes,
-                  "Requests and pictures of all jobs, kept in the directory of --store or in memory; 507 beyond it")
+                  "Requests and pictures of all jobs, kept in Redis, the directory of --store or memory; 507 beyond it")
       ->envname("GNOMON_JOB_BYTES")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("BYTES")
@@ -279,7 +280,23 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
       "Time after that for the requests in progress; the rest get 503");
 }
 
+/// Of an option the value that it was given, wherever; empty where it has none.
+std::string givenTo(const CLI::App& command, const char* flag) {
+  const CLI::Option& option = *command.get_option(flag);
+  return option.count() > 0 ? option.reduced_results().back() : std::string();
+}
+
 } // namespace
+
+std::string deviceConflict(const CLI::App& command) {
+  if (givenTo(command, "--device") != "cpu") return {};
+  const CLI::Option& requireGpu = *command.get_option("--require-gpu");
+  if (requireGpu.count() > 0 && requireGpu.as<bool>())
+    return "--require-gpu asks for a GPU, and --device cpu uses none: leave one of the two out.";
+  const std::string backend = givenTo(command, "--backend");
+  if (backend.empty() || backend == "auto") return {};
+  return "--backend chooses OpenGL's context, and --device cpu uses none: leave one of the two out.";
+}
 
 void addServeFlags(CLI::App& command, ServeOptions& options) {
   command.option_defaults()->always_capture_default();
@@ -288,6 +305,9 @@ void addServeFlags(CLI::App& command, ServeOptions& options) {
   addHowMuch(command, options);
   addJobs(command, options);
   addHowLong(command, options);
+  command.parse_complete_callback([&command] {
+    if (const std::string conflict = deviceConflict(command); !conflict.empty()) throw CLI::ValidationError(conflict);
+  });
 }
 
 void addConfigFlags(CLI::App& command, ConfigChoice& choice) {

@@ -14,6 +14,10 @@ namespace gnomon {
 /// parsing; its values are the defaults.
 void addServeFlags(CLI::App& command, ServeOptions& options);
 
+/// What is wrong with the device that the command's options ask for, wherever they are from; empty = nothing. The
+/// options of a command line are held against it when they are parsed.
+std::string deviceConflict(const CLI::App& command);
+
 /// Where the options come from, beside flags and variables.
 struct ConfigChoice {
   std::string file;   ///< empty = none

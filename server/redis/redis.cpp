@@ -151,20 +151,6 @@ Result<Reply> Redis::block(const Command& command, const Call& call) {
   return std::move(replies->front());
 }
 
-Result<std::vector<Reply>> Redis::transaction(const std::vector<Command>& commands, const Call& call) {
-  std::vector<Command> all{{"MULTI"}};
-  all.insert(all.end(), commands.begin(), commands.end());
-  all.push_back({"EXEC"});
-  auto replies = pipeline(all, call);
-  if (!replies) return replies;
-  Reply& executed = replies->back();
-  if (executed.isArray() && executed.elements.size() == commands.size()) return std::move(executed.elements);
-  const auto refused =
-      std::find_if(replies->begin(), replies->end(), [](const Reply& reply) { return reply.isError(); });
-  if (refused == replies->end()) return Problem(away());
-  return std::vector<Reply>{std::move(*refused)};
-}
-
 Result<Reply> Redis::run(const Script& script, const std::vector<std::string>& keys,
                          const std::vector<std::string>& arguments, const Call& call) {
   Command command{"EVALSHA", script.sha1(), std::to_string(keys.size())};

@@ -48,10 +48,6 @@ class Redis {
   /// Sends all at once. Other clients' commands may come between them.
   Result<std::vector<Reply>> pipeline(const std::vector<Command>& commands, const Call& call);
 
-  /// Carries out all as one step (MULTI, EXEC). One reply to each command; where the server refuses one before any is
-  /// carried out, its error alone.
-  Result<std::vector<Reply>> transaction(const std::vector<Command>& commands, const Call& call);
-
   /// Runs a script.
   Result<Reply> run(const Script& script, const std::vector<std::string>& keys,
                     const std::vector<std::string>& arguments, const Call& call);

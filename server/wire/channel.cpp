@@ -44,7 +44,7 @@ std::optional<std::pair<FileDescriptor, FileDescriptor>> Channel::pair() {
 }
 
 bool Channel::send(std::string_view text, std::span<const int> files) {
-  if (files.size() > kMostFiles || text.size() > kMostText) return false;
+  if (files.size() > kMostFiles || !fits(text)) return false;
   std::vector<int> sent(files.begin(), files.end());
   std::optional<FileDescriptor> asFile;
   std::string packet(1, kInline);

@@ -30,8 +30,11 @@ enum class ChannelEvent {
 /// in order, with the files that were sent along. Any number of threads may send; one receives.
 class Channel {
  public:
-  static constexpr std::size_t kMostFiles = 4;          ///< of a message
-  static constexpr std::size_t kMostText = 1024 * 1024; ///< bytes of its text
+  static constexpr std::size_t kMostFiles = 4; ///< of a message
+
+  /// Bytes of a message's text. Some quote a part of a request, which is at most kLimits.maxSpecBytes, in JSON within
+  /// JSON: that is twice as long where all of it must be escaped.
+  static constexpr std::size_t kMostText = 4 * 1024 * 1024;
 
   /// `sendPatience`: how long a message may wait until the other end has read enough of the earlier ones.
   explicit Channel(FileDescriptor socket, std::chrono::milliseconds sendPatience = {})
@@ -40,7 +43,11 @@ class Channel {
   /// Two ends that are connected; nothing where the system refused.
   static std::optional<std::pair<FileDescriptor, FileDescriptor>> pair();
 
-  /// False where the other end is gone, or has left so much unread that nothing more fits. The files stay the caller's.
+  /// Whether a text is short enough to be sent. The two ends agree, so that a longer one would be no message.
+  static bool fits(std::string_view text) { return text.size() <= kMostText; }
+
+  /// False where the other end is gone, or has left so much unread that nothing more fits, and for a text that does not
+  /// fit. The files stay the caller's.
   bool send(std::string_view text, std::span<const int> files = {});
 
   /// Waits for the next message. `packet` is filled where the answer is ChannelEvent::packet.

@@ -31,10 +31,8 @@ Answer evaluationOrder(WorkContext& context, const OrderCall& call) {
   const auto report = evaluateScene(context, std::get<LoadedScene>(loaded), *evaluation, call,
                                     asEvents ? eventListener(call) : EvaluationListener{});
   if (!report) return {.problems = report.problems()};
-  if (asEvents) {
-    call.event("result", jsonText(toJson(*report)));
-    return {.contentType = std::string(kEventStream)};
-  }
+  // The report quotes every variant, so that it may be longer than a message: the front makes an event of the body.
+  if (asEvents) return {.contentType = std::string(kEventStream), .body = jsonText(toJson(*report))};
   if (call.order.mediaType == "text/csv") {
     return {.contentType = "text/csv; charset=utf-8; header=present", .body = evaluationCsv(*report)};
   }

@@ -35,7 +35,7 @@ struct OrderCall {
   std::function<void(std::string_view name, std::string_view data)> event;
 };
 
-/// The result of an order: problems, or a body, or neither where it was told as events.
+/// The result of an order: problems, or a body, or neither where all of it was told as events.
 struct Answer {
   Problems problems{};
   bool damaged = false; ///< as in Outcome

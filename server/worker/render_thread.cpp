@@ -1,5 +1,6 @@
 #include "server/worker/render_thread.h"
 
+#include <algorithm>
 #include <exception>
 #include <future>
 
@@ -31,36 +32,58 @@ void RenderThread::serve() {
   while (true) {
     changed_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
     if (waiting_.empty()) break;
-    const auto work = std::move(waiting_.front());
+    const auto turn = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    work();
+    { const std::lock_guard asked(turn->asking); } // its caller may be asking now, and does not once it is out
+    turn->work();
     lock.lock();
   }
   renderer_.reset(); // a context must be destroyed on the thread that made it
 }
 
+bool RenderThread::isQueued(const std::shared_ptr<Turn>& turn) {
+  const std::lock_guard lock(mutex_);
+  return std::find(waiting_.begin(), waiting_.end(), turn) != waiting_.end();
+}
+
+/// Whether the turn is out of the queue now and its work will never begin.
+bool RenderThread::givesUp(const std::shared_ptr<Turn>& turn, const GoOn& goOn) {
+  const std::lock_guard asked(turn->asking);
+  if (!goOn || !isQueued(turn) || goOn()) return false;
+  const std::lock_guard lock(mutex_);
+  return std::erase(waiting_, turn) > 0;
+}
+
 template <class T>
-Result<T> RenderThread::ask(const std::function<Result<T>()>& work) {
-  std::promise<Result<T>> answer;
+Result<T> RenderThread::ask(const GoOn& goOn, const std::function<Result<T>()>& work) {
+  constexpr std::chrono::milliseconds kAskAgain{10};
+  // Not on this stack: the thread may still be telling of the answer when this function has it.
+  const auto answer = std::make_shared<std::promise<Result<T>>>();
+  auto answered = answer->get_future();
+  const auto turn = std::make_shared<Turn>();
+  turn->work = [&work, answer] {
+    try {
+      answer->set_value(work());
+    } catch (const std::exception&) {
+      answer->set_exception(std::current_exception());
+    }
+  };
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back([&] {
-      try {
-        answer.set_value(work());
-      } catch (const std::exception&) {
-        answer.set_exception(std::current_exception());
-      }
-    });
+    waiting_.push_back(turn);
   }
   changed_.notify_one();
-  return answer.get_future().get();
+  while (answered.wait_for(kAskAgain) != std::future_status::ready && isQueued(turn)) {
+    if (givesUp(turn, goOn)) return stopped();
+  }
+  return answered.get();
 }
 
 Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions& options) {
   std::unique_ptr<RenderThread> thread(new RenderThread());
   try {
-    const auto started = thread->ask<Done>([&]() -> Status {
+    const auto started = thread->ask<Done>({}, [&]() -> Status {
       auto renderer = Renderer::create(options);
       if (!renderer) return std::move(renderer).problems();
       thread->renderer_ = *std::move(renderer);
@@ -91,13 +114,13 @@ bool RenderThread::isAwaited() {
 
 Result<DrawnFrame> RenderThread::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {
   const auto asked = Clock::now();
-  return ask<DrawnFrame>([&] { return draw(scene, spec, tiles, goOn, asked); });
+  return ask<DrawnFrame>(goOn, [&] { return draw(scene, spec, tiles, goOn, asked); });
 }
 
 Status RenderThread::renderAndFinish(const ScenePtr& scene, const FrameSpec& spec, const GoOn& goOn,
                                      const Finish& finish) {
   const auto asked = Clock::now();
-  auto unfinished = ask<std::optional<DrawnFrame>>([&]() -> Result<std::optional<DrawnFrame>> {
+  auto unfinished = ask<std::optional<DrawnFrame>>(goOn, [&]() -> Result<std::optional<DrawnFrame>> {
     auto drawn = draw(scene, spec, TileUse::kept, goOn, asked);
     if (!drawn) return std::move(drawn).problems();
     if (spec.output.format != ImageFormat::png || isAwaited()) return std::optional(*std::move(drawn));
@@ -111,7 +134,7 @@ Status RenderThread::renderAndFinish(const ScenePtr& scene, const FrameSpec& spe
 
 Result<double> RenderThread::shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
                                      const GoOn& goOn) {
-  return ask<double>([&]() -> Result<double> {
+  return ask<double>(goOn, [&]() -> Result<double> {
     const auto shimmer = renderer_->shimmer(scene, spec, path, [&](double) { return goOn(); });
     if (!shimmer) return shimmer.problems();
     return shimmer->perThousand();

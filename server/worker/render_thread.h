@@ -20,7 +20,8 @@ struct DrawnFrame {
   double queuedMilliseconds = 0;
 };
 
-/// The thread that makes, owns and uses the renderer; first come, first served. Callers wait for their turn.
+/// The thread that makes, owns and uses the renderer; first come, first served. Callers wait for their turn, and give
+/// it up soon after their `goOn` says false.
 class RenderThread {
  public:
   /// Returns once the renderer has drawn a small test frame with a shadow in it, or why it could not.
@@ -50,9 +51,18 @@ class RenderThread {
  private:
   RenderThread();
 
-  /// The result of `work`, which runs on the thread.
+  /// A caller's place in the queue. It leaves the queue when its work begins, or when its caller gives up.
+  struct Turn {
+    std::function<void()> work; ///< may refer to the caller's stack: the caller stays until it has ended
+    std::mutex asking;          ///< held by whoever asks the caller's goOn, which one thread does at a time
+  };
+
+  /// The result of `work`, which runs on the thread; a problem of code unavailable, and no run, where `goOn` says false
+  /// before its turn. Work that has begun is waited for: it asks `goOn` itself.
   template <class T>
-  Result<T> ask(const std::function<Result<T>()>& work);
+  Result<T> ask(const GoOn& goOn, const std::function<Result<T>()>& work);
+  bool givesUp(const std::shared_ptr<Turn>& turn, const GoOn& goOn);
+  bool isQueued(const std::shared_ptr<Turn>& turn);
   void serve();
   Result<DrawnFrame> draw(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn,
                           Clock::time_point asked);
@@ -63,7 +73,7 @@ class RenderThread {
   std::optional<Baker> baker_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::function<void()>> waiting_;
+  std::deque<std::shared_ptr<Turn>> waiting_;
   bool ending_ = false;
   std::thread thread_;
 };

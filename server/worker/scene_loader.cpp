@@ -3,6 +3,7 @@
 #include <limits>
 #include <malloc.h>
 
+#include "renderer/core/stop.h"
 #include "server/system/memory_file.h"
 #include "server/wire/bundle.h"
 
@@ -44,18 +45,20 @@ std::variant<LoadedScene, LoadFailure> SceneLoader::get(const std::string& id, c
   while (true) {
     if (auto known = cache_.get(id)) return *std::move(known);
     bool isOwn = false;
-    auto result = loading_.run(id, [&]() -> std::variant<LoadedScene, LoadFailure> {
+    const auto loadNow = [&]() -> std::variant<LoadedScene, LoadFailure> {
       isOwn = true;
       if (auto known = cache_.get(id)) return *std::move(known); // loaded by another call meanwhile
       auto loaded = load(id, bundle, goOn);
       if (const auto* scene = std::get_if<LoadedScene>(&loaded)) cache_.put(*scene);
       malloc_trim(0); // what a load leaves free in the heaps goes back to the system
       return loaded;
-    });
-    const auto* failure = std::get_if<LoadFailure>(&result);
+    };
+    auto result = loading_.run(id, loadNow, goOn);
+    if (!result) return LoadFailure{{stoppedProblem()}};
+    const auto* failure = std::get_if<LoadFailure>(&*result);
     const bool otherStopped = failure != nullptr && !isOwn && !failure->problems.empty() &&
                               failure->problems.front().code == ProblemCode::unavailable;
-    if (!otherStopped || (goOn && !goOn())) return result;
+    if (!otherStopped || (goOn && !goOn())) return *std::move(result);
   }
 }
 

@@ -31,7 +31,8 @@ class SceneLoader {
   SceneLoader(std::size_t memoryBytes, const Limits& limits)
       : limits_(limits), cache_(memoryBytes), most_(memoryBytes) {}
 
-  /// `goOn`: false ends the loading, unless others want the scene, too.
+  /// `goOn`: false ends this call's loading, or its waiting for another call that loads the scene. Where that other one
+  /// is stopped, this one loads.
   std::variant<LoadedScene, LoadFailure> get(const std::string& id, const BundleFile& bundle, const GoOn& goOn = {});
 
   /// Drops a scene from memory. Work in progress keeps what it has.

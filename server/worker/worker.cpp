@@ -34,6 +34,27 @@ constexpr std::chrono::seconds kSendPatience{10}; ///< the front reads at once, 
   ::_exit(status);
 }
 
+/// Of what an order tells, where that does not fit a message.
+Problem tooLongProblem(std::size_t bytes) {
+  return {ProblemCode::tooLarge, "", "The result of this request is too long to be told.",
+          std::to_string(Channel::kMostText) + " bytes", std::to_string(bytes) + " bytes"};
+}
+
+/// The message with an outcome, in a form that fits: where its problems are too many, it has only the first of them.
+std::string messageOf(Outcome outcome) {
+  const std::uint64_t number = outcome.number;
+  ToFront message{.outcome = std::move(outcome)};
+  std::string text = textOf(message);
+  if (Channel::fits(text)) return text;
+  constexpr std::size_t kFirst = 100;
+  auto& problems = message.outcome->problems;
+  if (problems.size() > kFirst) {
+    problems.resize(kFirst);
+    if (std::string shorter = textOf(message); Channel::fits(shorter)) return shorter;
+  }
+  return textOf({.outcome = Outcome{.number = number, .problems = {tooLongProblem(text.size())}}});
+}
+
 /// The orders in progress, each on a thread of its own.
 class OrderBook {
  public:
@@ -144,12 +165,19 @@ class Worker {
     const auto cancelled = orders_.begin(number);
     try {
       std::thread([this, number, order = std::move(order), files = std::move(files), deadline, cancelled]() mutable {
+        std::atomic<std::size_t> tooLong = 0; // bytes of a message that did not fit; 0 = all did
         carry({std::move(order), std::move(files[0]),
                std::string(asText(readFile(files[1], kLimits.maxSpecBytes).value_or(Bytes()))), deadline,
-               [deadline, cancelled] { return !*cancelled && Clock::now() < deadline; },
-               [this, number](std::string_view name, std::string_view data) {
-                 say({.event = OrderEvent{number, std::string(name), std::string(data)}});
-               }});
+               [deadline, cancelled, &tooLong] { return !*cancelled && tooLong == 0 && Clock::now() < deadline; },
+               [this, number, &tooLong](std::string_view name, std::string_view data) {
+                 const std::string text = textOf({.event = OrderEvent{number, std::string(name), std::string(data)}});
+                 if (!Channel::fits(text)) {
+                   tooLong = text.size();
+                 } else if (!channel_.send(text)) {
+                   end(1);
+                 }
+               }},
+              tooLong);
       }).detach();
     } catch (const std::system_error&) {
       orders_.end(number);
@@ -157,22 +185,25 @@ class Worker {
     }
   }
 
-  void carry(const OrderCall& call) {
+  /// `tooLong`: bytes of an event that could not be told; the order has failed then, and is stopped by its goOn.
+  void carry(const OrderCall& call, const std::atomic<std::size_t>& tooLong) {
     Answer answer = carryOut(*context_, call);
+    if (tooLong > 0) answer = {.problems = {tooLongProblem(tooLong)}};
     Outcome outcome{.number = call.order.number,
                     .problems = std::move(answer.problems),
                     .damaged = answer.damaged,
                     .contentType = std::move(answer.contentType),
                     .stages = std::move(answer.stages)};
     std::optional<FileDescriptor> body;
-    if (outcome.problems.empty() && !outcome.damaged && outcome.contentType != kEventStream) {
+    const bool wasTold = outcome.contentType == kEventStream && answer.body.empty();
+    if (outcome.problems.empty() && !outcome.damaged && !wasTold) {
       body = memoryFile(asBytes(answer.body));
       if (!body)
         outcome.problems.push_back({ProblemCode::unavailable, "", "There is no memory for the reply.", "", ""});
     }
     orders_.end(outcome.number);
     const std::array files{body ? body->get() : -1};
-    const std::string text = textOf({.outcome = std::move(outcome)});
+    const std::string text = messageOf(std::move(outcome));
     if (!channel_.send(text, std::span(files).first(body ? 1 : 0))) end(1);
   }
 

@@ -35,7 +35,7 @@ class Evaluations(ServerTest):
 
     def evaluate(self, request, accept="application/json"):
         path = f"/v1/scenes/{self.scene}/evaluations"
-        return self.server.ask("POST", path, json.dumps(request), self.headers(accept))
+        return self.server.ask("POST", path, json.dumps(request, separators=(",", ":")), self.headers(accept))
 
     def begin(self, request, accept):
         """A bare connection that has sent its request and reads nothing."""
@@ -98,6 +98,23 @@ class Evaluations(ServerTest):
         self.assertEqual(result["rows"][0]["metrics"], rows[1]["metrics"])
         self.assertEqual(result["rows"][2]["problems"][0]["pointer"], "/camera/node")
         self.assertNotIn("milliseconds", result["rows"][2])
+
+    def test_a_long_report_ends_no_worker(self):
+        # Variants that can't be drawn, and so cost nothing, are quoted all the same: more than 1 MiB in all.
+        sun = {"sun": {"azimuthDegrees": 120, "elevationDegrees": 40}}
+        patch = {"camera": {"node": "nobody"}, "lights": [sun] * 200}
+        variants = [{}] + [patch] * 92
+        request = {"spec": SPEC, "variants": variants, "repeats": 1}
+        self.assertGreater(len(json.dumps(json.dumps(variants, separators=(",", ":")))), 1 << 20)
+        for accept in ("text/event-stream", "application/json"):
+            with self.subTest(accept):
+                reply = self.evaluate(request, accept)
+                self.assertEqual(reply.status, 200, reply.body[:1000])
+                is_told = accept == "text/event-stream"
+                name, result = events_of(reply.body.decode())[-1] if is_told else ("result", reply.json())
+                self.assertEqual((name, len(result["rows"])), ("result", len(variants)))
+                self.assertEqual(result["rows"][-1]["variant"], patch)
+        self.assertNotIn("ended with", self.server.log_text())
 
     def test_shimmer_is_measured_where_there_is_a_path(self):
         path = {"step": [0.01, 0, 0], "frames": 4}

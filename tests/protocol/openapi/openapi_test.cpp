@@ -138,6 +138,25 @@ TEST(OpenApi, WhereWhoAsksMattersTheRepliesSaySo) {
   });
 }
 
+TEST(OpenApi, RoutesSayWhatBecomesOfThemWhereTheSceneHasToBeLoaded) {
+  const Json document = openApi();
+  const auto expectStatuses = [&](const char* path, const char* method, const std::set<std::string>& statuses) {
+    const Json& responses = document["paths"][path][method]["responses"];
+    for (const std::string& status : statuses) {
+      EXPECT_TRUE(responses.contains(status)) << method << " " << path << " " << status;
+    }
+  };
+  const std::set<std::string> ofWork{"413", "422", "429", "500", "503", "504"};
+  expectStatuses("/v1/scenes", "post", ofWork);
+  expectStatuses("/v1/scenes/{id}", "put", ofWork);
+  expectStatuses("/v1/scenes/{id}", "get", ofWork);
+  expectStatuses("/v1/scenes/{id}", "head", ofWork);
+  expectStatuses("/v1/scenes/{id}/frames", "post", ofWork);
+  expectStatuses("/v1/scenes/{id}/frame", "get", ofWork);
+  expectStatuses("/v1/scenes/{id}/plan", "post", ofWork);
+  expectStatuses("/v1/scenes/{id}", "delete", {"404", "503"});
+}
+
 TEST(OpenApi, AFrameIsGivenInEveryForm) {
   const Json document = openApi();
   std::set<std::string> all{"multipart/mixed", "application/json"};

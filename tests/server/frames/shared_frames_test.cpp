@@ -3,6 +3,7 @@
 #include <atomic>
 #include <future>
 #include <gtest/gtest.h>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -26,15 +27,35 @@ class SharedFramesTest : public ::testing::Test {
   std::function<HttpReply(const SharedFrames::Gone&)> drawing(int status = 200) {
     return [this, status](const SharedFrames::Gone& gone) {
       ++drawn_;
-      while (!release_ && !gone()) std::this_thread::sleep_for(1ms);
+      while (!release_ && !gone()) {
+        ++asked_;
+        std::this_thread::sleep_for(1ms);
+      }
+      ++ended_;
       return withStatus(release_ ? status : 503);
     };
+  }
+
+  void untilDrawn() const {
+    while (drawn_ == 0) std::this_thread::sleep_for(1ms);
+  }
+
+  void untilWaiting(int calls) const {
+    while (frames_.waiting() < calls) std::this_thread::sleep_for(1ms);
+  }
+
+  /// Until the frame that is being drawn has asked from now on whether anybody waits: it goes on, or has ended.
+  void untilAskedAnew() const {
+    const int before = asked_;
+    while (asked_ < before + 2 && ended_ == 0) std::this_thread::sleep_for(1ms); // the first may have begun earlier
   }
 
   Clock::time_point later() const { return Clock::now() + 60s; }
 
   SharedFrames frames_;
   std::atomic<int> drawn_ = 0;
+  std::atomic<int> asked_ = 0; ///< times that `gone` said no
+  std::atomic<int> ended_ = 0;
   std::atomic<bool> release_ = false;
 };
 
@@ -43,11 +64,11 @@ TEST_F(SharedFramesTest, OneIsDrawnForAll) {
   for (int i = 0; i < 5; ++i) {
     replies.push_back(std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing()); }));
   }
-  while (drawn_ == 0) std::this_thread::sleep_for(1ms);
-  std::this_thread::sleep_for(50ms);
+  untilWaiting(4);
   release_ = true;
   for (auto& reply : replies) EXPECT_EQ(reply.get().body, "picture");
   EXPECT_EQ(drawn_, 1);
+  EXPECT_EQ(frames_.shared(), 4u);
   frames_.run("a", later(), kStays, drawing());
   EXPECT_EQ(drawn_, 2) << "nothing is remembered";
 }
@@ -58,11 +79,11 @@ TEST_F(SharedFramesTest, ItGoesOnForThoseWhoJoined) {
     return frames_.run(
         "a", later(), [&] { return left.load(); }, drawing());
   });
-  while (drawn_ == 0) std::this_thread::sleep_for(1ms);
+  untilDrawn();
   auto second = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing()); });
-  std::this_thread::sleep_for(50ms);
+  untilWaiting(1);
   left = true;
-  std::this_thread::sleep_for(50ms);
+  untilAskedAnew();
   release_ = true;
   EXPECT_EQ(second.get().status, 200);
   EXPECT_EQ(drawn_, 1);
@@ -76,17 +97,36 @@ TEST_F(SharedFramesTest, ItEndsWhenNobodyWaits) {
 
 TEST_F(SharedFramesTest, AProblemIsNobodyElses) {
   auto first = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing(504)); });
-  while (drawn_ == 0) std::this_thread::sleep_for(1ms);
+  untilDrawn();
   auto second = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing(200)); });
-  std::this_thread::sleep_for(50ms);
+  untilWaiting(1);
   release_ = true;
   EXPECT_EQ(first.get().status, 504);
   EXPECT_EQ(second.get().status, 200);
 }
 
+TEST_F(SharedFramesTest, AnExceptionIsNobodyElsesAndNobodyWaitsForIt) {
+  const auto begun = Clock::now();
+  const auto throwing = [&](const SharedFrames::Gone& gone) -> HttpReply {
+    drawing()(gone);
+    throw std::runtime_error("no memory");
+  };
+  auto first = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, throwing); });
+  untilDrawn();
+  auto second = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing()); });
+  untilWaiting(1);
+  release_ = true;
+  EXPECT_THROW(first.get(), std::runtime_error);
+  EXPECT_EQ(second.get().status, 200);
+  EXPECT_EQ(frames_.run("a", later(), kStays, drawing()).status, 200) << "asked for later";
+  EXPECT_EQ(drawn_, 3);
+  EXPECT_EQ(frames_.waiting(), 0);
+  EXPECT_LT(Clock::now() - begun, 30s) << "nobody waited for a deadline";
+}
+
 TEST_F(SharedFramesTest, AnEarlierDeadlineIsKept) {
   auto first = std::async(std::launch::async, [&] { return frames_.run("a", later(), kStays, drawing()); });
-  while (drawn_ == 0) std::this_thread::sleep_for(1ms);
+  untilDrawn();
   const auto begun = Clock::now();
   const HttpReply reply =
       frames_.run("a", begun + 50ms, kStays, [](const SharedFrames::Gone&) { return withStatus(504); });

@@ -1,11 +1,31 @@
 #include "server/handlers/work.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
 
 using namespace std::chrono_literals;
+
+const std::function<bool()> kWanted = [] { return false; };
+
+TaskResult resultOf(FileDescriptor body) {
+  TaskResult result;
+  result.outcome.contentType = "image/png";
+  result.body = std::move(body);
+  return result;
+}
+
+/// A file that says it has so many bytes, and takes no memory until they are read.
+FileDescriptor hollowFile(std::size_t bytes) {
+  FileDescriptor file(::memfd_create("hollow", MFD_CLOEXEC));
+  EXPECT_EQ(::ftruncate(file.get(), static_cast<off_t>(bytes)), 0);
+  return file;
+}
 
 TEST(ServerTiming, TellsTheStages) {
   EXPECT_EQ(serverTiming({{"queue", 0.1234}, {"load", 12}}), "queue;dur=0.123, load;dur=12.000");
@@ -26,6 +46,65 @@ TEST(TaskFor, EndsWhenTheServerOrTheClientSays) {
   EXPECT_EQ(allowed("wait=600"), 60s) << "no longer than the server allows";
   for (const char* none : {"wait=0", "wait=-1", "wait=x", "wait=5x", "waiting=5", "wait="})
     EXPECT_EQ(allowed(none), 60s);
+}
+
+TEST(ReplyRoom, IsTakenBeforeAnythingIsRead) {
+  constexpr std::size_t kTooMuchToRead = std::size_t{1} << 40;
+  ByteBudget budget(1 << 20);
+  ByteLease others(budget);
+  ASSERT_TRUE(others.grow(1));
+  TaskResult result = resultOf(hollowFile(kTooMuchToRead));
+  const auto begun = Clock::now();
+  takeRoom(result, budget, begun + 20ms, kWanted);
+  EXPECT_GE(Clock::now() - begun, 20ms) << "it waits for others to be taken";
+  EXPECT_FALSE(result.body) << "its memory is given back";
+  EXPECT_EQ(result.refusal, TaskRefusal::memory);
+  const HttpReply reply = replyOf(std::move(result), "id");
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(reply.refusal, RefusalReason::memory);
+  EXPECT_EQ(budget.used(), 1u);
+}
+
+TEST(ReplyRoom, IsHeldUntilTheReplyGoes) {
+  ByteBudget budget(3 << 20);
+  const Bytes picture(1 << 20, 'x');
+  TaskResult result = resultOf(*memoryFile(picture));
+  takeRoom(result, budget, Clock::now(), kWanted);
+  EXPECT_EQ(budget.used(), picture.size());
+  {
+    const HttpReply reply = replyOf(std::move(result), "id");
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.body, asText(picture));
+    EXPECT_EQ(budget.used(), picture.size());
+    HttpReply copy = reply;
+    EXPECT_EQ(copy.room.held(), 0u) << "its bytes are others, for which its own room is taken";
+  }
+  EXPECT_EQ(budget.used(), 0u);
+}
+
+TEST(ReplyRoom, IsNotNeededByWhatIsSmall) {
+  ByteBudget budget(1 << 20);
+  ByteLease others(budget);
+  ASSERT_TRUE(others.grow(budget.total()));
+  TaskResult result = resultOf(*memoryFile(Bytes(1000, 'x')));
+  takeRoom(result, budget, Clock::now(), kWanted);
+  EXPECT_EQ(replyOf(std::move(result), "id").status, 200);
+}
+
+TEST(ReplyRoom, OneReplyMayBeLargerThanAllOfIt) {
+  ByteBudget budget(1 << 17);
+  TaskResult result = resultOf(*memoryFile(Bytes(1 << 20, 'x')));
+  takeRoom(result, budget, Clock::now(), kWanted);
+  EXPECT_EQ(result.room.held(), budget.total());
+}
+
+TEST(ReplyRoom, IsNotWaitedForOnceNobodyWantsIt) {
+  ByteBudget budget(1 << 20);
+  ByteLease others(budget);
+  ASSERT_TRUE(others.grow(budget.total()));
+  TaskResult result = resultOf(hollowFile(1 << 20));
+  takeRoom(result, budget, Clock::now() + 1h, [] { return true; });
+  EXPECT_FALSE(result.body);
 }
 
 TEST(Prefer, AsksForAJobByItsToken) {

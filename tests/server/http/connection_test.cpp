@@ -200,6 +200,23 @@ TEST_F(ConnectionTest, RepliesThatNobodyTakesLeaveRoomForNoOther) {
   EXPECT_TRUE(has(received, "Retry-After: 1\r\n"));
 }
 
+TEST_F(ConnectionTest, AReplyThatHasItsRoomNeedsNoOther) {
+  context_.limits.replyRoom = 20ms;
+  context_.service = [this](const HttpRequest&) {
+    RequestHandler handler;
+    handler.answer = [this](const HttpRequest&, const std::function<bool()>&) {
+      HttpReply reply;
+      reply.contentType = "text/plain";
+      reply.body = std::string(replyBytes_.total(), 'x');
+      EXPECT_TRUE(reply.room.await(replyBytes_, reply.body.size(), Clock::now(), [] { return true; }));
+      return reply;
+    };
+    return std::variant<RequestHandler, HttpReply>(handler);
+  };
+  EXPECT_TRUE(exchange("GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").starts_with("HTTP/1.1 200 "));
+  EXPECT_EQ(replyBytes_.used(), 0u);
+}
+
 TEST_F(ConnectionTest, ABodyIsGivenBackBeforeItsReplyIsTaken) {
   context_.service = [](const HttpRequest&) {
     RequestHandler handler;

@@ -23,6 +23,26 @@ TEST(EnvironmentCheck, AMisspeltVariableIsRefusedWithTheNearestName) {
               ElementsAre("There is no environment variable GNOMON_FLUX_CAPACITOR."));
 }
 
+TEST(EnvironmentCheck, ANameIsSuggestedOnlyWithinTwoEdits) {
+  EXPECT_THAT(faultsOf({"GNOMON_WRKRS=1", "GNOMON_WRKR=1", "GNOMON_SOTRE=/a", "GNOMON_STORED=/a"}),
+              ElementsAre("There is no environment variable GNOMON_WRKRS; did you mean GNOMON_WORKERS?",
+                          "There is no environment variable GNOMON_WRKR.",
+                          "There is no environment variable GNOMON_SOTRE; did you mean GNOMON_STORE?",
+                          "There is no environment variable GNOMON_STORED; did you mean GNOMON_STORE?"));
+  EXPECT_THAT(faultsOf({"GNOMON_" + std::string(10'000, 'A') + "=1"}).front(), testing::EndsWith("...."));
+}
+
+TEST(EnvironmentCheck, AFlagsOwnNameLeadsToItsVariable) {
+  EXPECT_THAT(
+      faultsOf({"GNOMON_PORT=8080", "GNOMON_ADMIN_PORT=9090"}),
+      ElementsAre("There is no environment variable GNOMON_PORT; did you mean GNOMON_LISTEN_PORT?",
+                  "There is no environment variable GNOMON_ADMIN_PORT; did you mean GNOMON_ADMIN_LISTEN_PORT?"));
+}
+
+TEST(EnvironmentCheck, VariablesOfThePythonClientAreKnown) {
+  EXPECT_TRUE(faultsOf({"GNOMON_BINARY=/usr/bin/gnomon", "GNOMON_SERVER=http://127.0.0.1:8080"}).empty());
+}
+
 TEST(EnvironmentCheck, VariablesOfAServiceAreNobodysMistake) {
   for (const char* entry :
        {"GNOMON_PORT=tcp://10.0.0.1:8080", "GNOMON_SERVICE_HOST=10.0.0.1", "GNOMON_SERVICE_PORT=8080",

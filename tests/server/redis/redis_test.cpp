@@ -69,19 +69,6 @@ TEST_F(RedisTest, SendsAndReadsMoreThanBuffersHold) {
   EXPECT_EQ(replies->back().text, large);
 }
 
-TEST_F(RedisTest, ATransactionIsWholeOrNotAtAll) {
-  Redis redis(options());
-  const auto done = redis.transaction({{"INCR", "n"}, {"INCR", "n"}}, within(5s));
-  ASSERT_TRUE(done);
-  ASSERT_EQ(done->size(), 2u);
-  EXPECT_EQ(done->back().integer, 2);
-  const auto refused = redis.transaction({{"INCR", "n"}, {"NOSUCHCOMMAND"}}, within(5s));
-  ASSERT_TRUE(refused);
-  ASSERT_EQ(refused->size(), 1u);
-  EXPECT_TRUE(refused->front().isError("ERR"));
-  EXPECT_EQ(redis.ask({"GET", "n"}, within(5s))->text, "2");
-}
-
 TEST_F(RedisTest, AScriptIsSentOnceAndAgainAfterARestart) {
   Redis redis(options());
   const Script script("return {KEYS[1], ARGV[1]}");

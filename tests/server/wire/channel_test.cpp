@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/system/memory_file.h"
+#include "server/wire/messages.h"
 
 namespace gnomon {
 namespace {
@@ -85,9 +86,20 @@ TEST_F(ChannelTest, WhatIsNoPacketIsBroken) {
 }
 
 TEST_F(ChannelTest, WhatIsTooLargeIsNotSent) {
-  Channel one(std::move(ends_.first));
-  EXPECT_FALSE(one.send(std::string(Channel::kMostText + 1, 'x')));
+  Channel one(std::move(ends_.first)), other(std::move(ends_.second));
+  const std::string longest(Channel::kMostText, 'x');
+  EXPECT_FALSE(Channel::fits(longest + 'x'));
+  EXPECT_FALSE(one.send(longest + 'x'));
   EXPECT_FALSE(one.send("x", std::vector<int>(Channel::kMostFiles + 1, 0)));
+  EXPECT_TRUE(Channel::fits(longest));
+  EXPECT_TRUE(one.send(longest)) << "the channel goes on";
+  Packet packet;
+  ASSERT_EQ(other.receive(packet, kSoon), ChannelEvent::packet);
+  EXPECT_EQ(packet.text.size(), longest.size());
+}
+
+TEST_F(ChannelTest, TheLongestRequestFitsAsJsonWithinJson) {
+  EXPECT_TRUE(Channel::fits(textOf(ToFront{.event = OrderEvent{1, "row", std::string(kLimits.maxSpecBytes, '"')}})));
 }
 
 } // namespace

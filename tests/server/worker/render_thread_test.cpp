@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -69,6 +70,58 @@ TEST_F(RenderThreads, AFrameThatIsStoppedIsNotFinished) {
   bool finished = false;
   EXPECT_FALSE(thread_->renderAndFinish(
       scene_, spec_, [] { return false; }, [&](DrawnFrame&) { finished = true; }));
+  EXPECT_FALSE(finished);
+}
+
+TEST_F(RenderThreads, WhoWaitsBehindAnotherMayGiveUp) {
+  std::promise<void> begun, release;
+  std::thread first([&] {
+    EXPECT_TRUE(thread_->renderAndFinish(
+        scene_, spec_, [] { return true; },
+        [&](DrawnFrame&) {
+          begun.set_value();
+          release.get_future().wait();
+        }));
+  });
+  begun.get_future().wait(); // its PNG is finished on the render thread, which is busy until it is released
+  std::atomic<bool> isWanted = true;
+  std::promise<bool> answer;
+  std::thread second([&] {
+    const auto drawn = thread_->render(scene_, spec_, TileUse::kept, [&] { return isWanted.load(); });
+    EXPECT_TRUE(drawn || drawn.problems().front().code == ProblemCode::unavailable);
+    answer.set_value(bool(drawn));
+  });
+  auto answered = answer.get_future();
+  EXPECT_EQ(answered.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout) << "still wanted";
+  isWanted = false;
+  EXPECT_EQ(answered.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "while the other goes on";
+  release.set_value();
+  first.join();
+  second.join();
+  EXPECT_FALSE(answered.get());
+  EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })) << "the thread goes on";
+}
+
+TEST_F(RenderThreads, WorkWhoseCallerGaveUpIsNeverRun) {
+  std::promise<void> begun, release;
+  std::thread first([&] {
+    EXPECT_TRUE(thread_->renderAndFinish(
+        scene_, spec_, [] { return true; },
+        [&](DrawnFrame&) {
+          begun.set_value();
+          release.get_future().wait();
+        }));
+  });
+  begun.get_future().wait();
+  // False once, then true: work that ran all the same would ask again, go on and finish.
+  int asked = 0;
+  bool finished = false;
+  EXPECT_FALSE(thread_->renderAndFinish(
+      scene_, spec_, [&] { return ++asked != 1; }, [&](DrawnFrame&) { finished = true; }));
+  release.set_value();
+  first.join();
+  EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })) << "after what was left of the queue";
+  EXPECT_EQ(asked, 1);
   EXPECT_FALSE(finished);
 }
 

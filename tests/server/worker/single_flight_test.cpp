@@ -1,7 +1,9 @@
 #include "server/worker/single_flight.h"
 
 #include <atomic>
+#include <future>
 #include <gtest/gtest.h>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -31,6 +33,33 @@ TEST(SingleFlight, RunsOnceForAllWhoAskMeanwhile) {
   for (std::thread& other : others) {
     other.join();
   }
+}
+
+TEST(SingleFlight, WhoWaitsForAnothersWorkMayGiveUp) {
+  SingleFlight<int> flights;
+  std::promise<void> started, release;
+  std::thread first([&] {
+    EXPECT_EQ(flights.run("key",
+                          [&] {
+                            started.set_value();
+                            release.get_future().wait();
+                            return 7;
+                          }),
+              7);
+  });
+  started.get_future().wait();
+  bool ran = false;
+  int asked = 0;
+  const auto mine = [&] {
+    ran = true;
+    return 8;
+  };
+  EXPECT_EQ(flights.run("key", mine, [&] { return ++asked < 3; }), std::nullopt);
+  EXPECT_EQ(asked, 3);
+  EXPECT_FALSE(ran);
+  release.set_value();
+  first.join();
+  EXPECT_EQ(flights.run("key", mine, [] { return false; }), 8) << "work of its own listens by itself";
 }
 
 TEST(SingleFlight, RemembersNothing) {
