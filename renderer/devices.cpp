@@ -23,9 +23,12 @@ bool mayHaveGpu() {
 }
 
 /// An explicit context, or the wish for a GPU, is one for OpenGL.
-DeviceChoice askedDevice(const BackendOptions& backend) {
+Result<DeviceChoice> askedDevice(const BackendOptions& backend) {
   const bool namesContext = backend.backend != Backend::automatic || backend.requireGpu;
-  return backend.device == DeviceChoice::auto_ && namesContext ? DeviceChoice::gl : backend.device;
+  if (!namesContext || backend.device == DeviceChoice::gl) return backend.device;
+  if (backend.device == DeviceChoice::auto_) return DeviceChoice::gl;
+  return Problem{ProblemCode::invalidValue, "", "The device cpu has neither a context of OpenGL nor a GPU.",
+                 "gl or auto", "cpu"};
 }
 
 } // namespace
@@ -40,9 +43,10 @@ Devices::Devices(std::unique_ptr<Device> only) : only_(std::move(only)), standar
 
 Result<Devices> Devices::open(const RendererOptions& options) {
   Devices devices;
-  const Choice choice{askedDevice(options.backend),
-                      {options.backend, options.gpuSceneBytes, options.tileCacheBytes},
-                      {options.tileCacheBytes}};
+  const auto asked = askedDevice(options.backend);
+  if (!asked) return asked.problems();
+  const Choice choice{
+      *asked, {options.backend, options.gpuSceneBytes, options.tileCacheBytes}, {options.tileCacheBytes}};
   devices.choice_ = std::make_shared<const Choice>(choice);
   if (choice.device == DeviceChoice::gl) {
     auto made = createGlDevice(choice.gl);

@@ -80,10 +80,39 @@ class Usage(CommandLine):
             ["render", BOX, "-o", "a.png", "--set", "width"],
             ["render", BOX, "-o", "a.png", "--backend", "vulkan"],
             ["render", BOX, "-o", "a.png", "--server", "http://127.0.0.1:1", "--require-gpu"],
+            ["render", BOX, "-o", "a.png", "--device", "cpu", "--require-gpu"],
+            ["render", BOX, "-o", "a.png", "--device", "cpu", "--backend", "osmesa"],
+            ["render", BOX, "-o", "a.png", "--set", "output.format=exr"],
             ["serve", "--port", "65536"],
+            ["serve", "--port", "0", "--device", "cpu", "--require-gpu"],
+            ["serve", "--port", "0", "--device", "cpu", "--backend", "egl"],
             ["serve", "--nonsense"],
         ):
             self.assert_ends(gnomon(*arguments, cwd=str(self.folder)), USAGE)
+
+    def test_a_word_that_is_no_command_is_told(self):
+        self.assert_ends(gnomon("rendr", BOX, "-o", "a.png"), USAGE, "There is no command rendr; did you mean render?")
+        run = gnomon("paint")
+        self.assert_ends(run, USAGE, "There is no command paint.\n")
+        self.assertNotIn(b"worker", gnomon("workr").stderr)  # is for no person
+
+    def test_the_processor_has_no_gpu_and_no_context(self):
+        cpu = ["render", BOX, "-o", str(self.output), *SMALL, "--device", "cpu"]
+        for order in ([*cpu, "--require-gpu"], ["render", "--require-gpu", *cpu[1:]]):
+            self.assert_ends(gnomon(*order), USAGE, "--require-gpu: asks for a GPU, and --device cpu uses none")
+        config = self.folder / "config"
+        config.write_text("backend = egl\n")
+        self.assert_ends(gnomon(*cpu, "--config", str(config)), USAGE, "--backend: chooses OpenGL's context")
+        self.assert_ends(gnomon(*cpu, "--backend", "auto", "--require-gpu=false"), OK)
+
+    def test_a_format_beside_the_name_of_another_is_refused(self):
+        for set_ in ("output.format=exr", 'output={"format": "exr"}'):
+            run = gnomon("render", BOX, "-o", str(self.output), "--set", set_)
+            self.assert_ends(run, USAGE, "--set: output.format is exr, but the output's name says png")
+        run = gnomon("render", BOX, "--set", "output.format=exr", "-o", "-", "--format", "png")
+        self.assert_ends(run, USAGE, "exr", "png")
+        self.assertFalse(self.output.exists())
+        self.render("--set", "output.format=png")
 
     def test_every_flag_of_serve_has_its_variable(self):
         flags = [line for line in gnomon("serve", "--help").stdout.decode().splitlines() if line.startswith("  --")]
@@ -158,6 +187,14 @@ class Render(CommandLine):
         with zipfile.ZipFile(self.output) as archive:
             self.assertEqual(archive.namelist(), ["color.npy", "depth.npy", "report.json"])
         self.assertEqual(os.listdir(self.folder), ["frame.npz"])
+
+    def test_folders_are_made(self):
+        self.output = self.folder / "some" / "where" / "frame.png"
+        report = self.folder / "reports" / "report.json"
+        self.render("--report", str(report))
+        self.assertTrue(self.output.exists() and report.exists())
+        run = gnomon("render", BOX, *SMALL, "-o", str(self.output / "frame.png"))
+        self.assert_ends(run, PROBLEM, f"The folder {self.output} can't be made")
 
     def test_several_views_are_several_files(self):
         run = self.render("--view", "color", "--view", "shadow")

@@ -126,11 +126,22 @@ class Configuration(unittest.TestCase):
 
     def test_a_misspelt_variable_is_refused(self):
         self.assert_refused(serve(GNOMON_STOR="/x"), "GNOMON_STOR; did you mean GNOMON_STORE?")
-        self.assert_refused(serve(GNOMON_PORT="8080"), "GNOMON_PORT")
+        self.assert_refused(serve(GNOMON_PORT="8080"), "GNOMON_PORT; did you mean GNOMON_LISTEN_PORT?")
 
     def test_variables_of_others_are_left_alone(self):
         printed(GNOMON_CPU_TARGET="sse4", GNOMON_KEY="x", GNOMON_URL="http://localhost", GNOMON_SERVICE_HOST="10.0.0.1",
-                GNOMON_PORT="tcp://10.0.0.1:80", GNOMON_PORT_8080_TCP_ADDR="10.0.0.1")  # fmt: skip
+                GNOMON_PORT="tcp://10.0.0.1:80", GNOMON_PORT_8080_TCP_ADDR="10.0.0.1",
+                GNOMON_BINARY="/usr/bin/gnomon", GNOMON_SERVER="http://localhost")  # fmt: skip
+
+    def test_a_gpu_beside_the_processor_is_refused_wherever_both_are_from(self):
+        gpu, context = "--require-gpu asks for a GPU, and --device cpu uses none", "--backend chooses OpenGL's context"
+        self.assert_refused(serve("--require-gpu", "--device", "cpu"), gpu)
+        self.assert_refused(serve("--device", "cpu", GNOMON_REQUIRE_GPU="true"), gpu)
+        self.assert_refused(serve(GNOMON_DEVICE="cpu", GNOMON_BACKEND="egl"), context)
+        for file in ("require-gpu = true\n", "device = cpu\nrequire-gpu = true\n"):
+            self.assert_refused(serve("--config", self.write(file), "--device", "cpu"), f"{self.file}: {gpu}")
+        self.assert_refused(serve("--config", self.write("backend = egl\ndevice = cpu\n")), context)
+        printed("--device", "cpu", "--backend", "auto", "--require-gpu=false")
 
     def test_a_server_runs_by_its_file(self):
         with Server("--config", self.write("device = cpu\nqueue-limit = 1\n")) as server:

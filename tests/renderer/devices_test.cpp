@@ -67,6 +67,11 @@ TEST(CpuDevice, H5_ASecondFrameHasTheSameBytes) {
   }
 }
 
+TEST(CpuDevice, HasNoGpuAndNoContextOfOpenGl) {
+  EXPECT_FALSE(Renderer::create({.backend = {.device = DeviceChoice::cpu, .requireGpu = true}}));
+  EXPECT_FALSE(Renderer::create({.backend = {.device = DeviceChoice::cpu, .backend = Backend::osmesa}}));
+}
+
 TEST(CpuDevice, TheReportSaysWhatDrew) {
   auto renderer = rendererBy(DeviceChoice::cpu);
   ASSERT_TRUE(renderer);

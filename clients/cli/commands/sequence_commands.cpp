@@ -89,8 +89,6 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
   const auto take = [&](int index, const std::vector<Picture>& pictures) -> Status {
     const auto name = filledIn(options.output, {{"frame", frameNumber(index)}, {"scene", sceneName(options.scene)}});
     if (!name) return name.problems();
-    std::error_code ignored; // a folder that can't be made is told when the file can't be
-    std::filesystem::create_directories(std::filesystem::path(*name).parent_path(), ignored);
     const auto names = writePictures(pictures, *name);
     if (!names) return names.problems();
     written += names->size();

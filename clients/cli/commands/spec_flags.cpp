@@ -41,6 +41,13 @@ void addFieldFlags(CLI::App& command, SpecArguments& arguments, std::vector<CLI:
   }
 }
 
+/// The format that the output's name, or --format, asks for. Whoever asks is an option that was added after those.
+std::optional<std::string> askedFormat(const CLI::App& command, const SpecArguments& arguments) {
+  const CLI::Option* output = command.get_option_no_throw("--output");
+  if (arguments.format || output == nullptr || output->count() == 0) return arguments.format;
+  return formatOf(output->results().back());
+}
+
 /// "Name: value", as a header of HTTP may be.
 std::optional<std::pair<std::string, std::string>> headerOf(const std::string& text) {
   const auto colon = text.find(':');
@@ -58,7 +65,7 @@ std::optional<std::pair<std::string, std::string>> headerOf(const std::string& t
 } // namespace
 
 void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras) {
-  const auto refuse = [](const char* flag, const char* need) { throw CLI::ValidationError(flag, need); };
+  const auto refuse = [](const char* flag, const std::string& need) { throw CLI::ValidationError(flag, need); };
   command.add_option("--width", arguments.width, "Width of the picture in pixels")->group("Picture");
   command.add_option("--height", arguments.height, "Height of the picture in pixels")->group("Picture");
   command
@@ -108,7 +115,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
-          [&arguments, refuse](const std::vector<std::string>& texts) {
+          [&command, &arguments, refuse](const std::vector<std::string>& texts) {
             arguments.sets.clear(); // `texts` are all that there are, a configuration's first
             for (const std::string& text : texts) {
               const auto equals = text.find('=');
@@ -116,6 +123,9 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
                 refuse("--set", "needs PATH=VALUE, e.g. shadow.filter.size=7");
               arguments.sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
             }
+            const auto asked = askedFormat(command, arguments), set = formatOfSets(arguments.sets);
+            if (asked && set && *asked != *set)
+              refuse("--set", "output.format is " + *set + ", but the output's name says " + *asked);
           },
           "Set any field of the request by its dotted path. Repeatable")
       ->type_name("PATH=VALUE")

@@ -21,7 +21,8 @@ Result<Bytes> readStandardInput(std::size_t maxBytes);
 /// A file as text; "-" is standard input.
 Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 
-/// Puts the file in place in one step: whoever looks sees the old file or the whole new one. "-" is standard output.
+/// Puts the file in place in one step: whoever looks sees the old file or the whole new one. Makes the folders that it
+/// needs. "-" is standard output.
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
 /// The `output.format` that the name's suffix stands for; nothing for any other, and for "-" (standard output).

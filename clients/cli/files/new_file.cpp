@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -20,7 +21,22 @@ bool writeAll(int file, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
+namespace {
+
+/// The folder that a file is to be in, and those around it.
+Status makeFolderOf(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (!error) return Done{};
+  return Problem{ProblemCode::invalidValue, path,
+                 "The folder " + folder.string() + " can't be made: " + error.message() + ".", "", ""};
+}
+
+} // namespace
+
 Result<NewFile> NewFile::create(const std::string& path) {
+  if (auto made = makeFolderOf(path); !made) return made.problems();
   std::string temporary = path + ".XXXXXX";
   const int file = ::mkostemp(temporary.data(), O_CLOEXEC);
   if (file < 0) return Problem{ProblemCode::invalidValue, path, std::string(std::strerror(errno)) + ".", "", ""};

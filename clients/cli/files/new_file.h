@@ -12,6 +12,7 @@ namespace gnomon::cli {
 /// one, and nothing is left of one that is not finished. Problems name the path as the user gave it.
 class NewFile {
  public:
+  /// Makes the folders of the path that are not there.
   static Result<NewFile> create(const std::string& path);
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&&) = delete;

@@ -120,6 +120,15 @@ std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
   return static_cast<std::size_t>(light - lights.begin());
 }
 
+/// Into the `output` that the spec has, unless that is no object, which is a problem of its own.
+void setFormat(Json& spec, const std::string& format, FlagOrigins& origins) {
+  Json& output = spec["output"];
+  if (output.is_null()) output = Json::object();
+  if (!output.is_object()) return;
+  output["format"] = format;
+  origins.emplace("/output/format", "--output");
+}
+
 /// Lays the flags over `spec` and notes which flag set what.
 Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) {
   const auto set = [&](const char* key, Json value, const char* flag) {
@@ -148,11 +157,6 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   if (flags.device) set("device", *flags.device, "--device");
   if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
-  if (flags.format) {
-    if (!spec["output"].is_object()) spec["output"] = Json::object();
-    spec["output"]["format"] = *flags.format;
-    origins["/output/format"] = "--output";
-  }
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
     const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
@@ -162,11 +166,24 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
     }
     origins[pointerOf(path)] = "--set " + path;
   }
+  if (flags.format) setFormat(spec, *flags.format, origins);
   if (!problems.empty()) return problems;
   return Done{};
 }
 
 } // namespace
+
+std::optional<std::string> formatOfSets(const std::vector<std::pair<std::string, std::string>>& sets) {
+  Json spec = Json::object();
+  for (const auto& [path, text] : sets) {
+    if (path != "output" && path != "output.format") continue;
+    const auto value = valueOf(text);
+    if (!value || !setAtPath(spec, path, *value)) return std::nullopt; // is told where the sets are applied
+  }
+  const Json::json_pointer format("/output/format");
+  if (!spec.contains(format) || !spec[format].is_string()) return std::nullopt;
+  return spec[format].get<std::string>();
+}
 
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments) {
   // First by itself: a duplicate key, say, would be gone once the flags are laid over it.

@@ -40,6 +40,10 @@ struct SpecArguments {
   std::vector<std::pair<std::string, std::string>> sets; ///< --set: dotted path, value
 };
 
+/// The `output.format` that the last of these --set asks for, by its own path or within `output`; nothing where none
+/// does.
+std::optional<std::string> formatOfSets(const std::vector<std::pair<std::string, std::string>>& sets);
+
 /// A spec and where its parts came from.
 struct ResolvedSpec {
   Result<FrameSpec> spec;
@@ -47,9 +51,9 @@ struct ResolvedSpec {
   std::string json; ///< as it was written, the flags laid over it; "{}" where it can't be read
 };
 
-/// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above, then checked as the
-/// server checks a request. --camera and --orbit replace the placement and keep the lens; --sun turns the first
-/// directional light, or adds one.
+/// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above but for the format,
+/// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
+/// the lens; --sun turns the first directional light, or adds one.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments);
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".

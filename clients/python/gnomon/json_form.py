@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from typing import Any, Dict, Mapping, Optional, Tuple, Union
+from numbers import Real
+from typing import Any, Dict, Iterable, Mapping, Optional, Tuple, Union, cast
 
 import numpy as np
 
@@ -40,12 +41,19 @@ def encoded(value: Any) -> bytes:
     return json.dumps(to_json(value), allow_nan=False, separators=(",", ":")).encode()
 
 
+def _azimuth_and_elevation(sun: Any) -> Tuple[float, float]:
+    pair = tuple(sun) if isinstance(sun, Iterable) and not isinstance(sun, str) else ()
+    if len(pair) != 2 or not all(isinstance(each, Real) for each in pair):
+        raise ValueError(f"sun is (azimuth, elevation) in degrees, as sun=(135, 40), not {sun!r}")
+    return cast(Tuple[float, float], pair)
+
+
 def frame_spec(spec: Optional[Spec] = None, sun: Optional[Tuple[float, float]] = None, **fields: Any) -> Dict[str, Any]:
     """The spec with `fields` set on top; `sun=(azimuth, elevation)` in degrees is short for one light."""
     if sun is not None:
         if "lights" in fields:
             raise TypeError("sun= is short for lights=[...] with one sun: give one of the two")
-        azimuth, elevation = sun
+        azimuth, elevation = _azimuth_and_elevation(sun)
         fields["lights"] = [{"sun": {"azimuthDegrees": azimuth, "elevationDegrees": elevation}}]
     known = {field.name for field in dataclasses.fields(FrameSpec)}
     unknown = sorted(set(fields) - known)

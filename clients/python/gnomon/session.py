@@ -22,7 +22,7 @@ from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
 from .streams import events, sequence_parts
 from .transport import Transport
-from .webm import save_video, whole_file
+from .webm import check_video_name, save_video, whole_file
 
 USUAL_VIEWS = ("color", "depth", "ids", "shadow")
 MOST_FAILURES = 3  # of a sequence, one after the other
@@ -155,8 +155,9 @@ class Session:
               frames: Optional[Sequence[Patch]] = None, keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None,
               stable: bool = True, framesPerSecond: Optional[float] = None, videoQuality: Optional[int] = None,
               **fields: Any) -> SequenceReport:
-        """A sequence as a WebM of its first view. The file appears once it is whole; a video that breaks off is not
-        gone on with."""
+        """A sequence as a WebM of its first view: `path` ends in .webm. The file appears once it is whole; a video that
+        breaks off is not gone on with."""
+        check_video_name(path)
         asked = {"spec": frame_spec(spec, **fields), "frames": frames, "keys": keys, "count": count, "stable": stable,
                  "framesPerSecond": framesPerSecond, "videoQuality": videoQuality}
         of = (count if frames is None else len(frames)) or 0

@@ -15,6 +15,11 @@ SEGMENT, CLUSTER, TAGS = 0x18538067, 0x1F43B675, 0x1254C367
 TAG, SIMPLE_TAG, NAME, STRING = 0x7373, 0x67C8, 0x45A3, 0x4487
 
 
+def check_video_name(path: Union[str, Path]) -> None:
+    if Path(path).suffix.lower() != ".webm":
+        raise ValueError(f"a video is a WebM, so its name ends in .webm; got {os.fspath(path)}")
+
+
 @contextlib.contextmanager
 def whole_file(path: Union[str, Path]) -> Iterator[BinaryIO]:
     """A file that is put in place once all of it is written; else there is none."""

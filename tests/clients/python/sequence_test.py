@@ -158,6 +158,8 @@ class Sequences(unittest.TestCase):
             self.assertEqual([each.pointer for each in caught.exception.problems], ["/frames/2/camera/node"])
             with self.assertRaises(gnomon.BadRequest):
                 self.session.video(self.scene, path, frames=[{}], framesPerSecond=0)
+            with self.assertRaisesRegex(ValueError, "webm"):
+                self.session.video(self.scene, path.with_suffix(".mp4"), frames=moves, **SMALL)
             with CuttingProxy(self.server.address, [size // 2]) as proxy, gnomon.Session(proxy.url) as session:
                 with self.assertRaises(ConnectionError):
                     session.video(self.scene.id, path, frames=moves, **SMALL)

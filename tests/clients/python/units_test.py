@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import gnomon
-from gnomon import bundle, camera, golden, json_form, png, problems, spec, streams
+from gnomon import bundle, camera, golden, json_form, png, problems, spec, streams, webm
 from gnomon.picture import picture_of
 from gnomon.transport import check_digest
 
@@ -63,6 +63,15 @@ class Png(unittest.TestCase):
             png.encode(np.zeros((2, 2, 3)))
 
 
+class VideoName(unittest.TestCase):
+    def test_it_ends_in_webm(self):
+        for name in ("turn.webm", "turn.WEBM", Path("out") / "turn.webm"):
+            webm.check_video_name(name)
+        for name in ("x.mp4", "x", "webm", Path("x.webm.mp4")):
+            with self.assertRaisesRegex(ValueError, r"ends in \.webm"):
+                webm.check_video_name(name)
+
+
 class JsonForm(unittest.TestCase):
     def test_dataclasses_leave_none_out_and_dicts_keep_it(self):
         asked = json_form.frame_spec(spec.FrameSpec(width=np.int64(8), lights=[spec.Light(sun=spec.Sun(1, 2))]),
@@ -75,6 +84,14 @@ class JsonForm(unittest.TestCase):
         self.assertEqual(json_form.frame_spec(sun=(135, 40)), {"lights": [light]})
         with self.assertRaises(TypeError):
             json_form.frame_spec(sun=(135, 40), lights=[])
+
+    def test_the_sun_is_two_numbers(self):
+        for sun in ((135, 40), [135, 40], np.array([135, 40]), (np.float32(135), np.int64(40))):
+            light, = json_form.frame_spec(sun=sun)["lights"]
+            self.assertEqual(light["sun"], {"azimuthDegrees": 135, "elevationDegrees": 40})
+        for wrong in ("135,40", "12", (1, 2, 3), (1,), 135, (1, "2"), (None, 2), {"azimuthDegrees": 1}):
+            with self.assertRaisesRegex(ValueError, "sun is .azimuth, elevation. in degrees"):
+                json_form.frame_spec(sun=wrong)
 
     def test_an_unknown_field_is_told_with_the_known_ones(self):
         with self.assertRaisesRegex(TypeError, "no widht; it has .*width"):

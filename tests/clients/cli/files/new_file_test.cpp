@@ -50,10 +50,19 @@ TEST_F(NewFileTest, LeavesNothingWhereItIsNotFinished) {
   EXPECT_EQ(entries(), 0);
 }
 
-TEST_F(NewFileTest, NamesThePathThatCanNotBe) {
-  const auto file = NewFile::create(folder_ + "/nowhere/file");
+TEST_F(NewFileTest, MakesTheFoldersOfItsPath) {
+  auto file = NewFile::create(folder_ + "/some/where/file");
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(file->finish());
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ + "/some/where/file"));
+}
+
+TEST_F(NewFileTest, NamesThePathAndTheFolderThatCanNotBe) {
+  std::ofstream(path()) << "no folder";
+  const auto file = NewFile::create(path() + "/file");
   ASSERT_FALSE(file);
-  EXPECT_EQ(file.problems().front().pointer, folder_ + "/nowhere/file");
+  EXPECT_EQ(file.problems().front().pointer, path() + "/file");
+  EXPECT_NE(file.problems().front().detail.find("The folder " + path() + " can't be made: "), std::string::npos);
 }
 
 } // namespace

@@ -117,6 +117,26 @@ TEST(SpecArguments, SetTakesDottedPathsJsonAndBareWords) {
   EXPECT_FALSE(spec.shadow.blendCascades);
 }
 
+TEST(SpecArguments, TheFormatOfTheOutputsNameStaysBesideASet) {
+  SpecArguments flags;
+  flags.format = "exr";
+  flags.sets = {{"output", R"({"jpegQuality": 40})"}};
+  const FrameSpec spec = resolved("{}", flags);
+  EXPECT_EQ(spec.output.format, ImageFormat::exr);
+  EXPECT_EQ(spec.output.jpegQuality, 40);
+  flags.sets = {{"output", "3"}};
+  EXPECT_FALSE(refused("{}", flags).empty());
+}
+
+TEST(SpecArguments, TheFormatOfSetsIsThatOfTheLast) {
+  EXPECT_EQ(formatOfSets({}), std::nullopt);
+  EXPECT_EQ(formatOfSets({{"width", "3"}, {"output.jpegQuality", "40"}, {"output", "3"}}), std::nullopt);
+  EXPECT_EQ(formatOfSets({{"output.format", "exr"}}), "exr");
+  EXPECT_EQ(formatOfSets({{"output.format", "exr"}, {"output.format", "jpeg"}}), "jpeg");
+  EXPECT_EQ(formatOfSets({{"output", R"({"format": "npz"})"}}), "npz");
+  EXPECT_EQ(formatOfSets({{"output.format", "["}}), std::nullopt);
+}
+
 TEST(SpecArguments, SetRefusesWhatIsNoPlaceOrNoJson) {
   const auto pointerOfRefusal = [](const std::string& path, const std::string& value) {
     SpecArguments flags;
