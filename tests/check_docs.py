@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks every path and link of the READMEs and pages, and that their tables are complete.
+"""Checks every path and link of the READMEs and pages, that their tables are complete, and the files that comments name.
 
 usage: check_docs.py [ROOT]      prints one line a fault, as PAGE:LINE: what is wrong; exit status 1 if any
 
@@ -8,13 +8,16 @@ its first part is the name of a folder of the tree, or if it ends like a source 
 page's folder, or at any folder, and may lack the file's suffix. In a table, every name in a column headed `file`,
 `files`, `folder` or `shader` is one, and lies below the page's folder if it has no path. Shell commands in code blocks
 are checked for paths from the root. Views, stages, techniques, shaders, flags, commands and fields are those that the
-code names.
+code names. A file that a comment of a source names (C++, GLSL, Python, CMake) is one of the tree, by its path or by the
+last parts of it.
 """
 
 import fnmatch
+import io
 import os
 import re
 import sys
+import tokenize
 from pathlib import Path
 
 SKIPPED = {"build", "node_modules", ".git"}
@@ -26,6 +29,17 @@ FILE_COLUMNS = {"file", "files", "folder", "shader"}
 WILD = re.compile(r"NAME|…|\.\.\.|\{[^}]*\}")
 # Written by programs: what stands in their backquotes are names of models, not of files.
 GENERATED = ("tests/bench/results/", "tests/gallery/README.md")
+
+C_SUFFIXES = (".h", ".cpp", ".glsl", ".vert", ".frag", ".comp")
+CMAKE_SUFFIXES = ("CMakeLists.txt", ".cmake", ".cmake.in")
+# What is no comment, and in a group what is one. A ' between digits begins no character.
+C_COMMENT = re.compile(
+    r"""(?<=[\da-fA-F])'(?=[\da-fA-F])|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+'"""
+    r"""|(?P<comment>//[^\n]*|/\*.*?\*/)""", re.DOTALL)
+CMAKE_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|(?P<comment>#[^\n]*)', re.DOTALL)
+NAMED_FILE = re.compile(r"(?<![\w./:<>*-])[\w./*-]*[\w*]\.(?:h|cpp|glsl|vert|frag|comp|md|py)(?![\w-])")
+# Other people's headers, what programs write, and names that stand for any name.
+NAMED_ELSEWHERE = {"foreach_target.h", "GL/osmesa.h", "OUTPUT/data_sets.md", "a_test.cpp", "b_test.cpp"}
 
 
 def tree_of(root):
@@ -215,12 +229,59 @@ def table_faults(tree):
     yield from compare("protocol/FIELDS.md", "field", listed, fields)
 
 
+def python_comments(text):
+    """Comments, and the strings that stand alone."""
+    begins = True
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and begins):
+            yield token.start[0], token.string
+        if token.type not in (tokenize.COMMENT, tokenize.NL):
+            begins = token.type in (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+
+
+def comments_of(path, text):
+    """Lines of a source and the comments that begin there."""
+    if path.endswith(C_SUFFIXES):
+        pattern = C_COMMENT
+    elif path.endswith(CMAKE_SUFFIXES):
+        pattern = CMAKE_COMMENT
+    else:
+        yield from python_comments(text)
+        return
+    for match in pattern.finditer(text):
+        if match["comment"]:
+            yield text.count("\n", 0, match.start()) + 1, match["comment"]
+
+
+def is_source(root, path):
+    if "." in Path(path).name:
+        return path.endswith((*C_SUFFIXES, *CMAKE_SUFFIXES, ".py"))
+    with (root / path).open("rb") as file:
+        return re.match(rb"#!.*python", file.readline(80)) is not None
+
+
+def comment_faults(tree):
+    """Files that comments name and that there are not."""
+    ends = {"/".join(parts[first:]) for parts in (path.split("/") for path in tree.paths) for first in range(len(parts))}
+    for path in sorted(tree.paths):
+        if not (tree.root / path).is_file() or not is_source(tree.root, path):
+            continue
+        for line, comment in comments_of(path, (tree.root / path).read_text(encoding="utf-8")):
+            for match in NAMED_FILE.finditer(comment):
+                name = re.sub(r"^(\.\.?/)+", "", match[0])
+                if name in ends or name in NAMED_ELSEWHERE or ("*" in name and fnmatch.filter(ends, name)):
+                    continue
+                newlines = comment.count("\n", 0, match.start())
+                yield f"{path}:{line + newlines}: there is no {name}"
+
+
 def faults_of(root):
     tree = Tree(root)
     for page in tree.pages:
         for number, fault in page_faults(tree, page):
             yield f"{page}:{number}: {fault}"
     yield from table_faults(tree)
+    yield from comment_faults(tree)
 
 
 def main(root):

@@ -64,6 +64,28 @@ BROKEN = [
     ("server/process/serve_flags.cpp", '"--port"', "kPort", "the code names no flag"),
 ]
 
+# Path, its text, and words of the one fault that its comments have to give.
+COMMENTS = [
+    ("renderer/a.cpp", "int x;  // see none.h\n", "renderer/a.cpp:1: there is no none.h"),
+    ("renderer/a.cpp", "/* one\n two: shaders/none.frag */\n", "renderer/a.cpp:2: there is no shaders/none.frag"),
+    ("renderer/a.cpp", "int x = 1'000;  // none.h isn't here\n", "there is no none.h"),
+    ("renderer/a.cpp", "// shaders/none*.frag\n", "there is no shaders/none*.frag"),
+    ("renderer/shaders/view.frag", "// common_none.glsl\n", "there is no common_none.glsl"),
+    ("renderer/CMakeLists.txt", "# none.cpp\n", "there is no none.cpp"),
+    ("renderer/a.py", "#!/usr/bin/env python3\nX = 1  # none.py\n", "renderer/a.py:2: there is no none.py"),
+    ("renderer/a.py", '"""What it is.\n\nSee NONE.md."""\n', "renderer/a.py:3: there is no NONE.md"),
+    ("server/start", "#!/usr/bin/python3\n# none.py\n", "server/start:2: there is no none.py"),
+]
+
+FINE_COMMENTS = [
+    ("renderer/a.cpp", "// render.cpp, shaders/view.frag, renderer/shaders/view.frag, ../README.md, shaders/*.frag.\n"),
+    ("renderer/a.cpp", '#include <none.h>\nauto x = "// none.h";\nauto y = R"(// none.h)";\nchar z = \'"\'; // main.cpp\n'),
+    ("renderer/a.cpp", "// https://none.example/none.md, foreach_target.h, x.height, a.hpp, none.h_\n"),
+    ("renderer/CMakeLists.txt", 'add_library(x none.cpp) # main.cpp\nset(y "# none.cpp")\n'),
+    ("renderer/a.py", "X = 'none.py'\nY = '# none.py'\n"),
+    ("server/start", "#!/bin/sh\n# none.py\n"),
+]
+
 FINE = ["`image/png`", "`text/csv`", "`/v1/scenes`", "`build/release/bin/x`", "`spec_flags.cpp`",
         "`cli/commands/spec_flags`", "`shaders/*.frag`", "`renderer/shaders/NAME.frag`", "`KHR/none`",
         "[x](https://none.example/a.md)", "[x](#house)", "```\nserver/anything in a drawing\n```", "`./build`",
@@ -96,6 +118,22 @@ class CheckDocs(unittest.TestCase):
                 faults = self.faults()
                 self.write(path, SOUND[path])
                 self.assertTrue(any(words in fault for fault in faults), faults)
+
+    def test_files_that_comments_name_are_there(self):
+        for path, text, words in COMMENTS:
+            with self.subTest(path=path, text=text):
+                self.write(path, text)
+                faults = self.faults()
+                self.write(path, SOUND.get(path, ""))
+                self.assertEqual(len(faults), 1, faults)
+                self.assertIn(words, faults[0])
+
+    def test_what_comments_may_name_is_left_alone(self):
+        for path, text in FINE_COMMENTS:
+            with self.subTest(path=path, text=text):
+                self.write(path, text)
+                self.assertEqual(self.faults(), [])
+                self.write(path, SOUND.get(path, ""))
 
     def test_what_is_no_path_of_the_tree_is_left_alone(self):
         for text in FINE:

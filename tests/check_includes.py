@@ -4,14 +4,15 @@
 usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
 
 Who may include whom, one way:
-  protocol/base <- protocol <- renderer/core <- renderer/{image,scene,shadow,volume} <- renderer/prepare
-           <- renderer/{reference,techniques,resolve} <- renderer/device <- renderer/frame
-           <- renderer/evaluation, renderer/export
+  protocol/base <- protocol <- renderer/core <- renderer/image <- renderer/scene; core <- renderer/{shadow,volume,video};
+  scene <- renderer/reference <- renderer/bake; scene, shadow <- renderer/prepare <- renderer/resolve;
+  bake, prepare <- renderer/techniques;
+  bake, resolve, volume <- renderer/device <- renderer/frame <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/worker;
   protocol <- server/system <- server/redis, server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
            <- server/metrics <- server/handlers <- server/process: of the server, only its workers see the renderer;
-  clients see protocol and renderer/render.h. Beside that way, renderer/{gl,passes,shaders} implement renderer/device:
-  only render.cpp knows them, by one header.
+  clients see protocol and renderer/render.h. Beside that way, renderer/cpu and renderer/{gl,passes,shaders} implement
+  renderer/device: only devices.cpp knows them, by one header each.
 """
 
 import re
@@ -105,7 +106,7 @@ KEPT_IN = {
     "tiny_gltf.h": ["tests"],
     "draco/": ["renderer/scene/decode"],
     "meshoptimizer.h": ["renderer/scene"],
-    "OpenImageIO/": ["renderer/image"],
+    "OpenImageIO/": ["tests"],
     "OpenEXR/": ["renderer/image"],
     "isa-l/": ["renderer/image"],
     "libdeflate.h": ["protocol/base", "renderer/image"],

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """seed_rows.py has to name a row without a test, a row that there is not, and a stale table."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -52,6 +53,14 @@ class SeedRows(unittest.TestCase):
         faults = list(seed_rows.faults_of(self.folder))
         self.assertEqual(len(faults), 1, faults)
         self.assertIn("stale", faults[0])
+
+    def test_ctest_labels_the_letters_of_all_rows(self):
+        label = (Path(__file__).resolve().parent / "seed_label.cmake.in").read_text(encoding="utf-8")
+        labelled = [set(letters) for letters in re.findall(r"\[([A-Z]+)\]\[0-9\]", label)]
+        read = [set(letters) for letters in re.findall(r"\[([A-Z]+)\]", seed_rows.ID.pattern)]
+        letters = {row[0] for row in seed_rows.ROWS}
+        self.assertEqual(labelled, [letters])
+        self.assertEqual(read, [letters])
 
     def test_a_test_of_two_rows_stands_at_both(self):
         self.faults(all_rows() + "TEST_P(More, X1_X2_Both) {}\n")

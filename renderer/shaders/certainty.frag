@@ -6,10 +6,10 @@
 #include "common_names.glsl"
 #include "shared/light.h"
 
-// Whether the shadow map of one light knows what arrives at a pixel (Verdict of renderer/passes/views/certainty_pass.h).
+// Whether the shadow map of one light knows what arrives at a pixel (Verdict of renderer/techniques/traced_shadow.h).
 //
 // Seen from the light, the casters are sheets of surface. A sheet begins and ends at outlines alone, and the map's outlines
-// (renderer/passes/tiles/outlines.h) mark every cell between four texels that one passes through. Where none does, the
+// (renderer/prepare/outlines.h) mark every cell between four texels that one passes through. Where none does, the
 // sheets over a receiver lie over the four texels around it, too, so that four depths tell whether one of them lies
 // before the receiver; a line along which two sheets cross leaves at least one texel on the receiver's side of it.
 //  - none before the receiver's own plane: lit;
@@ -27,7 +27,7 @@ const float kTurnedAway = 64.0 / 255.0;
 const float kUnsure = 128.0 / 255.0;
 
 // How much depths change along a surface with each length across, at most, where no outline is near: the tangent of
-// kSteep in outlines.h, for two surfaces that lean either way, and some room.
+// kSteepest in outlines.h, for two surfaces that lean either way, and some room.
 const float kBend = 2.2 * GNOMON_STEEPEST;
 
 float verdictOf(Sample seen) {

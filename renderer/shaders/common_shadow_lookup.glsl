@@ -28,7 +28,7 @@ struct Lookup {
 };
 
 // The receiver, moved so that its surface doesn't shadow itself: automatically along its normal by
-// reach * sin(angle) (see renderer/shadow/bias.h), or as the light's own bias says.
+// reach * sin(angle) (see renderer/shadow/filter_kernel.h), or as the light's own bias says.
 vec3 movedReceiver(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
 #ifdef MANUAL_BIAS
   if (light.hasManualBias != 0u) {

@@ -33,7 +33,7 @@ uvec4 packedSurface(Surface s) {
                color.r | (color.g << 11) | (color.b << 22), packUnorm4x8(vec4(s.metallic, s.roughness, s.occlusion, 0.0)));
 }
 
-// The receiver group (renderer/passes/node_switches.h) takes the last byte.
+// The receiver group (renderer/scene/node_switches.h) takes the last byte.
 uvec4 withReceiverGroup(uvec4 bits, uint group) { return bits | uvec4(0u, 0u, 0u, group << 24); }
 uint receiverGroup(uvec4 bits) { return bits.w >> 24; }
 

@@ -57,7 +57,7 @@ struct Fit {
   glm::dvec2 texelSize{0};  ///< the axes may differ
   double depthNear = 0;     ///< metres along the light where z is 0
   double depthExtent = 0;   ///< metres from z 0 to z 1
-  double normalOffset = 0;  ///< metres, or metres for each metre of distance; see bias.h
+  double normalOffset = 0;  ///< metres, or metres for each metre of distance; see filter_kernel.h
   double radius = 0;        ///< of the filter, in lengths across: metres, or metres for each metre of distance
 };
 

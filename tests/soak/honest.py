@@ -45,6 +45,10 @@ class Tally:
             if seconds is not None:
                 self.latencies.append((time.monotonic(), seconds))
 
+    def served(self, client):
+        with self.lock:
+            return self.outcomes.get((client, "served"), 0)
+
     def note_broken(self, client, what):
         with self.lock:
             self.broken.append((time.monotonic(), f"{client}: {what}"))

@@ -7,7 +7,7 @@
 /// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
 /// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition. They
 /// branch only on what is the same for a whole frame, light or material, so that C++ may take them with `Real` for many
-/// numbers at once (renderer/cpu/shared_functions-inl.h).
+/// numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
 namespace gnomon::shared {
 
 using glm::clamp;
