@@ -107,7 +107,7 @@ TEST_F(SceneFile, WritesInOneStepAndLeavesNothingBehind) {
   ASSERT_TRUE(writeFile(target.string(), bytesOf("second")));
   EXPECT_EQ(*readFile(target, 100), bytesOf("second"));
   EXPECT_EQ(std::distance(fs::directory_iterator(root_), {}), 3); // model, secret.bin, frame.png
-  EXPECT_FALSE(writeFile((root_ / "missing" / "frame.png").string(), bytesOf("x")));
+  EXPECT_FALSE(writeFile((target / "frame.png").string(), bytesOf("x"))) << "a file is no folder";
   EXPECT_FALSE(writeFile((root_ / "model").string(), bytesOf("x")));
   EXPECT_EQ(std::distance(fs::directory_iterator(root_), {}), 3);
 }
