@@ -15,7 +15,7 @@ UPLOAD = (
 # Several of them take much longer than the grace.
 LONG = {"width": 1920, "height": 1080, "antialiasing": "none", "shadow": {"technique": "rayTraced", "raySamples": 1024},
         "lights": [{"sun": {"azimuthDegrees": number, "elevationDegrees": 45}, "angularDiameterDegrees": 60}
-                   for number in range(256)]}  # fmt: skip
+                   for number in range(120)]}  # fmt: skip
 
 
 def post_frame(scene, spec):
