@@ -24,11 +24,11 @@ std::size_t editDistance(std::string_view from, std::string_view to) {
 
 } // namespace
 
-std::string nearestName(std::string_view mistyped, std::span<const std::string> names) {
+std::string nearestName(std::string_view mistyped, std::span<const std::string> names, std::size_t most) {
   constexpr std::size_t kLongest = 256; // whatever is longer resembles no name
   if (mistyped.size() > kLongest) return {};
   std::string_view nearest;
-  std::size_t least = mistyped.size() / 3 + 1;
+  std::size_t least = std::min(mistyped.size() / 3, most) + 1;
   for (const std::string& name : names) {
     const std::size_t distance = editDistance(mistyped, name);
     if (distance < least) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,7 +8,8 @@
 namespace gnomon {
 
 /// Of these names the one that a mistyped one resembles most, by edit distance; empty where none is near: more than a
-/// third of its letters would have to change.
-std::string nearestName(std::string_view mistyped, std::span<const std::string> names);
+/// third of its letters, or more than `most` of them, would have to change.
+std::string nearestName(std::string_view mistyped, std::span<const std::string> names,
+                        std::size_t most = std::string_view::npos);
 
 } // namespace gnomon

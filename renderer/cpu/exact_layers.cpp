@@ -151,8 +151,8 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
   }
   if (traced.empty()) return exact;
   const auto samples = static_cast<std::size_t>(surfaces.samples);
-  const std::int64_t bytes = visibilityBytes(surfaces.width, surfaces.height, samples, traced.size());
-  if (const Status fits = checkVisibilityBytes(bytes); !fits) return fits.problems();
+  const Status fits = checkVisibilityBytes(surfaces.width, surfaces.height, samples, traced.size());
+  if (!fits) return fits.problems();
   if (const Status found = traceLayers(camera, work, survey, surfaces, traced, exact); !found) return found.problems();
   return exact;
 }

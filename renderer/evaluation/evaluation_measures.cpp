@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/limits.h"
+#include "renderer/core/visibility_limit.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/plan_input.h"
@@ -95,10 +95,9 @@ Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size
                    "No light casts a shadow here, so there is nothing to measure.", "", ""};
   }
   const std::int64_t bytes = measuredBytes(variant.spec, subject.lights.size());
-  if (bytes > kLimits.maxVisibilityBytes) {
-    return Problem{ProblemCode::tooLarge, "/lights", "The shadows of so many lights on so many pixels are too large.",
-                   std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
-  }
+  const Status fits =
+      checkVisibilityBytes(bytes, "/lights", "The shadows of so many lights on so many pixels are too large.");
+  if (!fits) return fits.problems();
   return subject;
 }
 

@@ -7,6 +7,7 @@
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 #include "renderer/core/vec3.h"
+#include "renderer/core/visibility_limit.h"
 #include "renderer/frame/light_on_volumes.h"
 #include "renderer/resolve/plan_input.h"
 
@@ -44,9 +45,7 @@ Status checkSize(const FrameSpec& spec) {
   const std::int64_t samples = spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
   const std::int64_t pixel = sizeof(glm::vec4) + samples * (sizeof(float) + sizeof(std::uint16_t));
   const std::int64_t bytes = pixel * spec.width * spec.height;
-  if (bytes <= kLimits.maxVisibilityBytes) return Done{};
-  return Problem{ProblemCode::tooLarge, "/volumes", "A picture of this size takes too much memory with volumes.",
-                 std::to_string(kLimits.maxVisibilityBytes) + " bytes", std::to_string(bytes) + " bytes"};
+  return checkVisibilityBytes(bytes, "/volumes", "A picture of this size takes too much memory with volumes.");
 }
 
 /// The first directional light that casts shadows: what volumes take of it shades surfaces.

@@ -17,13 +17,6 @@
 namespace gnomon {
 namespace {
 
-TaskResult failed(Problem problem, int retryAfterSeconds = 1) {
-  TaskResult result;
-  result.outcome.problems = {std::move(problem)};
-  result.outcome.retryAfterSeconds = retryAfterSeconds;
-  return result;
-}
-
 Problem endingProblem() {
   return {ProblemCode::unavailable, "", "The server is shutting down.", "", ""};
 }
@@ -36,6 +29,13 @@ Problem lateProblem(bool waited) {
 }
 
 } // namespace
+
+TaskResult failed(Problem problem, int retryAfterSeconds) {
+  TaskResult result;
+  result.outcome.problems = {std::move(problem)};
+  result.outcome.retryAfterSeconds = retryAfterSeconds;
+  return result;
+}
 
 Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)) {
   FrameCost unit;

@@ -8,6 +8,9 @@
 /// What Dispatcher's two source files share. Everything here is guarded by the dispatcher's mutex.
 namespace gnomon {
 
+/// The result of a task that no worker has done.
+TaskResult failed(Problem problem, int retryAfterSeconds = 1);
+
 /// A task, from its arrival to its result.
 struct Dispatcher::Ticket {
   enum class State { waiting, running, done };

@@ -57,10 +57,7 @@ void Dispatcher::placeWaiting() {
     order.erase(next);
     auto& [slots, workers] = groups[ticket->task.needsDriver];
     if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable() && !startSlot(*slots_[slots[0]])) {
-      TaskResult result;
-      result.outcome.problems = {noThreadFor("the worker that draws with OpenGL")};
-      result.outcome.retryAfterSeconds = 1;
-      refuse(ticket, std::move(result));
+      refuse(ticket, failed(noThreadFor("the worker that draws with OpenGL")));
       continue;
     }
     std::optional<std::size_t> place;
@@ -80,9 +77,7 @@ void Dispatcher::placeWaiting() {
     } catch (const std::exception& error) { // as where there is no memory; this task alone has no turn then
       logEvent("worker", error.what());
       slots_[slots[*place]]->running.erase(ticket->task.order.number);
-      TaskResult result;
-      result.outcome.problems = {{ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}};
-      refuse(ticket, std::move(result));
+      refuse(ticket, failed({ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}));
     }
   }
 }
@@ -119,10 +114,9 @@ void Dispatcher::refuseOne() {
   });
   const TicketPtr ticket = *refused;
   waiting_.erase(refused);
-  TaskResult result;
-  result.outcome.problems = {{ProblemCode::busy, "", "The queue before the workers is full.",
-                              std::to_string(options_.queueLimit) + " requests", ""}};
-  result.outcome.retryAfterSeconds = retryAfterSeconds();
+  TaskResult result = failed({ProblemCode::busy, "", "The queue before the workers is full.",
+                              std::to_string(options_.queueLimit) + " requests", ""},
+                             retryAfterSeconds());
   result.refusal = TaskRefusal::queue;
   refuse(ticket, std::move(result));
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -11,7 +10,6 @@
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
-#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
@@ -21,13 +19,9 @@ constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv",
 
 /// Tells the report, which has come as the result's body, as the last event.
 void tellReport(TaskResult& result, const TaskEvents& events) {
-  if (!result.outcome.problems.empty()) return;
-  const auto report = result.body ? readFile(*result.body, std::numeric_limits<std::int32_t>::max()) : std::nullopt;
-  if (!report) {
-    result.outcome.problems = {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
-    return;
+  if (auto report = bodyOf(result)) {
+    events({.number = result.outcome.number, .name = "result", .data = *std::move(report)});
   }
-  events({.number = result.outcome.number, .name = "result", .data = std::string(gnomon::asText(*report))});
 }
 
 } // namespace

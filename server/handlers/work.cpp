@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "protocol/base/text.h"
 #include "server/handlers/event_reply.h"
+#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
@@ -24,27 +22,6 @@ RefusalReason refusalOf(TaskRefusal refusal) {
   return refusal == TaskRefusal::queue    ? RefusalReason::queue
          : refusal == TaskRefusal::memory ? RefusalReason::memory
                                           : RefusalReason::none;
-}
-
-std::optional<std::size_t> sizeOf(const FileDescriptor& file) {
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0 || status.st_size < 0) return std::nullopt;
-  return static_cast<std::size_t>(status.st_size);
-}
-
-/// All bytes of a worker's reply, read once, to where they are sent from.
-std::optional<std::string> textOf(const FileDescriptor& file) {
-  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  const auto size = sizeOf(file);
-  if (!size || *size > kMost) return std::nullopt;
-  std::string text(*size, '\0');
-  std::size_t count = 0;
-  while (count < text.size()) {
-    const ssize_t got = ::pread(file.get(), text.data() + count, text.size() - count, static_cast<off_t>(count));
-    if (got == 0 || (got < 0 && errno != EINTR)) return std::nullopt;
-    if (got > 0) count += static_cast<std::size_t>(got);
-  }
-  return text;
 }
 
 } // namespace
@@ -145,13 +122,17 @@ std::string serverTiming(const std::vector<StageTime>& stages) {
   return text;
 }
 
+std::optional<std::string> bodyOf(TaskResult& result) {
+  Problems& problems = result.outcome.problems;
+  if (!problems.empty()) return std::nullopt;
+  auto body = result.body ? readText(*result.body, std::numeric_limits<std::int32_t>::max()) : std::nullopt;
+  if (!body) problems = {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
+  return body;
+}
+
 HttpReply replyOf(TaskResult result, std::string_view requestId) {
   Outcome& outcome = result.outcome;
-  std::optional<std::string> body;
-  if (outcome.problems.empty() && result.body) body = textOf(*result.body);
-  if (outcome.problems.empty() && !body) {
-    outcome.problems.push_back({ProblemCode::internal, "", "The worker's reply could not be read.", "", ""});
-  }
+  auto body = bodyOf(result);
   if (!outcome.problems.empty()) {
     HttpReply reply = problemReply(outcome.problems, requestId, {.retryAfterSeconds = outcome.retryAfterSeconds});
     reply.note = std::move(outcome.note);

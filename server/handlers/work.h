@@ -50,6 +50,9 @@ void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline
 /// room, but that of a sequence's frame, for which its sequence takes it (SequenceFrames).
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
+/// The body of a result; nothing where the result has problems, or gets one because there is no body to read.
+std::optional<std::string> bodyOf(TaskResult& result);
+
 /// The result as a reply: the body with its type and room, stages in Server-Timing, or the problems.
 HttpReply replyOf(TaskResult result, std::string_view requestId);
 

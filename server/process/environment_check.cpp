@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "GNOMON_";
 constexpr std::array<std::string_view, 3> kProtocols{"TCP", "UDP", "SCTP"};
-constexpr int kMostEdits = 2; ///< letters to insert, remove or replace in a name that is suggested
+constexpr std::size_t kMostEdits = 2; ///< letters to insert, remove or replace in a name that is suggested
 
 /// Those that only the Python client reads.
 constexpr std::array<std::string_view, 2> kPythonVariables{"GNOMON_BINARY", "GNOMON_SERVER"};
@@ -51,29 +52,12 @@ bool isServiceEnding(const std::vector<std::string>& words, std::size_t first, s
   return isPort && (count == 3 || (count == 4 && (word(3) == "PROTO" || word(3) == "PORT" || word(3) == "ADDR")));
 }
 
-bool isWithin(int edits, std::string_view from, std::string_view to) {
-  while (!from.empty() && !to.empty() && from[0] == to[0]) {
-    from.remove_prefix(1);
-    to.remove_prefix(1);
-  }
-  if (from.empty() && to.empty()) return true;
-  if (edits == 0) return false;
-  return (!from.empty() && isWithin(edits - 1, from.substr(1), to)) ||
-         (!to.empty() && isWithin(edits - 1, from, to.substr(1))) ||
-         (!from.empty() && !to.empty() && isWithin(edits - 1, from.substr(1), to.substr(1)));
-}
-
 /// The variable that may have been meant; empty where none is near.
-std::string_view meantBy(std::string_view name, std::span<const std::string> known) {
+std::string meantBy(std::string_view name, std::span<const std::string> known) {
   for (const auto& [other, variable] : kOtherNames) {
-    if (name == other) return variable;
+    if (name == other) return std::string(variable);
   }
-  for (int edits = 1; edits <= kMostEdits; ++edits) {
-    for (const std::string& each : known) {
-      if (isWithin(edits, name, each)) return each;
-    }
-  }
-  return {};
+  return nearestName(name, known, kMostEdits);
 }
 
 } // namespace
@@ -97,7 +81,7 @@ std::vector<std::string> unknownVariables(std::span<const std::string> environme
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (std::find(kPythonVariables.begin(), kPythonVariables.end(), name) != kPythonVariables.end()) continue;
     if (isServiceVariable(name, std::string_view(entry).substr(end + 1))) continue;
-    const std::string meant(meantBy(name, known));
+    const std::string meant = meantBy(name, known);
     faults.push_back("There is no environment variable " + asciiExcerpt(name) +
                      (meant.empty() ? "." : "; did you mean " + meant + "?"));
   }

@@ -40,19 +40,36 @@ FileDescriptor duplicate(const FileDescriptor& file) {
   return FileDescriptor(::fcntl(file.get(), F_DUPFD_CLOEXEC, 0));
 }
 
-std::optional<Bytes> readFile(const FileDescriptor& file, std::size_t most) {
+std::optional<std::size_t> sizeOf(const FileDescriptor& file) {
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0 || status.st_size < 0 || static_cast<std::size_t>(status.st_size) > most) {
-    return std::nullopt;
-  }
-  Bytes bytes(static_cast<std::size_t>(status.st_size));
+  if (::fstat(file.get(), &status) != 0 || status.st_size < 0) return std::nullopt;
+  return static_cast<std::size_t>(status.st_size);
+}
+
+namespace {
+
+template <class Content>
+std::optional<Content> contentOf(const FileDescriptor& file, std::size_t most) {
+  const auto size = sizeOf(file);
+  if (!size || *size > most) return std::nullopt;
+  Content content(*size, {});
   std::size_t count = 0;
-  while (count < bytes.size()) {
-    const ssize_t got = ::pread(file.get(), bytes.data() + count, bytes.size() - count, static_cast<off_t>(count));
+  while (count < content.size()) {
+    const ssize_t got = ::pread(file.get(), content.data() + count, content.size() - count, static_cast<off_t>(count));
     if (got == 0 || (got < 0 && errno != EINTR)) return std::nullopt;
     if (got > 0) count += static_cast<std::size_t>(got);
   }
-  return bytes;
+  return content;
+}
+
+} // namespace
+
+std::optional<Bytes> readFile(const FileDescriptor& file, std::size_t most) {
+  return contentOf<Bytes>(file, most);
+}
+
+std::optional<std::string> readText(const FileDescriptor& file, std::size_t most) {
+  return contentOf<std::string>(file, most);
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "protocol/base/bytes.h"
 #include "server/system/file_descriptor.h"
@@ -32,8 +33,12 @@ std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes);
 /// A second descriptor of the same file; an empty one where the system refused.
 FileDescriptor duplicate(const FileDescriptor& file);
 
+/// How many bytes a file has; nothing where the system does not tell.
+std::optional<std::size_t> sizeOf(const FileDescriptor& file);
+
 /// All bytes of a file, from its begin on, wherever its offset is; nothing where there are more than `most`, or where
 /// it can't be read.
 std::optional<Bytes> readFile(const FileDescriptor& file, std::size_t most);
+std::optional<std::string> readText(const FileDescriptor& file, std::size_t most); ///< the same, as text
 
 } // namespace gnomon

@@ -173,8 +173,8 @@ class Worker {
                  const std::string text = textOf({.event = OrderEvent{number, std::string(name), std::string(data)}});
                  if (!Channel::fits(text)) {
                    tooLong = text.size();
-                 } else if (!channel_.send(text)) {
-                   end(1);
+                 } else {
+                   tell(text);
                  }
                }},
               tooLong);
@@ -203,8 +203,7 @@ class Worker {
     }
     orders_.end(outcome.number);
     const std::array files{body ? body->get() : -1};
-    const std::string text = messageOf(std::move(outcome));
-    if (!channel_.send(text, std::span(files).first(body ? 1 : 0))) end(1);
+    tell(messageOf(std::move(outcome)), std::span(files).first(body ? 1 : 0));
   }
 
   Beat beat() const {
@@ -215,8 +214,11 @@ class Worker {
     return {scenes_->count(), scenes_->bytes(), reused.meshes, reused.images, {factors.begin(), factors.end()}};
   }
 
-  void say(const ToFront& message) {
-    if (!channel_.send(textOf(message))) end(1);
+  void say(const ToFront& message) { tell(textOf(message)); }
+
+  /// `text`: of a message.
+  void tell(const std::string& text, std::span<const int> files = {}) {
+    if (!channel_.send(text, files)) end(1);
   }
 
   Channel channel_;

@@ -133,9 +133,9 @@ void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint 
 }
 
 Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers) {
-  const std::int64_t bytes =
-      visibilityBytes(width, height, static_cast<std::size_t>(samples), static_cast<std::size_t>(layers));
-  if (const Status fits = checkVisibilityBytes(bytes); !fits) return fits.problems();
+  const Status fits =
+      checkVisibilityBytes(width, height, static_cast<std::size_t>(samples), static_cast<std::size_t>(layers));
+  if (!fits) return fits.problems();
   gl::TextureShape shape{samples > 1 ? GLenum{GL_RGBA16} : GLenum{GL_R16}, width, height};
   shape.layers = layers;
   return VisibilityLayers{gl::Texture(shape, "visibility")};

@@ -22,9 +22,31 @@ class RenderThreads : public ::testing::Test {
     spec_.camera.lookAt = EyeTarget{};
   }
 
+  /// Its PNG is finished on the render thread, which is busy until endLongFrame().
+  void beginLongFrame() {
+    std::promise<void> begun;
+    longFrame_ = std::thread([&] {
+      EXPECT_TRUE(thread_->renderAndFinish(
+          scene_, spec_, [] { return true; },
+          [&](DrawnFrame&) {
+            begun.set_value();
+            release_.get_future().wait();
+          }));
+    });
+    begun.get_future().wait();
+  }
+  void endLongFrame() {
+    release_.set_value();
+    longFrame_.join();
+  }
+
   std::unique_ptr<RenderThread> thread_;
   ScenePtr scene_;
   FrameSpec spec_;
+
+ private:
+  std::promise<void> release_;
+  std::thread longFrame_;
 };
 
 TEST_F(RenderThreads, ALonePngIsFinishedWhereItWasDrawn) {
@@ -74,16 +96,7 @@ TEST_F(RenderThreads, AFrameThatIsStoppedIsNotFinished) {
 }
 
 TEST_F(RenderThreads, WhoWaitsBehindAnotherMayGiveUp) {
-  std::promise<void> begun, release;
-  std::thread first([&] {
-    EXPECT_TRUE(thread_->renderAndFinish(
-        scene_, spec_, [] { return true; },
-        [&](DrawnFrame&) {
-          begun.set_value();
-          release.get_future().wait();
-        }));
-  });
-  begun.get_future().wait(); // its PNG is finished on the render thread, which is busy until it is released
+  beginLongFrame();
   std::atomic<bool> isWanted = true;
   std::promise<bool> answer;
   std::thread second([&] {
@@ -95,31 +108,20 @@ TEST_F(RenderThreads, WhoWaitsBehindAnotherMayGiveUp) {
   EXPECT_EQ(answered.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout) << "still wanted";
   isWanted = false;
   EXPECT_EQ(answered.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "while the other goes on";
-  release.set_value();
-  first.join();
+  endLongFrame();
   second.join();
   EXPECT_FALSE(answered.get());
   EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })) << "the thread goes on";
 }
 
 TEST_F(RenderThreads, WorkWhoseCallerGaveUpIsNeverRun) {
-  std::promise<void> begun, release;
-  std::thread first([&] {
-    EXPECT_TRUE(thread_->renderAndFinish(
-        scene_, spec_, [] { return true; },
-        [&](DrawnFrame&) {
-          begun.set_value();
-          release.get_future().wait();
-        }));
-  });
-  begun.get_future().wait();
+  beginLongFrame();
   // False once, then true: work that ran all the same would ask again, go on and finish.
   int asked = 0;
   bool finished = false;
   EXPECT_FALSE(thread_->renderAndFinish(
       scene_, spec_, [&] { return ++asked != 1; }, [&](DrawnFrame&) { finished = true; }));
-  release.set_value();
-  first.join();
+  endLongFrame();
   EXPECT_TRUE(thread_->render(scene_, spec_, TileUse::kept, [] { return true; })) << "after what was left of the queue";
   EXPECT_EQ(asked, 1);
   EXPECT_FALSE(finished);

@@ -1,0 +1,102 @@
+// What the system refuses the dispatcher, and what is thrown in it: one task's problem, or one worker's end.
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include "tests/server/dispatch/dispatcher_fixture.h"
+
+namespace gnomon {
+namespace {
+
+using testing::DispatcherTest;
+using testing::kStays;
+
+/// A store that can't say what it has.
+class BrokenLightMaps : public StoredLightMaps {
+ public:
+  FileDescriptor open(const std::string&) override { throw std::runtime_error("This store is broken."); }
+  void write(const std::string&, const FileDescriptor&) override {}
+  void removeScene(const std::string&) override {}
+  void cleanUp() override {}
+};
+
+TEST_F(DispatcherTest, WithoutAThreadForTheWorkerOfDriversItsTasksAreProblemsAndOthersGoOn) {
+  std::atomic<bool> hasThreads = true;
+  std::atomic<int> asked = 0;
+  DispatcherOptions options;
+  options.startThread = [&](std::function<void()> work) {
+    ++asked;
+    if (!hasThreads) throw std::system_error(EAGAIN, std::generic_category());
+    return std::thread(std::move(work));
+  };
+  const auto dispatcher = start(1, options, DeviceChoice::auto_);
+  ASSERT_TRUE(dispatcher);
+  if (dispatcher->info().device != DeviceChoice::cpu) GTEST_SKIP() << "The only worker has a driver here.";
+  hasThreads = false;
+  Task drawn = frame();
+  drawn.needsDriver = true;
+  for (int i = 0; i < 2; ++i) {
+    const int before = asked;
+    EXPECT_EQ(problemOf(dispatcher->run(drawn, kStays)), "unavailable");
+    EXPECT_EQ(asked, before + 1);
+    EXPECT_EQ(dispatcher->state().waiting, 0u);
+    EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "") << "its end places what waits";
+  }
+  hasThreads = true;
+  const int before = asked;
+  for (int i = 0; i < 2; ++i) dispatcher->run(drawn, [] { return true; });
+  EXPECT_EQ(asked, before + 1) << "the next task starts it, once";
+}
+
+TEST_F(DispatcherTest, ATaskThatCannotBeSentIsAProblemAndOthersGoOn) {
+  std::atomic<bool> throws = true;
+  const auto dispatcher = start(1, {.waited = [&](Lane, double) {
+                                  if (throws) throw std::runtime_error("Nobody counts.");
+                                }});
+  const pid_t worker = dispatcher->processes().at(0);
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "internal");
+  EXPECT_EQ(dispatcher->state().waiting + dispatcher->state().running, 0u);
+  throws = false;
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+  EXPECT_EQ(dispatcher->processes().at(0), worker);
+}
+
+TEST_F(DispatcherTest, WhatIsThrownOverAMessageCostsTheWorkerThatSentItAndNotTheServer) {
+  const auto dispatcher =
+      start(1, {.each = {.keepsLightMaps = true}, .lightMaps = std::make_shared<BrokenLightMaps>()});
+  Task baked = frame();
+  baked.request =
+      R"({"width": 16, "height": 16, "shadow": {"technique": "lightMap", "lightMap": {"size": 32, "samples": 16}}})";
+  EXPECT_EQ(problemOf(dispatcher->run(baked, kStays)), "internal");
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+  EXPECT_EQ(dispatcher->state().replacements, (std::array<std::uint64_t, kWorkerEnds>{2, 0, 0, 0}));
+}
+
+TEST(Dispatcher, SaysThatThereIsNoThreadForItsWorkers) {
+  for (int threads = 0; threads < 2; ++threads) {
+    DispatcherOptions options{.program = GNOMON_FAULTY_WORKER};
+    options.each.device = DeviceChoice::cpu;
+    options.startThread = [left = threads](std::function<void()> work) mutable {
+      if (left-- == 0) throw std::system_error(EAGAIN, std::generic_category());
+      return std::thread(std::move(work));
+    };
+    const auto started = Dispatcher::start(options);
+    ASSERT_FALSE(started) << threads;
+    EXPECT_EQ(started.problems()[0].code, ProblemCode::unavailable);
+  }
+}
+
+TEST(Dispatcher, SaysWhyNoWorkerCanStart) {
+  const auto missing = Dispatcher::start({.program = "/nowhere/gnomon"});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.problems()[0].code, ProblemCode::unavailable);
+  const auto other = Dispatcher::start({.program = "/bin/false"});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.problems()[0].code, ProblemCode::backend);
+}
+
+} // namespace
+} // namespace gnomon
