@@ -73,39 +73,52 @@ std::optional<Packed> packed(const std::vector<glm::dvec2>& sizes, double densit
   return result;
 }
 
-/// The finest density at which the map is no longer than `size`; 0 where none is.
-double densityFor(const std::vector<glm::dvec2>& sizes, int size) {
-  const auto fits = [&](double density) {
-    const auto result = packed(sizes, density);
-    return result && result->longest() <= size;
-  };
+bool fits(const std::vector<glm::dvec2>& sizes, double density, int size) {
+  const auto result = packed(sizes, density);
+  return result && result->longest() <= size;
+}
+
+/// More than a map of that size has room for.
+double densityBeyond(const std::vector<glm::dvec2>& sizes, int size) {
   double area = 0;
   for (const glm::dvec2& each : sizes) area += each.x * each.y;
-  double high = 2 * size / std::sqrt(std::max(area, 1e-300));
+  return 2 * size / std::sqrt(std::max(area, 1e-300));
+}
+
+constexpr int kHalvings = 14; ///< of that density, in search of the finest
+
+/// The finest density at which the map is no longer than `size`; 0 where none is.
+double densityFor(const std::vector<glm::dvec2>& sizes, int size) {
+  double high = densityBeyond(sizes, size);
   double low = 0;
-  if (!fits(0)) return 0;
-  for (int step = 0; step < 14; ++step) {
+  if (!fits(sizes, 0, size)) return 0;
+  for (int step = 0; step < kHalvings; ++step) {
     stopIfAsked();
     const double middle = 0.5 * (low + high);
-    (fits(middle) ? low : high) = middle;
+    (fits(sizes, middle, size) ? low : high) = middle;
   }
   return low;
 }
 
-/// The least size that the charts fit into; nothing where they fit into none.
+/// The least size that the charts fit into, at the coarsest density that densityFor() tries; nothing where they fit
+/// into none.
 std::optional<int> leastSize(const std::vector<glm::dvec2>& sizes) {
+  const auto hasRoom = [&](int size) {
+    stopIfAsked();
+    return fits(sizes, std::ldexp(densityBeyond(sizes, size), -kHalvings), size);
+  };
   const auto coarsest = packed(sizes, 0);
   if (!coarsest) return std::nullopt;
   int low = coarsest->longest() - 1; // does not fit
   int high = low + 1;
-  for (int step = 1; !(densityFor(sizes, high) > 0); step *= 2) {
+  for (int step = 1; !hasRoom(high); step *= 2) {
     if (high == kLimits.maxLightMapSide) return std::nullopt;
     low = high;
     high = std::min(high + step, kLimits.maxLightMapSide);
   }
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    (densityFor(sizes, middle) > 0 ? high : low) = middle;
+    (hasRoom(middle) ? high : low) = middle;
   }
   return high;
 }
