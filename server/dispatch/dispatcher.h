@@ -135,7 +135,7 @@ class Dispatcher {
   void refuseOne();
   bool suits(const Slot& slot, bool needsDriver) const;
   bool startSlot(Slot& slot);
-  void send(const TicketPtr& ticket, std::size_t worker);
+  bool send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
   void callOff(const TicketPtr& ticket);
   int retryAfterSeconds() const;

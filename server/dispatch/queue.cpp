@@ -69,38 +69,48 @@ void Dispatcher::placeWaiting() {
       place = placeFor(ticket->task, workers);
     }
     if (!place) continue;
-    ++inProgress[ticket->task.client];
-    ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
-    workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
     try {
-      send(ticket, slots[*place]);
+      if (!send(ticket, slots[*place])) {
+        workers[*place].ready = false;
+        continue;
+      }
     } catch (const std::exception& error) { // as where there is no memory; this task alone has no turn then
       logEvent("worker", error.what());
       slots_[slots[*place]]->running.erase(ticket->task.order.number);
       refuse(ticket, failed({ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}));
+      continue;
     }
+    ++inProgress[ticket->task.client];
+    ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
+    workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
   }
 }
 
-void Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
-  waiting_.remove(ticket);
+/// False where the worker can't be told of it: it is replaced then, and the task, which it never had, waits on.
+bool Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   Slot& slot = *slots_[worker];
+  Channel& channel = slot.process->channel();
   const double waited = millisecondsSince(ticket->since);
   if (options_.waited) options_.waited(ticket->task.lane, waited / 1000);
   ticket->waitedMilliseconds += waited;
   ticket->since = Clock::now();
-  ticket->state = Ticket::State::running;
-  ticket->slot = worker;
   Order& order = ticket->task.order;
   order.number = ++numbers_;
   order.queuedMilliseconds = ticket->waitedMilliseconds;
   order.milliseconds = std::chrono::duration<double, std::milli>(ticket->task.deadline - Clock::now()).count();
   slot.running.emplace(order.number, ticket);
   const std::array files{ticket->task.bundle->get(), ticket->request->get()};
-  if (!slot.process->channel().send(textOf(ToWorker{.order = order}), files)) {
-    // The task comes back as the worker goes.
-    endWorker(slot, {{ProblemCode::internal, "", "It did not read its messages.", "", ""}, WorkerEnd::silence});
+  if (!channel.send(textOf(ToWorker{.order = order}), files)) {
+    slot.running.erase(order.number);
+    if (!channel.hasEnded()) {
+      endWorker(slot, {{ProblemCode::internal, "", "It did not read its messages.", "", ""}, WorkerEnd::silence});
+    }
+    return false;
   }
+  waiting_.remove(ticket);
+  ticket->state = Ticket::State::running;
+  ticket->slot = worker;
+  return true;
 }
 
 /// The newest of whoever has the most in the queue, so that a client that fills it takes no other's place.

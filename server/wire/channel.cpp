@@ -79,6 +79,11 @@ bool Channel::send(std::string_view text, std::span<const int> files) {
   }
 }
 
+bool Channel::hasEnded() const {
+  pollfd end{socket_.get(), 0, 0}; // POLLHUP and POLLERR are told unasked
+  return ::poll(&end, 1, 0) > 0;
+}
+
 ChannelEvent Channel::receive(Packet& packet, std::chrono::milliseconds patience) {
   pollfd waiting{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&waiting, 1, static_cast<int>(patience.count()));

@@ -50,6 +50,9 @@ class Channel {
   /// fit. The files stay the caller's.
   bool send(std::string_view text, std::span<const int> files = {});
 
+  /// Whether the other process closed its end, or is gone.
+  bool hasEnded() const;
+
   /// Waits for the next message. `packet` is filled where the answer is ChannelEvent::packet.
   ChannelEvent receive(Packet& packet, std::chrono::milliseconds patience);
 

@@ -21,7 +21,7 @@ class DispatcherTest : public ::testing::Test {
  protected:
   std::unique_ptr<Dispatcher> start(std::size_t workers, DispatcherOptions options = {},
                                     DeviceChoice device = DeviceChoice::cpu) {
-    options.program = GNOMON_FAULTY_WORKER;
+    if (options.program == DispatcherOptions().program) options.program = GNOMON_FAULTY_WORKER;
     options.workers = workers;
     options.each.device = device;
     auto started = Dispatcher::start(options);

@@ -2,7 +2,13 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string>
+#include <sys/wait.h>
 #include <system_error>
 #include <thread>
 
@@ -62,6 +68,48 @@ TEST_F(DispatcherTest, ATaskThatCannotBeSentIsAProblemAndOthersGoOn) {
   throws = false;
   EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
   EXPECT_EQ(dispatcher->processes().at(0), worker);
+}
+
+/// Workers that write down which process they are, so that a test can kill one while the dispatcher is held up.
+class KnownWorkers {
+ public:
+  KnownWorkers() {
+    std::ofstream(program_) << "#!/bin/sh\necho $$ > " << pid_ << "\nexec " << GNOMON_FAULTY_WORKER << " \"$@\"\n";
+    std::filesystem::permissions(program_, std::filesystem::perms::owner_all);
+  }
+  ~KnownWorkers() { std::filesystem::remove_all(folder_); }
+  KnownWorkers(const KnownWorkers&) = delete;
+  KnownWorkers& operator=(const KnownWorkers&) = delete;
+
+  const std::string& program() const { return program_; }
+
+  /// Ends the newest, and waits until its channel is closed. False where it is gone.
+  bool killNewest() const {
+    pid_t worker = 0;
+    std::ifstream(pid_) >> worker;
+    siginfo_t ended{};
+    return ::kill(worker, SIGKILL) == 0 && ::waitid(P_PID, worker, &ended, WEXITED | WNOWAIT) == 0;
+  }
+
+ private:
+  std::string folder_ = [] {
+    std::string pattern = ::testing::TempDir() + "workers.XXXXXX";
+    return std::string(::mkdtemp(pattern.data()));
+  }();
+  std::string program_ = folder_ + "/worker", pid_ = folder_ + "/pid";
+};
+
+TEST_F(DispatcherTest, ATaskIsNotToBlameForWorkersThatEndBeforeTheyHaveIt) {
+  constexpr int kEnds = 6; // more than a task's workers may
+  const KnownWorkers workers;
+  std::atomic<int> ends = 0;
+  const auto dispatcher = start(1, {.program = workers.program(), .waited = [&](Lane, double) {
+                                      if (ends < kEnds && workers.killNewest()) ++ends;
+                                    }});
+  EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
+  EXPECT_EQ(ends, kEnds);
+  EXPECT_EQ(dispatcher->state().replacements, (std::array<std::uint64_t, kWorkerEnds>{kEnds, 0, 0, 0}))
+      << "nobody is said to have been silent";
 }
 
 TEST_F(DispatcherTest, WhatIsThrownOverAMessageCostsTheWorkerThatSentItAndNotTheServer) {

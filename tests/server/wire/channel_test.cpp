@@ -48,7 +48,9 @@ TEST_F(ChannelTest, FilesGoAlong) {
 
 TEST_F(ChannelTest, AnEndThatGoesIsNoticed) {
   Channel one(std::move(ends_.first));
+  EXPECT_FALSE(one.hasEnded());
   ends_.second.reset();
+  EXPECT_TRUE(one.hasEnded());
   Packet packet;
   EXPECT_EQ(one.receive(packet, kSoon), ChannelEvent::ended);
   EXPECT_FALSE(one.send("x"));
@@ -60,6 +62,7 @@ TEST_F(ChannelTest, WhoeverDoesNotReadHoldsUpNobody) {
   int sent = 0;
   while (one.send(text)) ASSERT_LT(++sent, 10'000);
   EXPECT_GT(sent, 0);
+  EXPECT_FALSE(one.hasEnded());
 }
 
 TEST_F(ChannelTest, APatientEndWaitsForRoom) {
