@@ -189,8 +189,7 @@ shared::MaterialData materialData(const Material& material) {
   if (const auto& glossy = material.specularGlossiness) {
     data.specularGlossiness = glm::vec4(glossy->specularFactor, glossy->glossinessFactor);
   }
-  const std::array uses{&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
-                        &material.emissive};
+  const auto uses = texturesOf(material);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const TextureTransform transform =
         *uses[i] ? (*uses[i])->transform.value_or(TextureTransform{}) : TextureTransform{};

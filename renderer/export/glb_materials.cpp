@@ -1,6 +1,5 @@
 #include "renderer/export/glb_materials.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -13,10 +12,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kPngLevel = 2;
-
-std::array<const std::optional<TextureUse>*, 5> texturesOf(const Material& material) {
-  return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive};
-}
 
 // Constants of glTF, which are OpenGL's.
 int wrapCode(Wrap wrap) {

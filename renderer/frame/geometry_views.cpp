@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "protocol/spec/traits.h"
+#include "renderer/core/aabb.h"
 #include "renderer/core/parallel.h"
 #include "renderer/device/view_image.h"
 #include "renderer/frame/motion_view.h"
@@ -128,10 +129,6 @@ glm::dvec3 onPlane(const ShownGeometry& shown, const std::array<glm::dvec3, 3>& 
   return begin + way * (glm::dot(normal, a - begin) / glm::dot(normal, way));
 }
 
-bool isFinite(const glm::dvec3& v) {
-  return glm::all(glm::lessThan(glm::abs(v), glm::dvec3(kInfinity)));
-}
-
 std::array<glm::dvec3, 3> shownCorners(const ShownGeometry& shown, const PlacedTriangle& triangle) {
   return cornersOf(shown.scene, instanceOf(shown, triangle), triangle.triangle, shown.camera.eye);
 }
@@ -143,7 +140,7 @@ glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle,
   const auto corners = shownCorners(shown, triangle);
   const glm::dvec3 point = onPlane(shown, corners, place);
   // Of a triangle that is seen edge-on any point does.
-  return shown.camera.eye + (isFinite(point) ? point : corners[0]);
+  return shown.camera.eye + (finite(point) ? point : corners[0]);
 }
 
 glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
@@ -156,7 +153,7 @@ glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangl
   const double b = glm::dot(normal, glm::cross(ap, ac)) / area;
   const double c = glm::dot(normal, glm::cross(ab, ap)) / area;
   const glm::dvec3 weights(1 - b - c, b, c);
-  return isFinite(weights) ? weights : glm::dvec3(1, 0, 0);
+  return finite(weights) ? weights : glm::dvec3(1, 0, 0);
 }
 
 Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {

@@ -4,6 +4,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/scene/alike.h"
+#include "renderer/scene/memory.h"
 
 namespace gnomon {
 
@@ -31,6 +32,15 @@ Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shar
   return entries_.front().traced;
 }
 
+/// Of a scene that only the traced one keeps alive: who asks now has a later one with the same surfaces, and the images
+/// are its own, too.
+std::uint64_t TracedSceneCache::olderSceneBytes(const Entry& entry) {
+  if (entry.scene.lock().get() == &entry.traced->scene()) return 0;
+  MemorySummary memory = memoryOf(entry.traced->scene());
+  memory.images = 0;
+  return bytesIn(memory);
+}
+
 /// A traced scene keeps its scene alive, so that one with no other holder is out of use.
 std::vector<const TracedScene*> TracedSceneCache::outOfUse() const {
   std::vector<const TracedScene*> idle;
@@ -51,7 +61,7 @@ void TracedSceneCache::drop() {
   std::size_t bytes = 0;
   auto entry = entries_.begin();
   while (entry != entries_.end()) {
-    bytes += entry->traced->bytes();
+    bytes += entry->traced->bytes() + olderSceneBytes(*entry);
     const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
     entry = keep ? std::next(entry) : entries_.erase(entry);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -27,6 +28,7 @@ class TracedSceneCache {
     std::shared_ptr<const TracedScene> traced;
   };
 
+  static std::uint64_t olderSceneBytes(const Entry& entry);
   std::vector<const TracedScene*> outOfUse() const;
   void drop();
 

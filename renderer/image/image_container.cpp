@@ -5,10 +5,11 @@
 #include <limits>
 #include <string_view>
 
+#include "renderer/image/png_chunks.h"
+
 namespace gnomon {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 3> kJpegSignature{0xff, 0xd8, 0xff};
 constexpr std::array<std::uint8_t, 4> kRiffSignature{'R', 'I', 'F', 'F'};
 constexpr std::array<std::uint8_t, 4> kWebpForm{'W', 'E', 'B', 'P'};
@@ -17,11 +18,8 @@ bool startsWith(EncodedBytes bytes, EncodedBytes prefix) {
   return bytes.size() >= prefix.size() && std::equal(prefix.begin(), prefix.end(), bytes.begin());
 }
 
-// PNG's chunks: "Portable Network Graphics (PNG) Specification", W3C, sections 5 and 11.
 constexpr std::size_t kSignatureSize = kPngSignature.size();
-constexpr std::size_t kChunkFrame = 12; ///< length, type and checksum
-constexpr std::size_t kHeaderLength = 13;
-constexpr std::size_t kHeaderEnd = kSignatureSize + kChunkFrame + kHeaderLength;
+constexpr std::size_t kHeaderEnd = kSignatureSize + kPngFrameBytes + kPngHeaderBytes;
 constexpr std::uint32_t kMaxNumber = 0x7fffffff; ///< of a PNG four-byte integer
 
 constexpr std::array<std::string_view, 5> kEssentialChunks{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
@@ -65,7 +63,7 @@ Problem unsupportedImage(const std::string& detail) {
 
 Result<ImageSize> pngSize(EncodedBytes encoded) {
   if (encoded.size() < kHeaderEnd) return malformedImage("The PNG ends within its header.");
-  if (typeAt(encoded, kSignatureSize) != "IHDR" || bigEndian(encoded, kSignatureSize, 4) != kHeaderLength) {
+  if (typeAt(encoded, kSignatureSize) != "IHDR" || bigEndian(encoded, kSignatureSize, 4) != kPngHeaderBytes) {
     return malformedImage("The PNG does not begin with its header.");
   }
   const std::uint32_t width = bigEndian(encoded, kSignatureSize + 8, 4);
@@ -79,11 +77,11 @@ Result<ImageSize> pngSize(EncodedBytes encoded) {
 Result<Bytes> essentialPng(EncodedBytes encoded) {
   Bytes essential(encoded.begin(), encoded.begin() + kSignatureSize);
   std::size_t chunk = kSignatureSize;
-  while (encoded.size() - chunk >= kChunkFrame) {
+  while (encoded.size() - chunk >= kPngFrameBytes) {
     const std::uint32_t length = bigEndian(encoded, chunk, 4);
-    if (length > kMaxNumber || length > encoded.size() - chunk - kChunkFrame) break;
+    if (length > kMaxNumber || length > encoded.size() - chunk - kPngFrameBytes) break;
     const std::string_view type = typeAt(encoded, chunk);
-    const std::size_t next = chunk + kChunkFrame + length;
+    const std::size_t next = chunk + kPngFrameBytes + length;
     bool wanted = false;
     for (const std::string_view name : kEssentialChunks) wanted = wanted || name == type;
     if (!wanted && isCritical(type)) return unsupportedImage("The PNG has a critical chunk of an unknown type.");

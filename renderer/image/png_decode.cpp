@@ -10,13 +10,11 @@
 #include <vector>
 
 #include "renderer/core/stop.h"
+#include "renderer/image/png_chunks.h"
 #include "renderer/image/png_rows.h"
 
 namespace gnomon {
 namespace {
-
-constexpr std::size_t kSignatureBytes = 8;
-constexpr std::size_t kFrameBytes = 12;
 
 struct PngChunk {
   std::string_view type;
@@ -33,12 +31,12 @@ struct Contents {
 /// The chunks of a file whose lengths hold; nothing where a checksum is wrong.
 std::optional<std::vector<PngChunk>> chunksOf(EncodedBytes file) {
   std::vector<PngChunk> chunks;
-  for (std::size_t at = kSignatureBytes; at < file.size();) {
+  for (std::size_t at = kPngSignature.size(); at < file.size();) {
     const std::size_t length = bigEndian(file, at, 4);
     const EncodedBytes checked = file.subspan(at + 4, 4 + length);
     if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(file, at + 8 + length, 4)) return std::nullopt;
     chunks.push_back({{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)});
-    at += kFrameBytes + length;
+    at += kPngFrameBytes + length;
   }
   return chunks;
 }
@@ -86,7 +84,9 @@ std::string read(const std::vector<PngChunk>& chunks, Contents& contents) {
   for (const PngChunk& chunk : chunks) {
     const bool before = contents.compressed.empty();
     if (chunk.type == "IHDR") {
-      if (&chunk != &chunks.front() || chunk.data.size() != 13) return "its header is not where it belongs";
+      if (&chunk != &chunks.front() || chunk.data.size() != kPngHeaderBytes) {
+        return "its header is not where it belongs";
+      }
       pixels.bitDepth = chunk.data[8];
       pixels.colorType = chunk.data[9];
       if (!isAllowed(pixels) || chunk.data[10] != 0 || chunk.data[11] != 0 || chunk.data[12] > 1) {

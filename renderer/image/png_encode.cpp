@@ -11,6 +11,7 @@
 #include "renderer/core/parallel.h"
 #include "renderer/core/unfilled.h"
 #include "renderer/image/deflate_stripe.h"
+#include "renderer/image/png_chunks.h"
 
 namespace gnomon {
 namespace {
@@ -19,7 +20,6 @@ using Row = std::span<const std::uint8_t>;
 
 constexpr std::uint8_t kNone = 0, kSub = 1, kUp = 2; ///< filter types, PNG specification, section 9
 
-constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 2> kZlibHeader{0x78, 0x01}; ///< RFC 1950: deflate with a window of 32 KiB
 
 // What the numbers mean: sRGB, absolute colorimetric; and the same for readers that do not know the sRGB chunk.
@@ -144,7 +144,7 @@ Bytes assemblePng(const PngFormat& format, std::span<const PngStripe> stripes) {
   constexpr std::size_t kOtherChunks = 256; // more than they take
   std::size_t size = kOtherChunks;
   for (const PngStripe& stripe : stripes) size += stripe.chunk.size();
-  Bytes file(kSignature.begin(), kSignature.end());
+  Bytes file(kPngSignature.begin(), kPngSignature.end());
   file.reserve(size);
   appendChunk(file, "IHDR", headerOf(format));
   appendChunk(file, "gAMA", kGamma);

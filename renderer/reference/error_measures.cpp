@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/core/stop.h"
+#include "renderer/reference/distance_transform.h"
 #include "renderer/reference/shadow_edges.h"
 
 namespace gnomon {

@@ -4,20 +4,13 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "protocol/base/split_mix.h"
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 
 namespace gnomon {
 namespace {
-
-/// Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
 
 std::uint32_t reversed(std::uint32_t bits) {
   bits = (bits >> 16) | (bits << 16);
@@ -170,8 +163,8 @@ Interleaved::Interleaved(std::uint32_t rays) {
 }
 
 std::uint64_t seedOf(const SurfacePoint& point) {
-  std::uint64_t seed = mixed((std::uint64_t{point.instance} << 32) | point.triangle);
-  for (int axis = 0; axis < 3; ++axis) seed = mixed(seed ^ std::bit_cast<std::uint64_t>(point.position[axis]));
+  std::uint64_t seed = splitMix64((std::uint64_t{point.instance} << 32) | point.triangle);
+  for (int axis = 0; axis < 3; ++axis) seed = splitMix64(seed ^ std::bit_cast<std::uint64_t>(point.position[axis]));
   return seed;
 }
 

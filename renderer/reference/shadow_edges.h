@@ -83,8 +83,4 @@ std::optional<glm::dvec2> edgeNormal(const Reference& truth, std::span<const std
 /// How much of the edge's own length goes along that side: the cosine between the two; all where the normal is absent.
 double lengthAlong(const PixelPair& pair, const std::optional<glm::dvec2>& normal);
 
-/// Exact Euclidean distance in pixels from the centre of each pixel to that of the nearest one marked in `marks` (not
-/// 0), row by row; infinity where none is marked. Takes time in proportion to the pixels.
-std::vector<float> distancesTo(std::span<const std::uint8_t> marks, int width, int height);
-
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include <new>
 #include <span>
 
+#include "renderer/core/aabb.h"
 #include "renderer/core/parallel.h"
 #include "renderer/reference/sort_triangles.h"
 #include "renderer/reference/tree.h"
@@ -14,10 +15,6 @@ namespace gnomon {
 namespace {
 
 using Tree = TracedScene::Tree;
-
-bool isFinite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Some vertices of an instance, few enough to share them out.
 struct Stretch {
@@ -51,7 +48,7 @@ void forEachVertex(const Tree& tree, const Stretch& stretch, Each each) {
 double largestIn(const Tree& tree, const Stretch& stretch) {
   double largest = 0;
   forEachVertex(tree, stretch, [&](std::uint32_t, const glm::dvec3& p) {
-    if (isFinite(p)) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (finite(p)) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   });
   return largest;
 }
@@ -68,7 +65,7 @@ Aabb placeStretch(const Tree& tree, const Stretch& stretch, std::span<glm::vec3>
   forEachVertex(tree, stretch, [&](std::uint32_t i, const glm::dvec3& p) {
     positions[i] = glm::vec3(p * tree.scale);
     const glm::dvec3 placed = glm::dvec3(positions[i]) / tree.scale;
-    if (isFinite(placed)) bounds.add(placed);
+    if (finite(placed)) bounds.add(placed);
   });
   return bounds;
 }

@@ -1,7 +1,6 @@
 #include "renderer/scene/alike.h"
 
 #include <algorithm>
-#include <array>
 
 namespace gnomon {
 namespace {
@@ -22,10 +21,6 @@ bool sameInstances(const SceneView& a, const SceneView& b) {
   });
 }
 
-std::array<const std::optional<TextureUse>*, 5> uses(const Material& material) {
-  return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive};
-}
-
 /// Coordinates are no part of what is uploaded.
 bool sameSampling(const std::optional<TextureUse>* a, const std::optional<TextureUse>* b) {
   if (!*a || !*b) return a->has_value() == b->has_value();
@@ -37,7 +32,7 @@ bool sameSampling(const std::optional<TextureUse>* a, const std::optional<Textur
 
 bool sameTexturesOf(const Material& a, const Material& b) {
   return a.specularGlossiness.has_value() == b.specularGlossiness.has_value() &&
-         std::ranges::equal(uses(a), uses(b), sameSampling);
+         std::ranges::equal(texturesOf(a), texturesOf(b), sameSampling);
 }
 
 } // namespace

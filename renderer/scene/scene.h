@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -46,7 +47,7 @@ struct Primitive {
   std::uint32_t firstCluster = 0; ///< into Scene::clusters; cluster k holds triangles [k, k+1) * kClusterTriangles
   std::uint32_t clusterCount = 0;
   bool hasTangents = false;
-  bool solid = false;    ///< its triangles bound solids, front faces outside (geometry/mesh_build.h)
+  bool solid = false;    ///< its triangles bound solids, front faces outside (geometry/welding.h)
   Aabb bounds;           ///< in its own space
   std::string content{}; ///< SHA-256 of what its vertices and indices were made from; empty = not known
 };
@@ -115,6 +116,13 @@ struct Material {
 
   bool operator==(const Material&) const = default;
 };
+
+/// Every place in a material (const or not) where a texture may stand, in the order in which shaders number them.
+template <class SomeMaterial>
+auto texturesOf(SomeMaterial& material) {
+  return std::array{&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
+                    &material.emissive};
+}
 
 /// A node of the file, whichever scene it belongs to.
 struct SceneNode {
@@ -185,7 +193,7 @@ struct Scene {
   SharedVector<glm::vec3> positions;         ///< of all primitives
   SharedVector<VertexAttributes> attributes; ///< parallel to positions
   SharedVector<std::uint32_t> indices;       ///< relative to the primitive's baseVertex, checked
-  SharedVector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (mesh_build.h)
+  SharedVector<std::uint32_t> welded;        ///< parallel to indices, for what needs positions only (welding.h)
   std::vector<Cluster> clusters;
   std::vector<Primitive> primitives;
   std::vector<Material> materials;                           ///< at least one (the default material)

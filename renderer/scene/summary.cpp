@@ -8,6 +8,7 @@
 #include "renderer/scene/animation/node_places.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/checks/extension_gate.h"
+#include "renderer/scene/memory.h"
 #include "renderer/scene/posing/deformation.h"
 
 namespace gnomon {
@@ -18,68 +19,6 @@ std::uint64_t bundleBytes(const SceneBundle& bundle) {
   std::uint64_t bytes = bundle.model.size();
   for (const auto& [name, file] : bundle.files) bytes += file.size();
   return bytes;
-}
-
-template <class T>
-std::uint64_t bytesIn(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
-}
-template <class T>
-std::uint64_t bytesIn(const SharedVector<T>& values) {
-  return bytesIn(*values);
-}
-
-std::uint64_t bytesIn(const Deformation& deformation) {
-  std::uint64_t bytes = bytesIn(deformation.posed);
-  for (const Deformable& source : deformation.deformables) {
-    bytes += bytesIn(source.mesh.positions) + bytesIn(source.mesh.attributes) + bytesIn(source.mesh.indices) +
-             bytesIn(source.mesh.sources) + bytesIn(source.influences);
-    for (const MorphTarget& target : source.targets) bytes += bytesIn(target);
-  }
-  for (const Skin& skin : deformation.skins) bytes += bytesIn(skin.joints) + bytesIn(skin.jointFromMesh);
-  return bytes;
-}
-
-/// What it takes to pose a scene anew.
-std::uint64_t bytesIn(const Motion& motion) {
-  std::uint64_t bytes = bytesIn(motion.parents) + bytesIn(motion.order) + bytesIn(motion.locals);
-  for (const Animation& animation : motion.animations) {
-    bytes += bytesIn(animation.channels) + bytesIn(animation.properties);
-    for (const Sampler& sampler : animation.samplers) bytes += bytesIn(sampler.times) + bytesIn(sampler.values);
-  }
-  for (const MovingView& view : motion.views) {
-    bytes += bytesIn(view.placements) + bytesIn(view.cameras) + bytesIn(view.lights);
-  }
-  if (const auto& properties = motion.properties) {
-    bytes += bytesIn(properties->materials) + bytesIn(properties->cameras) + bytesIn(properties->lights);
-  }
-  return bytes;
-}
-
-/// With the poses that are kept.
-MemorySummary memoryOf(const Scene& scene) {
-  MemorySummary memory;
-  memory.vertices = bytesIn(scene.positions) + bytesIn(scene.attributes);
-  memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded);
-  for (const auto& image : scene.images) memory.images += image->bytes();
-  for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
-  if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
-  memory.structure =
-      bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes) + bytesIn(scene.placedNodes);
-  for (const SceneNode& node : scene.nodes) memory.structure += node.name.size();
-  for (const SceneView& view : scene.scenes) {
-    memory.structure += bytesIn(view.roots) + bytesIn(view.instances) + bytesIn(view.cameras) + bytesIn(view.lights);
-  }
-  constexpr std::uint64_t kCopies = 1 + PoseCache::kKept;
-  if (scene.deformation) {
-    memory.vertices *= kCopies;
-    memory.indices *= kCopies;
-  }
-  memory.indices += bytesIn(scene.clusters) * kCopies;
-  memory.structure *= kCopies;
-  memory.structure += scene.nodes.size() * sizeof(NodePlace) * PoseCache::kKept;
-  memory.animations = bytesIn(*scene.motion);
-  return memory;
 }
 
 /// Nodes reachable from the scene's roots; the nodes are trees by now.
@@ -139,8 +78,7 @@ void countContents(const gltf::Model& model, const Scene& scene, const SceneView
   }
   for (const int index : materials) {
     const Material& material = scene.materials[static_cast<std::size_t>(index)];
-    for (const auto* texture : {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
-                                &material.emissive}) {
+    for (const auto* texture : texturesOf(material)) {
       if (!*texture) continue;
       const TextureUse& use = **texture;
       images.insert(use.image);
@@ -162,9 +100,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   SceneSummary summary;
   summary.bytes = bundleBytes(bundle);
   summary.memory = memoryOf(scene);
-  summary.memoryBytes = summary.memory.vertices + summary.memory.indices + summary.memory.images +
-                        summary.memory.volumes + summary.memory.deformation + summary.memory.animations +
-                        summary.memory.structure;
+  summary.memoryBytes = bytesIn(summary.memory);
   summary.scenes = fileScenes(scene);
   summary.defaultScene = scene.defaultScene;
   summary.nodes = nodesOf(model, scene.defaultScene);

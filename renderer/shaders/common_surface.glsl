@@ -1,3 +1,6 @@
+#include "common_names.glsl"
+#include "shared/octahedral.h"
+
 // What a picture's light needs to know of a surface: written once a pixel, read by every view.
 struct Surface {
   vec3 face;   // normal of the triangle itself, on the eye's side; to be packed, normals may have any length
@@ -7,22 +10,6 @@ struct Surface {
   float roughness; // perceptual
   float occlusion; // of the surroundings, 1 = open
 };
-
-// Octahedral directions (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
-// 2014), 16 bits an axis: within 7e-5 radians. `n` has any length.
-vec2 octahedral(vec3 n) {
-  vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-  vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  return n.z >= 0.0 ? p : folded;
-}
-
-vec3 fromOctahedral(vec2 p) {
-  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-  float fold = max(-n.z, 0.0);
-  n.x += n.x >= 0.0 ? -fold : fold;
-  n.y += n.y >= 0.0 ? -fold : fold;
-  return normalize(n);
-}
 
 // Base colors are kept as square roots, 11, 11 and 10 bits: finer than a quarter of an sRGB byte's step.
 const vec3 kColorSteps = vec3(2047.0, 2047.0, 1023.0);

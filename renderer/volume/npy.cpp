@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "protocol/base/bytes.h"
+#include "protocol/base/text.h"
 #include "renderer/core/stop.h"
 #include "renderer/volume/half.h"
 
@@ -23,11 +24,8 @@ Problem malformed(const std::string& what) {
   return {ProblemCode::malformed, "", "The .npy file is broken: " + what + ".", "", ""};
 }
 
-std::string shortened(std::string_view text) {
-  std::string shown(text.substr(0, kMaxShown));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return shown;
+std::string excerpt(std::string_view text) {
+  return asciiExcerpt(text.substr(0, kMaxShown));
 }
 
 /// The header is a Python dictionary; this reads the tokens of it, each after any spaces.
@@ -107,7 +105,7 @@ std::string takeEntry(Tokens& tokens, Header& header) {
     header.shape = takeShape(tokens);
     return header.shape ? "" : "its shape is no tuple of whole numbers";
   }
-  return "its header has '" + shortened(*key) + "', which does not belong there or is there twice";
+  return "its header has '" + excerpt(*key) + "', which does not belong there or is there twice";
 }
 
 Result<Header> parseHeader(std::string_view text) {
@@ -178,7 +176,7 @@ Result<DensityGrid> readNpy(std::span<const std::uint8_t> file) {
   const auto type = typeOf(*header->descr);
   if (!type) {
     return Problem{ProblemCode::unsupportedFeature, "", "The .npy file has numbers of a type that is not read.",
-                   "<f4, <f2, |u1", shortened(*header->descr)};
+                   "<f4, <f2, |u1", excerpt(*header->descr)};
   }
   if (*header->fortranOrder) {
     return Problem{ProblemCode::unsupportedFeature, "", "The .npy file is in Fortran order.", "fortran_order False",

@@ -5,15 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "protocol/base/split_mix.h"
+
 namespace gnomon {
 namespace {
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014): every bit of the result depends on every bit of `x`.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 /// Workers by descending weight for this scene and all that are kin to it.
 std::vector<std::size_t> preference(const Task& task, std::size_t workers) {

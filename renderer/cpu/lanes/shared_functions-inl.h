@@ -27,6 +27,7 @@ using shared::LightData;
 #include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/normal_map.h"
+#include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
 #include "renderer/shaders/shared/tone.h"
 #undef PUNCTUAL

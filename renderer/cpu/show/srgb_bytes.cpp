@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <hwy/foreach_target.h>
 
+#include "renderer/core/srgb.h"
 #include "renderer/cpu/lanes/functions-inl.h"
 #include "renderer/cpu/lanes/gather-inl.h"
 
@@ -25,7 +25,9 @@ struct SrgbTable {
 
   SrgbTable() {
     std::array<float, 256> next{}; // where each byte ends
-    for (int byte = 0; byte < 255; ++byte) next[static_cast<std::size_t>(byte)] = linearOf((byte + 0.5) / 255.0);
+    for (int byte = 0; byte < 255; ++byte) {
+      next[static_cast<std::size_t>(byte)] = static_cast<float>(linearOf((byte + 0.5) / 255.0));
+    }
     next[255] = 2.0f;
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
       const std::uint32_t least = kLeastBits + (i << kDropped);
@@ -33,11 +35,6 @@ struct SrgbTable {
       const std::uint32_t left = std::bit_cast<std::uint32_t>(next[static_cast<std::size_t>(byte)]) - least;
       entries[i] = static_cast<std::int32_t>(byte << kByte | std::min(left, 1u << kDropped));
     }
-  }
-
- private:
-  static float linearOf(double encoded) {
-    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
   }
 };
 

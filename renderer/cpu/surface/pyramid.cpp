@@ -7,13 +7,10 @@
 #include <span>
 
 #include "renderer/core/parallel.h"
+#include "renderer/core/srgb.h"
 
 namespace gnomon::cpu {
 namespace {
-
-double linearOf(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 /// Bytes of a channel as numbers that can be averaged: 0 to 2^24; and back to the byte whose number is nearest by what
 /// it encodes.

@@ -7,6 +7,7 @@
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/views/view_pass.h"
+#include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
 
@@ -55,15 +56,6 @@ glm::vec2 downwards(std::uint32_t halves) {
   return glm::unpackHalf2x16(halves) * glm::vec2(1, -1);
 }
 
-/// As fromOctahedral of shaders/common_surface.glsl.
-glm::vec3 fromOctahedral(const glm::vec2& p) {
-  glm::vec3 n(p, 1.0f - std::abs(p.x) - std::abs(p.y));
-  const float fold = std::max(-n.z, 0.0f);
-  n.x += n.x >= 0 ? -fold : fold;
-  n.y += n.y >= 0 ? -fold : fold;
-  return glm::normalize(n);
-}
-
 MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
   MapFootprint footprint;
   footprint.shift = downwards(lengths.x);
@@ -71,7 +63,7 @@ MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
   footprint.texelV = downwards(lengths.z);
   footprint.tile = static_cast<int>(lengths.w);
   footprint.viewDepth = std::bit_cast<float>(place.x);
-  footprint.normal = fromOctahedral(glm::unpackSnorm2x16(place.y));
+  footprint.normal = shared::fromOctahedral(glm::unpackSnorm2x16(place.y));
   footprint.penumbra = std::bit_cast<float>(place.z);
   return footprint;
 }

@@ -1,5 +1,6 @@
 #include "renderer/scene/materials/materials.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -147,8 +148,7 @@ Material repainted(const Material& loaded, const gltf::Material& source) {
   Findings said; // when the file was loaded
   Material material = readFactors(source, {}, said);
   material.hasVertexColors = loaded.hasVertexColors;
-  Material textured = loaded;
-  const auto from = texturesOf(textured);
+  const auto from = texturesOf(loaded);
   const auto to = texturesOf(material);
   const auto infos = textureInfosOf(source);
   for (std::size_t i = 0; i < infos.size(); ++i) {

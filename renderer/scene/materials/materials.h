@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,11 +24,6 @@ std::optional<TextureTransform> transformOf(const gltf::TextureInfo& info);
 
 /// As it stands in warnings.
 std::string nameOfMaterial(std::size_t index, const std::string& name);
-
-/// Every place in a material where a texture may stand.
-inline std::array<std::optional<TextureUse>*, 5> texturesOf(Material& material) {
-  return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive};
-}
 
 /// Refuses a file whose variants and primitives give more choices than maxInstances.
 void checkVariantCount(const gltf::Model& model, const Limits& limits, Findings& findings);

@@ -1,6 +1,7 @@
 #include "renderer/scene/materials/uv_sets.h"
 
 #include <algorithm>
+#include <array>
 
 #include "renderer/scene/materials/materials.h"
 
@@ -8,6 +9,7 @@ namespace gnomon {
 
 namespace {
 
+/// In the order of texturesOf().
 constexpr std::array kTextureNames{"base color", "metallic-roughness", "normal", "occlusion", "emissive"};
 
 void leaveOut(std::size_t material, std::size_t texture, const std::string& why, std::vector<Material>& materials,

@@ -6,6 +6,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/scene/geometry/mesh_build.h"
+#include "renderer/scene/geometry/welding.h"
 
 namespace gnomon {
 

@@ -10,6 +10,7 @@
 /// numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
 namespace gnomon::shared {
 
+using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
@@ -40,6 +41,7 @@ T select(bool condition, const T& yes, const T& no) {
 #include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/normal_map.h"
+#include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
 #include "renderer/shaders/shared/tone.h"
 #undef PUNCTUAL

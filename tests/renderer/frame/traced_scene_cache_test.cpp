@@ -87,6 +87,28 @@ TEST(TracedSceneCache, TheLeastRecentlyUsedIsDroppedFirst) {
   EXPECT_TRUE(second.expired());
 }
 
+TEST(TracedSceneCache, AnOlderSceneThatIsKeptAliveCounts) {
+  constexpr std::size_t kPadding = 1 << 20; // of the older scene, where no ray reads it
+  const auto padded = [] {
+    Scene scene = *triangle("a triangle");
+    scene.nodes.resize(kPadding / sizeof(SceneNode));
+    return std::make_shared<const Scene>(std::move(scene));
+  };
+  const auto other = triangle();
+  for (const bool isForgotten : {false, true}) {
+    TracedSceneCache cache(kPadding);
+    auto older = padded();
+    const auto newer = triangle("a triangle");
+    const std::weak_ptr<const TracedScene> traced = got(cache, older);
+    if (isForgotten) {
+      ASSERT_EQ(got(cache, newer), traced.lock());
+      older.reset();
+    }
+    got(cache, other);
+    EXPECT_EQ(traced.expired(), isForgotten);
+  }
+}
+
 TEST(TracedSceneCache, AnyNumberOfSmallScenesCanBeTraced) {
   // A process has keys for a thousand of Embree's devices.
   TracedSceneCache cache(std::size_t{1} << 30);

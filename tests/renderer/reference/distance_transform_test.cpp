@@ -1,9 +1,9 @@
+#include "renderer/reference/distance_transform.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck/gtest.h>
-
-#include "renderer/reference/shadow_edges.h"
 
 namespace gnomon {
 namespace {

@@ -71,6 +71,13 @@ struct Glossy {
   }
 };
 
+struct Octahedral {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    return fromOctahedral(octahedral(in.three(0)));
+  }
+};
+
 struct ByTangent {
   template <class Columns>
   static vec3 of(const Columns& in) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 #include "renderer/shaders/shared/functions.h"
@@ -51,6 +52,16 @@ TEST(SharedFunctions, LanesGiveWhatSingleNumbersGive) {
       EXPECT_LE(largestDifference(in, out, which), 1e-3f) << cpu::sharedFunctionNames[which];
     }
   });
+}
+
+TEST(SharedFunctions, OctahedralDirectionsComeBackFromTwice16Bits) {
+  constexpr std::size_t kRows = 10'000;
+  const cpu::NumberTable in = cpu::randomNumbers(kRows, 3, -1.0f, 1.0f);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const vec3 direction = in.triple(row, 0);
+    const vec3 back = fromOctahedral(glm::unpackSnorm2x16(glm::packSnorm2x16(octahedral(direction))));
+    EXPECT_LT(glm::length(back - normalize(direction)), 7e-5f) << row;
+  }
 }
 
 } // namespace

@@ -1,7 +1,7 @@
+#include "renderer/scene/geometry/welding.h"
+
 #include <algorithm>
 #include <gtest/gtest.h>
-
-#include "renderer/scene/geometry/mesh_build.h"
 
 namespace gnomon {
 namespace {
