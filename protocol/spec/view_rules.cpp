@@ -182,6 +182,11 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
         {invalid(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
   };
 
+  const auto forbidCones = [&] { // what is not asked for is echoed with its value, and may come back
+    forbid(light.innerConeDegrees != Light().innerConeDegrees, "innerConeDegrees");
+    forbid(light.outerConeDegrees != Light().outerConeDegrees, "outerConeDegrees");
+  };
+
   appendAlternatives(light, pointer, broken);
   switch (light.type) {
     case LightType::directional:
@@ -190,6 +195,7 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
       forbid(light.position.has_value(), "position");
       forbid(light.range.has_value(), "range");
       forbid(light.radius.has_value(), "radius");
+      forbidCones();
       break;
     case LightType::spot:
       require(light.direction.has_value(), "direction", {pointer + "/direction"},
@@ -197,6 +203,7 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
       break;
     case LightType::point:
       forbid(light.direction.has_value(), "direction");
+      forbidCones();
       break;
   }
   if (!directional) {

@@ -226,6 +226,10 @@ void mend(Light& light, const Atlas& atlas) {
     if (light.type == LightType::spot) light.direction = light.direction.value_or(down);
     if (light.type == LightType::point) light.direction.reset();
   }
+  if (light.type != LightType::spot) {
+    light.innerConeDegrees = Light().innerConeDegrees;
+    light.outerConeDegrees = Light().outerConeDegrees;
+  }
   if (light.innerConeDegrees >= light.outerConeDegrees) light.innerConeDegrees = light.outerConeDegrees / 2;
   keepOnly(pick(0, 2), light.color, light.temperatureKelvin);
   if (light.shadow) mend(*light.shadow, atlas);

@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 std::vector<std::string> wrongIn(const FrameSpec& spec) {
   return pointersOf(validate(spec));
@@ -231,6 +232,17 @@ TEST(Validate, TheInnerConeIsTheNarrower) {
   EXPECT_THAT(wrongIn(light), ElementsAre("/lights/1/innerConeDegrees"));
   light.outerConeDegrees = 90;
   EXPECT_THAT(wrongIn(light), ElementsAre("/lights/1/outerConeDegrees"));
+}
+
+TEST(Validate, OnlySpotsHaveCones) {
+  const Light sun{.sun = Sun{}}, point{.type = LightType::point, .position = Vec3{}};
+  for (Light light : {sun, point}) {
+    EXPECT_THAT(wrongIn(light), IsEmpty()) << "the defaults, as they are echoed";
+    light.outerConeDegrees = 30;
+    EXPECT_THAT(wrongIn(light), ElementsAre("/lights/1/outerConeDegrees"));
+    light.innerConeDegrees = 20;
+    EXPECT_THAT(wrongIn(light), UnorderedElementsAre("/lights/1/innerConeDegrees", "/lights/1/outerConeDegrees"));
+  }
 }
 
 TEST(Validate, SplitsBelongToAManualPartition) {
