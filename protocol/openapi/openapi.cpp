@@ -110,12 +110,12 @@ Json sceneRoute() {
                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
   // Where no summary is kept, a worker loads the scene for it, whatever the method.
   const auto summary = [](Json good) {
-    return replies(std::move(good), {"404", "413", "422", "429", "500", "503", "504"});
+    return replies(std::move(good), {"400", "404", "413", "422", "429", "500", "503", "504"});
   };
   Json get = operation("getScene", "What a scene holds", summary(jsonReply("Its summary.", "SceneSummary")));
   Json head = operation("headScene", "Whether a scene is there", summary({{"200", success("It is there.", Json())}}));
-  Json remove =
-      operation("deleteScene", "Remove a scene", replies({{"204", success("It is gone.", Json())}}, {"404", "503"}));
+  Json remove = operation("deleteScene", "Remove a scene",
+                          replies({{"204", success("It is gone.", Json())}}, {"400", "404", "503"}));
   return {{"put", withBody(withScene(std::move(put)), sceneBody())},
           {"get", withScene(std::move(get))},
           {"head", withScene(std::move(head))},
@@ -218,7 +218,7 @@ Json bakesRoute() {
 Json bakeRoute() {
   Json remove =
       operation("deleteBake", "Stop or forget a bake",
-                replies({{"204", success("It is gone; where it was in progress, it ends.", Json())}}, {"404"}));
+                replies({{"204", success("It is gone; where it was in progress, it ends.", Json())}}, {"400", "404"}));
   const char* description =
       "image/png = the share of a light that arrives, in grey; image/x-exr = the same in floats, a layer for each "
       "light; "

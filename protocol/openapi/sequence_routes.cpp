@@ -48,7 +48,7 @@ Json sequencesRoute() {
 
 Json jobsRoute() {
   return getRoute("listJobs", "The jobs of the client's key, the newest first",
-                  replies(jsonReply("All of them.", "JobList"), {"503"}));
+                  replies(jsonReply("All of them.", "JobList"), {"400", "503"}));
 }
 
 Json jobRoute() {
@@ -66,7 +66,7 @@ Json jobRoute() {
        {"description", "Seconds to wait for its end, at most --request-timeout; Prefer: wait= does the same."},
        {"schema", {{"type", "integer"}, {"minimum", 0}}}});
   Json remove = operation("deleteJob", "End a job and remove its pictures",
-                          replies({{"204", success("It is gone.", Json())}}, {"404", "503"}));
+                          replies({{"204", success("It is gone.", Json())}}, {"400", "404", "503"}));
   return {{"get", std::move(get)}, {"delete", withJob(std::move(remove))}};
 }
 
@@ -85,7 +85,7 @@ Json jobFrameRoute() {
   Json get =
       withJob(operation("getJobFrame", "A frame of a job",
                         replies({{"200", success("Its picture; of several views multipart/mixed.", content, {"ETag"})}},
-                                {"304", "404", "406", "503"})));
+                                {"304", "400", "404", "406", "503"})));
   get["parameters"].push_back({{"name", "index"},
                                {"in", "path"},
                                {"required", true},

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::chrono::seconds kStartPatience{60}; ///< drivers compile
 constexpr std::chrono::milliseconds kWatchPause{50};
-constexpr std::size_t kMostEvents = 64; ///< that wait for one client before progress is told less often
 
 Problem endedOver(int times, const Problem& fault) {
   Problem problem = fault;
@@ -128,10 +127,6 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     if (found == slot.running.end()) return false;
     Ticket& ticket = *found->second;
     ticket.hasEvents = ticket.task.order.kind != OrderKind::sequenceFrame; // which tells the same again
-    // Who reads slowly gets the newest progress, so that what waits for them stays small.
-    const bool replaces = ticket.events.size() > kMostEvents && ticket.events.back().name == "progress" &&
-                          message->event->name == "progress";
-    if (replaces) ticket.events.pop_back();
     ticket.events.push_back(*std::move(message->event));
     ticket.changed.notify_one();
   }

@@ -1,5 +1,4 @@
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "protocol/bake/bake_file_type.h"
@@ -17,26 +16,6 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kReportForms{"application/json", kEventStream};
 constexpr int kBakeRetrySeconds = 5; ///< where the most bakes run
-
-/// The index in ?light=; nothing where there is none.
-Result<std::optional<int>> lightOf(const HttpRequest& request) {
-  std::optional<int> light;
-  for (const auto& [key, value] : request.query) {
-    const Problem unknown{ProblemCode::invalidValue, "/" + asciiExcerpt(key), "There is no query key of this name.",
-                          "light", ""};
-    if (key != "light" || light) {
-      return unknown;
-    }
-    int index = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), index);
-    if (error != std::errc() || end != value.data() + value.size() || index < 0) {
-      return Problem{ProblemCode::invalidValue, "/light", "This is no index of a light.", "0, 1, 2, ...",
-                     asciiExcerpt(value)};
-    }
-    light = index;
-  }
-  return light;
-}
 
 Problem unknownBake(const BakeName& name) {
   return {ProblemCode::notFound, "key", "No bake with this key is done.", "", asciiExcerpt(name.key)};
@@ -100,7 +79,8 @@ HttpReply getBake(Services& services, RouteCall call) {
   if (!spec) {
     return problemReply({unknownBake(name)}, requestId);
   }
-  const auto light = lightOf(call.request);
+  const auto light =
+      queryNumber(call.request.query, "light", 0, services.limits.maxLights - 1, "This is no index of a light.");
   if (!light) {
     return problemReply(light.problems(), requestId);
   }

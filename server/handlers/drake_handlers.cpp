@@ -17,13 +17,14 @@ namespace {
 /// The same refusal for a client that shows its text to people: a line for each problem.
 HttpReply asText(HttpReply reply, const Problems& problems) {
   reply.contentType = "text/plain; charset=utf-8";
-  reply.body.clear();
+  std::string text;
   for (const Problem& problem : problems) {
-    reply.body += problem.pointer.empty() ? problem.detail : problem.pointer + ": " + problem.detail;
-    if (!problem.limit.empty()) reply.body += " Allowed: " + problem.limit + '.';
-    if (!problem.actual.empty()) reply.body += " Sent: " + problem.actual + '.';
-    reply.body += '\n';
+    text += problem.pointer.empty() ? problem.detail : problem.pointer + ": " + problem.detail;
+    if (!problem.limit.empty()) text += " Allowed: " + problem.limit + '.';
+    if (!problem.actual.empty()) text += " Sent: " + problem.actual + '.';
+    text += '\n';
   }
+  reply.body = std::move(text);
   return reply;
 }
 
@@ -40,21 +41,13 @@ HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pa
   const FrameSpec spec = drakeFrame(form, services.drakeColors);
   if (const Problems problems = validate(spec); !problems.empty()) return refused(problems, call);
   const SceneCounts counts = services.store.counts(pack.id).value_or(likelyCounts(pack.bytes));
-  const double estimate = services.workers.milliseconds(frameCost(spec, counts));
-  const bool hasTarget = spec.quality.has_value();
-  if (!hasTarget) {
-    if (auto problem = tooMuchWork(services, estimate)) {
-      HttpReply reply = refused({*std::move(problem)}, call);
-      reply.refusal = RefusalReason::cost;
-      return reply;
-    }
+  auto made = frameTask(services, call, pack.id, {pack.file}, spec, counts);
+  if (!made) {
+    HttpReply reply = refused(made.problems(), call);
+    reply.refusal = RefusalReason::cost;
+    return reply;
   }
-  Task task = taskFor(call, OrderKind::frame, pack.id, {pack.file}, jsonText(toJson(spec)),
-                      hasTarget ? services.evaluationTimeout : services.requestTimeout);
-  const bool batch = hasTarget || estimate > kLongFrame;
-  task.lane = batch ? Lane::batch : Lane::interactive;
-  task.holdsRenderer = batch && !hasTarget;
-  task.needsDriver = needsDriver(spec);
+  Task task = *std::move(made);
   task.order.mediaType = mediaType;
   task.kin = "drake " + call.request.client; // no two of its scenes are the same, and most hold the same meshes
   task.order.depthRange = form.range;

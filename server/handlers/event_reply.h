@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "protocol/base/result.h"
-#include "server/http/reply.h"
+#include "server/http/event_stream.h"
 #include "server/http/router.h"
 
 namespace gnomon {

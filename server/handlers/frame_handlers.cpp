@@ -27,22 +27,13 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
                const std::string& etag) {
   auto bundle = frame.bundle();
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
-  const double estimate = services.workers.milliseconds(frameCost(frame.spec, frame.counts));
-  // Settings for a target are found by drawing and measuring many frames.
-  const bool hasTarget = frame.spec.quality.has_value();
-  if (!hasTarget) {
-    if (auto problem = tooMuchWork(services, estimate)) {
-      HttpReply refused = problemReply({*std::move(problem)}, call.request.id);
-      refused.refusal = RefusalReason::cost;
-      return refused;
-    }
+  auto made = frameTask(services, call, frame.sceneId, *std::move(bundle), frame.spec, frame.counts);
+  if (!made) {
+    HttpReply refused = problemReply(made.problems(), call.request.id);
+    refused.refusal = RefusalReason::cost;
+    return refused;
   }
-  const bool batch = hasTarget || estimate > kLongFrame;
-  Task task = taskFor(call, OrderKind::frame, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
-                      hasTarget ? services.evaluationTimeout : services.requestTimeout);
-  task.lane = batch ? Lane::batch : Lane::interactive;
-  task.holdsRenderer = batch && !hasTarget;
-  task.needsDriver = needsDriver(frame.spec);
+  Task task = *std::move(made);
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   const auto drawn = [&](const std::function<bool()>& gone) {
@@ -50,7 +41,7 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
     if (reply.status == 200) reply.headers.emplace_back("Repr-Digest", reprDigest(reply.body));
     return reply;
   };
-  if (hasTarget || tellsTimes(form)) return drawn(call.clientGone);
+  if (frame.spec.quality || tellsTimes(form)) return drawn(call.clientGone);
   return services.shared.run(etag, task.deadline, call.clientGone, [&](const std::function<bool()>& gone) {
     if (const auto kept = services.replies.findAgain(etag)) return *kept; // drawn since we looked
     HttpReply reply = drawn(gone);

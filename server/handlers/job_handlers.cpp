@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -18,33 +17,15 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kJobForms{"application/json", kEventStream};
 
-/// A whole number of a query or a path; nothing where it is none.
-std::optional<int> wholeNumber(std::string_view text) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
-}
-
 /// How long the client wants to wait for the job's end: by ?wait=, or by Prefer: wait=, which may ask for more than it
 /// gets.
 Result<std::chrono::seconds> waitOf(const Services& services, const HttpRequest& request) {
   const auto most = std::chrono::duration_cast<std::chrono::seconds>(services.requestTimeout);
-  std::optional<std::chrono::seconds> asked;
-  for (const auto& [key, value] : request.query) {
-    if (key != "wait" || asked) {
-      return Problem{ProblemCode::invalidValue, "/" + asciiExcerpt(key),
-                     asked ? "The query key is repeated." : "There is no query key of this name.", "wait", ""};
-    }
-    const auto seconds = wholeNumber(value);
-    if (!seconds || std::chrono::seconds(*seconds) > most) {
-      return Problem{ProblemCode::invalidValue, "/wait", "This is no time for which a job can be waited for.",
-                     "0.." + std::to_string(most.count()) + " seconds", asciiExcerpt(value)};
-    }
-    asked = std::chrono::seconds(*seconds);
-  }
-  const std::chrono::seconds preferred(preferredWait(request).value_or(0));
-  return asked.value_or(std::min(preferred, most));
+  const auto asked = queryNumber(request.query, "wait", 0, static_cast<int>(most.count()),
+                                 "This is no number of seconds for which a job can be waited for.");
+  if (!asked) return asked.problems();
+  if (*asked) return std::chrono::seconds(**asked);
+  return std::min(std::chrono::seconds(preferredWait(request).value_or(0)), most);
 }
 
 HttpReply replyOfJob(const Services& services, const JobProgress& progress) {

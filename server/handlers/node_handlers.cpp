@@ -1,9 +1,5 @@
-#include <charconv>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string_view>
 
-#include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/node_json.h"
 #include "server/handlers/handlers.h"
@@ -13,41 +9,16 @@
 namespace gnomon {
 namespace {
 
-struct PageKey {
-  std::string_view name;
-  int NodePage::*member;
-  int least;
-  int most;
-};
-
-constexpr PageKey kPageKeys[] = {
-    {"limit", &NodePage::limit, 1, kMostNodesOnPage},
-    {"after", &NodePage::after, 0, static_cast<int>(kLimits.maxNodes)},
-};
-
-Result<NodePage> pageOf(const HttpRequest& request) {
+Result<NodePage> pageOf(const Query& query) {
+  constexpr auto kWrong = "This value is not possible for a page of nodes.";
   NodePage page;
-  std::string seen;
-  for (const auto& [name, value] : request.query) {
-    const std::string pointer = "/" + asciiExcerpt(name);
-    const PageKey* key = nullptr;
-    for (const PageKey& each : kPageKeys) {
-      if (each.name == name) key = &each;
-    }
-    if (key == nullptr) {
-      return Problem{ProblemCode::invalidValue, pointer, "There is no query key of this name.", "limit, after", ""};
-    }
-    if (seen.find(name) != std::string::npos) {
-      return Problem{ProblemCode::invalidValue, pointer, "The query key is repeated.", "", ""};
-    }
-    seen += name + " ";
-    int& number = page.*key->member;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || end != value.data() + value.size() || number < key->least || number > key->most) {
-      return Problem{ProblemCode::invalidValue, pointer, "This value is not possible for a page of nodes.",
-                     std::to_string(key->least) + ".." + std::to_string(key->most), asciiExcerpt(value)};
-    }
+  const auto limit = queryNumber(query, "limit", 1, kMostNodesOnPage, kWrong);
+  const auto after = queryNumber(query, "after", 0, static_cast<int>(kLimits.maxNodes), kWrong);
+  for (const auto* read : {&limit, &after}) {
+    if (!*read) return read->problems();
   }
+  page.limit = limit->value_or(page.limit);
+  page.after = after->value_or(page.after);
   return page;
 }
 
@@ -56,7 +27,7 @@ Result<NodePage> pageOf(const HttpRequest& request) {
 HttpReply getNodes(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
-  const auto page = pageOf(call.request);
+  const auto page = pageOf(call.request.query);
   if (!page) return problemReply(page.problems(), call.request.id);
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);

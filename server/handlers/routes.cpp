@@ -65,11 +65,15 @@ HttpReply getMetrics(Services& services, RouteCall) {
   return reply;
 }
 
-/// A route whose handler sees the services, and takes no body.
+/// A route whose handler sees the services, and takes no body. Programs that watch servers may add a query.
 Route plainRoute(Services& services, const char* path, Scope scope, HttpReply (*handler)(Services&, RouteCall)) {
-  return {"GET", path, scope,
-          {},    {},   [&services, handler](RouteCall call) {
-            return handler(services, std::move(call)); }};
+  return {"GET",
+          path,
+          scope,
+          {},
+          {},
+          [&services, handler](RouteCall call) { return handler(services, std::move(call)); },
+          QueryKeys::any()};
 }
 
 Route probeRoute(Services& services, const char* path, HttpReply (*handler)(Services&, RouteCall)) {
@@ -156,23 +160,23 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
   };
   std::vector<Route> routes{
       {"POST", "/v1/scenes", Scope::upload, upload, sceneTypes, bind(postScene)},
-      {"GET", "/v1/scenes", Scope::read, none, {}, bind(listScenes)},
+      {"GET", "/v1/scenes", Scope::read, none, {}, bind(listScenes), {"limit", "after"}},
       {"PUT", "/v1/scenes/{id}", Scope::upload, upload, sceneTypes, bind(putScene)},
       {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
       {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
-      {"GET", "/v1/scenes/{id}/nodes", Scope::read, none, {}, bind(getNodes)},
+      {"GET", "/v1/scenes/{id}/nodes", Scope::read, none, {}, bind(getNodes), {"limit", "after"}},
       {"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)},
-      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), false, true},
+      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), QueryKeys::any(), false, true},
       {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", Scope::render, json, {"application/json"}, bind(postEvaluation)},
       {"POST", "/v1/scenes/{id}/sequences", Scope::render, json, {"application/json"}, bind(postSequence)},
       {"GET", "/v1/jobs", Scope::render, none, {}, bind(listJobs)},
-      {"GET", "/v1/jobs/{id}", Scope::render, none, {}, bind(getJob)},
+      {"GET", "/v1/jobs/{id}", Scope::render, none, {}, bind(getJob), {"wait"}},
       {"DELETE", "/v1/jobs/{id}", Scope::render, none, {}, bind(deleteJob)},
       {"GET", "/v1/jobs/{id}/result", Scope::render, none, {}, bind(getJobResult)},
       {"GET", "/v1/jobs/{id}/frames/{index}", Scope::render, none, {}, bind(getJobFrame)},
       {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
-      {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake)},
+      {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake), {"light"}},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
       {"POST", "/v1/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderOnce)},
       {"POST", "/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderDrake)},
@@ -183,7 +187,16 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
   };
   if (addresses == Addresses::one) routes.push_back(plainRoute(services, "/metrics", Scope::admin, getMetrics));
   for (const StaticFile& file : services.page) {
-    routes.push_back({"GET", std::string(file.path), Scope::none, none, {}, pageHandler(file), false, false, "page"});
+    routes.push_back({"GET",
+                      std::string(file.path),
+                      Scope::none,
+                      none,
+                      {},
+                      pageHandler(file),
+                      QueryKeys::any(),
+                      false,
+                      false,
+                      "page"});
   }
   return routes;
 }
@@ -203,8 +216,10 @@ HttpService makeService(std::vector<Route> routes) {
     auto& match = std::get<RouteMatch>(found);
     const Route& route = *match.route;
     const std::string& name = route.name.empty() ? route.pattern : route.name;
-    if (auto problem = refuseContent(route, head)) {
-      HttpReply refused = problemReply({*std::move(problem)}, head.id);
+    Problems problems = route.query.check(head.query);
+    if (auto problem = refuseContent(route, head)) problems.push_back(*std::move(problem));
+    if (!problems.empty()) {
+      HttpReply refused = problemReply(problems, head.id);
       refused.route = name;
       return refused;
     }

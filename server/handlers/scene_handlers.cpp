@@ -1,6 +1,4 @@
-#include <charconv>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
 
 #include "protocol/base/text.h"
@@ -55,11 +53,11 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
   if (!summary) {
     HttpReply loaded = loadScene(services, call, pack->id, {pack->file});
     if (loaded.status != 200) return loaded;
-    const auto kept = services.store.put(pack->id, pack->file, pack->bytes, loaded.body);
+    const auto kept = services.store.put(pack->id, pack->file, pack->bytes, std::string(loaded.body));
     if (!kept) return problemReply(kept.problems(), call.request.id);
     isNew = *kept;
-    if (!isNew) services.store.keepSummary(pack->id, loaded.body); // the one beside it could not be used
-    summary = std::move(loaded.body);
+    if (!isNew) services.store.keepSummary(pack->id, std::string(loaded.body)); // the one beside it could not be used
+    summary = std::string(loaded.body);
   }
   HttpReply reply = summaryReply(*std::move(summary), isNew ? 201 : 200);
   reply.headers.emplace_back("Location", "/v1/scenes/" + pack->id);
@@ -73,7 +71,7 @@ HttpReply summaryOf(Services& services, const RouteCall& call, const std::string
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   HttpReply made = loadScene(services, call, id, *std::move(bundle));
-  if (made.status == 200) services.store.keepSummary(id, made.body);
+  if (made.status == 200) services.store.keepSummary(id, std::string(made.body));
   return made;
 }
 
@@ -84,31 +82,16 @@ struct PageQuery {
   std::string after;
 };
 
-Result<PageQuery> pageQuery(const std::vector<std::pair<std::string, std::string>>& query) {
-  constexpr std::size_t kMost = 1000;
+Result<PageQuery> pageQuery(const Query& query) {
+  constexpr int kMost = 1000;
   PageQuery page;
-  std::set<std::string_view> seen;
-  for (const auto& [key, value] : query) {
-    const std::string pointer = "/" + asciiExcerpt(key);
-    if (key != "limit" && key != "after") {
-      return Problem{ProblemCode::invalidValue, pointer, "There is no query key of this name.", "limit, after", ""};
-    }
-    if (!seen.insert(key).second) {
-      return Problem{ProblemCode::invalidValue, pointer, "The query key is repeated.", "", ""};
-    }
-    if (key == "after") {
-      if (!isSceneId(value)) {
-        return Problem{ProblemCode::invalidValue, pointer, "This is not what a page gave as its next.",
-                       "64 lower-case hexadecimal digits", asciiExcerpt(value)};
-      }
-      page.after = value;
-      continue;
-    }
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), page.limit);
-    if (error != std::errc() || end != value.data() + value.size() || page.limit < 1 || page.limit > kMost) {
-      return Problem{ProblemCode::invalidValue, pointer, "This is no number of scenes for a page.",
-                     "1.." + std::to_string(kMost), asciiExcerpt(value)};
-    }
+  const auto limit = queryNumber(query, "limit", 1, kMost, "This is no number of scenes for a page.");
+  if (!limit) return limit.problems();
+  if (*limit) page.limit = static_cast<std::size_t>(**limit);
+  page.after = queryText(query, "after").value_or("");
+  if (queryText(query, "after") && !isSceneId(page.after)) {
+    return Problem{ProblemCode::invalidValue, "/after", "This is not what a page gave as its next.",
+                   "64 lower-case hexadecimal digits", asciiExcerpt(page.after)};
   }
   return page;
 }
@@ -148,7 +131,7 @@ HttpReply listScenes(Services& services, RouteCall call) {
       hasMore = true;
       break;
     }
-    if (summary.status == 200) all += (all.empty() ? "" : ",") + summary.body;
+    if (summary.status == 200) all.append(all.empty() ? "" : ",").append(summary.body);
     last = id;
   }
   if (!hasMore) return summaryReply("{\"scenes\":[" + all + "]}");

@@ -9,6 +9,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/sequence/sequence_json.h"
 #include "protocol/spec/format_traits.h"
+#include "server/http/event_stream.h"
 #include "server/http/zip_stream.h"
 
 namespace gnomon {
@@ -159,13 +160,15 @@ HttpReply frameReply(const DoneFrame& frame, const RouteCall& call) {
   }
   const std::string boundary = boundaryFor(call);
   reply.contentType = multipartType(boundary);
+  std::string body;
   const BodySink sink = [&](std::string_view piece) {
-    reply.body += piece;
+    body += piece;
     return true;
   };
   MultipartForm form(boundary);
   form.pictures(sink, frame, "");
   form.end(sink);
+  reply.body = std::move(body);
   return reply;
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "protocol/base/text.h"
+#include "protocol/cost/frame_cost.h"
+#include "protocol/json/json_codec.h"
 #include "server/handlers/event_reply.h"
 #include "server/system/memory_file.h"
 
@@ -75,13 +77,24 @@ std::string secondsText(double milliseconds) {
   return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
 }
 
-std::optional<Problem> tooMuchWork(const Services& services, double estimate) {
+Result<Task> frameTask(const Services& services, const RouteCall& call, const std::string& scene, StoredBundle bundle,
+                       const FrameSpec& spec, const SceneCounts& counts) {
+  const bool hasTarget = spec.quality.has_value(); // its settings are found by drawing and measuring many frames
+  const double estimate = services.workers.milliseconds(frameCost(spec, counts));
   const auto allowed = static_cast<double>(services.requestTimeout.count());
-  if (estimate <= allowed * kDoubt) return std::nullopt;
-  return Problem{ProblemCode::tooLarge, "",
-                 "This frame is more work than can be done in the time of a request "
-                 "(--request-timeout): fewer pixels, lights, samples or rays are less.",
-                 secondsText(allowed), "about " + secondsText(estimate)};
+  if (!hasTarget && estimate > allowed * kDoubt) {
+    return Problem{ProblemCode::tooLarge, "",
+                   "This frame is more work than can be done in the time of a request "
+                   "(--request-timeout): fewer pixels, lights, samples or rays are less.",
+                   secondsText(allowed), "about " + secondsText(estimate)};
+  }
+  Task task = taskFor(call, OrderKind::frame, scene, std::move(bundle), jsonText(toJson(spec)),
+                      hasTarget ? services.evaluationTimeout : services.requestTimeout);
+  const bool isLong = hasTarget || estimate > kLongFrame;
+  task.lane = isLong ? Lane::batch : Lane::interactive;
+  task.holdsRenderer = isLong && !hasTarget;
+  task.needsDriver = needsDriver(spec);
+  return task;
 }
 
 void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,

@@ -38,8 +38,10 @@ std::string secondsText(double milliseconds);
 /// Frames that are expected to take longer wait for each other, and leave a worker to all others.
 inline constexpr double kLongFrame = 1'000; ///< milliseconds
 
-/// Why a frame that is expected to take so many milliseconds can't be done in time.
-std::optional<Problem> tooMuchWork(const Services& services, double estimate);
+/// The task of drawing a frame, in the lane that its cost asks for. Where it is expected to take longer than a request
+/// may, the problem says so (RefusalReason::cost); what meets a target is found within the time of an evaluation.
+Result<Task> frameTask(const Services& services, const RouteCall& call, const std::string& scene, StoredBundle bundle,
+                       const FrameSpec& spec, const SceneCounts& counts);
 
 /// Takes room for the body of a result before a byte of it is read. Where there is none by the deadline, or nobody
 /// wants it any more, the body is let go and the result is the problem of noReplyRoom().

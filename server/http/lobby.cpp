@@ -260,7 +260,7 @@ void Lobby::sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool 
   record.client = guest.isReady ? guest.client.text : connection.peer.text;
   record.proxy = record.client == connection.peer.text ? "" : connection.peer.text;
   addTrace(reply, record.trace);
-  const std::string text = replyHead(reply, record.id, false) + (bodyless ? "" : reply.body);
+  const std::string text = replyHead(reply, record.id, false) + std::string(bodyless ? "" : reply.body.view());
   record.delivered = sendNow(connection.socket.get(), text); // it fits the socket's buffer, or the client reads nothing
   record.replyBytes = record.delivered && !bodyless ? reply.body.size() : 0;
   ::shutdown(connection.socket.get(), SHUT_WR);

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +11,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "server/http/refusal.h"
+#include "server/http/reply_body.h"
 #include "server/system/reply_room.h"
 
 namespace gnomon {
@@ -32,7 +30,7 @@ struct StreamResult {
 struct HttpReply {
   int status = 200;
   std::string contentType; ///< empty = no body
-  std::string body;
+  ReplyBody body;
   /// Instead of `body`: makes it while it is sent, on the connection's thread. The end of the connection marks its end.
   std::function<void(const BodySink&)> stream;
   std::shared_ptr<const StreamResult> streamed; ///< of `stream`; nullptr = nothing is known of it
@@ -80,26 +78,6 @@ struct StaticFile {
   std::string_view path;        ///< of the URL, beginning with '/'
   std::string_view contentType; ///< the whole header value
   std::string_view bytes;       ///< outlives the server
-};
-
-/// One server-sent event (WHATWG HTML, "Server-sent events"). `data`: one line.
-std::string eventText(std::string_view name, std::string_view data);
-
-/// Events between the threads that make them and the one that sends them.
-class EventStream {
- public:
-  void put(std::string_view name, std::string_view data); ///< any thread
-  void end();                                             ///< any thread; nothing is put after it
-
-  /// Sends what is put until the end, and a comment after every `pause` without an event, so that proxies keep the
-  /// connection open and a lost client is noticed. False: the client is gone.
-  bool sendTo(const BodySink& sink, std::chrono::milliseconds pause);
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::string waiting_; ///< events as text
-  bool ended_ = false;
 };
 
 } // namespace gnomon

@@ -9,6 +9,7 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
+#include "server/http/url.h"
 #include "server/system/clock.h"
 
 namespace gnomon {
@@ -61,7 +62,7 @@ struct HttpRequest {
   std::string method;            ///< upper case
   std::string target;            ///< as it came, without a scheme and authority
   std::vector<std::string> path; ///< percent-decoded segments; "/" has none
-  std::vector<std::pair<std::string, std::string>> query; ///< percent-decoded, in order
+  Query query;
   Headers headers;
   bool hasBody = false; ///< the head announces a body
   Bytes body;

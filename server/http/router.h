@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/access/access_key.h"
+#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/http/request.h"
 #include "server/http/request_body.h"
@@ -31,6 +32,7 @@ struct Route {
   BodyRule body;
   std::vector<std::string> contentTypes; ///< media types accepted; empty = any, or no body
   std::function<HttpReply(RouteCall)> handler;
+  QueryKeys query{};
   bool probe = false;          ///< answered however busy everything else is
   bool takesSignature = false; ///< a signed address does instead of a key
   std::string name{};          ///< for metrics; empty = its pattern

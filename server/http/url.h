@@ -9,9 +9,11 @@
 
 namespace gnomon {
 
+using Query = std::vector<std::pair<std::string, std::string>>; ///< keys and values, decoded, in order
+
 struct Url {
-  std::vector<std::string> path;                          ///< decoded segments; "/" has none; "." and ".." are refused
-  std::vector<std::pair<std::string, std::string>> query; ///< decoded, in order; "a" means ("a", "")
+  std::vector<std::string> path; ///< decoded segments; "/" has none; "." and ".." are refused
+  Query query;                   ///< "a" means ("a", "")
 };
 
 /// A request target in origin form ("/a/b?c=d"). Decoded text holds no control characters.

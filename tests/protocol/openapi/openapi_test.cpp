@@ -157,6 +157,13 @@ TEST(OpenApi, RoutesSayWhatBecomesOfThemWhereTheSceneHasToBeLoaded) {
   expectStatuses("/v1/scenes/{id}", "delete", {"404", "503"});
 }
 
+TEST(OpenApi, EveryRouteThatReadsItsQueryMayRefuseIt) {
+  const std::set<std::string> readNone{"/", "/v1/capabilities", "/openapi.json", "/livez", "/readyz", "/metrics"};
+  forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json& operation) {
+    EXPECT_EQ(operation["responses"].contains("400"), !readNone.contains(path)) << method << " " << path;
+  });
+}
+
 TEST(OpenApi, AFrameIsGivenInEveryForm) {
   const Json document = openApi();
   std::set<std::string> all{"multipart/mixed", "application/json"};

@@ -148,7 +148,9 @@ HttpService signedService() {
     handler.takesSignature = head.path.back() == "frame";
     handler.answer = [](HttpRequest request, const std::function<bool()>&) {
       HttpReply reply;
-      for (const auto& [name, value] : request.query) reply.body += name + " ";
+      std::string names;
+      for (const auto& [name, value] : request.query) names += name + " ";
+      reply.body = names;
       return reply;
     };
     return handler;

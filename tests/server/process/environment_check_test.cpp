@@ -29,7 +29,7 @@ TEST(EnvironmentCheck, ANameIsSuggestedOnlyWithinTwoEdits) {
                           "There is no environment variable GNOMON_WRKR.",
                           "There is no environment variable GNOMON_SOTRE; did you mean GNOMON_STORE?",
                           "There is no environment variable GNOMON_STORED; did you mean GNOMON_STORE?"));
-  EXPECT_THAT(faultsOf({"GNOMON_" + std::string(10'000, 'A') + "=1"}).front(), testing::EndsWith("...."));
+  EXPECT_THAT(faultsOf({"GNOMON_" + std::string(10'000, 'A') + "=1"}).front(), ::testing::EndsWith("...."));
 }
 
 TEST(EnvironmentCheck, AFlagsOwnNameLeadsToItsVariable) {

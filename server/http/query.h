@@ -1,0 +1,43 @@
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.h"
+#include "server/http/url.h"
+
+/// What a route reads of a request's query.
+namespace gnomon {
+
+/// The keys that a query may have, each at most once.
+class QueryKeys {
+ public:
+  QueryKeys() = default; ///< none
+  QueryKeys(std::initializer_list<std::string_view> names) : names_(names.begin(), names.end()) {}
+
+  /// Of a route that reads its query by itself, or that has no use for one but is asked by programs that add theirs.
+  static QueryKeys any();
+
+  /// A problem for each key that is none of these or is repeated. Pointers name the key.
+  Problems check(const Query& query) const;
+
+ private:
+  std::vector<std::string> names_;
+  bool isAny_ = false;
+};
+
+/// Digits alone; nothing where the text is no number from 0 to 2^31 - 1.
+std::optional<int> wholeNumber(std::string_view text);
+
+/// The whole number under `key`; nothing where the query has no such key. `wrong` says in a sentence what a value that
+/// is no number within least..most is not.
+Result<std::optional<int>> queryNumber(const Query& query, std::string_view key, int least, int most,
+                                       std::string_view wrong);
+
+/// The text under `key`; nothing where the query has no such key.
+std::optional<std::string_view> queryText(const Query& query, std::string_view key);
+
+} // namespace gnomon
