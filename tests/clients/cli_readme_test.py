@@ -23,8 +23,6 @@ class Readme(CommandLine):
         (self.folder / "gnomon").mkdir()
         variables = environment(XDG_CONFIG_HOME=str(self.folder), HOME=str(self.folder))
         variables["PATH"] = f"{self.folder / 'bin'}:{variables['PATH']}"
-        (self.folder / "certificates").mkdir()
-        (self.folder / "certificates/lights.pem").touch()
         blocks = re.findall(r"^```(sh|toml)\n(.*?)^```", README.read_text(), re.DOTALL | re.MULTILINE)
         self.assertGreater(len(blocks), 7)
         said = ""
@@ -45,9 +43,11 @@ class Readme(CommandLine):
             self.assertIn(line, said)
         for name, size in {"frame": (1280, 720), "there": (1280, 720), "shadows.reference": (320, 180), "mine": (320, 180),
                            "small": (160, 90), "farm": (160, 90), "off": (320, 180), "other-morning": (160, 90),
-                           "turn/00003": (160, 90), "piped": (160, 90), "asked": (160, 90)}.items():  # fmt: skip
+                           "turn/00003": (160, 90), "piped": (160, 90), "asked": (160, 90),
+                           "stored": (1280, 720), "steps/00001": (160, 90)}.items():  # fmt: skip
             self.assertEqual(png_size((self.folder / f"{name}.png").read_bytes()), size, name)
         self.assertLess(json.loads((self.folder / "shadows.json").read_text())["reference"]["metrics"]["misclassified"], 0.05)
+        self.assertEqual(len(json.loads((self.folder / "plan.json").read_text())["lights"][0]["tiles"]), 2)
         [problem] = json.loads((self.folder / "problems.json").read_text())["problems"]
         self.assertEqual((problem["pointer"], problem["flag"], problem["actual"]), ("/width", "--width", "0"))
 

@@ -55,6 +55,10 @@ class ClientConfiguration(CommandLine):
         spec.write_text('{"width": 32}')
         size, drawn = self.frame("--spec", str(spec), **self.there)
         self.assertEqual(size, (32, 720))
+        plans = [gnomon("plan", BOX, *request, **where).stdout
+                 for request in (["--spec", str(spec)], [str(spec)]) for where in (self.there, {})]  # fmt: skip
+        self.assertTrue(plans[0])
+        self.assertEqual(set(plans), {plans[0]})
 
     def test_what_is_in_force_is_printed_and_is_a_configuration(self):
         run = gnomon("render", "--show-config", "--preset", "tiny", "--exposure", "1", **self.there)
@@ -68,6 +72,8 @@ class ClientConfiguration(CommandLine):
         again = self.folder / "again"
         again.write_bytes(run.stdout)
         self.assertEqual(self.frame("--config", str(again))[0], (16, 12))
+        run = gnomon("sequence", "--show-config", **self.there)
+        self.assertIn(f'size = "64x48"  # {self.config}:2', run.stdout.decode().splitlines())
         run = gnomon("ls", "--show-config", GNOMON_URL="http://there", **self.there)
         self.assertIn(b'server = "http://there"  # environment, GNOMON_URL', run.stdout)
 

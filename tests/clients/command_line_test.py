@@ -371,11 +371,14 @@ class WithServer(CommandLine):
     def test_a_plan_is_the_same_here_and_there(self):
         spec = self.folder / "spec.json"
         spec.write_text('{"shadow": {"cascadeCount": 2}}')
-        here, there = (gnomon("plan", BOX, str(spec), "--sun", "135,40", *where) for where in ([], ["--server", self.url]))
+        plan = ["plan", BOX, "--spec", str(spec), "--sun", "135,40"]
+        here, there = (gnomon(*plan, *where) for where in ([], ["--server", self.url]))
         for run in (here, there):
             self.assert_ends(run, OK)
         self.assertEqual(json.loads(here.stdout), json.loads(there.stdout))
         self.assertEqual(len(json.loads(here.stdout)["lights"][0]["tiles"]), 2)
+        self.assertEqual(gnomon("plan", BOX, str(spec), "--sun", "135,40").stdout, here.stdout)
+        self.assert_ends(gnomon("plan", BOX, str(spec), "--spec", str(spec)), USAGE, "--spec excludes request")
         run = gnomon("plan", BOX, "--set", "shadow.cascadeCount=9")
         self.assert_ends(run, PROBLEM, "--set shadow.cascadeCount")
 

@@ -19,7 +19,7 @@ class Jobs(CommandLine):
         cls.where = ("--server", "http://%s:%d" % cls.server.address)
 
     def submit(self, request):
-        run = gnomon("sequence", BOX, "-", "--async", *self.where, stdin=json.dumps(request).encode())
+        run = gnomon("sequence", BOX, "--spec", "-", "--async", *self.where, stdin=json.dumps(request).encode())
         self.assert_ends(run, OK)
         return run.stdout.decode().strip()
 
@@ -34,15 +34,17 @@ class Jobs(CommandLine):
         self.assertIn(waited.stdout.strip(), listed.stdout.splitlines())
         shown = gnomon("jobs", "show", job, *self.where)
         self.assertEqual(json.loads(shown.stdout)["state"], "done")
-        file = self.folder / "frames.zip"
+        file = self.folder / "some/where/frames.zip"
         self.assert_ends(gnomon("jobs", "fetch", job, "-o", str(file), *self.where), OK)
-        drawn = gnomon("sequence", BOX, "-", "-o", str(self.folder / "frame-{frame}.png"), "--device", "cpu",
+        self.assertEqual([path.name for path in file.parent.iterdir()], ["frames.zip"])
+        within = gnomon("jobs", "fetch", job, "-o", str(file / "frames.zip"), *self.where)
+        self.assert_ends(within, PROBLEM, f"The folder {file} can't be made")
+        drawn = gnomon("sequence", BOX, "--spec", "-", "-o", str(self.folder / "frame-{frame}.png"), "--device", "cpu",
                        stdin=json.dumps(request).encode())
         self.assert_ends(drawn, OK)
         with zipfile.ZipFile(file) as archive:
             pictures = [archive.read(name) for name in archive.namelist() if name.endswith(".png")]
         self.assertEqual(pictures, [path.read_bytes() for path in sorted(self.folder.glob("frame-*.png"))])
-        self.assertEqual([path.name for path in self.folder.glob("*.part")], [])
         self.assert_ends(gnomon("jobs", "cancel", job, *self.where), OK)
         self.assert_ends(gnomon("jobs", "show", job, *self.where), PROBLEM, "no job")
 
@@ -63,13 +65,19 @@ class Jobs(CommandLine):
             (("jobs", "ls", "0" * 32), "id"),
             (("jobs", "fetch", "0" * 32), "--output"),
             (("jobs", "show", "0" * 32, "-o", "x"), "--output"),
-            (("sequence", BOX, "-"), "--output"),
-            (("sequence", BOX, "-", "--async"), "--server"),
-            (("sequence", BOX, "-", "--async", "-o", "{frame}.png", *self.where), "--output"),
+            (("sequence", BOX, "--async", *self.where), "--spec"),
+            (("sequence", BOX, "--spec", "-"), "--output"),
+            (("sequence", BOX, "--spec", "-", "--async"), "--server"),
+            (("sequence", BOX, "--spec", "-", "--async", "-o", "{frame}.png", *self.where), "--output"),
         ]:
             with self.subTest(arguments):
                 self.assert_ends(gnomon(*arguments, stdin=b"{}"), USAGE, words)
         self.assert_ends(gnomon("jobs", "cancel", "0" * 32, *self.where), PROBLEM, "no job")
+
+    def test_what_can_not_be_fetched_leaves_no_file(self):
+        missing = gnomon("jobs", "fetch", "0" * 32, "-o", str(self.folder / "frames.zip"), *self.where)
+        self.assert_ends(missing, PROBLEM, "no job")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ class Pipes(CommandLine):
         self.assertEqual(run.stdout, self.output.read_bytes())
 
     def test_only_one_thing_is_read_from_standard_input(self):
-        self.assert_ends(gnomon("render", "-", "-o", "-", "--spec", "-"), USAGE, "only once")
+        for order in (["render", "-", "-o", "-", "--spec", "-"], ["plan", "-", "--spec", "-"], ["plan", "-", "-"]):
+            self.assert_ends(gnomon(*order), USAGE, "only once")
         self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--format", "exr"), USAGE, "png")
 
     def test_what_is_no_scene_is_refused(self):

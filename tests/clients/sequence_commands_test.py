@@ -16,7 +16,7 @@ REQUEST = {
 
 class Sequences(CommandLine):
     def run_sequence(self, name, request, *flags):
-        run = gnomon("sequence", BOX, "-", "-o", str(self.folder / name), *flags, stdin=json.dumps(request).encode())
+        run = gnomon("sequence", BOX, "--spec", "-", "-o", str(self.folder / name), *flags, stdin=json.dumps(request).encode())
         return run
 
     def files(self, pattern):
@@ -32,6 +32,15 @@ class Sequences(CommandLine):
             url = "http://%s:%d" % server.address
             self.assert_ends(self.run_sequence("there-{frame}.png", REQUEST, "--server", url), OK)
         self.assertEqual(self.files("there-*.png"), here)
+
+    def test_the_request_may_stand_behind_the_scene(self):
+        request = self.folder / "request.json"
+        request.write_text(json.dumps(REQUEST))
+        self.assert_ends(gnomon("sequence", BOX, str(request), "-o", str(self.folder / "behind-{frame}.png")), OK)
+        self.assert_ends(self.run_sequence("named-{frame}.png", REQUEST), OK)
+        self.assertEqual(self.files("behind-*.png"), self.files("named-*.png"))
+        both = gnomon("sequence", BOX, str(request), "--spec", str(request), "-o", str(self.folder / "both-{frame}.png"))
+        self.assert_ends(both, USAGE, "--spec excludes request")
 
     def test_goes_on_from_a_frame_with_what_its_report_carries(self):
         report = self.folder / "report.json"
@@ -73,7 +82,8 @@ class Sequences(CommandLine):
         self.assert_ends(self.run_sequence("x-{frame}.webm", REQUEST), USAGE, "{frame}")
         self.assert_ends(self.run_sequence("x.webm", {"frames": [{}, {"width": 80}]}), PROBLEM, "/frames/1/width")
         self.assert_ends(self.run_sequence("x.webm", REQUEST, "--video-quality", "0"), USAGE, "--video-quality")
-        self.assert_ends(gnomon("sequence", BOX, "-", "-o", "frame.png"), USAGE, "{frame}")
+        self.assert_ends(gnomon("sequence", BOX, "--spec", "-", "-o", "frame.png"), USAGE, "{frame}")
+        self.assert_ends(gnomon("sequence", BOX, "-o", "{frame}.png"), USAGE, "--spec is required")
         broken = dict(REQUEST, count=1)
         self.assert_ends(self.run_sequence("x-{frame}.png", broken), PROBLEM, "count")
         broken = {"frames": [{}, {"camera": {"orbit": {"elevationDegrees": 100}}}]}

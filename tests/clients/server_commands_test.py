@@ -30,6 +30,7 @@ class Proxy(http.server.ThreadingHTTPServer):
             # The handshake is the thread's that serves the connection, so that a client that gives up ends no other.
             self.socket = context.wrap_socket(self.socket, server_side=True, do_handshake_on_connect=False)
         self.interfere = lambda request: None
+        self.cuts = []  # paths whose next reply ends in its middle
         self.seen = []  # (method, path, headers)
         self.times = []  # of the same, in seconds
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -63,6 +64,10 @@ class Passing(http.server.BaseHTTPRequestHandler):
         if status != 204:
             self.send_header("Content-Length", str(len(body)))
         self.end_headers()
+        if self.path in self.server.cuts:
+            self.server.cuts.remove(self.path)
+            body = body[: len(body) // 2]
+            self.close_connection = True
         self.wfile.write(body)
 
     do_GET = do_HEAD = do_POST = do_DELETE = pass_on
@@ -120,6 +125,32 @@ class WithProxy(CommandLine):
         self.render(*self.there)
         self.assertEqual(self.count("POST", "/frames"), 2)
 
+    def test_a_file_or_events_that_were_cut_off_begin_anew(self):
+        request = json.dumps({"spec": {"width": 64, "height": 48}, "frames": [{}, {}]}).encode()
+        order = ("sequence", BOX, "--spec", "-", *self.there)
+        job = gnomon(*order, "--async", stdin=request).stdout.decode().strip()
+        self.assert_ends(gnomon("jobs", "wait", job, *self.there), OK)
+        file = self.folder / "frames.zip"
+        self.proxy.cuts = [f"/v1/jobs/{job}/result"]
+        self.assert_ends(gnomon("jobs", "fetch", job, "-o", str(file), *self.there), OK)
+        self.assertEqual(self.count("GET", "/result"), 2)
+        self.assertEqual(file.read_bytes(), self.server.get(f"/v1/jobs/{job}/result", Accept="application/zip").body)
+        scene = gnomon("upload", BOX, *self.there).stdout.decode().split()[0]
+        self.proxy.cuts = [f"/v1/scenes/{scene}/sequences"]
+        self.assert_ends(gnomon(*order, "-o", str(self.folder / "{frame}.png"), stdin=request), OK)
+        self.assertEqual(self.count("POST", "/sequences"), 3)
+        self.assertEqual(len(list(self.folder.glob("*.png"))), 2)
+
+    def test_a_video_that_was_cut_off_is_not_appended_to_itself(self):
+        scene = gnomon("upload", BOX, *self.there).stdout.decode().split()[0]
+        self.proxy.cuts = [f"/v1/scenes/{scene}/sequences"]
+        request = json.dumps({"spec": {"width": 64, "height": 48}, "frames": [{}, {}]}).encode()
+        file = self.folder / "video.webm"
+        cut = gnomon("sequence", BOX, "--spec", "-", "-o", str(file), *self.there, stdin=request)
+        self.assert_ends(cut, PROBLEM, "the connection ended before the reply did")
+        self.assertEqual(self.count("POST", "/sequences"), 1)
+        self.assertFalse(file.exists())
+
     def test_what_the_server_refuses_is_json_on_standard_error(self):
         run = gnomon("render", BOX, "-o", str(self.output), *SMALL, *self.there, "--camera", "nobody", "--problems", "json")
         self.assert_ends(run, PROBLEM)
@@ -166,6 +197,24 @@ class WithProxy(CommandLine):
         self.render(*self.there)
         self.assertEqual(self.count("POST", "/frames"), 2)
         self.assertGreaterEqual(self.count("POST", "/v1/scenes"), 1)
+
+    def test_a_scene_that_the_server_has_is_drawn_by_its_id(self):
+        self.render(*self.there)
+        drawn = self.output.read_bytes()
+        scene = gnomon("upload", BOX, *self.there).stdout.decode().split()[0]
+        self.proxy.seen.clear()
+        self.output = self.folder / "{scene}.png"
+        self.render(*self.there, scene=scene)
+        self.assertEqual((self.folder / f"{scene}.png").read_bytes(), drawn)
+        self.assertEqual([seen[:2] for seen in self.proxy.seen], [("POST", f"/v1/scenes/{scene}/frames")])
+        self.render(*self.there, "--reference", scene=scene)
+        self.assertTrue((self.folder / f"{scene}.reference.png").exists())
+        self.assertEqual(self.count("POST", "/evaluations"), 1)
+        self.assert_ends(gnomon("rm", scene, *self.there), OK)
+        lost = gnomon("render", scene, "-o", str(self.output), *SMALL, *self.there)
+        self.assert_ends(lost, PROBLEM, "No scene with this id is stored.")
+        self.assertEqual(self.count("POST", "/v1/scenes"), 0)
+        self.assert_ends(gnomon("render", scene, "-o", str(self.output), *SMALL), PROBLEM, "no such file")
 
     def test_headers_are_sent_with_every_call(self):
         self.render(*self.there, "--header", "X-Team: lights", "--header", "X-Two:2")

@@ -70,9 +70,7 @@ Subcommand addBakeCommand(CLI::App& app) {
                    "share of light alone")
       ->required()
       ->check(checkBakeOutput);
-  command->add_option("--spec", options->spec,
-                      "A request as JSON; - is standard input. Flags override its fields. Lights of technique lightMap "
-                      "are baked");
+  addSpecFlag(*command, options->spec, ". Lights of technique lightMap are baked");
   command->add_option("--light", options->light, "One of the baked lights, by its index")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--report", options->report, "Write the bake's report as JSON; - is standard output");

@@ -13,7 +13,7 @@ namespace gnomon::cli {
 namespace {
 
 /// Options whose value - is standard input.
-constexpr std::array<std::string_view, 6> kReaders{"scene", "scenes", "spec", "--spec", "--key-file", "request"};
+constexpr std::array<std::string_view, 5> kReaders{"scene", "scenes", "--spec", "request", "--key-file"};
 
 void refuseSharedInput(const CLI::App& command) {
   std::ptrdiff_t readers = 0;

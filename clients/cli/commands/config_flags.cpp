@@ -162,6 +162,7 @@ std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::strin
   tellPlacesOf(*places);
   if (!order.show) return std::nullopt;
   for (CLI::Option* option : command.get_options()) option->required(false);
+  command.parse_complete_callback(nullptr); // asks for what is missing, too
   command.final_callback([&] {
     std::cout << inForce(command, *typed, *config, *places) << std::flush;
     throw CLI::Success();

@@ -78,7 +78,8 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
   if (options.where.server.empty()) return evaluateHere(*bundle, *evaluation, options.where.backend, progress);
   const auto remote = remoteOf(options.where);
   if (!remote) return remote.problems();
-  return evaluateThere(*remote, *bundle, request, progress);
+  std::string id;
+  return evaluateThere(*remote, *bundle, id, request, progress);
 }
 
 Status writeText(const std::string& path, const std::string& text) {
@@ -117,7 +118,7 @@ Subcommand addEvaluateCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("evaluate", "Measure speed and error of shadows, compared with exact ones by ray tracing");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
-  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addSpecFlag(*command, options->spec);
   auto* variants = command->add_option(
       "--variant", options->variants, "One variant: what it changes in the request, as a JSON merge patch. Repeatable");
   variants->type_name("JSON")->take_all()->group("Evaluation");

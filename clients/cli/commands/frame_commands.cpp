@@ -8,6 +8,7 @@
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
+#include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/render/reference.h"
 #include "clients/cli/render/rendering.h"
@@ -89,6 +90,10 @@ class SceneRun {
 
  private:
   Status open(const std::string& scene, const FrameSpec& spec) {
+    if (maker_.isOnServer() && isSceneId(scene)) {
+      maker_.openStored(scene);
+      return Done{};
+    }
     progress_.stage("reading " + scene);
     auto bundle = readSceneFile(scene, spec.volumes);
     if (!bundle) return bundle.problems();
@@ -184,9 +189,10 @@ Subcommand addRenderCommand(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   auto* command = app.add_subcommand("render", "Render a scene to a picture, in this process or on a server");
   command
-      ->add_option("scenes", options->scenes,
-                   "A .glb or .gltf file, or several; - is standard input. Each is loaded once, and drawn by each "
-                   "camera")
+      ->add_option(
+          "scenes", options->scenes,
+          "A .glb or .gltf file, or several; - is standard input. With --server also the id of a scene that is "
+          "there. Each is loaded once, and drawn by each camera")
       ->required();
   auto* output =
       command
@@ -208,7 +214,7 @@ Subcommand addRenderCommand(CLI::App& app) {
           },
           "The picture's format, where its name tells none: on standard output")
       ->type_name("NAME");
-  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addSpecFlag(*command, options->spec);
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
   auto* reference = command->add_flag(
       "--reference", options->reference,
@@ -228,7 +234,8 @@ Subcommand addPlanCommand(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
   auto* command = app.add_subcommand("plan", "Print what a frame's shadows would be, without rendering it");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
-  command->add_option("spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addSpecFlag(*command, options->spec);
+  addSpecArgument(*command, options->spec);
   addPictureFlags(*command, options->arguments);
   addWhereFlags(*command, options->where, options->arguments);
   return {[command] { return command->parsed(); }, [options] { return runPlan(*options); }};

@@ -1,18 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <optional>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
+#include "clients/cli/files/new_file.h"
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/terminal/messages.h"
+#include "protocol/base/bytes.h"
 #include "protocol/job/job_json.h"
 #include "protocol/job/job_rows.h"
 
@@ -99,29 +99,32 @@ int waitForJob(const JobsOptions& options, const Remote& remote, ProgressLine& p
 
 /// The ZIP as it comes, under its name once it is whole.
 int fetchJob(const JobsOptions& options, const Remote& remote, ProgressLine& progress) {
+  const auto fail = [&](const Problems& problems) {
+    progress.finish();
+    return printProblems(problems);
+  };
+  std::optional<NewFile> file;
+  Status written = Done{};
+  const auto begin = [&] {
+    auto made = NewFile::create(options.output);
+    if (made) file.emplace(*std::move(made));
+    if (!made) written = made.problems();
+  };
+  begin();
+  if (!written) return fail(written.problems());
   progress.stage("fetching the frames");
-  const std::string part = options.output + ".part";
-  std::ofstream file(part, std::ios::binary);
   HttpCall call;
   call.path = pathOf(options) + "/result";
   call.headers = {{"Accept", "application/zip"}};
   call.onReceived = [&](std::string_view bytes) {
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (written) written = file->write(asBytes(bytes));
   };
+  call.onRestart = begin;
   const auto reply = callPatiently(remote, call, progress);
-  file.close();
-  std::error_code error;
-  const auto fail = [&](const Problems& problems) {
-    progress.finish();
-    std::filesystem::remove(part, error);
-    return printProblems(problems);
-  };
   if (!reply) return fail(reply.problems());
   if (reply->status != 200) return fail(problemsOf(remote.url, *reply));
-  if (file) std::filesystem::rename(part, options.output, error);
-  if (!file || error) {
-    return fail({{ProblemCode::unavailable, "--output", "The file can't be written.", "", options.output}});
-  }
+  if (!written) return fail(written.problems());
+  if (auto finished = file->finish(); !finished) return fail(finished.problems());
   const auto job = jobFrom(remote, pathOf(options), progress);
   progress.finish();
   if (!job) return printProblems(job.problems());

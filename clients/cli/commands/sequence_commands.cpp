@@ -31,10 +31,9 @@ constexpr const char* kVideoSuffix = ".webm";
 
 struct SequenceOptions {
   std::string scene;
-  std::string request; ///< a SequenceRequest, "-" = standard input
-  std::string spec;    ///< of a turntable; empty = none
-  int frames = 36;     ///< of a turntable
-  std::string output;  ///< with {frame}, or a video
+  std::string spec;   ///< a file, "-" = standard input, empty = none; of a sequence a SequenceRequest
+  int frames = 36;    ///< of a turntable
+  std::string output; ///< with {frame}, or a video
   std::optional<double> framesPerSecond;
   std::optional<int> videoQuality;
   bool isAsync = false;
@@ -143,7 +142,7 @@ void addVideoFields(const SequenceOptions& options, Json& request) {
 
 int runSequence(SequenceOptions options) {
   options.arguments.format = formatOf(options.output);
-  const auto text = specText(options.request);
+  const auto text = specText(options.spec);
   if (!text) return printProblems(text.problems());
   Json request = Json::parse(*text, nullptr, false);
   // What is no object is told by the decoder, with its place.
@@ -285,12 +284,9 @@ Subcommand addSequenceCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("sequence", "Render the frames of a sequence: paths, moving nodes, a day of the sun");
   command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
-  command
-      ->add_option(
-          "request", options->request,
-          "A sequence as JSON, as POST /v1/scenes/{id}/sequences takes it; - is standard input. Flags override "
-          "fields of its spec")
-      ->required();
+  addSpecFlag(*command, options->spec,
+              ". Here it is a sequence, as POST /v1/scenes/{id}/sequences takes it, and the fields are its spec's");
+  addSpecArgument(*command, options->spec);
   addFrameOutput(*command, *options);
   command->get_option("--output")->required(false);
   command
@@ -300,6 +296,7 @@ Subcommand addSequenceCommand(CLI::App& app) {
       ->excludes("--output")
       ->excludes("--report");
   command->parse_complete_callback([options] {
+    if (options->spec.empty()) throw CLI::RequiredError("--spec");
     if (options->output.empty() && !options->isAsync) throw CLI::RequiredError("--output");
   });
   return {[command] { return command->parsed(); }, [options] { return runSequence(*options); }};
@@ -312,7 +309,7 @@ Subcommand addTurntableCommand(CLI::App& app) {
   command->add_option("--frames", options->frames, "How many pictures one turn has")
       ->check(CLI::Range(2, static_cast<int>(kLimits.maxSequenceFrames)))
       ->capture_default_str();
-  command->add_option("--spec", options->spec, "A request as JSON; - is standard input. Flags override its fields");
+  addSpecFlag(*command, options->spec);
   addFrameOutput(*command, *options);
   return {[command] { return command->parsed(); }, [options] { return runTurntable(*options); }};
 }

@@ -64,6 +64,15 @@ std::optional<std::pair<std::string, std::string>> headerOf(const std::string& t
 
 } // namespace
 
+void addSpecFlag(CLI::App& command, std::string& file, const std::string& more) {
+  command.add_option("--spec", file, "A request as JSON; - is standard input. Flags override its fields" + more)
+      ->type_name("FILE");
+}
+
+void addSpecArgument(CLI::App& command, std::string& file) {
+  command.add_option("request", file, "The same as --spec")->excludes("--spec");
+}
+
 void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras) {
   const auto refuse = [](const char* flag, const std::string& need) { throw CLI::ValidationError(flag, need); };
   command.add_option("--width", arguments.width, "Width of the picture in pixels")->group("Picture");

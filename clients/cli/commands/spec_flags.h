@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-/// The flags that `render` and `plan` share. What they fill in outlives the command.
+/// The flags that `render`, `plan` and others share. What they fill in outlives the command.
 namespace gnomon::cli {
 
 /// Where the work is done.
@@ -25,6 +25,12 @@ struct WhereOptions {
   int patienceSeconds = 600;
   BackendOptions backend;
 };
+
+/// --spec: the file of a request. `more`: what there is to say of this command's requests.
+void addSpecFlag(CLI::App& command, std::string& file, const std::string& more = "");
+
+/// The same file by its place behind the scene, as it was given before these commands had --spec.
+void addSpecArgument(CLI::App& command, std::string& file);
 
 /// `cameras`: where --camera may be given several times.
 void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras = nullptr);

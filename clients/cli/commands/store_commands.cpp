@@ -54,8 +54,8 @@ Result<std::string> uploadFile(const Remote& remote, const std::string& file, Pr
 
 Result<std::string> removeScene(const Remote& remote, const std::string& id, ProgressLine& progress) {
   progress.stage("removing " + id);
-  const bool isId = id.size() == 64 && id.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (!isId) return Problem{ProblemCode::invalidValue, "ID", "This is no scene's id.", "64 hexadecimal digits", id};
+  if (!isSceneId(id))
+    return Problem{ProblemCode::invalidValue, "ID", "This is no scene's id.", "64 hexadecimal digits", id};
   HttpCall call;
   call.method = "DELETE";
   call.path = "/v1/scenes/" + id;

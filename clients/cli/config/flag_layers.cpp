@@ -11,7 +11,7 @@ namespace gnomon::cli {
 namespace {
 
 constexpr std::array<std::string_view, 4> kGroups{"Messages", "Picture", "Server", "Where"};
-constexpr std::array<std::string_view, 3> kRequests{"--spec", "spec", "request"};
+constexpr std::array<std::string_view, 2> kRequests{"--spec", "request"};
 
 /// A flag, and the value that a layer gives it.
 struct FlagSetting {

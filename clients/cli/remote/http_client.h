@@ -22,6 +22,8 @@ struct HttpCall {
   std::function<void(double)> onSent; ///< told the share of the body that is on its way, 0..1
   /// Of a GET or POST: given each piece of the body of a 200 as it comes; the reply is then without it.
   std::function<void(std::string_view)> onReceived;
+  /// Makes what was received void before a reply that was cut off is asked for again; null = it is not.
+  std::function<void()> onRestart;
 };
 
 struct HttpReply {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "protocol/base/bytes.h"
 
@@ -65,6 +66,10 @@ std::string modelId(const Bytes& model) {
   return hash.hex();
 }
 
+bool isSceneId(std::string_view text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 std::string textAt(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
@@ -101,10 +106,20 @@ std::optional<std::chrono::seconds> pauseAfter(const Result<HttpReply>& reply, b
 
 Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, ProgressLine& progress) {
   const auto end = std::chrono::steady_clock::now() + remote.patience;
+  bool hasBegun = false;
+  HttpCall watched = call;
+  if (call.onReceived) {
+    watched.onReceived = [&](std::string_view bytes) {
+      hasBegun = true;
+      call.onReceived(bytes);
+    };
+  }
   while (true) {
-    auto reply = callServer(remote, call);
+    auto reply = callServer(remote, watched);
     const auto pause = pauseAfter(reply, *remote.wasThere);
     if (!pause || std::chrono::steady_clock::now() + *pause > end) return reply;
+    if (hasBegun && !call.onRestart) return reply;
+    if (std::exchange(hasBegun, false)) call.onRestart();
     progress.stage(reply ? "waiting: the server is busy" : "waiting for the server");
     std::this_thread::sleep_for(*pause);
   }
@@ -150,7 +165,7 @@ Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std
     }
     progress.stage(stage);
     auto reply = callPatiently(remote, callOf(id), progress);
-    if (!reply || reply->status != 404 || uploads == kMostUploads) return reply;
+    if (!reply || reply->status != 404 || bundle.model.empty() || uploads == kMostUploads) return reply;
     id.clear();
   }
 }

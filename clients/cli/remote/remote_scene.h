@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/terminal/messages.h"
@@ -25,6 +26,9 @@ UploadBody uploadBody(const SceneBundle& bundle);
 /// The id that the server gives to a model without files: the SHA-256 of its bytes in hexadecimal.
 std::string modelId(const Bytes& model);
 
+/// Whether this is what a server calls a scene: 64 hexadecimal digits.
+bool isSceneId(std::string_view text);
+
 /// What every call about a scene on a server begins with.
 
 /// The text at a key of a JSON object; empty where there is none.
@@ -44,7 +48,8 @@ Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, Prog
 Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress);
 
 /// A call about a scene: `callOf` makes it from the scene's id. `id` may be empty, or known from an earlier call; it is
-/// kept for the next. A server that has dropped the scene meanwhile is given it again.
+/// kept for the next. A server that has dropped the scene meanwhile is given it again, unless the bundle has no model:
+/// of such a scene nothing but its id is known here.
 Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id,
                             const std::function<HttpCall(const std::string& id)>& callOf, const std::string& stage,
                             ProgressLine& progress);

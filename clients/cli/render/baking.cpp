@@ -34,7 +34,6 @@ Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, s
   EventReader reader;
   std::optional<ServerEvent> last;
   const auto callOf = [&](const std::string& scene) {
-    reader = {};
     HttpCall call;
     call.method = "POST";
     call.path = "/v1/scenes/" + scene + "/bakes";
@@ -47,6 +46,7 @@ Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, s
         if (event.name == "result" || event.name == "problem") last = std::move(event);
       }
     };
+    call.onRestart = [&] { reader = {}; };
     return call;
   };
   const auto reply = callAbout(remote, bundle, id, callOf, "baking on the server", progress);

@@ -9,10 +9,15 @@
 namespace gnomon::cli {
 
 Status FrameMaker::open(SceneBundle bundle, ProgressLine& progress) {
-  if (std::holds_alternative<BackendOptions>(where_)) return load(bundle, progress);
+  if (!isOnServer()) return load(bundle, progress);
   bundle_ = std::move(bundle);
   id_.clear();
   return Done{};
+}
+
+void FrameMaker::openStored(std::string id) {
+  bundle_ = {};
+  id_ = std::move(id);
 }
 
 Status FrameMaker::load(const SceneBundle& bundle, ProgressLine& progress) {
@@ -40,7 +45,9 @@ Result<Rendered> FrameMaker::draw(const FrameSpec& spec, ProgressLine& progress)
 }
 
 Result<EvaluationReport> FrameMaker::measure(const std::string& requestJson, ProgressLine& progress) {
-  if (const auto* remote = std::get_if<Remote>(&where_)) return evaluateThere(*remote, bundle_, requestJson, progress);
+  if (const auto* remote = std::get_if<Remote>(&where_)) {
+    return evaluateThere(*remote, bundle_, id_, requestJson, progress);
+  }
   const auto evaluation = decodeEvaluation(requestJson);
   if (!evaluation) return evaluation.problems();
   return evaluateHere(*renderer_, scene_, *evaluation, progress);

@@ -19,15 +19,20 @@ class FrameMaker {
   /// The scene of the frames that follow. In this process it is loaded here; a server is asked with the first frame.
   Status open(SceneBundle bundle, ProgressLine& progress);
 
-  /// REQUIRES: `open` went well.
+  /// The same for a scene that the server has, by its id. REQUIRES: a server.
+  void openStored(std::string id);
+
+  bool isOnServer() const { return std::holds_alternative<Remote>(where_); }
+
+  /// REQUIRES: that a scene is open.
   Result<Rendered> draw(const FrameSpec& spec, ProgressLine& progress);
 
   /// The errors of a frame's shadows and its speed; `requestJson`: an EvaluationRequest.
-  /// REQUIRES: `open` went well.
+  /// REQUIRES: that a scene is open.
   Result<EvaluationReport> measure(const std::string& requestJson, ProgressLine& progress);
 
   /// Every frame of a sequence; `requestJson` is the request that it was decoded from. Gives its report as JSON.
-  /// REQUIRES: `open` went well.
+  /// REQUIRES: that a scene is open.
   Result<std::string> drawAll(const Sequence& sequence, const std::string& requestJson, const TakeFrame& take,
                               ProgressLine& progress);
 
@@ -44,8 +49,8 @@ class FrameMaker {
   ScenePtr scene_;
   std::optional<double> loadMilliseconds_; ///< until a frame's report has told it
   // On a server
-  SceneBundle bundle_;
-  std::string id_; ///< empty = not asked yet
+  SceneBundle bundle_; ///< without a model where only the id is known
+  std::string id_;     ///< empty = not asked yet
 };
 
 } // namespace gnomon::cli

@@ -78,12 +78,11 @@ void showStep(const std::string& data, ProgressLine& progress) {
 
 } // namespace
 
-Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, const std::string& requestJson,
-                                       ProgressLine& progress) {
+Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
+                                       const std::string& requestJson, ProgressLine& progress) {
   EventReader reader;
   std::optional<ServerEvent> last;
   const auto callOf = [&](const std::string& scene) {
-    reader = {};
     HttpCall call;
     call.method = "POST";
     call.path = "/v1/scenes/" + scene + "/evaluations";
@@ -96,9 +95,9 @@ Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& 
         if (event.name == "result" || event.name == "problem") last = std::move(event);
       }
     };
+    call.onRestart = [&] { reader = {}; };
     return call;
   };
-  std::string id;
   const auto reply = callAbout(remote, bundle, id, callOf, "measuring on the server", progress);
   if (!reply) return reply.problems();
   if (reply->status != 200) return problemsOf(remote.url, *reply);

@@ -51,8 +51,8 @@ Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, c
 Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress);
 
-/// Measures on the server, listening to its events; `requestJson`: an EvaluationRequest.
-Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, const std::string& requestJson,
-                                       ProgressLine& progress);
+/// Measures on the server, listening to its events; `id` as callAbout takes it; `requestJson`: an EvaluationRequest.
+Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
+                                       const std::string& requestJson, ProgressLine& progress);
 
 } // namespace gnomon::cli

@@ -111,7 +111,6 @@ Result<std::string> sequenceThere(const Remote& remote, const SceneBundle& bundl
     showFrame(frame->index, *first, frame->of, progress);
   };
   const auto callOf = [&](const std::string& scene) {
-    reader = {};
     HttpCall call;
     call.method = "POST";
     call.path = "/v1/scenes/" + scene + "/sequences";
@@ -121,6 +120,7 @@ Result<std::string> sequenceThere(const Remote& remote, const SceneBundle& bundl
     call.onReceived = [&](std::string_view bytes) {
       for (ServerEvent& event : reader.read(bytes)) hear(event);
     };
+    call.onRestart = [&] { reader = {}; };
     return call;
   };
   const auto reply = callAbout(remote, bundle, id, callOf, "rendering on the server", progress);

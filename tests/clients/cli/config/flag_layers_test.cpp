@@ -18,13 +18,14 @@ const std::vector<std::string> kFlagKeys{"size", "width", "set",   "server",  "c
 /// A command with a flag of every kind.
 struct Command {
   CLI::App app;
-  std::string size, server, caFile, spec;
+  std::string size, server, caFile, spec, request;
   int width = 0, depth = 0, patience = 0;
   std::vector<std::string> sets, views;
   bool gpu = false;
 
   Command() {
     app.add_option("--spec", spec);
+    app.add_option("request", request);
     auto* widthOption = app.add_option("--width", width)->group("Picture");
     app.add_option("--size", size)->excludes(widthOption)->group("Picture");
     app.add_option("--set", sets)->take_all()->group("Picture");
@@ -103,10 +104,12 @@ TEST(FlagLayers, AnEmptyValueHidesThatOfAWeakerLayer) {
 
 TEST(FlagLayers, ARequestMeansTheSameEverywhere) {
   const std::string config = "size = '1x1'\nserver = 's'\n[preset.p]\nset = ['b=2']\n";
-  const auto asked = run(config, {"--spec", "a.json"}, {"p"});
-  EXPECT_EQ(asked.command->size, "");
-  EXPECT_EQ(asked.command->server, "s");
-  EXPECT_THAT(asked.command->sets, ElementsAre("b=2"));
+  for (const auto& typed : std::vector<std::vector<std::string>>{{"--spec", "a.json"}, {"a.json"}}) {
+    const auto asked = run(config, typed, {"p"});
+    EXPECT_EQ(asked.command->size, "");
+    EXPECT_EQ(asked.command->server, "s");
+    EXPECT_THAT(asked.command->sets, ElementsAre("b=2"));
+  }
 }
 
 TEST(FlagLayers, TheEnvironmentGoesBeforeDefaultsAndAfterPresets) {

@@ -18,6 +18,16 @@ TEST(UploadBody, AModelAloneIsItsBytesAndItsIdIsTheirHash) {
   EXPECT_EQ(modelId(bytesOf("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"); // FIPS 180-2
 }
 
+TEST(SceneId, IsTheHashOfAModel) {
+  const std::string id = modelId(bytesOf("abc"));
+  EXPECT_TRUE(isSceneId(id));
+  std::string inCapitals = id;
+  inCapitals[0] = 'B';
+  for (const std::string& text : {id.substr(1), id + "0", id.substr(1) + "/", inCapitals, std::string("scene.glb")}) {
+    EXPECT_FALSE(isSceneId(text)) << text;
+  }
+}
+
 TEST(UploadBody, FilesAreNamedParts) {
   const UploadBody upload = uploadBody({bytesOf("{}"), {{"textures/a \"b\".png", bytesOf("image")}}});
   EXPECT_EQ(upload.contentType, "multipart/form-data; boundary=gnomon-part-boundary");
