@@ -116,7 +116,7 @@ Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, Prog
   }
   while (true) {
     auto reply = callServer(remote, watched);
-    const auto pause = pauseAfter(reply, *remote.wasThere);
+    const auto pause = pauseAfter(reply, *remote.wasThere || hasBegun);
     if (!pause || std::chrono::steady_clock::now() + *pause > end) return reply;
     if (hasBegun && !call.onRestart) return reply;
     if (std::exchange(hasBegun, false)) call.onRestart();
