@@ -51,7 +51,7 @@ def height_field(side):
 class UploadLatency(ServerTest):
     def seconds_of_a_frame(self, scene, number):
         # Each in another light, so that no shadow and no picture is one that was kept.
-        spec = {**SPEC, "lights": [{"sun": {"azimuthDegrees": 100 + 0.37 * number, "elevationDegrees": 40}}]}
+        spec = {**SPEC, "lights": [{"sun": {"azimuthDegrees": (100 + 0.37 * number) % 360, "elevationDegrees": 40}}]}
         begin = time.monotonic()
         reply = self.server.frame(scene, spec, "image/png")
         self.assertEqual(reply.status, 200, reply.body[:500])
