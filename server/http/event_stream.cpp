@@ -13,7 +13,10 @@ void EventStream::put(std::string_view name, std::string_view data) {
   constexpr std::string_view kProgress = "progress";
   {
     const std::lock_guard lock(mutex_);
-    if (bytes_ > kMostBytes) return; // it is given up
+    if (isGivenUp_ || bytes_ > kMostBytes) {
+      isGivenUp_ = true;
+      return;
+    }
     const bool replaces = waiting_.size() >= kMostEvents && name == kProgress && waiting_.back().name == kProgress;
     if (replaces) {
       bytes_ -= waiting_.back().text.size();
@@ -40,7 +43,7 @@ bool EventStream::sendTo(const BodySink& sink, std::chrono::milliseconds pause) 
     {
       std::unique_lock lock(mutex_);
       changed_.wait_for(lock, pause, [this] { return ended_ || !waiting_.empty(); });
-      if (bytes_ > kMostBytes) return false;
+      if (isGivenUp_) return false;
       for (const Event& event : std::exchange(waiting_, {})) text += event.text;
       bytes_ = 0;
       last = ended_;

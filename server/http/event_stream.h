@@ -16,8 +16,8 @@ namespace gnomon {
 std::string eventText(std::string_view name, std::string_view data);
 
 /// Events between the threads that make them and the one that sends them. Those that wait for a slow client are
-/// bounded: the newest `progress` takes the place of the one before it once kMostEvents wait, and a client that leaves
-/// kMostBytes unread is given up.
+/// bounded: the newest `progress` takes the place of the one before it once kMostEvents wait, and a client that has
+/// left kMostBytes unread when more comes is given up.
 class EventStream {
  public:
   static constexpr std::size_t kMostEvents = 64;
@@ -40,6 +40,7 @@ class EventStream {
   std::condition_variable changed_;
   std::deque<Event> waiting_;
   std::size_t bytes_ = 0; ///< of what waits
+  bool isGivenUp_ = false;
   bool ended_ = false;
 };
 

@@ -92,10 +92,16 @@ TEST(EventStream, WhoReadsNothingIsGivenUp) {
   EventStream events;
   for (std::size_t i = 0; i < EventStream::kMostBytes / row.size(); ++i) events.put("row", row);
   events.put("row", row);
-  events.put("result", row);
   int sent = 0;
   EXPECT_FALSE(events.sendTo([&](std::string_view) { return ++sent > 0; }, 1h));
   EXPECT_EQ(sent, 0);
+}
+
+TEST(EventStream, OneEventMayBeLarger) {
+  const std::string result(EventStream::kMostBytes + 1, 'x');
+  EventStream events;
+  events.put("result", result);
+  EXPECT_EQ(readAtLast(events), eventText("result", result));
 }
 
 } // namespace
