@@ -181,7 +181,6 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
     broken.push_back(
         {invalid(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
   };
-
   const auto forbidCones = [&] { // what is not asked for is echoed with its value, and may come back
     forbid(light.innerConeDegrees != Light().innerConeDegrees, "innerConeDegrees");
     forbid(light.outerConeDegrees != Light().outerConeDegrees, "outerConeDegrees");

@@ -5,8 +5,6 @@
 #include <tuple>
 
 #include "renderer/scene/animation/motion.h"
-#include "renderer/scene/animation/node_places.h"
-#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/memory.h"
 #include "renderer/scene/posing/deformation.h"

@@ -1,7 +1,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "protocol/json/json_codec.h"
 #include "protocol/spec/validate.h"
 #include "server/frames/frame_tag.h"
 #include "server/handlers/drake_form.h"
