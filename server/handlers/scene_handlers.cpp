@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "protocol/base/scene_id.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "server/handlers/handlers.h"

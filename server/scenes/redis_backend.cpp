@@ -4,6 +4,7 @@
 #include <charconv>
 #include <functional>
 
+#include "protocol/base/scene_id.h"
 #include "server/scenes/redis_scripts.h"
 #include "server/scenes/redis_upload.h"
 #include "server/system/log.h"

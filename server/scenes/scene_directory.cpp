@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "protocol/base/bytes.h"
+#include "protocol/base/scene_id.h"
 #include "server/scenes/file_use.h"
 #include "server/scenes/folder_names.h"
 #include "server/scenes/scene_backend.h"

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/scene_id.h"
 #include "protocol/json/json_codec.h"
 #include "server/scenes/directory_backend.h"
 #include "server/scenes/memory_backend.h"

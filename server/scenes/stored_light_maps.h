@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/base/scene_id.h"
 #include "server/system/file_descriptor.h"
 #include "server/wire/bundle.h"
 

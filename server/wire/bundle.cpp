@@ -86,11 +86,6 @@ Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits) {
   return bundle;
 }
 
-bool isSceneId(std::string_view text) {
-  return text.size() == 64 &&
-         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
-}
-
 bool isBundleFileName(std::string_view name) {
   if (name.empty() || name.size() > 255 || name.find_first_of("\\:") != std::string_view::npos ||
       std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) {

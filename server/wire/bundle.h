@@ -23,9 +23,6 @@ void writeBundle(const SceneBundle& bundle, const std::function<void(std::span<c
 /// The bundle that writeBundle wrote.
 Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits = kLimits);
 
-/// True for 64 lower-case hexadecimal digits.
-bool isSceneId(std::string_view text);
-
 /// Whether a file of a bundle may have this name: relative, no empty, "." or ".." segment, no backslash, no scheme, no
 /// control characters, 1..255 bytes. No part of it ever reaches the file system; other names are refused as misleading.
 bool isBundleFileName(std::string_view name);

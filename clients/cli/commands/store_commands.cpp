@@ -9,6 +9,7 @@
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/terminal/messages.h"
+#include "protocol/base/scene_id.h"
 
 /// The scenes that a server keeps.
 namespace gnomon::cli {

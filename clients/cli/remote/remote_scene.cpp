@@ -66,10 +66,6 @@ std::string modelId(const Bytes& model) {
   return hash.hex();
 }
 
-bool isSceneId(std::string_view text) {
-  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 std::string textAt(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";

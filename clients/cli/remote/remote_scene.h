@@ -26,9 +26,6 @@ UploadBody uploadBody(const SceneBundle& bundle);
 /// The id that the server gives to a model without files: the SHA-256 of its bytes in hexadecimal.
 std::string modelId(const Bytes& model);
 
-/// Whether this is what a server calls a scene: 64 hexadecimal digits.
-bool isSceneId(std::string_view text);
-
 /// What every call about a scene on a server begins with.
 
 /// The text at a key of a JSON object; empty where there is none.

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 #include <set>
 
+#include "protocol/base/scene_id.h"
 #include "server/scenes/upload.h"
 
 namespace gnomon {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
+#include "protocol/base/scene_id.h"
+
 namespace gnomon::cli {
 namespace {
 
