@@ -1,8 +1,10 @@
 #include "server/dispatch/worker_process.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <spawn.h>
 #include <string_view>
@@ -11,19 +13,23 @@
 #include <unistd.h>
 #include <vector>
 
+#include "server/system/heaps.h"
+
 namespace gnomon {
 namespace {
 
 constexpr int kChannelOfWorker = 3; ///< where `gnomon worker` looks for it
 
-/// This process's, but for the addresses of the store and of jobs, which may hold a password.
-std::vector<char*> workerVariables() {
-  std::vector<char*> variables;
+/// This process's, but for the addresses of the store and of jobs, which may hold a password, and with huge pages.
+std::vector<std::string> workerVariables() {
+  const char* tunables = std::getenv("GLIBC_TUNABLES");
+  std::vector<std::string> variables{hugePagesVariable(tunables == nullptr ? "" : tunables)};
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable;
-    if (!text.starts_with("GNOMON_STORE=") && !text.starts_with("GNOMON_JOBS=")) variables.push_back(*variable);
+    const bool leftOut = text.starts_with("GNOMON_STORE=") || text.starts_with("GNOMON_JOBS=") ||
+                         text.starts_with("GLIBC_TUNABLES=");
+    if (!leftOut) variables.emplace_back(text);
   }
-  variables.push_back(nullptr);
   return variables;
 }
 
@@ -53,8 +59,10 @@ class Spawning {
     std::string name = "gnomon", command = "worker";
     const std::array<char*, 3> arguments{name.data(), command.data(), nullptr};
     pid_t pid = 0;
-    const std::vector<char*> variables = workerVariables();
-    const int error = ::posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments.data(), variables.data());
+    std::vector<std::string> variables = workerVariables();
+    std::vector<char*> pointers(variables.size() + 1);
+    std::transform(variables.begin(), variables.end(), pointers.begin(), [](std::string& text) { return text.data(); });
+    const int error = ::posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments.data(), pointers.data());
     errno = error;
     return error == 0 ? std::optional(pid) : std::nullopt;
   }

@@ -14,4 +14,11 @@ void boundHeaps(int heaps) {
   unlessSet("MALLOC_TRIM_THRESHOLD_", M_TRIM_THRESHOLD, 16 << 20);
 }
 
+std::string hugePagesVariable(std::string_view own) {
+  constexpr std::string_view kTunable = "glibc.malloc.hugetlb";
+  std::string variable = "GLIBC_TUNABLES=" + std::string(own);
+  if (own.find(kTunable) != std::string_view::npos) return variable;
+  return variable + (own.empty() ? "" : ":") + std::string(kTunable) + "=1";
+}
+
 } // namespace gnomon

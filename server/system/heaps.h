@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 namespace gnomon {
 
 /// Large blocks come from the system and go back to it at once. A heap keeps what a frame takes free at its end: pages
@@ -7,5 +10,11 @@ namespace gnomon {
 /// that what all of them keep is bounded. By default (mallopt(3)) the allocator makes eight for each core and
 /// raises the sizes as it sees larger blocks, and a server never returns memory. Its own variables have the last word.
 void boundHeaps(int heaps);
+
+/// GLIBC_TUNABLES, as "NAME=VALUE", for a process whose heaps ask for huge pages: what is touched for the first time then
+/// costs one fault for 2 MiB instead of 512, which in some virtual machines is half of a first frame, for some MiB more
+/// memory. The allocator reads this only as a process starts. `own`: the variable's value so far, which has the last
+/// word. A system that is set to never use huge pages passes over it.
+std::string hugePagesVariable(std::string_view own);
 
 } // namespace gnomon

@@ -108,6 +108,20 @@ class KilledWorkers(unittest.TestCase):
                 self.assertLess(time.monotonic(), end)
                 time.sleep(0.05)
 
+    def test_their_heaps_ask_for_huge_pages_beside_what_else_is_set(self):
+        for own, told in ((None, "glibc.malloc.hugetlb=1"),
+                          ("glibc.malloc.perturb=7", "glibc.malloc.perturb=7:glibc.malloc.hugetlb=1"),
+                          ("glibc.malloc.hugetlb=0", "glibc.malloc.hugetlb=0")):
+            with Server(variables={} if own is None else {"GLIBC_TUNABLES": own}) as server:
+                scene = server.upload("box_on_plane")
+                self.assertEqual(server.frame(scene, SMALL).status, 200)
+                for pid in workers_of(server):
+                    variables = "\0" + Path(f"/proc/{pid}/environ").read_text()
+                    # The loader puts an end after each tunable.
+                    self.assertIn(f"\0GLIBC_TUNABLES={told}\0".replace(":", "\0"), variables)
+                    self.assertEqual(variables.count("\0GLIBC_TUNABLES="), 1)
+                    self.assertEqual(variables.count("glibc.malloc.hugetlb"), 1)
+
     def test_a_ctrl_c_meets_the_server_alone(self):
         with Server() as server:
             scene = server.upload("box_on_plane")
