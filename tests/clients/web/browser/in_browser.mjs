@@ -9,6 +9,7 @@ import { isSharp, openPage, startBrowser, startServer } from './setup.mjs';
 const [gnomon, demo, executable] = process.argv.slice(2);
 const slowness = Number(process.env.GNOMON_SLOWNESS ?? 1);
 const kFirstPaintMs = 300 * slowness;
+const kTimesALine = 3; // where the browser alone is slow: of its first paint of a line of text
 const kOrbitMs = 2000;
 const kLeastPictures = 6; // a machine that does nothing else shows twenty and more
 
@@ -31,18 +32,35 @@ const change = async (act) => {
   await open.page.waitForFunction((src) => document.querySelector('#picture').src !== src, before);
   await isSharp(open.page);
 };
+const firstPaint = (page) =>
+  page.evaluate(() => new Promise((resolve) => {
+    new PerformanceObserver((list) => list.getEntriesByName('first-contentful-paint').forEach((entry) => resolve(entry.startTime)))
+      .observe({ type: 'paint', buffered: true });
+  }));
+const firstPaintOfALine = async () => {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(`${server.origin}/livez`);
+  const paint = await firstPaint(page);
+  await context.close();
+  return paint;
+};
 const section = (title) => open.page.locator('details', { has: open.page.locator('summary h2', { hasText: new RegExp(`^${title}$`) }) });
 const unfold = (title) => section(title).evaluate((node) => (node.open = true));
 
 test('it is painted at once, small, and comes from this server alone', async () => {
   const paints = [];
+  const paintsOfALine = [];
   for (let i = 0; i < 3; i += 1) {
+    paintsOfALine.push(await firstPaintOfALine());
     const { page, close } = await openPage(browser, server.origin);
-    paints.push(await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0].startTime));
+    paints.push(await firstPaint(page));
     await close();
   }
-  console.log(`# first paint after ${Math.round(Math.min(...paints))} ms`);
-  assert.ok(Math.min(...paints) < kFirstPaintMs, `first paints after ${paints.map(Math.round)} ms`);
+  const latest = Math.max(kFirstPaintMs, kTimesALine * Math.min(...paintsOfALine));
+  const told = `first paints after ${paints.map(Math.round)} ms, of a line after ${paintsOfALine.map(Math.round)} ms`;
+  console.log(`# ${told}`);
+  assert.ok(Math.min(...paints) < latest, told);
   const own = open.fetched.filter(({ url }) => url.protocol === 'http:' && !url.pathname.startsWith('/v1/'));
   const bytes = own.reduce((sum, file) => sum + file.bytes, 0);
   assert.ok(bytes > 50_000 && bytes < 150_000, `${bytes} bytes`);
@@ -95,10 +113,10 @@ test('two settings are compared, and the handle moves by keys', async () => {
 test('the plan lies over the picture, and the atlas has names', async () => {
   const { page } = open;
   await page.click('#plan');
-  assert.ok((await page.locator('.plan-lines line').count()) > 20);
-  assert.ok((await page.locator('.plan-map polygon').count()) > 5);
+  await page.locator('.plan-lines line').nth(20).waitFor({ state: 'attached' });
+  await page.locator('.plan-map polygon').nth(5).waitFor();
   await page.click('#plan');
-  assert.equal(await page.locator('.plan-map').isVisible(), false);
+  await page.locator('.plan-map').waitFor({ state: 'hidden' });
   await change(() => page.selectOption('[aria-label="More views"]', 'atlas'));
   assert.match(await page.locator('.plan-tile').first().getAttribute('aria-label'), /Light 0, tile \d: \d+ × \d+ texels/);
   await change(() => page.keyboard.press('1'));
