@@ -9,7 +9,7 @@ import { isSharp, openPage, startBrowser, startServer } from './setup.mjs';
 const [gnomon, demo, executable] = process.argv.slice(2);
 const slowness = Number(process.env.GNOMON_SLOWNESS ?? 1);
 const kFirstPaintMs = 300 * slowness;
-const kTimesALine = 3; // where the browser alone is slow: of its first paint of a line of text
+const kTimesALine = 4; // where the browser alone is slow: of its first paint of a line of text
 const kOrbitMs = 2000;
 const kLeastPictures = 6; // a machine that does nothing else shows twenty and more
 
