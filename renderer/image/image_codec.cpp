@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "renderer/image/decoded_rows.h"
 #include "renderer/image/exr_encode.h"
 #include "renderer/image/exr_layout.h"
 #include "renderer/image/image_container.h"
@@ -39,6 +40,15 @@ Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
     return Problem{ProblemCode::tooLarge, "", "The image has too many pixels.", std::to_string(maxPixels) + " pixels",
                    actual};
   }
+  return Done{};
+}
+
+Status decodeInto(DecodedRows& rows, const CheckedImage& image) {
+  const auto decode = image.format == PictureFormat::png    ? decodePng
+                      : image.format == PictureFormat::jpeg ? decodeJpeg
+                                                            : decodeWebp;
+  const std::string message = decode(image.picture, rows);
+  if (!message.empty()) return failure(ProblemCode::malformed, "The image could not be decoded", message);
   return Done{};
 }
 
@@ -79,12 +89,14 @@ Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSi
 Result<Image> decodeImage(const CheckedImage& image) {
   const auto [width, height] = image.size;
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  const auto decode = image.format == PictureFormat::png    ? decodePng
-                      : image.format == PictureFormat::jpeg ? decodeJpeg
-                                                            : decodeWebp;
-  const std::string message = decode(image.picture, image.size, rgba.data());
-  if (!message.empty()) return failure(ProblemCode::malformed, "The image could not be decoded", message);
+  DecodedRows rows(image.size, rgba.data());
+  if (Status done = decodeInto(rows, image); !done) return std::move(done).problems();
   return Image{width, height, {"R", "G", "B", "A"}, std::move(rgba)};
+}
+
+Status decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take) {
+  DecodedRows rows(image.size, atOnce, take);
+  return decodeInto(rows, image);
 }
 
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {

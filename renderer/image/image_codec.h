@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,6 +51,14 @@ Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSi
 
 /// Decodes it to 8-bit RGBA.
 Result<Image> decodeImage(const CheckedImage& image);
+
+/// Takes complete rows, 8-bit RGBA: those from row `first` on, the rows before it having been taken. They are gone when
+/// it returns.
+using TakeRows = std::function<void(int first, std::span<const std::uint8_t> rgba)>;
+
+/// The same, `atOnce` rows at a time (a multiple of 16), at the end fewer; all at once where its file does not hold
+/// them in order: interlaced PNGs and WebPs. After a problem, the rows that were taken mean nothing.
+Status decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take);
 
 /// Both in turn.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);

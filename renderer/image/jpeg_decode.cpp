@@ -18,17 +18,16 @@ struct Codec : jpeg_decompress_struct {
   ~Codec() { jpeg_destroy_decompress(this); }
 };
 
-constexpr JDIMENSION kScanlinesAtOnce = 16; ///< read at a time
+constexpr JDIMENSION kScanlinesAtOnce = DecodedRows::kStep; ///< read at a time
 
 /// False with a message in `errors`.
-bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes essential, const ImageSize& size,
-              std::uint8_t* rgba) {
+bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes essential, DecodedRows& to) {
   if (setjmp(errors.leave) != 0) return false; // NOLINT(cert-err52-cpp): the library knows no other way
   jpeg_create_decompress(&codec);
   jpeg_mem_src(&codec, essential.data(), essential.size());
   jpeg_read_header(&codec, TRUE);
-  const auto width = static_cast<JDIMENSION>(size.width);
-  const auto height = static_cast<JDIMENSION>(size.height);
+  const auto width = static_cast<JDIMENSION>(to.size().width);
+  const auto height = static_cast<JDIMENSION>(to.size().height);
   if (codec.image_width != width || codec.image_height != height) {
     std::snprintf(errors.message.data(), errors.message.size(), "its header contradicts itself");
     return false;
@@ -38,9 +37,11 @@ bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes es
   while (codec.output_scanline < height) {
     stopIfAsked();
     std::array<JSAMPROW, kScanlinesAtOnce> rows{};
-    for (JDIMENSION i = 0; i < kScanlinesAtOnce; ++i)
-      rows[i] = rgba + std::size_t{4} * width * (codec.output_scanline + i);
-    jpeg_read_scanlines(&codec, rows.data(), std::min(kScanlinesAtOnce, height - codec.output_scanline));
+    const JDIMENSION first = codec.output_scanline; // a call may read fewer than it could
+    const JDIMENSION count = std::min(kScanlinesAtOnce - first % kScanlinesAtOnce, height - first);
+    for (JDIMENSION i = 0; i < count; ++i) rows[i] = to.at(static_cast<int>(first + i));
+    jpeg_read_scanlines(&codec, rows.data(), count);
+    to.complete(static_cast<int>(codec.output_scanline));
   }
   jpeg_finish_decompress(&codec);
   return true;
@@ -48,13 +49,13 @@ bool readInto(jpeg_decompress_struct& codec, JpegErrors& errors, EncodedBytes es
 
 } // namespace
 
-std::string decodeJpeg(EncodedBytes essential, const ImageSize& size, std::uint8_t* rgba) {
+std::string decodeJpeg(EncodedBytes essential, DecodedRows& to) {
   JpegErrors errors{};
   Codec codec{};
   codec.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leaveWithMessage;
   errors.base.emit_message = leaveAtWarning;
-  const bool done = readInto(codec, errors, essential, size, rgba);
+  const bool done = readInto(codec, errors, essential, to);
   return done ? std::string() : std::string(errors.message.data());
 }
 

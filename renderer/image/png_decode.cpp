@@ -114,44 +114,46 @@ constexpr std::array<Pass, 1> kWhole{{{0, 0, 1, 1}}};
 constexpr std::array<Pass, 7> kAdam7{
     {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
 
-constexpr std::size_t kRowsAtOnce = 16; ///< read before it is asked whether to stop
-
 constexpr std::size_t stepsIn(std::size_t size, std::size_t first, std::size_t step) {
   return size > first ? (size - first + step - 1) / step : 0;
 }
 
 } // namespace
 
-std::string decodePng(EncodedBytes essential, const ImageSize& size, std::uint8_t* rgba) {
+std::string decodePng(EncodedBytes essential, DecodedRows& to) {
   const auto chunks = chunksOf(essential);
   if (!chunks) return "a checksum is wrong";
   Contents contents;
   if (std::string wrong = read(*chunks, contents); !wrong.empty()) return wrong;
-  const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
+  const auto width = static_cast<std::size_t>(to.size().width);
+  const auto height = static_cast<std::size_t>(to.size().height);
   const std::size_t bits = contents.pixels.bits();
   const std::size_t pixelBytes = std::max<std::size_t>(bits / 8, 1);
   InflatedRows rows(contents.compressed);
   std::vector<std::uint8_t> line(4 * width);
+  if (contents.interlaced) to.all();
   const std::span<const Pass> passes = contents.interlaced ? std::span<const Pass>(kAdam7) : kWhole;
   for (const Pass& pass : passes) {
     const std::size_t columns = stepsIn(width, pass.firstX, pass.stepX);
     const std::size_t lines = columns > 0 ? stepsIn(height, pass.firstY, pass.stepY) : 0;
     rows.begin((columns * bits + 7) / 8, pixelBytes, lines);
     for (std::size_t i = 0; i < lines; ++i) {
-      if (i % kRowsAtOnce == 0) stopIfAsked();
+      if (i % DecodedRows::kStep == 0) stopIfAsked();
       const std::uint8_t* row = rows.next();
       if (row == nullptr) return rows.wrong();
-      std::uint8_t* to = rgba + 4 * width * (pass.firstY + i * pass.stepY);
+      std::uint8_t* place = to.at(static_cast<int>(pass.firstY + i * pass.stepY));
       if (pass.stepX == 1) {
-        expandRow(contents.pixels, row, columns, to);
+        expandRow(contents.pixels, row, columns, place);
+        if (!contents.interlaced) to.complete(static_cast<int>(i + 1));
         continue;
       }
       expandRow(contents.pixels, row, columns, line.data());
       for (std::size_t x = 0; x < columns; ++x) {
-        std::memcpy(to + 4 * (pass.firstX + x * pass.stepX), &line[4 * x], 4);
+        std::memcpy(place + 4 * (pass.firstX + x * pass.stepX), &line[4 * x], 4);
       }
     }
   }
+  if (contents.interlaced) to.complete(to.size().height);
   return {};
 }
 

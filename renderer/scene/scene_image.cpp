@@ -21,16 +21,14 @@ SceneImage::SceneImage(Image decoded)
       bytes_(std::get<std::vector<std::uint8_t>>(decoded.pixels).size()),
       decoded_(std::make_shared<const Image>(std::move(decoded))) {}
 
-SceneImage::Pixels SceneImage::decodedFrom(const CheckedImage& file) const {
-  auto image = decodeImage(file);
-  if (image) return std::make_shared<const Image>(*std::move(image));
-  return locatedImageProblems(std::move(image).problems(), pointer_);
-}
-
 const SceneImage::Pixels& SceneImage::decoded() const {
   std::call_once(once_, [this] {
     if (decoded_) return;
-    decoded_ = decodedFrom(*file_);
+    if (auto image = decodeImage(*file_)) {
+      decoded_ = std::make_shared<const Image>(*std::move(image));
+    } else {
+      decoded_ = locatedImageProblems(std::move(image).problems(), pointer_);
+    }
     const std::lock_guard lock(mutex_);
     file_.reset();
   });
@@ -58,14 +56,21 @@ std::shared_ptr<const AlphaPlane> SceneImage::alpha() const {
   return alpha;
 }
 
-Result<std::shared_ptr<const Image>> SceneImage::read() const {
+Status SceneImage::readRows(int atOnce, const TakeRows& take) const {
   std::shared_ptr<const CheckedImage> file;
   {
     const std::lock_guard lock(mutex_);
     file = file_;
   }
   try {
-    return file ? decodedFrom(*file) : decoded();
+    if (file) {
+      const Status done = decodeRows(*file, atOnce, take);
+      return done ? done : locatedImageProblems(done.problems(), pointer_);
+    }
+    const Pixels& kept = decoded();
+    if (!kept) return kept.problems();
+    take(0, std::get<std::vector<std::uint8_t>>((*kept)->pixels));
+    return Done{};
   } catch (const std::bad_alloc&) {
     return noMemory();
   }

@@ -37,13 +37,13 @@ class SceneImage {
   /// Their alpha: one plane for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
   std::shared_ptr<const AlphaPlane> alpha() const;
 
-  /// The same for a caller who needs them but once: those that are kept, or decoded and not kept.
-  Result<std::shared_ptr<const Image>> read() const;
+  /// The same for a caller who needs them but once, as decodeRows() gives them: decoded and not kept, or all at once of
+  /// those that are kept.
+  Status readRows(int atOnce, const TakeRows& take) const;
 
  private:
   using Pixels = Result<std::shared_ptr<const Image>>;
   const Pixels& decoded() const;
-  Pixels decodedFrom(const CheckedImage& file) const;
   Problem noMemory() const;
 
   ImageSize size_;

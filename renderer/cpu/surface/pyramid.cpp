@@ -1,177 +1,50 @@
 #include "renderer/cpu/surface/pyramid.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
-#include <span>
+#include <utility>
 
-#include "renderer/core/parallel.h"
-#include "renderer/core/srgb.h"
+#include "renderer/cpu/surface/texel_means.h"
 
 namespace gnomon::cpu {
-namespace {
-
-/// Bytes of a channel as numbers that can be averaged: 0 to 2^24; and back to the byte whose number is nearest by what
-/// it encodes.
-class ByteScale {
- public:
-  explicit ByteScale(bool srgb) {
-    const auto number = [&](double byte) { return (srgb ? linearOf(byte / 255.0) : byte / 255.0) * 0x1p24; };
-    for (std::size_t byte = 0; byte < 256; ++byte) {
-      numbers_[byte] = static_cast<std::uint32_t>(std::lround(number(static_cast<double>(byte))));
-      // Four rounded numbers may fall short by two where their mean is just between two bytes, which counts as the
-      // next.
-      ends_[byte] = static_cast<std::uint32_t>(std::lround(4.0 * number(static_cast<double>(byte) + 0.5))) - 2u;
-    }
-    std::uint8_t byte = 0;
-    for (std::uint32_t i = 0; i < guesses_.size(); ++i) {
-      while (i << kGuessBits >= ends_[byte]) ++byte;
-      guesses_[i] = byte;
-    }
-  }
-
-  std::uint32_t number(std::uint32_t byte) const { return numbers_[byte]; }
-
-  std::uint32_t byteOfFour(std::uint32_t sum) const {
-    const std::uint32_t guess = guesses_[sum >> kGuessBits];
-    return guess + (sum >= ends_[guess] ? 1 : 0);
-  }
-
- private:
-  static constexpr unsigned kGuessBits = 12; ///< so few that no two bytes end within one guess
-  std::array<std::uint32_t, 256> numbers_{};
-  std::array<std::uint32_t, 256> ends_{}; ///< four numbers that add up to this or more are nearer to the next byte
-  std::array<std::uint8_t, (std::size_t{1} << (26 - kGuessBits)) + 1> guesses_{}; ///< the sum's byte, or the one before
-};
-
-const ByteScale& scaleOf(bool srgb) {
-  static const ByteScale kLinear(false);
-  static const ByteScale kSrgb(true);
-  return srgb ? kSrgb : kLinear;
-}
-
-/// Which two texels of a row a texel of the next level lies between, and the second one's share.
-struct Between {
-  int first = 0, second = 0;
-  double share = 0;
-};
-
-std::vector<Between> betweenTexels(int from, int to) {
-  std::vector<Between> all(static_cast<std::size_t>(to));
-  for (int i = 0; i < to; ++i) {
-    const double place = (i + 0.5) * from / to - 0.5;
-    const int first = static_cast<int>(std::floor(place));
-    all[static_cast<std::size_t>(i)] = {std::max(first, 0), std::min(first + 1, from - 1), place - first};
-  }
-  return all;
-}
-
-/// The mean of four bytes, a half rounded up, for each of two channels that lie 16 bits apart.
-inline std::uint32_t meanOfPairs(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  constexpr std::uint32_t kPair = 0x00ff00ffu;
-  return ((a & kPair) + (b & kPair) + (c & kPair) + (d & kPair) + 0x00020002u) >> 2 & kPair;
-}
-
-/// Rows of a level in which texels are the means of four.
-void meanRows(const TextureLevel& from, bool srgb, std::size_t first, std::size_t last, std::uint32_t* to) {
-  const auto width = static_cast<std::size_t>(from.width / 2);
-  const ByteScale& color = scaleOf(true);
-  for (std::size_t y = first; y < last; ++y) {
-    const std::uint32_t* upper = from.texels + 4 * y * width;
-    const std::uint32_t* lower = upper + 2 * width;
-    std::uint32_t* row = to + y * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint32_t a = upper[2 * x], b = upper[2 * x + 1], c = lower[2 * x], d = lower[2 * x + 1];
-      row[x] = meanOfPairs(a, b, c, d) | meanOfPairs(a >> 8, b >> 8, c >> 8, d >> 8) << 8;
-    }
-    if (!srgb) continue;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint32_t a = upper[2 * x], b = upper[2 * x + 1], c = lower[2 * x], d = lower[2 * x + 1];
-      const auto mean = [&](unsigned shift) {
-        const auto number = [&](std::uint32_t texel) { return color.number(texel >> shift & 255u); };
-        return color.byteOfFour(number(a) + number(b) + number(c) + number(d)) << shift;
-      };
-      row[x] = (row[x] & 0xff000000u) | mean(0) | mean(8) | mean(16);
-    }
-  }
-}
-
-/// The byte of each channel, from the scales of the first three and of the last.
-template <class Byte>
-std::uint32_t texelOf(const ByteScale& color, const ByteScale& alpha, const Byte& byte) {
-  return byte(color, 0) | byte(color, 8) << 8 | byte(color, 16) << 16 | byte(alpha, 24) << 24;
-}
-
-/// The same where a side is odd.
-void mixedRows(const TextureLevel& from, bool srgb, std::span<const Between> across, std::span<const Between> down,
-               std::uint32_t* to) {
-  const ByteScale& color = scaleOf(srgb);
-  const ByteScale& alpha = scaleOf(false);
-  for (const Between& y : down) {
-    const std::uint32_t* upper = from.texels + static_cast<std::size_t>(y.first) * static_cast<std::size_t>(from.width);
-    const std::uint32_t* lower =
-        from.texels + static_cast<std::size_t>(y.second) * static_cast<std::size_t>(from.width);
-    for (const Between& x : across) {
-      const std::uint32_t a = upper[x.first], b = upper[x.second], c = lower[x.first], d = lower[x.second];
-      *to++ = texelOf(color, alpha, [&](const ByteScale& scale, unsigned shift) {
-        const auto number = [&](std::uint32_t texel) { return scale.number(texel >> shift & 255u); };
-        const double above = number(a) * (1.0 - x.share) + number(b) * x.share;
-        const double below = number(c) * (1.0 - x.share) + number(d) * x.share;
-        return scale.byteOfFour(static_cast<std::uint32_t>(4.0 * (above * (1.0 - y.share) + below * y.share)));
-      });
-    }
-  }
-}
-
-Pyramid::Texels halved(const TextureLevel& from, const TextureLevel& size, bool srgb, Cores cores) {
-  const auto columns = static_cast<std::size_t>(size.width), rows = static_cast<std::size_t>(size.height);
-  Pyramid::Texels to(columns * rows);
-  if (from.width != 2 * size.width || from.height != 2 * size.height) {
-    mixedRows(from, srgb, betweenTexels(from.width, size.width), betweenTexels(from.height, size.height), to.data());
-    return to;
-  }
-  const auto mean = [&](std::size_t first, std::size_t last) { meanRows(from, srgb, first, last, to.data()); };
-  constexpr std::size_t kPieceTexels = 1 << 14;
-  if (cores == Cores::one || to.size() <= kPieceTexels) {
-    mean(0, rows);
-  } else {
-    forEachPiece(rows, std::max<std::size_t>(kPieceTexels / columns, 1), mean);
-  }
-  return to;
-}
-
-} // namespace
 
 std::size_t levelsOf(int width, int height) {
   return static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
 }
 
-Pyramid pyramidOf(const Image& image, bool srgb, std::size_t finest, const Pyramid& known, Cores cores) {
-  const std::size_t count = levelsOf(image.width, image.height);
+Pyramid pyramidOf(const ImageSize& size, bool srgb, GivenLevel from, std::size_t finest, const Pyramid& known) {
+  const std::size_t count = levelsOf(size.width, size.height);
   Pyramid pyramid{srgb, finest, std::vector<TextureLevel>(count), {}};
   pyramid.owned.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    pyramid.levels[i].width = std::max(image.width >> i, 1);
-    pyramid.levels[i].height = std::max(image.height >> i, 1);
+    pyramid.levels[i].width = std::max(size.width >> i, 1);
+    pyramid.levels[i].height = std::max(size.height >> i, 1);
   }
+  for (std::size_t i = from.level;; ++i) {
+    if (i >= finest) {
+      pyramid.levels[i].texels = from.texels;
+      pyramid.owned[i] = from.owned;
+    }
+    if (i + 1 == count) return pyramid;
+    if (i + 1 < known.levels.size() && i + 1 >= known.finest) {
+      from.owned = known.owned[i + 1];
+    } else {
+      const TextureLevel larger{from.texels, pyramid.levels[i].width, pyramid.levels[i].height};
+      const TextureLevel& smaller = pyramid.levels[i + 1];
+      auto texels = std::make_shared<Pyramid::Texels>(static_cast<std::size_t>(smaller.width) *
+                                                      static_cast<std::size_t>(smaller.height));
+      halve(larger, smaller, srgb, texels->data());
+      from.owned = std::move(texels);
+    }
+    from.texels = from.owned->data();
+  }
+}
+
+Pyramid pyramidOf(const Image& image, bool srgb, std::size_t finest, const Pyramid& known) {
   // The first byte is red, in the lowest place: so it is where memory is little-endian, as everywhere that this runs.
   const auto& pixels = std::get<std::vector<std::uint8_t>>(image.pixels);
-  TextureLevel larger{reinterpret_cast<const std::uint32_t*>(pixels.data()), image.width, image.height};
-  if (finest == 0) pyramid.levels[0] = larger;
-  std::shared_ptr<const Pyramid::Texels> passing; // what `larger` points to
-  for (std::size_t i = 1; i < count; ++i) {
-    if (i < known.levels.size() && i >= known.finest) {
-      passing = known.owned[i];
-    } else {
-      passing = std::make_shared<const Pyramid::Texels>(halved(larger, pyramid.levels[i], srgb, cores));
-    }
-    larger = {passing->data(), pyramid.levels[i].width, pyramid.levels[i].height};
-    if (i < finest) continue;
-    pyramid.levels[i] = larger;
-    pyramid.owned[i] = passing;
-  }
-  return pyramid;
+  const auto* texels = reinterpret_cast<const std::uint32_t*>(pixels.data());
+  return pyramidOf({image.width, image.height}, srgb, {0, texels, nullptr}, finest, known);
 }
 
 } // namespace gnomon::cpu

@@ -7,6 +7,7 @@
 
 #include "renderer/core/unfilled.h"
 #include "renderer/image/image.h"
+#include "renderer/image/image_codec.h"
 
 namespace gnomon::cpu {
 
@@ -30,13 +31,19 @@ struct Pyramid {
 /// How many sizes an image of this size has.
 std::size_t levelsOf(int width, int height);
 
-/// Whether work is shared out. One core alone where a parallel loop is running already.
-enum class Cores { one, all };
+/// A level that smaller ones can be made from.
+struct GivenLevel {
+  std::size_t level = 0;
+  const std::uint32_t* texels = nullptr;
+  std::shared_ptr<const Pyramid::Texels> owned; ///< what holds them; null for the image's own
+};
 
 /// The smaller levels average in linear light where the image is sRGB, as OpenGL's do. Levels from `finest` on are
-/// made, but for those that `known`, an earlier one of the same image, has already. With `finest` 0 the image outlives
-/// it.
-Pyramid pyramidOf(const Image& image, bool srgb, std::size_t finest = 0, const Pyramid& known = {},
-                  Cores cores = Cores::one);
+/// made, but for those that `known`, an earlier one of the same image, has already. `size`: the image's. REQUIRES: no
+/// level is asked for that is larger than the one given.
+Pyramid pyramidOf(const ImageSize& size, bool srgb, GivenLevel from, std::size_t finest, const Pyramid& known = {});
+
+/// The same from the image, which with `finest` 0 outlives it.
+Pyramid pyramidOf(const Image& image, bool srgb, std::size_t finest = 0, const Pyramid& known = {});
 
 } // namespace gnomon::cpu

@@ -26,7 +26,7 @@ class Texture {
   bool has(std::size_t finest) const { return isMade() && latest()->finest <= finest; }
 
   /// Makes the levels from `finest` on, where they are not there yet. A problem where the image can't be decoded.
-  Status make(std::size_t finest, Cores cores) const;
+  Status make(std::size_t finest) const;
 
   /// Valid as long as the texture. REQUIRES: an image that can be decoded.
   const Pyramid& from(std::size_t finest) const {
@@ -40,6 +40,7 @@ class Texture {
  private:
   const Pyramid* latest() const { return latest_.load(std::memory_order_acquire); }
   const Pyramid& madeFrom(std::size_t finest) const;
+  Result<Pyramid> pyramidFrom(std::size_t finest, const Pyramid& known) const;
 
   std::shared_ptr<const SceneImage> image_;
   bool srgb_;

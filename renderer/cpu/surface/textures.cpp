@@ -19,9 +19,9 @@ std::vector<ReadTexture> missing(const Textures& textures, std::span<const ReadT
   return missing;
 }
 
-Status makeAll(const Textures& textures, std::span<const ReadTexture> wanted, Cores cores) {
+Status makeAll(const Textures& textures, std::span<const ReadTexture> wanted) {
   return forEachOrProblems(wanted.size(),
-                           [&](std::size_t i) { return textures.of(wanted[i].texture).make(wanted[i].finest, cores); });
+                           [&](std::size_t i) { return textures.of(wanted[i].texture).make(wanted[i].finest); });
 }
 
 } // namespace
@@ -43,8 +43,7 @@ std::future<void> Textures::makeAhead(std::span<const ReadTexture> wanted) const
   try {
     return std::async(std::launch::async, [this, lacking = std::move(lacking), stop = Stop::current()] {
       const Listening listening(stop);
-      // need() tells what is broken. Cores that wait for one of these must not be what it waits for.
-      (void)untilStopped({}, [&] { return makeAll(*this, lacking, Cores::one); });
+      (void)untilStopped({}, [&] { return makeAll(*this, lacking); }); // need() tells what is broken
     });
   } catch (const std::system_error&) { // no thread to be had: need() does it all
     return {};
@@ -52,8 +51,7 @@ std::future<void> Textures::makeAhead(std::span<const ReadTexture> wanted) const
 }
 
 Status Textures::need(std::span<const ReadTexture> wanted) const {
-  const std::vector<ReadTexture> lacking = missing(*this, wanted);
-  return makeAll(*this, lacking, lacking.size() == 1 ? Cores::all : Cores::one);
+  return makeAll(*this, missing(*this, wanted));
 }
 
 std::size_t Textures::bytes() const {

@@ -8,6 +8,7 @@
 
 #include "renderer/image/image_codec.h"
 #include "tests/renderer/image/png_builder.h"
+#include "tests/renderer/image/rows_of.h"
 
 namespace gnomon {
 namespace {
@@ -127,6 +128,7 @@ TEST(DecodePngPixels, AreThoseOfLibpngForEveryKind) {
           ASSERT_TRUE(std::get<0>(image->pixels) == byLibpng(png, width, height))
               << "color type " << kind.colorType << ", " << kind.bitDepth << " bits, " << width << " x " << height
               << (interlaced ? ", interlaced" : "") << (transparent ? ", transparent" : "");
+          ASSERT_EQ(rowsOf(png, 16), std::get<0>(image->pixels));
         }
       }
     }

@@ -2,7 +2,10 @@
 
 #include <glm/glm.hpp>
 #include <gmock/gmock.h>
+#include <span>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "renderer/image/png_encode.h"
 #include "renderer/scene/texture_images.h"
@@ -50,14 +53,20 @@ TEST(SceneImage, KnowsItsSizeAndDecodesOnceForAllThreads) {
 
 TEST(SceneImage, ForAReaderWhoNeedsThemOnceItsPixelsAreNotKept) {
   const auto image = imageOf(pngOf(20, 7), "/images/0");
-  const auto once = image->read();
-  ASSERT_TRUE(once);
-  EXPECT_EQ(std::get<0>((*once)->pixels)[0], 7);
-  EXPECT_EQ(once->use_count(), 1);
-  EXPECT_NE(once->get(), &image->pixels());
-  const auto kept = image->read();
-  ASSERT_TRUE(kept);
-  EXPECT_EQ(kept->get(), &image->pixels()) << "what is kept is not decoded again";
+  std::vector<std::pair<int, std::size_t>> taken; // the first row and the bytes of each call
+  const std::uint8_t* last = nullptr;
+  const auto take = [&](int first, std::span<const std::uint8_t> rgba) {
+    EXPECT_EQ(rgba[0], 7);
+    taken.emplace_back(first, rgba.size());
+    last = rgba.data();
+  };
+  ASSERT_TRUE(image->readRows(16, take));
+  EXPECT_THAT(taken, ElementsAre(std::pair(0, 16u * 80u), std::pair(16, 4u * 80u)));
+  taken.clear();
+  const Image& kept = image->pixels();
+  ASSERT_TRUE(image->readRows(16, take));
+  EXPECT_THAT(taken, ElementsAre(std::pair(0, 20u * 80u)));
+  EXPECT_EQ(last, std::get<0>(kept.pixels).data()) << "what is kept is not decoded again";
 }
 
 TEST(SceneImage, ItsAlphaIsThatOfItsPixelsWhateverItsSize) {
@@ -86,7 +95,8 @@ TEST(SceneImage, TellsOfBrokenPixelsEachTimeTheyAreAskedFor) {
                            imageOf(brokenPng(4), "/images/5")};
   for (int i = 0; i < 2; ++i) {
     const std::vector<int> all{0, 1, 2};
-    EXPECT_EQ(images[1]->read().problems().front().pointer, "/images/1");
+    EXPECT_EQ(images[1]->readRows(16, [](int, std::span<const std::uint8_t>) {}).problems().front().pointer,
+              "/images/1");
     const Status decoded = decodeImages(images, all);
     ASSERT_FALSE(decoded);
     EXPECT_THAT(decoded.problems(), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/images/1"),

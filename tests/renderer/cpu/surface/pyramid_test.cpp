@@ -4,7 +4,9 @@
 #include <array>
 #include <gtest/gtest.h>
 #include <span>
+#include <utility>
 
+#include "renderer/cpu/surface/halved_rows.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {
@@ -56,11 +58,28 @@ TEST(Pyramid, ATexelIsTheMeanOfFourInLinearLight) {
   }
 }
 
-TEST(Pyramid, AreTheSameByManyCores) {
-  for (const glm::ivec2& size : {glm::ivec2(512, 256), glm::ivec2(300, 500)}) {
-    const auto image = noise(size.x, size.y);
+TEST(HalvedRows, AreThoseOfTheWholeImageHoweverManyComeAtOnce) {
+  EXPECT_EQ(evenLevels({48, 64}), 4u);
+  EXPECT_EQ(evenLevels({96, 65}), 0u);
+  for (const ImageSize& size : {ImageSize{48, 144}, ImageSize{256, 64}, ImageSize{30, 50}, ImageSize{7, 5}}) {
+    const auto image = noise(size.width, size.height);
+    const auto& bytes = std::get<std::vector<std::uint8_t>>(image->pixels);
+    const std::size_t row = 4 * static_cast<std::size_t>(size.width);
     for (const bool srgb : {false, true}) {
-      expectSameLevels(pyramidOf(*image, srgb, 0, {}, Cores::all), pyramidOf(*image, srgb), 0);
+      const Pyramid whole = pyramidOf(*image, srgb);
+      for (std::size_t level = 0; level <= evenLevels(size); ++level) {
+        for (const bool atOnce : {false, true}) {
+          HalvedRows halved(size, srgb, level);
+          const int step = atOnce ? size.height : halved.atOnce();
+          for (int y = 0; y < size.height; y += step) {
+            const auto rows = static_cast<std::size_t>(std::min(step, size.height - y));
+            halved.add(y, std::span(bytes).subspan(static_cast<std::size_t>(y) * row, rows * row));
+          }
+          const Pyramid streamed = pyramidOf(size, srgb, std::move(halved).given(), level);
+          EXPECT_EQ(streamed.levels[level].texels, streamed.owned[level]->data());
+          expectSameLevels(streamed, whole, level);
+        }
+      }
     }
   }
 }
