@@ -26,8 +26,8 @@ std::vector<std::string> workerVariables() {
   std::vector<std::string> variables{hugePagesVariable(tunables == nullptr ? "" : tunables)};
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable;
-    const bool leftOut = text.starts_with("GNOMON_STORE=") || text.starts_with("GNOMON_JOBS=") ||
-                         text.starts_with("GLIBC_TUNABLES=");
+    const bool leftOut =
+        text.starts_with("GNOMON_STORE=") || text.starts_with("GNOMON_JOBS=") || text.starts_with("GLIBC_TUNABLES=");
     if (!leftOut) variables.emplace_back(text);
   }
   return variables;

@@ -11,10 +11,10 @@ namespace gnomon {
 /// raises the sizes as it sees larger blocks, and a server never returns memory. Its own variables have the last word.
 void boundHeaps(int heaps);
 
-/// GLIBC_TUNABLES, as "NAME=VALUE", for a process whose heaps ask for huge pages: what is touched for the first time then
-/// costs one fault for 2 MiB instead of 512, which in some virtual machines is half of a first frame, for some MiB more
-/// memory. The allocator reads this only as a process starts. `own`: the variable's value so far, which has the last
-/// word. A system that is set to never use huge pages passes over it.
+/// GLIBC_TUNABLES, as "NAME=VALUE", for a process whose heaps ask for huge pages: what is touched for the first time
+/// then costs one fault for 2 MiB instead of 512, which in some virtual machines is half of a first frame, for some MiB
+/// more memory. The allocator reads this only as a process starts. `own`: the variable's value so far, which has the
+/// last word. A system that is set to never use huge pages passes over it.
 std::string hugePagesVariable(std::string_view own);
 
 } // namespace gnomon
