@@ -4,14 +4,9 @@
 #include <bit>
 
 #include "renderer/cpu/surface/texel_means.h"
+#include "renderer/image/decoded_rows.h"
 
 namespace gnomon::cpu {
-namespace {
-
-constexpr int kLeastAtOnce = 16; // what decodeRows() gives, or a multiple
-
-} // namespace
-
 std::size_t evenLevels(const ImageSize& size) {
   return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size.width | size.height)));
 }
@@ -20,7 +15,7 @@ HalvedRows::HalvedRows(const ImageSize& size, bool srgb, std::size_t level)
     : width_(static_cast<std::size_t>(size.width)),
       srgb_(srgb),
       level_(level),
-      atOnce_(std::max(kLeastAtOnce, 1 << level)),
+      atOnce_(std::max(DecodedRows::kStep, 1 << level)),
       texels_(std::make_shared<Pyramid::Texels>((width_ >> level) * (static_cast<std::size_t>(size.height) >> level))) {
   for (std::size_t i = 1; i < level; ++i) {
     between_.emplace_back((width_ >> i) * (static_cast<std::size_t>(atOnce_) >> i));
@@ -41,10 +36,12 @@ void HalvedRows::addFew(std::size_t first, const std::uint32_t* texels, std::siz
     std::copy_n(texels, rows * width_, place);
     return;
   }
+  const auto levelOf = [&](std::size_t i, const std::uint32_t* of) {
+    return TextureLevel{of, static_cast<int>(width_ >> i), static_cast<int>(rows >> i)};
+  };
   for (std::size_t i = 1; i <= level_; ++i) {
-    const TextureLevel larger{texels, static_cast<int>(width_ >> (i - 1)), static_cast<int>(rows >> (i - 1))};
     std::uint32_t* const to = i == level_ ? place : between_[i - 1].data();
-    meanRows(larger, srgb_, 0, rows >> i, to);
+    halve(levelOf(i - 1, texels), levelOf(i, to), srgb_, to);
     texels = to;
   }
 }

@@ -17,7 +17,8 @@ class HalvedRows {
   /// `level`: no larger than evenLevels() of the image.
   HalvedRows(const ImageSize& size, bool srgb, std::size_t level);
 
-  /// How many rows are best added at a time: a multiple of 16 and of what a row of the level is made from.
+  /// How many rows are best added at a time: a multiple of DecodedRows::kStep and of what a row of the level is made
+  /// from.
   int atOnce() const { return atOnce_; }
   /// Rows of 8-bit RGBA from row `first` on; a multiple of atOnce(), or up to the last one.
   void add(int first, std::span<const std::uint8_t> rgba);

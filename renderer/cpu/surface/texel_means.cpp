@@ -72,12 +72,12 @@ inline std::uint32_t meanOfPairs(std::uint32_t a, std::uint32_t b, std::uint32_t
   return ((a & kPair) + (b & kPair) + (c & kPair) + (d & kPair) + 0x00020002u) >> 2 & kPair;
 }
 
-} // namespace
-
-void meanRows(const TextureLevel& from, bool srgb, std::size_t first, std::size_t last, std::uint32_t* to) {
+/// Where both sides of the larger level are even.
+void meanTexels(const TextureLevel& from, bool srgb, std::uint32_t* to) {
   const auto width = static_cast<std::size_t>(from.width / 2);
+  const auto height = static_cast<std::size_t>(from.height / 2);
   const ByteScale& color = scaleOf(true);
-  for (std::size_t y = first; y < last; ++y) {
+  for (std::size_t y = 0; y < height; ++y) {
     const std::uint32_t* upper = from.texels + 4 * y * width;
     const std::uint32_t* lower = upper + 2 * width;
     std::uint32_t* row = to + y * width;
@@ -97,17 +97,15 @@ void meanRows(const TextureLevel& from, bool srgb, std::size_t first, std::size_
   }
 }
 
-namespace {
-
 /// The byte of each channel, from the scales of the first three and of the last.
 template <class Byte>
 std::uint32_t texelOf(const ByteScale& color, const ByteScale& alpha, const Byte& byte) {
   return byte(color, 0) | byte(color, 8) << 8 | byte(color, 16) << 16 | byte(alpha, 24) << 24;
 }
 
-/// Rows of a level where a side of the larger one is odd.
-void mixedRows(const TextureLevel& from, bool srgb, std::span<const Between> across, std::span<const Between> down,
-               std::uint32_t* to) {
+/// Where a side of the larger level is odd.
+void mixedTexels(const TextureLevel& from, bool srgb, std::span<const Between> across, std::span<const Between> down,
+                 std::uint32_t* to) {
   const ByteScale& color = scaleOf(srgb);
   const ByteScale& alpha = scaleOf(false);
   for (const Between& y : down) {
@@ -130,9 +128,9 @@ void mixedRows(const TextureLevel& from, bool srgb, std::span<const Between> acr
 
 void halve(const TextureLevel& from, const TextureLevel& size, bool srgb, std::uint32_t* to) {
   if (from.width == 2 * size.width && from.height == 2 * size.height) {
-    meanRows(from, srgb, 0, static_cast<std::size_t>(size.height), to);
+    meanTexels(from, srgb, to);
   } else {
-    mixedRows(from, srgb, betweenTexels(from.width, size.width), betweenTexels(from.height, size.height), to);
+    mixedTexels(from, srgb, betweenTexels(from.width, size.width), betweenTexels(from.height, size.height), to);
   }
 }
 
