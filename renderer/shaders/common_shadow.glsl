@@ -24,7 +24,7 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
   if (kind == GNOMON_FILTER_DISC) {
     vec2 radius = light.filterRadius * tile.atlasPerMetre * atlasTexelCount() / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + max(radius.x, radius.y));
-    return discVisibility(tile, at, slope, discRadius(tile, at, light.filterRadius));
+    return discVisibility(tile, at, slope, discRadius(tile, at, light.filterRadius), kWholeDisc);
   }
 #endif
 #ifdef FILTER_PCSS

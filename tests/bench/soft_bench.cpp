@@ -160,12 +160,13 @@ int main(int argc, char** argv) {
   std::filesystem::path assets = GNOMON_TEST_ASSETS;
   int repeats = 5;
   int samples = 1024;
-  std::vector<std::string> chosen;
+  std::vector<std::string> chosen, only;
   DeviceChoice device = DeviceChoice::auto_;
   const std::map<std::string, DeviceChoice> devices{
       {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
   app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
   app.add_option("--technique", chosen, "One of those of the table; may come several times; all where it does not");
+  app.add_option("--model", only, "Only this one; may come several times");
   app.add_option("--repeats", repeats, "Timed pairs of frames")->check(CLI::Range(1, 100));
   app.add_option("--samples", samples, "Rays a pixel of the reference")->check(CLI::Range(1, 1024));
   app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
@@ -182,7 +183,9 @@ int main(int argc, char** argv) {
   std::size_t scenes = 0;
   std::set<std::string> models;
   for (const NamedScene& scene : gatheredScenes(assets)) {
-    if (!models.insert(scene.name.substr(0, scene.name.find('/'))).second) continue; // another file of the same model
+    const std::string model = scene.name.substr(0, scene.name.find('/'));
+    if (!models.insert(model).second) continue; // another file of the same model
+    if (!only.empty() && std::ranges::count(only, model) == 0) continue;
     if (scene.scene->scenes.front().bounds.empty()) continue;
     const std::vector<SizedLight> over = lightsOver(scene.scene->scenes.front().bounds);
     if (lights.empty()) {

@@ -27,31 +27,38 @@ HWY_INLINE Float discRadius(const shared::TileData& tile, float lightRadius, con
   return min(lightRadius / divisor, 0.5f); // kWidestTangent of renderer/shadow/fit.h
 }
 
-/// `radius`: a length across the light. `asked`: lanes whose share counts.
+/// Of a disc so far before the receivers that all of it is above their planes.
+inline constexpr float kWholeDisc = 1e30f;
+
+/// `radius`: a length across the light. The disc lies `height` (z) before the receivers; what of it is below their own
+/// planes does not count. `asked`: lanes whose share counts.
 inline Float discVisibility(const ShadowMaps& maps, int tileIndex, const Lookup& at, const Float2& slope,
-                            const Float& radius, const Float2& pixel, const Mask& asked) {
+                            const Float& radius, const Float& height, const Float2& pixel, const Mask& asked) {
   const shared::TileData& tile = maps.tiles[tileIndex];
   const TileMap& map = maps.maps[tileIndex];
   const Float2 texels(maps.atlasTexels);
   const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
   const Float2 turn = discTurn(pixel);
   Float sum = 0.0f;
+  Float count = 0.0f;
   for (const glm::vec2& tap : discSteps()) {
     const Float2 step(radius * (turn.x * tap.x - turn.y * tap.y), radius * (turn.y * tap.x + turn.x * tap.y));
     const Float3 place(at.coordinate.x + step.x * tile.atlasPerMetre.x, at.coordinate.y + step.y * tile.atlasPerMetre.y,
                        0.0f);
     const Mask within = isWithin(place, tile);
-    const Mask read = within & asked;
+    const Float rise = dot(slope, Float2(place.x - at.coordinate.x, place.y - at.coordinate.y) * texels);
+    const Mask above = rise >= -height;
+    count += select(above, Float(1.0f), 0.0f);
+    const Mask read = within & above & asked;
     if (none(read)) {
-      sum += 1.0f;
+      sum += select(above, Float(1.0f), 0.0f);
       continue;
     }
-    const Float2 moved(place.x - at.coordinate.x, place.y - at.coordinate.y);
-    const PlaneDepths plane{at.coordinate.z + dot(slope, moved * texels), slope};
+    const PlaneDepths plane{at.coordinate.z + rise, slope};
     const Float lit = squareVisibility(map, Float2(place.x, place.y) * texels - corner, plane, 1, read);
-    sum += select(within, lit, 1.0f);
+    sum += select(above, select(within, lit, 1.0f), 0.0f);
   }
-  return sum * (1.0f / static_cast<float>(kDiscTaps));
+  return sum / max(count, 1.0f);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -31,10 +31,23 @@ HWY_INLINE Float texelsAcross(const ShadowMaps& maps, const TileData& tile, cons
   return radius * std::max(texels.x, texels.y);
 }
 
-/// The mean z between the receivers and what stands before them within `radius`; negative where nothing does. The
-/// places are the denser the nearer: they find low casters beside high ones.
-inline Float casterHeight(const ShadowMaps& maps, int tileIndex, const Lookup& at, const Float2& slope,
-                          const Float& radius, const Float2& turn) {
+/// The mean of the heights that lanes add.
+struct HeightMean {
+  Float sum, count;
+
+  HWY_INLINE void add(const Mask& lanes, const Float& height) {
+    sum += select(lanes, height, 0.0f);
+    count += select(lanes, Float(1.0f), 0.0f);
+  }
+  /// Negative where none was added.
+  HWY_INLINE Float value() const { return select(count > 0.0f, sum / max(count, 1.0f), -1.0f); }
+};
+
+/// The mean z between the receivers and what stands between them and the light's disc; where the search meets no such
+/// caster, of all that stand before the receivers' planes within `radius`: it may have missed one. Negative where
+/// nothing does. The places are the denser the nearer: they find low casters beside high ones.
+inline Float casterHeight(const ShadowMaps& maps, const LightData& light, int tileIndex, const Lookup& at,
+                          const Float2& slope, const Float& radius, const Float2& turn) {
   const TileData& tile = maps.tiles[tileIndex];
   const TileMap& map = maps.maps[tileIndex];
   const Float2 texels(maps.atlasTexels);
@@ -43,8 +56,11 @@ inline Float casterHeight(const ShadowMaps& maps, int tileIndex, const Lookup& a
   const int samples = map.depths->samples;
   // A sample may lie half a texel off the centre.
   const Float lowered = samples > 1 ? 0.5f * (abs(slope.x) + abs(slope.y)) : Float(0.0f);
-  Float sum = 0.0f;
-  Float count = 0.0f;
+  const Float perDepth = penumbraPerDepth(maps, light, tile);
+  // A texel may show what stands as far off its centre, and the comparison reads as many around.
+  const Float seen = 2.0f / texelsAcross(maps, tile, 1.0f);
+  HeightMean covering{0.0f, 0.0f};
+  HeightMean standing{0.0f, 0.0f};
   int sample = 0;
   for (const glm::vec2& tap : searchSteps()) {
     const Float2 step(radius * (turn.x * tap.x - turn.y * tap.y), radius * (turn.y * tap.x + turn.x * tap.y));
@@ -56,12 +72,13 @@ inline Float casterHeight(const ShadowMaps& maps, int tileIndex, const Lookup& a
     const Float2 offset(toFloat(x) + 0.5f - middle.x, toFloat(y) + 0.5f - middle.y);
     const Float plane = at.coordinate.z + dot(slope, offset) - lowered;
     const Float depth = depthAt(map, columnIndex(map, x) + rowIndex(map, y), sample);
+    const Float height = max(at.coordinate.z - depth, 0.0f);
     const Mask stands = andNot(isLit(plane, depth), isWithin(place, tile));
-    sum += select(stands, max(at.coordinate.z - depth, 0.0f), 0.0f);
-    count += select(stands, Float(1.0f), 0.0f);
+    standing.add(stands, height);
+    covering.add(stands & (perDepth * height + seen >= radius * glm::length(tap)), height);
     sample = (sample + 1) % samples;
   }
-  return select(count > 0.0f, sum / max(count, 1.0f), -1.0f);
+  return select(covering.count > 0.0f, covering.value(), standing.value());
 }
 
 /// The share of the light's disc that stands above the receivers' own planes: (asin x + x sqrt(1 - x^2)) / pi + 1/2 to
@@ -82,7 +99,7 @@ inline Float penumbraRadius(const ShadowMaps& maps, const LightData& light, int 
   const Float reach = searchReach(maps, light, tile, at.coordinate.z);
   Lookup lowered = at;
   lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, reach));
-  const Float height = casterHeight(maps, tileIndex, lowered, slope, reach, discTurn(pixel));
+  const Float height = casterHeight(maps, light, tileIndex, lowered, slope, reach, discTurn(pixel));
   return select(height >= 0.0f, min(penumbraPerDepth(maps, light, tile) * height, reach), height);
 }
 
@@ -96,7 +113,8 @@ inline Float pcssVisibility(const ShadowMaps& maps, const LightData& light, int 
   const Float radius = max(found, 0.0f);
   Lookup lowered = at;
   lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, radius));
-  const Float lit = discVisibility(maps, tileIndex, lowered, slope, radius, pixel, asked & stands);
+  const Float lit = discVisibility(maps, tileIndex, lowered, slope, radius,
+                                   radius / penumbraPerDepth(maps, light, tile), pixel, asked & stands);
   return select(stands, lit, 1.0f);
 }
 

@@ -38,7 +38,8 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
     const Float radius = std::max(texels.x, texels.y) / at.divisor;
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius);
     const Float across = discRadius(tile, light.filterRadius, at.divisor);
-    return select(at.inside, discVisibility(maps, tileIndex, at, slope, across, receiver.place, read), 1.0f);
+    return select(at.inside, discVisibility(maps, tileIndex, at, slope, across, kWholeDisc, receiver.place, read),
+                  1.0f);
   }
   if (light.filterKind == GNOMON_FILTER_PCSS) {
     const Float lit = pcssVisibility(maps, light, tileIndex, at, slope, receiver.place, read);

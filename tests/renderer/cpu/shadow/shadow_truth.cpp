@@ -1,6 +1,9 @@
 #include "tests/renderer/cpu/shadow/shadow_truth.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace gnomon::cpu::truth {
 
@@ -107,32 +110,39 @@ struct Reading {
     }
     return sum / all;
   }
-  /// The mean z from the receiver to what stands before it; negative where nothing does.
-  float casterHeight(const Lookup& at, float radius, vec2 pixel) const {
+  /// The mean z from the receiver to what stands before the light's disc, or else before the receiver's plane; negative
+  /// where nothing does.
+  float casterHeight(const Lookup& at, float radius, float perDepth, vec2 pixel) const {
     const vec2 texels = maps.atlasTexels;
     const float turn = 6.2831853f * fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
     const float lowered = map.depths->samples > 1 ? 0.5f * (abs(slope.x) + abs(slope.y)) : 0.0f;
-    float sum = 0;
-    int count = 0;
+    const vec2 perLength = tile.atlasPerMetre * texels;
+    const float twoTexels = 2.0f / max(perLength.x, perLength.y);
+    std::vector<float> covering, standing;
     for (int i = 0; i < 32; ++i) {
       const float angle = turn + static_cast<float>(i) * 2.39996323f;
-      const vec2 step = vec2(std::cos(angle), std::sin(angle)) * (radius * static_cast<float>(i * i) / (31.0f * 31.0f));
+      const float away = radius * static_cast<float>(i * i) / (31.0f * 31.0f);
+      const vec2 step = vec2(std::cos(angle), std::sin(angle)) * away;
       const vec2 place = vec2(at.coordinate) + step * tile.atlasPerMetre;
       if (glm::any(glm::lessThan(place, tile.lowest)) || glm::any(glm::greaterThan(place, tile.highest))) continue;
       const ivec2 texel(place * texels);
       const float plane = at.coordinate.z + dot(slope, vec2(texel) + 0.5f - vec2(at.coordinate) * texels) - lowered;
       const float seen = depth(texel, i % map.depths->samples);
       if (seen >= min(plane, 1.0f)) continue;
-      sum += max(at.coordinate.z - seen, 0.0f);
-      ++count;
+      const float height = max(at.coordinate.z - seen, 0.0f);
+      standing.push_back(height);
+      if (away <= perDepth * height + twoTexels) covering.push_back(height);
     }
-    return count > 0 ? sum / static_cast<float>(count) : -1.0f;
+    const std::vector<float>& heights = covering.empty() ? standing : covering;
+    if (heights.empty()) return -1.0f;
+    return std::accumulate(heights.begin(), heights.end(), 0.0f) / static_cast<float>(heights.size());
   }
-  /// `radius`: a length across the light.
-  float disc(const Lookup& at, float radius, vec2 pixel) const {
+  /// `radius`: a length across the light; `height`: the disc's before the receiver, z.
+  float disc(const Lookup& at, float radius, float height, vec2 pixel) const {
     const vec2 texels = maps.atlasTexels;
     const float turn = 6.2831853f * fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
     float sum = 0;
+    int above = 0;
     for (int i = 0; i < 32; ++i) {
       const float angle = turn + static_cast<float>(i) * 2.39996323f;
       const vec2 step =
@@ -140,10 +150,12 @@ struct Reading {
       const vec2 place = vec2(at.coordinate) + step * tile.atlasPerMetre;
       const bool outside =
           glm::any(glm::lessThan(place, tile.lowest)) || glm::any(glm::greaterThan(place, tile.highest));
-      const float plane = at.coordinate.z + dot(slope, (place - vec2(at.coordinate)) * texels);
-      sum += outside ? 1.0f : kernel(place * texels, plane, 1);
+      const float rise = dot(slope, (place - vec2(at.coordinate)) * texels);
+      if (rise < -height) continue;
+      ++above;
+      sum += outside ? 1.0f : kernel(place * texels, at.coordinate.z + rise, 1);
     }
-    return sum / 32.0f;
+    return sum / static_cast<float>(std::max(above, 1));
   }
   vec4 moments(vec2 place) const {
     const auto texel = [&](ivec2 at) {
@@ -225,10 +237,11 @@ float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t
     return visibilityFrom(reading.moments(place), momentDepth(tile, at), light.filterKind);
   }
   if (light.filterKind == GNOMON_FILTER_DISC) {
-    const vec2 radius = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + max(radius.x, radius.y));
+    const vec2 reach = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels / at.divisor;
+    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + max(reach.x, reach.y));
     const bool parallel = isParallel(tile);
-    return reading.disc(at, parallel ? light.filterRadius : min(light.filterRadius / at.divisor, 0.5f), receiver.place);
+    const float radius = parallel ? light.filterRadius : min(light.filterRadius / at.divisor, 0.5f);
+    return reading.disc(at, radius, HUGE_VALF, receiver.place);
   }
   if (light.filterKind == GNOMON_FILTER_PCSS) {
     const vec2 perLength = tile.atlasPerMetre * maps.atlasTexels;
@@ -237,12 +250,12 @@ float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t
     const float reach = min(perDepth * max(at.coordinate.z, 0.0f), tile.filterReach);
     Lookup searched = at;
     searched.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + reach * widest);
-    const float height = reading.casterHeight(searched, reach, receiver.place);
+    const float height = reading.casterHeight(searched, reach, perDepth, receiver.place);
     const float above = shareAbovePlane(light, receiver);
     if (height < 0.0f) return above;
     const float radius = min(perDepth * height, reach);
     at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius * widest);
-    return above * reading.disc(at, radius, receiver.place);
+    return above * reading.disc(at, radius, radius / perDepth, receiver.place);
   }
   at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
   return reading.kernel(place, at.coordinate.z, light.filterSize);
