@@ -68,6 +68,10 @@ std::vector<SizedLight> lightsOver(const Aabb& bounds) {
           {"lamp, 0.2 m", with(spot, "radius", 0.02 * size), spot}};
 }
 
+std::string modelOf(const NamedScene& scene) {
+  return scene.name.substr(0, scene.name.find('/'));
+}
+
 struct Found {
   std::vector<double> rms, times; ///< one a scene
   std::string worst;              ///< scene of the largest rms
@@ -91,7 +95,7 @@ class SoftBench {
       const EvaluationRow& row = report->rows[i];
       if (!row.metrics || row.metrics->receivers == 0) continue;
       const double rms = row.metrics->rms;
-      if (found[i].rms.empty() || rms > std::ranges::max(found[i].rms)) found[i].worst = scene.name;
+      if (found[i].rms.empty() || rms > std::ranges::max(found[i].rms)) found[i].worst = modelOf(scene);
       found[i].rms.push_back(rms);
       found[i].times.push_back(timeRatio(scene, light, ways_[i].shadow));
       std::cerr << scene.name << ", " << light.name << ", " << ways_[i].name << ": " << rms << ", "
@@ -183,7 +187,7 @@ int main(int argc, char** argv) {
   std::size_t scenes = 0;
   std::set<std::string> models;
   for (const NamedScene& scene : gatheredScenes(assets)) {
-    const std::string model = scene.name.substr(0, scene.name.find('/'));
+    const std::string model = modelOf(scene);
     if (!models.insert(model).second) continue; // another file of the same model
     if (!only.empty() && std::ranges::count(only, model) == 0) continue;
     if (scene.scene->scenes.front().bounds.empty()) continue;
