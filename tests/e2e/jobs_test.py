@@ -4,7 +4,6 @@ import hashlib
 import io
 import json
 import tempfile
-import threading
 import time
 import unittest
 import zipfile
@@ -167,21 +166,18 @@ class Jobs(JobTest):
 
     def test_whoever_waits_for_a_job_that_is_removed_is_told(self):
         job = self.submit(LONG)
-        told = []
-        waiting = [threading.Thread(target=lambda path=path, accept=accept: told.append(
-            self.server.get(path, Accept=accept).body.decode()))
-            for path, accept in [(job["address"] + "?wait=30", "*/*"), (job["address"], "text/event-stream"),
-                                 (job["result"], "text/event-stream")]]
-        for thread in waiting:
-            thread.start()
+        waiting = []
+        for path, accept in [(job["address"] + "?wait=30", "*/*"), (job["address"], "text/event-stream"),
+                             (job["result"], "text/event-stream")]:
+            waiting.append(self.server.connect())
+            waiting[-1].request("GET", path, headers={"Accept": accept})
         while self.server.get(job["address"]).json()["done"] == 0:
             time.sleep(0.01)
         self.assertEqual(self.server.ask("DELETE", job["address"]).status, 204)
-        for thread in waiting:
-            thread.join(TIMEOUT)
-        self.assertEqual(len(told), 3)
-        for text in told:
+        for connection in waiting:
+            text = connection.getresponse().read().decode()
             self.assertTrue('"cancelled"' in text or "event: problem" in text, text[-500:])
+            connection.close()
         for method, path in [("GET", ""), ("DELETE", ""), ("GET", "/result"), ("GET", "/frames/0")]:
             self.assert_problem(self.server.ask(method, job["address"] + path), 404, "id")
 
