@@ -95,8 +95,8 @@ struct SquarePlace {
   std::uint32_t x = 0, y = 0;
 };
 
-/// Number `index` of Sobol's sequence in two dimensions: each 2^k from a multiple of 2^k on leave none of the 2^k
-/// rectangles of any one shape empty, whatever the places are XORed with.
+/// Number `index` of Sobol's sequence in two dimensions, scrambled: each 2^k from a multiple of 2^k on leave none of
+/// the 2^k rectangles of any one shape empty, whatever the places are XORed with.
 SquarePlace sequencePlace(std::uint32_t index);
 
 /// The places on a light that drawn points send rays to: a pixel's are the first ones of the sequence XORed with its

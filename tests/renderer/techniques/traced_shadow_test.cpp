@@ -171,11 +171,17 @@ TEST(TracedShadow, N6_PenumbrasAreThoseOfALightSampledAllOver) {
 
 TEST(TracedShadow, NoPenumbraIsMissed) {
   // Wires over a floor: their umbra ends before it, and most of the sun is seen everywhere.
-  for (const float width : {0.03f, 0.05f, 0.1f}) {
+  using Wires = std::pair<float, float>; // how wide they are, and how far they are turned
+  for (const auto& [width, turn] :
+       {Wires{0.03f, 0.0f}, Wires{0.05f, 0.0f}, Wires{0.1f, 0.0f}, Wires{0.03f, 0.4f}, Wires{0.03f, 0.8f},
+        Wires{0.03f, 1.2f}, Wires{0.03f, 1.6f}, Wires{0.03f, 2.0f}, Wires{0.03f, 2.4f}, Wires{0.03f, 2.8f}}) {
+    const auto at = [cosine = std::cos(turn), sine = std::sin(turn)](float across, float along) {
+      return testing::Point{across * cosine - along * sine, 1, across * sine + along * cosine};
+    };
     GlbBuilder builder;
     testing::addSquare(builder, 4, 0);
     for (const float x : {-1.7f, -0.4f, 1.13f}) {
-      testing::addQuad(builder, {{x, 1, 3}, {x + width, 1, 3}, {x + width, 1, -3}, {x, 1, -3}});
+      testing::addQuad(builder, {at(x, 3), at(x + width, 3), at(x + width, -3), at(x, -3)});
     }
     Traced wires(builder);
     wires.camera = testing::parallelView({0, 0.5, 0}, {0, -1, 0}, 6);
@@ -192,8 +198,8 @@ TEST(TracedShadow, NoPenumbraIsMissed) {
       missed += values[i] == 65535 ? 1 : 0;
     }
     EXPECT_GT(darkened, 200u) << width;
-    EXPECT_LT(static_cast<double>(missed), 0.01 * static_cast<double>(darkened)) << width;
-    EXPECT_LT(rms(values, picture.truth), 0.02) << width;
+    EXPECT_LT(static_cast<double>(missed), 0.01 * static_cast<double>(darkened)) << width << " turned by " << turn;
+    EXPECT_LT(rms(values, picture.truth), 0.02) << width << " turned by " << turn;
   }
 }
 
