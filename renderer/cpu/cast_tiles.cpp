@@ -52,7 +52,7 @@ void rasterCasters(const CastInput& input, const ShadowTile& tile, const Light& 
                    std::span<const RasterDraw> draws, const TexelMarks* only, DepthBuffer& buffer) {
   const std::vector<glm::mat4> clip = tileFromLocal(input.scene, tile);
   const MaterialHoles holes({input.scene, input.textures, clip, glm::ivec2(tile.rect.width, tile.rect.height),
-                             glm::ivec2(tile.rect.x, tile.rect.y),
+                             glm::ivec2(tile.rect.x, tile.rect.y), true,
                              light.shadow->blendedCasters == BlendedCasters::dither});
   raster({input.scene.scene, input.scene.slots, clip, draws, &holes, only, true}, DepthRange::clamped, buffer,
          input.scratch);

@@ -67,7 +67,9 @@ gl::ProgramSource depthProgram(std::string vertexShader, const Material* masked)
 
 gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended) {
   gl::ProgramSource source = depthProgram("shadow_cast.vert", masked);
-  const bool blends = masked != nullptr && masked->alphaMode == AlphaMode::blend;
+  if (masked == nullptr) return source;
+  source.defines.emplace_back("SEEN_BY_LIGHT");
+  const bool blends = masked->alphaMode == AlphaMode::blend;
   if (blends && blended == BlendedCasters::dither) source.defines.emplace_back("ALPHA_DITHER");
   return source;
 }

@@ -1,4 +1,6 @@
-// What a surface with alpha leaves out: the same test for the eye and for the light, unless the light dithers.
+// What a surface with alpha leaves out: where alpha is too low for the eye and for the light, unless the light dithers.
+// The light reads the texture itself, as rays do. Smaller levels are means: where their texels are as large as the map's,
+// finer holes close or open all alike, and what lies aslant to the light is smeared over many texels.
 #ifdef ALPHA_MASK
 layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };
 layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;
@@ -39,9 +41,15 @@ float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 
 #ifdef TEXTURE_TRANSFORM
 #include "common_texture_transform.glsl"
+#define MASK_PLACE movedPlace(mask.uv, GNOMON_BASE_COLOR_UNIT)
 #define MASK_TEXEL movedTexel(baseColorTexture, mask.uv, GNOMON_BASE_COLOR_UNIT)
 #else
+#define MASK_PLACE mask.uv
 #define MASK_TEXEL texture(baseColorTexture, mask.uv)
+#endif
+#ifdef SEEN_BY_LIGHT
+#undef MASK_TEXEL
+#define MASK_TEXEL textureLod(baseColorTexture, MASK_PLACE, 0.0)
 #endif
 
 void discardMasked() {

@@ -5,7 +5,8 @@ vec2 movedStep(vec2 step, int unit) {
   return axes.xy * step.x + axes.zw * step.y;
 }
 
+vec2 movedPlace(vec2 uv, int unit) { return movedStep(uv, unit) + materials[materialIndex].uvOffsets[unit].xy; }
+
 vec4 movedTexel(sampler2D map, vec2 uv, int unit) {
-  vec2 moved = movedStep(uv, unit) + materials[materialIndex].uvOffsets[unit].xy;
-  return textureGrad(map, moved, movedStep(dFdx(uv), unit), movedStep(dFdy(uv), unit));
+  return textureGrad(map, movedPlace(uv, unit), movedStep(dFdx(uv), unit), movedStep(dFdy(uv), unit));
 }

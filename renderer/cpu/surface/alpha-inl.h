@@ -21,10 +21,11 @@ HWY_INLINE Sight sightThrough(const glm::vec2& size, const Float2& place) {
   return sight;
 }
 
-/// `triangle`: of the instance's primitive; `size`: of what is rastered; `where`: the lanes that count.
+/// `triangle`: of the instance's primitive; `size`: of what is rastered; `full`: read the texture itself, and not the
+/// level whose texels are as large as pixels; `where`: the lanes that count.
 HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std::uint32_t instance,
                          const glm::mat4& clipFromLocal, const Int& triangle, const glm::vec2& size,
-                         const Float2& place, const Mask& where) {
+                         const Float2& place, bool full, const Mask& where) {
   const Slot& slot = scene.slots[scene.geometry.firstSlot[instance]];
   const Material& material = scene.scene.materials[static_cast<std::size_t>(slot.material)];
   const shared::MaterialData& data = scene.materials[static_cast<std::size_t>(slot.material)];
@@ -40,7 +41,9 @@ HWY_INLINE Float alphaOf(const FrameScene& scene, const Textures& textures, std:
   if (!material.baseColor || material.baseColor->image < 0) return alpha;
   const TextureUse& use = *material.baseColor;
   const SpotsOfSets spots = spotsOf(corners, meeting, stepsOf(sight, seen, meeting));
-  const TextureSpot& spot = spots.of[use.texCoord == 0 ? 0 : 1];
+  const TextureSpot& seenSpot = spots.of[use.texCoord == 0 ? 0 : 1];
+  const Float2 still{Float(0.0f), Float(0.0f)};
+  const TextureSpot spot = full ? TextureSpot{seenSpot.uv, still, still} : seenSpot;
   const Texture& texture = textures.of(use.image, true);
   Taps taps;
   findTaps(texture, use, use.transform ? moved(data, GNOMON_BASE_COLOR_UNIT, spot) : spot, where, taps);

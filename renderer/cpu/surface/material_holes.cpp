@@ -21,7 +21,8 @@ unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, const 
   const Int triangle = select(where, load(places.number), Int(any)) - Int(static_cast<std::int32_t>(first));
   const Float alpha =
       alphaOf(input.scene, input.textures, places.instance, input.clipFromLocal[places.instance], triangle,
-              glm::vec2(input.size), Float2(toFloat(load(places.x)) + 0.5f, toFloat(load(places.y)) + 0.5f), where);
+              glm::vec2(input.size), Float2(toFloat(load(places.x)) + 0.5f, toFloat(load(places.y)) + 0.5f),
+              input.byLight, where);
   return asked & bitsOf(alpha >= load(least));
 }
 

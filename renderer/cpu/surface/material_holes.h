@@ -14,6 +14,7 @@ struct HolesInput {
   std::span<const glm::mat4> clipFromLocal; ///< one an instance
   glm::ivec2 size{0};                       ///< of what is rastered, places
   glm::ivec2 corner{0};                     ///< where it lies in the atlas, texels: patterns depend on it
+  bool byLight = false; ///< alpha is that of the texture itself, not of its level that has texels as large as places
   bool dithers = false; ///< materials that blend leave out as much as their alpha says; else as masks
 };
 

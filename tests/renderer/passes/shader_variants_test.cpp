@@ -124,7 +124,7 @@ TEST(ShaderVariants, G2_TheAlphaOfGlassIsReadFromNoTexture) {
   glass.alphaMode = AlphaMode::blend;
   glass.uniformAlpha = true;
   EXPECT_THAT(castProgram(&glass, BlendedCasters::dither).defines,
-              ::testing::ElementsAre("ALPHA_MASK", "ALPHA_DITHER"));
+              ::testing::ElementsAre("ALPHA_MASK", "SEEN_BY_LIGHT", "ALPHA_DITHER"));
 }
 
 TEST(ShaderVariants, X14_WhereNoLightTellsThemApartNoGroupsAreWritten) {
