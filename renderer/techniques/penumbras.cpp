@@ -79,7 +79,13 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
   };
   const auto inDoubt = [&] { return pixelsApart(shares.grid, shares.shares, kEdge); };
   const auto isAsked = [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return isIn(0, pixel); };
-  for (Pixels next = pixelsBeside(shares, inDoubt(), isAsked); !next.empty();) {
+  Pixels next = pixelsBeside(shares, inDoubt(), isAsked);
+  // What shows between leaves may be a pixel large, and its first ray alone may not tell that the light is not all
+  // hidden.
+  Pixels small = points.besideMasks();
+  std::erase_if(small, [&](std::uint32_t pixel) { return !isIn(0, pixel); });
+  next = either(shares, std::move(next), small);
+  while (!next.empty()) {
     trace(points, light, rounds[0], next, shares);
     // More rays may have found what a single one missed, and at the rim of a penumbra they may miss it, too.
     next = pixelsBeside(
@@ -91,11 +97,11 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
     any = false;
     const Pixels doubtful = inDoubt();
     for (std::size_t round = rounds.size() - 1; round > 0; --round) {
-      Pixels next;
-      std::copy_if(doubtful.begin(), doubtful.end(), std::back_inserter(next),
+      Pixels behind;
+      std::copy_if(doubtful.begin(), doubtful.end(), std::back_inserter(behind),
                    [&](std::uint32_t pixel) { return isIn(round, pixel); });
-      trace(points, light, rounds[round], next, shares);
-      any = any || !next.empty();
+      trace(points, light, rounds[round], behind, shares);
+      any = any || !behind.empty();
     }
   }
   std::vector<int> raysOf;
