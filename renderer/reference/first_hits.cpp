@@ -34,18 +34,31 @@ struct Eye {
 struct EyeQuery {
   RTCIntersectContext context;
   const Eye* eye = nullptr;
+  Places places;
   Lines lines;
 };
 
-/// Whether the camera sees a surface where a ray meets it: as the survey and the surface pass draw it. `away()`: the
-/// ray leads along the triangle's normal; `at()`: where it meets the triangle.
+/// What the camera sees of a triangle's plane in the pixels right of a place and below it.
+SeenPlace seenPlace(const Eye& eye, const PlacedTriangle& hit, const glm::vec2& place, const Barycentric& at) {
+  const Triangle triangle = eye.tree.triangle(hit.instance, hit.triangle);
+  Lines lines;
+  setLines(eye.sight, {{place.x + 1, place.x}, {place.y, place.y + 1}}, lines);
+  const auto crossed = [&](unsigned i) {
+    return crossingPlane(triangle, {lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]},
+                         {lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]}, at);
+  };
+  return {at, crossed(0), crossed(1)};
+}
+
+/// Whether the camera sees a surface where a ray through `place` meets it: as the survey and the surface pass draw it.
+/// `away()`: the ray leads along the triangle's normal; `at()`: where it meets the triangle.
 template <class Away, class At>
-bool isSeen(const Eye& eye, const PlacedTriangle& hit, const Away& away, const At& at) {
+bool isSeen(const Eye& eye, const PlacedTriangle& hit, const glm::vec2& place, const Away& away, const At& at) {
   if (eye.visible[hit.instance] == 0) return false;
   const Material& material = eye.tree.material(hit.instance);
   if (!material.doubleSided && away() != (eye.tree.mirrored[hit.instance] != 0)) return false;
-  return material.alphaMode == AlphaMode::opaque ||
-         alphaAt(eye.tree, hit.instance, hit.triangle, at()) >= material.alphaCutoff;
+  if (material.alphaMode == AlphaMode::opaque) return true;
+  return alphaSeen(eye.tree, hit.instance, hit.triangle, seenPlace(eye, hit, place, at())) >= material.alphaCutoff;
 }
 
 void keepSeen(const RTCFilterFunctionNArguments* call) {
@@ -56,7 +69,8 @@ void keepSeen(const RTCFilterFunctionNArguments* call) {
     const glm::dvec3 direction(directions[0][hit.lane], directions[1][hit.lane], directions[2][hit.lane]);
     const Triangle triangle = query.eye->tree.triangle(hit.instance, hit.triangle);
     return isSeen(
-        *query.eye, {hit.instance, hit.triangle}, [&] { return glm::dot(triangle.area(), direction) > 0; },
+        *query.eye, {hit.instance, hit.triangle}, {query.places.x[hit.lane], query.places.y[hit.lane]},
+        [&] { return glm::dot(triangle.area(), direction) > 0; },
         [&] {
           return crossing(triangle, origin, direction, {hit.u, hit.v});
         });
@@ -71,12 +85,12 @@ class Packet {
     query_.context.flags = eye.tree.closeRays();
     query_.eye = &eye;
     setAllRays(packet_.ray);
-    Places at{};
+    query_.places = {};
     for (unsigned i = 0; i < places.size(); ++i) {
-      at.x[i] = places[i].x;
-      at.y[i] = places[i].y;
+      query_.places.x[i] = places[i].x;
+      query_.places.y[i] = places[i].y;
     }
-    setLines(eye.sight, at, query_.lines);
+    setLines(eye.sight, query_.places, query_.lines);
     enter(eye.bounds, eye.input.camera.near, eye.input.camera.far, query_.lines, stretches_);
     for (unsigned i = 0; i < places.size(); ++i) {
       const auto& [origin, direction] = query_.lines;
@@ -120,7 +134,7 @@ class Packet {
       if (!hit(i)) continue;
       const auto away = [&] { return found.facing[i] > 0; };
       const auto at = [&] { return Barycentric{found.u[i], found.v[i]}; };
-      if (isSeen(eye_, on(i), away, at)) {
+      if (isSeen(eye_, on(i), {query_.places.x[i], query_.places.y[i]}, away, at)) {
         points[i] = found.point(i, on(i));
       } else {
         others.active[i] = -1;

@@ -43,7 +43,7 @@ struct TracedScene::Tree {
   std::vector<glm::vec3> shared;          ///< positions of primitives with a tree of their own, in their own space
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   /// By the image; none where no hole depends on it.
-  std::vector<std::shared_ptr<const AlphaPlane>> masks;
+  std::vector<std::shared_ptr<const AlphaLevels>> masks;
   Aabb bounds; ///< of the placed triangles, metres
   TriangleBoxes boxes;
   mutable KeptFronts fronts;

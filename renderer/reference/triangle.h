@@ -43,20 +43,25 @@ struct Barycentric {
   }
 };
 
-/// Where the line origin + t direction crosses the triangle's plane, moved to the triangle's nearest side where
-/// rounding put it outside; `otherwise` where the line runs along the plane. (Moeller and Trumbore, "Fast, Minimum
-/// Storage Ray/Triangle Intersection", 1997.)
-inline Barycentric crossing(const Triangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction,
-                            const Barycentric& otherwise) {
+/// Where the line origin + t direction crosses the triangle's plane, as weights of any size; `otherwise` where it runs
+/// along the plane. (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.)
+inline Barycentric crossingPlane(const Triangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction,
+                                 const Barycentric& otherwise) {
   const glm::dvec3 ab = triangle.b - triangle.a;
   const glm::dvec3 ac = triangle.c - triangle.a;
   const glm::dvec3 p = glm::cross(direction, ac);
   const double determinant = glm::dot(ab, p);
   if (determinant == 0) return otherwise;
   const glm::dvec3 from = origin - triangle.a;
-  const double u = std::clamp(glm::dot(from, p) / determinant, 0.0, 1.0);
-  const double v = std::clamp(glm::dot(direction, glm::cross(from, ab)) / determinant, 0.0, 1.0 - u);
-  return {u, v};
+  return {glm::dot(from, p) / determinant, glm::dot(direction, glm::cross(from, ab)) / determinant};
+}
+
+/// The same, moved to the triangle's nearest side where rounding put it outside.
+inline Barycentric crossing(const Triangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction,
+                            const Barycentric& otherwise) {
+  const Barycentric at = crossingPlane(triangle, origin, direction, otherwise);
+  const double u = std::clamp(at.u, 0.0, 1.0);
+  return {u, std::clamp(at.v, 0.0, 1.0 - u)};
 }
 
 } // namespace gnomon

@@ -65,6 +65,19 @@ enum class MinFilter {
   nearest
 };
 
+inline bool takesNearestTexel(MinFilter filter) {
+  return filter == MinFilter::nearest || filter == MinFilter::nearestMipmapLinear ||
+         filter == MinFilter::nearestMipmapNearest;
+}
+
+/// Whether it reads smaller levels at all, and whether it mixes two of them.
+inline bool takesLevels(MinFilter filter) {
+  return filter != MinFilter::linear && filter != MinFilter::nearest;
+}
+inline bool mixesLevels(MinFilter filter) {
+  return filter == MinFilter::linearMipmapLinear || filter == MinFilter::nearestMipmapLinear;
+}
+
 /// KHR_texture_transform: from a vertex's coordinates to those that the texture is read at.
 struct TextureTransform {
   glm::mat2 axes{1};

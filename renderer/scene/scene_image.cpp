@@ -48,11 +48,11 @@ Status SceneImage::decode() const {
   }
 }
 
-std::shared_ptr<const AlphaPlane> SceneImage::alpha() const {
+std::shared_ptr<const AlphaLevels> SceneImage::alpha() const {
   const Image& image = pixels();
   const std::lock_guard lock(mutex_);
   auto alpha = alpha_.lock();
-  if (alpha == nullptr) alpha_ = alpha = std::make_shared<const AlphaPlane>(image);
+  if (alpha == nullptr) alpha_ = alpha = std::make_shared<const AlphaLevels>(AlphaPlane(image));
   return alpha;
 }
 

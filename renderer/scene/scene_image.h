@@ -34,8 +34,8 @@ class SceneImage {
   Status decode() const;
   /// 8-bit RGBA. REQUIRES: decode() gives no problem.
   const Image& pixels() const { return **decoded(); }
-  /// Their alpha: one plane for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
-  std::shared_ptr<const AlphaPlane> alpha() const;
+  /// Their alpha: the same for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
+  std::shared_ptr<const AlphaLevels> alpha() const;
 
   /// The same for a caller who needs them but once, as decodeRows() gives them: decoded and not kept, or all at once of
   /// those that are kept.
@@ -53,7 +53,7 @@ class SceneImage {
   mutable std::mutex mutex_;                         ///< of `file_` and `alpha_`
   mutable std::shared_ptr<const CheckedImage> file_; ///< none once the pixels are kept
   mutable std::optional<Pixels> decoded_;
-  mutable std::weak_ptr<const AlphaPlane> alpha_;
+  mutable std::weak_ptr<const AlphaLevels> alpha_;
 };
 
 /// Puts the place in the glTF on problems of the codec, which knows only bytes.

@@ -1,4 +1,5 @@
-// What materials with holes cast where the holes are finer than the texels of a shadow map, seen in rendered frames.
+// Materials whose holes are finer than the texels of a shadow map, or than pixels, seen in rendered frames.
+#include <algorithm>
 #include <numeric>
 #include <random>
 
@@ -12,25 +13,24 @@ namespace {
 using testing::floatsOf;
 using testing::renderJson;
 
-constexpr int kTexels = 1024;   ///< of the texture, a side
-constexpr double kOpaque = 0.3; ///< share of the texels
+constexpr int kTexels = 1024; ///< of the texture, a side
 
-/// Texels that let all through or nothing, by chance.
-Bytes speckles() {
+/// Texels that let all through or nothing, by chance; so many tenths of them nothing.
+Bytes speckles(unsigned opaqueTenths) {
   Image image{kTexels, kTexels, {"R", "G", "B", "A"}, std::vector<std::uint8_t>(4 * kTexels * kTexels, 255)};
   auto& pixels = std::get<std::vector<std::uint8_t>>(image.pixels);
   std::mt19937 random(1);
-  for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = random() % 10 < 3 ? 255 : 0;
+  for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = random() % 10 < opaqueTenths ? 255 : 0;
   return *encodePng(image, 1);
 }
 
 /// A ground of 20 m and a sheet of 10 m at y 2, whose texels are 1 cm; half of that where they are `moved` by a
-/// transform. Ground and sheet are of one mesh, but for the material.
-ScenePtr specklesOver(const std::string& alphaMode, bool moved) {
-  static const Bytes kPng = speckles();
+/// transform.
+ScenePtr specklesOver(const std::string& alphaMode, bool moved, unsigned opaqueTenths = 3) {
+  const Bytes png = speckles(opaqueTenths);
   testing::GlbBuilder builder = testing::plane();
   builder.json["nodes"][0]["scale"] = {10, 1, 10};
-  builder.add("images", {{"bufferView", builder.addView(kPng)}, {"mimeType", "image/png"}});
+  builder.add("images", {{"bufferView", builder.addView(png)}, {"mimeType", "image/png"}});
   builder.add("textures", {{"source", 0}});
   Json texture = {{"index", 0}};
   if (moved) {
@@ -88,8 +88,34 @@ TEST(MaskedCasters, X34_FineHolesThatAreDitheredLetThroughTheMeanOfWhatTheyLeave
   for (const bool moved : {false, true}) {
     const ScenePtr scene = specklesOver("BLEND", moved);
     for (const Json& light : kLights) {
-      EXPECT_NEAR(meanBelow(scene, light, {{"blendedCasters", "dither"}}), 1 - kOpaque, 0.03)
+      EXPECT_NEAR(meanBelow(scene, light, {{"blendedCasters", "dither"}}), 0.7, 0.03)
           << light << (moved ? ", moved" : "");
+    }
+  }
+}
+
+/// From high above, where a pixel is as large as 8 texels, the eye sees no holes.
+TEST(MaskedCasters, G2_WhereTheEyeSeesNoHolesTheShadowIsThatOfWhatItSees) {
+  for (const bool moved : {false, true}) {
+    const ScenePtr scene = specklesOver("MASK", moved, 8);
+    for (Json light : kLights) {
+      for (const char* technique : {"rayTraced", "hybrid", "shadowMap"}) {
+        light["shadow"] = {{"technique", technique}};
+        const Json spec = {{"width", 96},
+                           {"height", 96},
+                           {"camera", {{"eye", {0, 12, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}}},
+                           {"lights", {light}},
+                           {"antialiasing", "none"},
+                           {"views", {"shadow", "reference"}},
+                           {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+        const Frame frame = renderJson(scene, spec.dump());
+        for (std::size_t view = 0; view < 2; ++view) {
+          const auto& lit = std::get<std::vector<float>>(frame.images[view].image.pixels);
+          EXPECT_GT(std::ranges::min(lit), 0.999f) << technique << light << (moved ? ", moved " : " ") << view;
+        }
+        ASSERT_TRUE(frame.report.error);
+        EXPECT_EQ(frame.report.error->misclassified, 0) << technique << light;
+      }
     }
   }
 }

@@ -142,11 +142,6 @@ HWY_INLINE Float levelOfDetail(const Texture& texture, const TextureSpot& spot) 
   return 0.5f * log2(clamp(squared, 1e-20f, 1e20f));
 }
 
-inline bool nearestTexel(MinFilter filter) {
-  return filter == MinFilter::nearest || filter == MinFilter::nearestMipmapLinear ||
-         filter == MinFilter::nearestMipmapNearest;
-}
-
 /// Which sizes of a texture each place reads.
 struct ReadLevels {
   Mask larger;           ///< it is shown larger than it is, by a filter of its own
@@ -157,17 +152,16 @@ struct ReadLevels {
 
 HWY_INLINE ReadLevels levelsOf(const Texture& texture, const TextureUse& use, const TextureSpot& spot) {
   const Float detail = levelOfDetail(texture, spot);
-  const bool mipmapped = use.minFilter != MinFilter::linear && use.minFilter != MinFilter::nearest;
-  const bool blended =
-      use.minFilter == MinFilter::linearMipmapLinear || use.minFilter == MinFilter::nearestMipmapLinear;
+  const bool blended = mixesLevels(use.minFilter);
   const auto last = static_cast<float>(texture.levels() - 1);
   ReadLevels read;
   read.larger = detail <= 0.0f;
-  const Float smaller = mipmapped ? clamp(blended ? detail : ceil(detail - 0.5f), 0.0f, last) : Float(0.0f);
+  const Float smaller =
+      takesLevels(use.minFilter) ? clamp(blended ? detail : ceil(detail - 0.5f), 0.0f, last) : Float(0.0f);
   read.level = select(detail > 0.0f, smaller, 0.0f); // not of what is not a number
   read.lowest = floor(read.level);
   read.highest = blended ? ceil(read.level) : read.level;
-  read.ownFilter = use.nearest != nearestTexel(use.minFilter);
+  read.ownFilter = use.nearest != takesNearestTexel(use.minFilter);
   return read;
 }
 
@@ -199,7 +193,7 @@ inline HWY_NOINLINE void findTaps(const Texture& texture, const TextureUse& use,
     for (std::size_t i = first; i <= last; ++i) {
       const Float number(static_cast<float>(i));
       const Mask reads = levelled & (read.lowest <= number) & (read.highest >= number);
-      if (any(reads)) add(i, nearestTexel(use.minFilter), reads, 1.0f - abs(read.level - number));
+      if (any(reads)) add(i, takesNearestTexel(use.minFilter), reads, 1.0f - abs(read.level - number));
     }
   }
   taps.finest = taps.count > 0 ? taps.of[0].level : texture.levels() - 1;

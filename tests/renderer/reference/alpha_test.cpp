@@ -1,6 +1,7 @@
 #include "renderer/reference/alpha.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -59,6 +60,50 @@ TEST(TextureAlpha, CoordinatesOfAnySizeStayInTheImage) {
       }
     }
   }
+}
+
+/// The image and its levels: 2 x 1 texels of alpha 115 and 166, then one of 141.
+AlphaLevels levels() {
+  return AlphaLevels(image());
+}
+
+/// Of the middle of the left half, where a pixel is as wide as so many texels and next to nothing high.
+double ofPixelsAsWideAs(double texels, MinFilter filter, bool nearest = false) {
+  TextureUse of = use(Wrap::clampToEdge, Wrap::clampToEdge, nearest);
+  of.minFilter = filter;
+  return textureAlpha(levels(), of, {{0.25, 0.5}, {texels / 4, 0}, {0, 0.001}});
+}
+
+TEST(TextureAlpha, APictureReadsTheLevelWhoseTexelsAreAsLargeAsItsPixels) {
+  const AlphaLevels all = levels();
+  ASSERT_EQ(all.count(), 3u);
+  EXPECT_EQ(all.of(1).at(0, 0), 115); // (0 + 51 + 204 + 204) / 4, a half rounded up
+  EXPECT_EQ(all.of(1).at(1, 0), 166);
+  EXPECT_EQ(all.of(2).at(0, 0), 141);
+  const double full = (0.0 + 51 + 204 + 204) / 4 / 255, half = 115 / 255.0, last = 141 / 255.0;
+  const MinFilter mixed = MinFilter::linearMipmapLinear, one = MinFilter::linearMipmapNearest;
+  for (const double texels : {0.0, 0.5, 1.0}) EXPECT_NEAR(ofPixelsAsWideAs(texels, mixed), full, 1e-12) << texels;
+  EXPECT_NEAR(ofPixelsAsWideAs(2, mixed), half, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(std::sqrt(8), mixed), (half + last) / 2, 1e-12);
+  for (const double texels : {4.0, 100.0, 1e30}) EXPECT_NEAR(ofPixelsAsWideAs(texels, mixed), last, 1e-12) << texels;
+  // The nearer one.
+  EXPECT_NEAR(ofPixelsAsWideAs(1.41, one), full, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(1.42, one), half, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(2.82, one), half, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(2.84, one), last, 1e-12);
+}
+
+TEST(TextureAlpha, WithoutLevelsAPictureReadsTheLargestOne) {
+  const double full = (0.0 + 51 + 204 + 204) / 4 / 255;
+  EXPECT_NEAR(ofPixelsAsWideAs(4, MinFilter::linear), full, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(4, MinFilter::nearest), 204 / 255.0, 1e-12);
+}
+
+TEST(TextureAlpha, LargerAndSmallerThanItIsATextureHasFiltersOfTheirOwn) {
+  const double full = (0.0 + 51 + 204 + 204) / 4 / 255;
+  EXPECT_NEAR(ofPixelsAsWideAs(0.5, MinFilter::linear, true), 204 / 255.0, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(2, MinFilter::linear, true), full, 1e-12);
+  EXPECT_NEAR(ofPixelsAsWideAs(2, MinFilter::nearestMipmapNearest, false), 115 / 255.0, 1e-12);
 }
 
 } // namespace

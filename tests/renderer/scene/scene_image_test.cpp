@@ -78,7 +78,7 @@ TEST(SceneImage, ItsAlphaIsThatOfItsPixelsWhateverItsSize) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const auto texel = static_cast<std::size_t>(y * size.x + x);
-        ASSERT_EQ(alpha->at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)), pixels[4 * texel + 3]);
+        ASSERT_EQ(alpha->largest().at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)), pixels[4 * texel + 3]);
       }
     }
     EXPECT_EQ(image.alpha(), alpha) << "while someone holds it";

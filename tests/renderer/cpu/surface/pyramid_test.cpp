@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/cpu/surface/halved_rows.h"
+#include "renderer/scene/alpha_plane.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {
@@ -92,6 +93,25 @@ TEST(Pyramid, WhereASizeIsOddATexelIsMixedFromTheTwoAroundIt) {
   const glm::dvec4 second = 0.75 * texelOf(full[3], false) + 0.25 * texelOf(full[4], false);
   EXPECT_LT(glm::length(texelOf(pyramid.levels[1].texels[0], false) - first), 1.01 / 255);
   EXPECT_LT(glm::length(texelOf(pyramid.levels[1].texels[1], false) - second), 1.01 / 255);
+}
+
+TEST(Pyramid, ItsAlphaIsWhatRaysReadOfTheSameLevels) {
+  for (const auto& [width, height] : {std::pair(64, 32), std::pair(20, 6), std::pair(13, 1), std::pair(7, 31)}) {
+    const auto image = noise(width, height);
+    const Pyramid pyramid = pyramidOf(*image, true);
+    const AlphaLevels alpha{AlphaPlane(*image)};
+    ASSERT_EQ(alpha.count(), pyramid.levels.size());
+    for (std::size_t i = 0; i < alpha.count(); ++i) {
+      const TextureLevel& level = pyramid.levels[i];
+      ASSERT_EQ(glm::ivec2(alpha.of(i).width(), alpha.of(i).height()), glm::ivec2(level.width, level.height));
+      for (int texel = 0; texel < level.width * level.height; ++texel) {
+        const int byte = alpha.of(i).at(static_cast<std::size_t>(texel % level.width),
+                                        static_cast<std::size_t>(texel / level.width));
+        // Of levels with odd sides each is rounded for itself.
+        EXPECT_NEAR(byte, static_cast<int>(level.texels[texel] >> 24), width == 64 ? 0 : 2) << width << ", " << i;
+      }
+    }
+  }
 }
 
 TEST(Pyramid, FromAnyLevelOnItIsTheSameHoweverMuchOfItIsKnown) {
