@@ -82,9 +82,9 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
   Pixels next = pixelsBeside(shares, inDoubt(), isAsked);
   // What shows between leaves may be a pixel large, and its first ray alone may not tell that the light is not all
   // hidden.
-  Pixels small = points.besideMasks();
-  std::erase_if(small, [&](std::uint32_t pixel) { return !isIn(0, pixel); });
-  next = either(shares, std::move(next), small);
+  Pixels besideMasks = points.besideMasks();
+  std::erase_if(besideMasks, [&](std::uint32_t pixel) { return !isIn(0, pixel); });
+  next = either(shares, std::move(next), besideMasks);
   while (!next.empty()) {
     trace(points, light, rounds[0], next, shares);
     // More rays may have found what a single one missed, and at the rim of a penumbra they may miss it, too.

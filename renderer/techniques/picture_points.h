@@ -119,7 +119,7 @@ class PicturePoints {
   }
 
   /// What these show, as it was drawn: the exact points are there, but for samples that the rim of a surface passes
-  /// within the device's rounding, and for masks, which are filtered as they are drawn.
+  /// within the device's rounding, and for masks where alpha is as good as the cutoff.
   DrawnPlaces drawn(const ShownSamples& shown) const;
 
   /// Where these lie in their triangles.
