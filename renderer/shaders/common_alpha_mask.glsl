@@ -42,14 +42,15 @@ float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 #ifdef TEXTURE_TRANSFORM
 #include "common_texture_transform.glsl"
 #define MASK_PLACE movedPlace(mask.uv, GNOMON_BASE_COLOR_UNIT)
-#define MASK_TEXEL movedTexel(baseColorTexture, mask.uv, GNOMON_BASE_COLOR_UNIT)
 #else
 #define MASK_PLACE mask.uv
-#define MASK_TEXEL texture(baseColorTexture, mask.uv)
 #endif
 #ifdef SEEN_BY_LIGHT
-#undef MASK_TEXEL
 #define MASK_TEXEL textureLod(baseColorTexture, MASK_PLACE, 0.0)
+#elif defined(TEXTURE_TRANSFORM)
+#define MASK_TEXEL movedTexel(baseColorTexture, mask.uv, GNOMON_BASE_COLOR_UNIT)
+#else
+#define MASK_TEXEL texture(baseColorTexture, mask.uv)
 #endif
 
 void discardMasked() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/core/srgb.h"
+#include "renderer/image/between_texels.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -50,22 +51,6 @@ const ByteScale& scaleOf(bool srgb) {
   return srgb ? kSrgb : kLinear;
 }
 
-/// Which two texels of a row a texel of the next level lies between, and the second one's share.
-struct Between {
-  int first = 0, second = 0;
-  double share = 0;
-};
-
-std::vector<Between> betweenTexels(int from, int to) {
-  std::vector<Between> all(static_cast<std::size_t>(to));
-  for (int i = 0; i < to; ++i) {
-    const double place = (i + 0.5) * from / to - 0.5;
-    const int first = static_cast<int>(std::floor(place));
-    all[static_cast<std::size_t>(i)] = {std::max(first, 0), std::min(first + 1, from - 1), place - first};
-  }
-  return all;
-}
-
 /// The mean of four bytes, a half rounded up, for each of two channels that lie 16 bits apart.
 inline std::uint32_t meanOfPairs(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   constexpr std::uint32_t kPair = 0x00ff00ffu;
@@ -104,15 +89,14 @@ std::uint32_t texelOf(const ByteScale& color, const ByteScale& alpha, const Byte
 }
 
 /// Where a side of the larger level is odd.
-void mixedTexels(const TextureLevel& from, bool srgb, std::span<const Between> across, std::span<const Between> down,
-                 std::uint32_t* to) {
+void mixedTexels(const TextureLevel& from, bool srgb, std::span<const BetweenTexels> across,
+                 std::span<const BetweenTexels> down, std::uint32_t* to) {
   const ByteScale& color = scaleOf(srgb);
   const ByteScale& alpha = scaleOf(false);
-  for (const Between& y : down) {
-    const std::uint32_t* upper = from.texels + static_cast<std::size_t>(y.first) * static_cast<std::size_t>(from.width);
-    const std::uint32_t* lower =
-        from.texels + static_cast<std::size_t>(y.second) * static_cast<std::size_t>(from.width);
-    for (const Between& x : across) {
+  for (const BetweenTexels& y : down) {
+    const std::uint32_t* upper = from.texels + y.first * static_cast<std::size_t>(from.width);
+    const std::uint32_t* lower = from.texels + y.second * static_cast<std::size_t>(from.width);
+    for (const BetweenTexels& x : across) {
       const std::uint32_t a = upper[x.first], b = upper[x.second], c = lower[x.first], d = lower[x.second];
       *to++ = texelOf(color, alpha, [&](const ByteScale& scale, unsigned shift) {
         const auto number = [&](std::uint32_t texel) { return scale.number(texel >> shift & 255u); };
