@@ -40,14 +40,15 @@ WayToLight exactWay(const DrawnQuery& query, const SurfacePoint& point, unsigned
           double{points.length[lane]} / query.casters->tree.scale};
 }
 
-/// The float's word where it is sure; else the exact point decides.
+/// The float's word where it is sure; else the exact point decides, and where masks have holes: but for a light with a
+/// size, to any place of which a ray may as well go.
 double opacityOf(const DrawnQuery& query, const Candidate& hit) {
   const Casters& casters = *query.casters;
   const Opacity opacity = casters.opacity[hit.instance];
   if (opacity == Opacity::none) return 0;
   const PlacedTriangle& own = query.places->shown[hit.lane];
   if (hit.instance == own.instance && hit.triangle == own.triangle) return 0;
-  if (opacity == Opacity::full) {
+  if (opacity == Opacity::full || query.source->radius > 0) {
     const DrawnPoints& points = *query.points;
     const double metres = 1.0 / casters.tree.scale;
     const SurfacePoint near{glm::dvec3(laneOf(points.relative, hit.lane)) * metres + casters.eye,
@@ -55,7 +56,9 @@ double opacityOf(const DrawnQuery& query, const Candidate& hit) {
     const RayToLight ray{&near,
                          {glm::dvec3(laneOf(points.toward, hit.lane)), double{points.length[hit.lane]} * metres}};
     const double rounding = casters.rounding + 2 * double{points.unsure[hit.lane]} * metres;
-    if (surelyMeets(ray, casters.tree.triangle(hit.instance, hit.triangle), rounding)) return 1;
+    if (surelyMeets(ray, casters.tree.triangle(hit.instance, hit.triangle), rounding)) {
+      return opacity == Opacity::full ? 1 : opacityAt(casters, {hit.instance, hit.triangle}, {hit.u, hit.v});
+    }
   }
   const SurfacePoint point = exactly(query, hit.lane);
   return opacityOf(casters, RayToLight{&point, exactWay(query, point, hit.lane)}, hit);
@@ -92,20 +95,26 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   return shares;
 }
 
+SquarePlaces shiftsOf(const DrawnPlaces& places, const Interleaved& all, std::uint32_t ray) {
+  SquarePlaces shifts;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const SquarePlace& shift =
+        all.shift(static_cast<std::uint32_t>(places.x[i]), static_cast<std::uint32_t>(places.y[i]), ray);
+    shifts.x[i] = shift.x;
+    shifts.y[i] = shift.y;
+  }
+  return shifts;
+}
+
 /// The mean over rays `first` up to `last` to places all over the light, for each lane that is active. Lanes that
 /// floats can't tell one of the rays of become unsure instead.
 std::array<float, kLanes> meanThrough(DrawnQuery& query, DrawnPoints& points, const DrawnLight& light,
                                       std::uint32_t first, std::uint32_t last, const Interleaved& all, Lanes& lanes,
                                       Lanes& unsure) {
   SquarePlaces shifts;
-  for (unsigned i = 0; i < kLanes; ++i) {
-    const SquarePlace& shift =
-        all.shift(static_cast<std::uint32_t>(query.places->x[i]), static_cast<std::uint32_t>(query.places->y[i]));
-    shifts.x[i] = shift.x;
-    shifts.y[i] = shift.y;
-  }
   std::array<float, kLanes> sums{};
   for (std::uint32_t ray = first; ray < last; ++ray) {
+    if (ray == first || ray == Interleaved::kSpreadRays) shifts = shiftsOf(*query.places, all, ray);
     const SquarePlace& place = all.place(ray);
     SquarePlaces at;
     for (unsigned i = 0; i < kLanes; ++i) {

@@ -150,6 +150,19 @@ SquarePlace sequencePlace(std::uint32_t index) {
   return {place.x ^ place.x >> 2, place.y ^ place.y >> 2};
 }
 
+namespace {
+
+/// The shift that takes each four rays from a multiple of 4 on to the same places in another order: the first of them
+/// to the same quarter of the square whatever the shift was. (Number 1 of the sequence lies in the other half along
+/// both axes, number 2 along y alone: `shift` is XORed with one of the first four, and so are the numbers of the rays.)
+SquarePlace inFirstQuarter(const SquarePlace& shift) {
+  const std::uint32_t right = shift.x >> 31;
+  const SquarePlace by = sequencePlace(right | (right ^ shift.y >> 31) << 1);
+  return {shift.x ^ by.x, shift.y ^ by.y};
+}
+
+} // namespace
+
 Interleaved::Interleaved(std::uint32_t rays) {
   const std::uint32_t own = std::bit_ceil(rays);
   for (std::uint32_t ray = 0; ray < rays; ++ray) places_.push_back(sequencePlace(ray));
@@ -163,6 +176,7 @@ Interleaved::Interleaved(std::uint32_t rays) {
     for (std::uint32_t bit = 0; bit < 4; ++bit) first ^= (pixel >> bit & 1u) != 0 ? kColumns[bit] : 0;
     const SquarePlace place = sequencePlace((first & (own - 1)) | pixel * own);
     shifts_[i] = {place.x ^ 0x0c3375c9u, place.y ^ 0xc19953ddu};
+    aligned_[i] = inFirstQuarter(shifts_[i]);
   }
 }
 

@@ -68,9 +68,13 @@ double opacityOf(const Casters& casters, const RayToLight& ray, const Candidate&
   const bool inAir = ray.from->instance == kNoSurface; // no plane that rounding moves
   if (!inAir && !meetsCaster(casters, ray, triangle)) return 0;
   if (opacity == Opacity::full) return 1;
-  const Material& material = casters.tree.material(hit.instance);
-  const Barycentric at = crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v});
-  const double alpha = alphaAt(casters.tree, hit.instance, hit.triangle, at);
+  return opacityAt(casters, {hit.instance, hit.triangle},
+                   crossing(triangle, ray.from->position, ray.way.direction, {hit.u, hit.v}));
+}
+
+double opacityAt(const Casters& casters, const PlacedTriangle& caster, const Barycentric& at) {
+  const Material& material = casters.tree.material(caster.instance);
+  const double alpha = alphaAt(casters.tree, caster.instance, caster.triangle, at);
   const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
   return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
 }

@@ -118,7 +118,7 @@ std::vector<SquarePlace> placesOfSquare(std::uint32_t x, std::uint32_t y, std::u
   std::vector<SquarePlace> places;
   for (std::uint32_t i = 0; i < 16; ++i) {
     for (std::uint32_t ray = 0; ray < rays; ++ray) {
-      places.push_back(shifted(all.place(ray), all.shift(x + i % 4, y + i / 4)));
+      places.push_back(shifted(all.place(ray), all.shift(x + i % 4, y + i / 4, ray)));
     }
   }
   return places;
@@ -157,10 +157,22 @@ TEST(LightSamples, APixelsOwnRaysFillEveryRectangle) {
       const Interleaved all(12);
       std::vector<SquarePlace> places;
       for (std::uint32_t ray = 0; ray < std::min(12u, 1u << bits); ++ray) {
-        places.push_back(shifted(all.place(ray), all.shift(pixel % 4, pixel / 4)));
+        places.push_back(shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray)));
       }
       for (int across = 0; across <= bits; ++across) EXPECT_EQ(fullest(places, across, bits - across), 1u);
     }
+  }
+}
+
+TEST(LightSamples, LaterRaysOfAllPixelsGoToOneQuarter) {
+  const Interleaved all(64);
+  for (std::uint32_t ray = Interleaved::kSpreadRays; ray < 64; ++ray) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> quarters;
+    for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
+      const SquarePlace place = shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray));
+      quarters.emplace(place.x >> 31, place.y >> 31);
+    }
+    EXPECT_EQ(quarters.size(), 1u) << ray;
   }
 }
 
@@ -176,7 +188,7 @@ TEST(LightSamples, APixelsOwnRaysFindTheShareThatAStraightEdgeLeaves) {
   for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
     std::vector<glm::dvec2> places;
     for (std::uint32_t ray = 0; ray < 16; ++ray) {
-      const SquarePlace place = shifted(all.place(ray), all.shift(pixel % 4, pixel / 4));
+      const SquarePlace place = shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray));
       places.push_back(mapped({place.x * 0x1p-32, place.y * 0x1p-32}));
     }
     for (double turn = 0; turn < 6.28; turn += 0.07) {
