@@ -1,6 +1,7 @@
 #include "renderer/techniques/penumbras.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 
 #include "renderer/core/parallel.h"
@@ -67,6 +68,24 @@ void trace(const PicturePoints& points, const TracedLight& light, const Round& r
   });
 }
 
+/// A byte a pixel, not 0 where its first ray alone can't be trusted: where it saw another share than one beside it, and
+/// on masks, between whose leaves what shows may be a pixel large.
+UnfilledVector<std::uint8_t> firstDoubts(const PicturePoints& points, const PictureShares& shares) {
+  UnfilledVector<std::uint8_t> doubts = marksApart(shares.grid, shares.shares, kEdge);
+  const std::span<const std::uint8_t> masks = points.masks();
+  std::transform(masks.begin(), masks.end(), doubts.begin(), doubts.begin(), std::bit_or<>());
+  return doubts;
+}
+
+/// The pixels that differ from one beside them, or lie beside two that differ: all that lie beside `changed`, and maybe
+/// others.
+Pixels apartBeside(PictureShares& shares, const Pixels& changed) {
+  constexpr std::size_t kFew = 64; // looking all around one pixel takes as long as passing over so many
+  if (changed.size() > shares.grid.pixels() / kFew) return pixelsApart(shares.grid, shares.shares, kEdge);
+  return pixelsBeside(shares, changed,
+                      [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return shares.isApart(pixel, kEdge); });
+}
+
 } // namespace
 
 void tracePenumbras(const PicturePoints& points, const TracedLight& light, int samples, PictureShares& shares) {
@@ -77,14 +96,10 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
     return mark / PictureShares::kRound == static_cast<int>(round) && (mark & PictureShares::kAway) == 0 &&
            points.numberAt(shares.grid.pixelAt(pixel)) != kNoNumber;
   };
-  const auto inDoubt = [&] { return pixelsApart(shares.grid, shares.shares, kEdge); };
   const auto isAsked = [&](std::uint32_t pixel, std::uint32_t /*beside*/) { return isIn(0, pixel); };
-  Pixels next = pixelsBeside(shares, inDoubt(), isAsked);
-  // What shows between leaves may be a pixel large, and its first ray alone may not tell that the light is not all
-  // hidden.
-  Pixels besideMasks = points.besideMasks();
-  std::erase_if(besideMasks, [&](std::uint32_t pixel) { return !isIn(0, pixel); });
-  next = either(shares, std::move(next), besideMasks);
+  Pixels next = pixelsWhere(shares.grid, firstDoubts(points, shares),
+                            [](std::uint8_t /*least*/, std::uint8_t most) { return most != 0; });
+  std::erase_if(next, [&](std::uint32_t pixel) { return !isIn(0, pixel); });
   while (!next.empty()) {
     trace(points, light, rounds[0], next, shares);
     // More rays may have found what a single one missed, and at the rim of a penumbra they may miss it, too.
@@ -92,17 +107,17 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
         shares, next, [&](std::uint32_t pixel, std::uint32_t traced) { return shares.apart(pixel, traced) >= kEdge; });
     next = pixelsBeside(shares, next, isAsked);
   }
-  // What a pixel agreed with may move away from it later: then it catches up.
-  for (bool any = true; any;) {
-    any = false;
-    const Pixels doubtful = inDoubt();
+  for (Pixels doubtful = pixelsApart(shares.grid, shares.shares, kEdge); !doubtful.empty();) {
+    Pixels traced;
     for (std::size_t round = rounds.size() - 1; round > 0; --round) {
       Pixels behind;
       std::copy_if(doubtful.begin(), doubtful.end(), std::back_inserter(behind),
                    [&](std::uint32_t pixel) { return isIn(round, pixel); });
       trace(points, light, rounds[round], behind, shares);
-      any = any || !behind.empty();
+      traced.insert(traced.end(), behind.begin(), behind.end());
     }
+    // What a pixel agreed with may have moved away from it: then it catches up.
+    doubtful = apartBeside(shares, traced);
   }
   std::vector<int> raysOf;
   for (const Round& round : rounds) raysOf.push_back(static_cast<int>(round.last));

@@ -85,8 +85,7 @@ ShownNumbers inOrder(const SampleGrid& grid, std::span<const std::uint32_t> numb
 /// The points that a picture's samples show, for rays that go on from there. Pixels are numbered as in SampleGrid.
 class PicturePoints {
  public:
-  /// `masks`: a byte a pixel, not 0 where masked triangles lie, empty = nowhere. All that is referred to outlives it;
-  /// nothing is copied.
+  /// `masks`: as masks() gives them. All that is referred to outlives it; nothing is copied.
   PicturePoints(const TraceInput& rays, const SampleGrid& grid, const TriangleNumbers& numbers,
                 const ShownNumbers& shown, std::span<const std::uint8_t> masks)
       : rays_(rays), camera_(rays), grid_(grid), numbers_(numbers), shown_(shown), masks_(masks) {}
@@ -130,6 +129,9 @@ class PicturePoints {
 
   /// What a ray through each of their samples meets first. Runs on the calling thread.
   std::vector<SurfacePoint> traced(std::span<const std::uint32_t> pixels) const;
+
+  /// A byte a pixel, not 0 where masked triangles lie; empty = nowhere.
+  std::span<const std::uint8_t> masks() const { return masks_; }
 
   /// The pixels where masked triangles lie, and those next to them or to their corners.
   std::vector<std::uint32_t> besideMasks() const;

@@ -87,6 +87,21 @@ struct PictureShares {
     return std::abs(static_cast<int>(shares[a]) - static_cast<int>(shares[b]));
   }
 
+  /// Whether a pixel, or one beside or at a corner of it, differs by `least` or more from another of these.
+  bool isApart(std::uint32_t pixel, int least) const {
+    const glm::ivec2 at = grid.pixelAt(pixel);
+    std::uint8_t low = 255;
+    std::uint8_t high = 0;
+    for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, grid.height - 1); ++row) {
+      for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, grid.width - 1); ++column) {
+        const std::uint8_t share = shares[grid.numberOf({column, row})];
+        low = std::min(low, share);
+        high = std::max(high, share);
+      }
+    }
+    return high - low >= least;
+  }
+
   /// Of a pixel whose samples are all told by one of them.
   void set(std::uint32_t pixel, float share) {
     std::uint16_t* own = valuesOf(pixel);
@@ -106,18 +121,27 @@ inline Pixels either(PictureShares& shares, Pixels some, const Pixels& others) {
 }
 
 /// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; each once.
+/// On all cores.
 template <class Keep>
 Pixels pixelsBeside(PictureShares& shares, const Pixels& pixels, Keep keep) {
-  Pixels beside;
-  for (const std::uint32_t pixel : pixels) {
-    const glm::ivec2 at = shares.grid.pixelAt(pixel);
-    for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
-      for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
-        const std::uint32_t other = shares.grid.numberOf({column, row});
-        if (shares.taken[other] != 0 || !keep(other, pixel)) continue;
-        shares.taken[other] = 1;
-        beside.push_back(other);
+  constexpr std::size_t kPiece = 1024;
+  std::vector<Pixels> found((pixels.size() + kPiece - 1) / kPiece); // some of them more than once
+  forEachPiece(pixels.size(), kPiece, [&](std::size_t first, std::size_t last) {
+    Pixels& own = found[first / kPiece];
+    for (std::size_t i = first; i < last; ++i) {
+      const glm::ivec2 at = shares.grid.pixelAt(pixels[i]);
+      for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
+        for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
+          const std::uint32_t other = shares.grid.numberOf({column, row});
+          if (keep(other, pixels[i])) own.push_back(other);
+        }
       }
+    }
+  });
+  Pixels beside;
+  for (const Pixels& some : found) {
+    for (const std::uint32_t pixel : some) {
+      if (std::exchange(shares.taken[pixel], std::uint8_t{1}) == 0) beside.push_back(pixel);
     }
   }
   for (const std::uint32_t pixel : beside) shares.taken[pixel] = 0;

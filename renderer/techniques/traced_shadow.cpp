@@ -42,11 +42,9 @@ class ShadowTracing {
                     : gnomon::traceExactly(points_, light_, pixels, known_);
   }
 
-  /// The same at edges. Towards a light that has a size the points as they were drawn do, of which rays have told the
-  /// only one of a pixel that has one sample.
+  /// The same at edges. Towards a light that has a size the points as they were drawn do.
   Pixels traceEdges(const Pixels& pixels) {
-    if (!isSoft()) return traceExactly(pixels);
-    return places_ == 1 ? Pixels{} : traceSamples(points_, light_, samplesOfPoint(), pixels, known_);
+    return isSoft() ? traceSamples(points_, light_, samplesOfPoint(), pixels, known_) : traceExactly(pixels);
   }
 
   /// The pixels next to masks, and to both sides of where surfaces that are turned away end. REQUIRES: no point is
@@ -62,8 +60,10 @@ class ShadowTracing {
     if (isSoft()) gnomon::tracePenumbras(points_, light_, samples_, known_);
   }
 
-  /// The pixels at edges of the shadow whose points are not exact yet.
+  /// The pixels at edges of the shadow whose points are not exact yet. None in the shadow of a light that has a size
+  /// where a pixel has one sample: rays from there have told it.
   Pixels atEdges() {
+    if (isSoft() && places_ == 1) return {};
     const auto apartBy = [&](std::uint8_t apart) { return pixelsApart(grid(), known_.shares, apart); };
     Pixels pixels = apartBy(isSoft() ? kSoftEdge : kEdge);
     if (isSoft()) {
