@@ -123,9 +123,14 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   return fit;
 }
 
-Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitTarget& target) {
-  constexpr double kNearShare = 1e-3; // of the far end, at least
-  Aabb seen;                          // x, y: tangents; z: metres
+namespace {
+
+constexpr double kNearShare = 1e-3; ///< of the far end of a tile's depths, where they begin at least
+
+} // namespace
+
+Aabb tangentsOf(const std::vector<Aabb>& receiversLs, double tanHalf) {
+  Aabb seen;
   for (const Aabb& piece : receiversLs) {
     const double near = std::max(piece.min.z, kNearShare * piece.max.z);
     const glm::dvec2 low = glm::min(glm::dvec2(piece.min) / near, glm::dvec2(piece.min) / piece.max.z);
@@ -133,6 +138,10 @@ Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitT
     seen.add(Aabb{glm::dvec3(glm::clamp(low, -tanHalf, tanHalf), near),
                   glm::dvec3(glm::clamp(high, -tanHalf, tanHalf), piece.max.z)});
   }
+  return seen;
+}
+
+Fit punctualFit(const Aabb& seen, double tanHalf, const FitTarget& target) {
   const int inner = innerTexels(target);
   const double reach = biasReach(target.kernel);
   const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));

@@ -84,9 +84,13 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target);
 
-/// The fit for light from a point: the rectangle of directions in which `receiversLs` lie (each in front of the light,
-/// relative to it), cut to `tanHalf` on every side, and room for their normal offset. z runs from the receiver nearest
-/// along the tile's direction to the farthest; casters before z 0 must be drawn with their depth clamped.
-Fit punctualFit(const std::vector<Aabb>& receiversLs, double tanHalf, const FitTarget& target);
+/// Receivers as light from a point sees them: x and y are tangents, cut to `tanHalf` on every side, z metres along the
+/// tile's direction, no less than a share of the farthest. `receiversLs`: relative to the light, each in front of it.
+Aabb tangentsOf(const std::vector<Aabb>& receiversLs, double tanHalf);
+
+/// The fit for light from a point: the rectangle of directions in which the receivers lie (`seen`, from tangentsOf),
+/// and room for their normal offset. z runs from the receiver nearest along the tile's direction to the farthest;
+/// casters before z 0 must be drawn with their depth clamped.
+Fit punctualFit(const Aabb& seen, double tanHalf, const FitTarget& target);
 
 } // namespace gnomon

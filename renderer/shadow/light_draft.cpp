@@ -47,6 +47,35 @@ bool mayLieIn(const Aabb& box, double tanHalf) {
   return box.max.z > 0 && box.min.x <= reach && box.max.x >= -reach && box.min.y <= reach && box.max.y >= -reach;
 }
 
+/// What the light reaches in a face, as boxes in the face's light space. `reached`: along the world's axes, relative to
+/// the eye.
+std::vector<Aabb> receiversIn(const LightFace& face, const ShadowCaster& caster, const std::vector<Aabb>& reached) {
+  const double range = caster.range > 0 ? caster.range : HUGE_VAL;
+  const glm::dmat4 toLightSpace = lightFromRelative(face.basis, caster.position);
+  std::vector<Aabb> receivers;
+  for (const Aabb& piece : reached) {
+    Aabb box = transformed(toLightSpace, piece);
+    if (!mayLieIn(box, face.tanHalf)) continue;
+    box.max.z = std::min(box.max.z, range);
+    box.min.z = std::min(box.min.z, box.max.z);
+    receivers.push_back(box);
+  }
+  return receivers;
+}
+
+/// The basis turned about its direction so that a rectangle around these directions is small: the same tile is that
+/// much sharper. It follows every move of the camera.
+LightBasis turnedTo(const std::vector<Aabb>& receivers, const LightBasis& basis) {
+  constexpr std::size_t kMost = 2048; // of many receivers, those are as good
+  std::vector<glm::dvec2> directions;
+  const std::size_t stride = receivers.size() / kMost + 1;
+  for (std::size_t i = 0; i < receivers.size(); i += stride) {
+    const glm::dvec3 at = receivers[i].center();
+    if (at.z > 0) directions.emplace_back(at.x / at.z, at.y / at.z);
+  }
+  return rolled(basis, rollOfLeastArea(directions));
+}
+
 /// All that a face can serve: its pyramid as far as the light or the scene reaches, whatever the camera sees of it.
 Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDraft& tile) {
   constexpr double kRoom = 2; // surfaces are seen as boxes, which reach beyond the scene
@@ -124,19 +153,15 @@ void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::v
   const double range = caster.range > 0 ? caster.range : HUGE_VAL;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
                [&](const Aabb& piece) { return squaredDistance(piece, caster.position) <= range * range; });
-  for (const LightFace& face : facesOf(caster)) {
+  std::vector<LightFace> faces = facesOf(caster);
+  if (faces.size() == 1 && !draft.stable)
+    faces[0].basis = turnedTo(receiversIn(faces[0], caster, reached), faces[0].basis);
+  for (const LightFace& face : faces) {
     TileDraft tile;
     tile.basis = face.basis;
     tile.origin = caster.position;
     tile.tanHalf = face.tanHalf;
-    const glm::dmat4 toLightSpace = lightFromRelative(face.basis, caster.position);
-    for (const Aabb& piece : reached) {
-      Aabb box = transformed(toLightSpace, piece);
-      if (!mayLieIn(box, face.tanHalf)) continue;
-      box.max.z = std::min(box.max.z, range);
-      box.min.z = std::min(box.min.z, box.max.z);
-      tile.receivers.push_back(box);
-    }
+    tile.receivers = receiversIn(face, caster, reached);
     if (draft.stable && !tile.receivers.empty()) tile.receivers = {wholeFace(caster, input, tile)};
     draft.tiles.push_back(std::move(tile));
   }

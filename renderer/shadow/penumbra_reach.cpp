@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace gnomon {
@@ -13,15 +14,20 @@ namespace {
 constexpr std::array<std::array<unsigned, 4>, 6> kSides{
     {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
 
-/// The part of a convex polygon where `sign` times the axis' coordinate is at most `limit` (Sutherland and Hodgman,
-/// "Reentrant Polygon Clipping", 1974).
-std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, int axis, double sign, double limit) {
+/// The points p where dot(normal, p) is at most `limit`.
+struct HalfSpace {
+  glm::dvec3 normal{0};
+  double limit = 0;
+};
+
+/// The part of a convex polygon in a half space (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974).
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const HalfSpace& within) {
   std::vector<glm::dvec3> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3& from = polygon[i];
     const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
-    const double before = sign * from[axis] - limit;
-    const double after = sign * to[axis] - limit;
+    const double before = glm::dot(within.normal, from) - within.limit;
+    const double after = glm::dot(within.normal, to) - within.limit;
     if (before <= 0) kept.push_back(from);
     if ((before < 0 && after > 0) || (before > 0 && after < 0)) {
       kept.push_back(glm::mix(from, to, before / (before - after)));
@@ -30,11 +36,10 @@ std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, int axis
   return kept;
 }
 
-} // namespace
-
-// A box over a rectangle is convex, and so lowest in a corner; each of its corners lies on a side of the box.
-std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
-                                  const glm::dvec2& highest) {
+/// The least z of the part of a box that lies in all of these; none where none does. What they leave has its nearest
+/// point in the box's surface: none of them looks along z alone.
+std::optional<double> nearestWithin(const Aabb& box, const glm::dmat4& lightFromBox,
+                                    std::span<const HalfSpace> within) {
   if (box.empty()) return std::nullopt;
   std::array<glm::dvec3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {
@@ -46,13 +51,33 @@ std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBo
   for (const auto& side : kSides) {
     std::vector<glm::dvec3> polygon;
     for (const unsigned corner : side) polygon.push_back(corners[corner]);
-    for (int axis = 0; axis < 2; ++axis) {
-      polygon = clipped(polygon, axis, 1.0, highest[axis]);
-      polygon = clipped(polygon, axis, -1.0, -lowest[axis]);
-    }
+    for (const HalfSpace& half : within) polygon = clipped(polygon, half);
     for (const glm::dvec3& point : polygon) nearest = std::min(nearest.value_or(point.z), point.z);
   }
   return nearest;
+}
+
+} // namespace
+
+// A box over a rectangle is convex, and so lowest in a corner; each of its corners lies on a side of the box.
+std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
+                                  const glm::dvec2& highest) {
+  const HalfSpace within[] = {
+      {{1, 0, 0}, highest.x}, {{-1, 0, 0}, -lowest.x}, {{0, 1, 0}, highest.y}, {{0, -1, 0}, -lowest.y}};
+  return nearestWithin(box, lightFromBox, within);
+}
+
+// The same holds in a pyramid, unless the box holds its apex: then that is the nearest.
+std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
+                                       const glm::dvec2& highest) {
+  const glm::dvec3 apex(glm::inverse(lightFromBox) * glm::dvec4(0, 0, 0, 1));
+  if (!box.empty() && glm::clamp(apex, box.min, box.max) == apex) return 0.0;
+  const HalfSpace within[] = {{{1, 0, -highest.x}, 0},
+                              {{-1, 0, lowest.x}, 0},
+                              {{0, 1, -highest.y}, 0},
+                              {{0, -1, lowest.y}, 0},
+                              {{0, 0, -1}, 0}};
+  return nearestWithin(box, lightFromBox, within);
 }
 
 PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const glm::dmat4& lightFromScene,
@@ -79,6 +104,23 @@ PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const gl
 double penumbraTangent(double nearest, double farthest, double lightRadius) {
   if (!(nearest > 0)) return lightRadius > 0 ? HUGE_VAL : 0.0;
   return lightRadius * std::max(1.0 / nearest - 1.0 / farthest, 0.0);
+}
+
+double nearestCasterInPyramid(const Aabb& seen, const Aabb& scene, const glm::dmat4& lightFromScene, double lightRadius,
+                              double widest) {
+  constexpr int kTurns = 6;
+  constexpr double kRoom = 1e-6; // far above the rounding of doubles
+  double nearest = 0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const double radius = std::min(penumbraTangent(nearest, seen.max.z, lightRadius), widest);
+    const glm::dvec2 room(radius * (1.0 + kRoom) + kRoom);
+    const auto found =
+        nearestInPyramid(scene, lightFromScene, glm::dvec2(seen.min) - room, glm::dvec2(seen.max) + room);
+    if (!found) return seen.min.z;
+    if (!(*found > nearest)) break;
+    nearest = *found;
+  }
+  return nearest;
 }
 
 } // namespace gnomon

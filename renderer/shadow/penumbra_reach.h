@@ -24,9 +24,18 @@ std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBo
 PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const glm::dmat4& lightFromScene,
                             double lightRadius);
 
-/// The same for light from a ball of `lightRadius` metres as a tangent: the widest that the penumbra shows from the
-/// light between casters no nearer than `nearest` and receivers no farther than `farthest`, metres along the tile's
-/// direction.
+/// The same from the origin of light space: in the pyramid where x / z and y / z lie between these, z > 0.
+std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
+                                       const glm::dvec2& highest);
+
+/// For light from a ball of `lightRadius` metres, a tangent: the widest that the penumbra shows from the light between
+/// casters no nearer than `nearest` and receivers no farther than `farthest`, metres along the tile's direction.
 double penumbraTangent(double nearest, double farthest, double lightRadius);
+
+/// Light space z, metres, of the nearest caster in `scene` that takes a share of such light from a receiver, or would
+/// but for standing more than `widest` (a tangent) off it. `seen`: the receivers as tangentsOf gives them (fit.h).
+/// Never too much; that of the nearest receiver where no caster does.
+double nearestCasterInPyramid(const Aabb& seen, const Aabb& scene, const glm::dmat4& lightFromScene, double lightRadius,
+                              double widest);
 
 } // namespace gnomon

@@ -167,10 +167,12 @@ Fit faceFit(const TileDraft& draft, const LightDraft& light, const PlanInput& in
                                       : glm::length(draft.origin); // a stable fit knows no eye
   target.magnitude =
       std::max(fromEye, fromAnchor) + reach * (1.0 + std::sqrt(2.0) * draft.tanHalf) + orthographicReach(input.view);
+  const Aabb seen = tangentsOf(draft.receivers, draft.tanHalf);
   if (target.kernel.kind == MapReadingKind::pcss) {
-    target.nearestCaster = transformed(lightFromAnchored(draft, input), anchoredScene(input)).min.z;
+    target.nearestCaster = nearestCasterInPyramid(seen, anchoredScene(input), lightFromAnchored(draft, input),
+                                                  target.kernel.lightRadius, kWidestTangent);
   }
-  return punctualFit(draft.receivers, draft.tanHalf, target);
+  return punctualFit(seen, draft.tanHalf, target);
 }
 
 ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster,

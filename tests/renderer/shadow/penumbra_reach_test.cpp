@@ -84,6 +84,62 @@ TEST(PenumbraReach, N1_WhatStandsBeforeAnyPartOfTheLightIsWithinIt) {
   }));
 }
 
+TEST(PenumbraReach, NoCasterInAPyramidIsNearerThanTheNearest) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    Dice dice(seed);
+    const RandomReach random = randomReach(dice);
+    const double size = glm::length(random.scene.max - random.scene.min);
+    const glm::dvec3 light = random.scene.center() + dice.direction() * (size * dice.between(0, 2));
+    const glm::dmat4 toLight = lightFromRelative(random.basis, light);
+    const glm::dvec2 low(dice.between(-2, 0.5), dice.between(-2, 0.5));
+    const glm::dvec2 high = low + glm::dvec2(dice.between(0.1, 2), dice.between(0.1, 2));
+    const auto nearest = nearestInPyramid(random.scene, toLight, low, high);
+    for (int i = 0; i < 500; ++i) {
+      const glm::dvec3 at(toLight * glm::dvec4(pointIn(dice, random.scene), 1.0));
+      const glm::dvec2 tangents = glm::dvec2(at) / at.z;
+      const bool in =
+          at.z > 0 && tangents.x > low.x && tangents.y > low.y && tangents.x < high.x && tangents.y < high.y;
+      if (!in) continue;
+      RC_ASSERT(nearest.has_value());
+      RC_ASSERT(at.z >= *nearest - 1e-9 * size);
+    }
+  }));
+}
+
+// Light from any place of a ball reaches the receiver past the caster only within the reach.
+TEST(PenumbraReach, N1_WhatStandsBeforeAnyPartOfALampIsWithinIt) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    Dice dice(seed);
+    const double lightRadius = std::pow(10, dice.between(-3, 0));
+    const LightBasis basis = lightBasis(randomLightDirection(dice));
+    const Aabb scene = randomBox(dice, 10);
+    const glm::dmat4 toLight = lightFromRelative(basis, dice.direction() * dice.between(0, 30));
+    Aabb seen = randomBox(dice, 1); // tangents
+    seen.min.z = dice.between(0.1, 20);
+    seen.max.z = seen.min.z * dice.between(1, 5);
+    const double nearest = nearestCasterInPyramid(seen, scene, toLight, lightRadius, kWidestTangent);
+    for (int i = 0; i < 300; ++i) {
+      const glm::dvec3 receiver = pointIn(dice, seen);
+      const glm::dvec3 caster(toLight * glm::dvec4(pointIn(dice, scene), 1.0));
+      if (!(caster.z > 0 && caster.z < receiver.z)) continue;
+      const double aside = glm::length(glm::dvec2(caster) / caster.z - glm::dvec2(receiver));
+      const double hides = std::min(penumbraTangent(caster.z, receiver.z, lightRadius), kWidestTangent);
+      if (aside <= hides) RC_ASSERT(caster.z >= nearest - 1e-9);
+    }
+  }));
+}
+
+TEST(PenumbraReach, WhatStandsBesideALampsPyramidDoesNotCount) {
+  // A lamp 4 m over a wide floor of slabs 3 m high: seen to 45 degrees off its axis, what it shines past is 1 m away,
+  // though a slab beside it is as near along a slanted axis as anything may be.
+  const LightBasis slanted = lightBasis(glm::normalize(glm::dvec3(1, -1, 0)));
+  const Aabb scene{glm::dvec3(-50, 0, -50), glm::dvec3(50, 3, 50)};
+  const glm::dmat4 toLight = lightFromRelative(slanted, {0, 4, 0});
+  EXPECT_LT(transformed(toLight, scene).min.z, 0) << "behind the lamp";
+  const Aabb seen{glm::dvec3(-0.5, -0.5, 2), glm::dvec3(0.5, 0.5, 20)};
+  EXPECT_GT(nearestCasterInPyramid(seen, scene, toLight, 0.01, kWidestTangent), 0.9);
+}
+
 TEST(PenumbraReach, N1_OfALampItIsItsSizeAsTheCasterMakesItSeen) {
   // Lamp of 0.2 m, caster at 2 m, receiver at 3 m: half of 0.4 (3 - 2) / 2 metres, seen from 3 m.
   EXPECT_NEAR(penumbraTangent(2, 3, 0.2), 0.1 / 3, 1e-15);

@@ -165,6 +165,32 @@ TEST(PunctualPlan, X31_ASpotUpToSixtyDegreesTakesOneTileAWiderOneFacesOfACube) {
   EXPECT_EQ(facesOf(spot).size(), 6u);
 }
 
+/// How slim the one tile of a spot at the eye is whose picture shows a strip from corner to corner.
+double slimness(bool rising, Stabilization stabilization) {
+  PlanInput input = simplePlan(10, 11);
+  ReceiverDepths& seen = input.receivers;
+  for (int row = 0; row < seen.rows; ++row) {
+    for (int column = 0; column < seen.columns; ++column) {
+      const bool shows = std::abs(column - (rising ? seen.rows - 1 - row : row)) <= 3;
+      if (!shows) seen.blocks[static_cast<std::size_t>(row * seen.columns + column)] = {};
+    }
+  }
+  ShadowCaster& spot = input.casters[0];
+  spot.type = LightType::spot;
+  spot.direction = input.view.forward;
+  spot.outerCone = glm::radians(50.0);
+  spot.shadow.stabilization = stabilization;
+  const glm::dvec2 texel = planShadows(input).tiles.at(0).space.fit.texelSize;
+  return std::min(texel.x, texel.y) / std::max(texel.x, texel.y);
+}
+
+TEST(PunctualPlan, ASpotsTileTurnsToWhatIsSeen) {
+  for (const bool rising : {false, true}) {
+    EXPECT_LT(slimness(rising, Stabilization::none), 0.25);
+    EXPECT_NEAR(slimness(rising, Stabilization::viewSnapping), 1, 1e-9) << "a stabilized tile serves all of the cone";
+  }
+}
+
 TEST(PunctualPlan, ALightThatReachesNothingInViewGetsNoTile) {
   PlanInput input = simplePlan(10, 20);
   input.casters[0].type = LightType::point;
