@@ -155,12 +155,13 @@ inline constexpr auto kRows<Shadow> = rows(
           {.says = "How materials of alphaMode BLEND, and transmissive ones, cast shadows."}),
     field("lightMap", &Shadow::lightMap,
           {.says = "Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces."}),
-    field("raySamples", &Shadow::raySamples,
-          {.says = "Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only "
-                   "penumbras take so many; where a pixel and its neighbours agree, and for lights without a size, one "
-                   "ray does.",
-           .unit = "rays",
-           .range = {1, kLimits.maxRaySamples}}));
+    field(
+        "raySamples", &Shadow::raySamples,
+        {.says = "Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only "
+                 "penumbras take so many; where a pixel and its neighbours agree, one ray does, or 4 beside materials "
+                 "with alpha. Lights without a size take one ray.",
+         .unit = "rays",
+         .range = {1, kLimits.maxRaySamples}}));
 static_assert(kRowsAreComplete<Shadow>);
 
 template <>

@@ -38,16 +38,18 @@ struct EyeQuery {
   Lines lines;
 };
 
-/// What the camera sees of a triangle's plane in the pixels right of a place and below it.
+/// What the camera sees of a triangle's plane in the middle of the pixel that a place lies in, and of the pixels right
+/// of it and below: a picture reads a mask there, once for all samples of a pixel. `at`: at the place itself.
 SeenPlace seenPlace(const Eye& eye, const PlacedTriangle& hit, const glm::vec2& place, const Barycentric& at) {
   const Triangle triangle = eye.tree.triangle(hit.instance, hit.triangle);
+  const glm::vec2 middle = glm::floor(place) + 0.5f;
   Lines lines;
-  setLines(eye.sight, {{place.x + 1, place.x}, {place.y, place.y + 1}}, lines);
+  setLines(eye.sight, {{middle.x + 1, middle.x, middle.x}, {middle.y, middle.y + 1, middle.y}}, lines);
   const auto crossed = [&](unsigned i) {
     return crossingPlane(triangle, {lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]},
                          {lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]}, at);
   };
-  return {at, crossed(0), crossed(1)};
+  return {place == middle ? at : crossed(2), crossed(0), crossed(1)};
 }
 
 /// Whether the camera sees a surface where a ray through `place` meets it: as the survey and the surface pass draw it.

@@ -94,28 +94,65 @@ TEST(MaskedCasters, X34_FineHolesThatAreDitheredLetThroughTheMeanOfWhatTheyLeave
   }
 }
 
-/// From high above, where a pixel is as large as 8 texels, the eye sees no holes.
+/// All from high above, where a pixel is as large as 6 texels or more.
+const std::vector<Json> kCameras = Json::parse(R"([
+    {"eye": [0, 12, 0], "target": [0, 0, 0], "up": [0, 0, -1]},
+    {"eye": [3, 12, 3], "target": [0, 0, 0], "perspective": {"fovYDegrees": 30}},
+    {"eye": [1, 12, 0], "target": [1, 0, 0], "up": [0, 0, -1],
+     "intrinsics": {"fx": 116, "fy": 116, "cx": 60, "cy": 40}},
+    {"eye": [2, 12, 3], "target": [0, 2, 0], "orthographic": {"height": 6, "near": 0.1, "far": 30}}])");
+
 TEST(MaskedCasters, G2_WhereTheEyeSeesNoHolesTheShadowIsThatOfWhatItSees) {
   for (const bool moved : {false, true}) {
     const ScenePtr scene = specklesOver("MASK", moved, 8);
-    for (Json light : kLights) {
+    for (const Json& camera : kCameras) {
       for (const char* technique : {"rayTraced", "hybrid", "shadowMap"}) {
-        light["shadow"] = {{"technique", technique}};
         const Json spec = {{"width", 96},
                            {"height", 96},
-                           {"camera", {{"eye", {0, 12, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}}},
-                           {"lights", {light}},
+                           {"camera", camera},
+                           {"lights", kLights},
+                           {"shadow", {{"technique", technique}}},
                            {"antialiasing", "none"},
                            {"views", {"shadow", "reference"}},
                            {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
         const Frame frame = renderJson(scene, spec.dump());
         for (std::size_t view = 0; view < 2; ++view) {
           const auto& lit = std::get<std::vector<float>>(frame.images[view].image.pixels);
-          EXPECT_GT(std::ranges::min(lit), 0.999f) << technique << light << (moved ? ", moved " : " ") << view;
+          EXPECT_GT(std::ranges::min(lit), 0.999f) << technique << camera << (moved ? ", moved " : " ") << view;
         }
         ASSERT_TRUE(frame.report.error);
-        EXPECT_EQ(frame.report.error->misclassified, 0) << technique << light;
+        EXPECT_EQ(frame.report.error->misclassified, 0) << technique << camera;
       }
+    }
+  }
+}
+
+/// From near by, where a pixel is half a texel: a picture reads a mask once for all samples of a pixel.
+TEST(MaskedCasters, G2_NoSampleOfThePixelsThatShowTheSheetIsShadedByIt) {
+  const ScenePtr scene = specklesOver("MASK", false, 5);
+  for (const char* antialiasing : {"none", "msaa4x"}) {
+    for (const char* technique : {"rayTraced", "hybrid"}) {
+      const Json spec = {
+          {"width", 96},
+          {"height", 96},
+          {"camera", {{"eye", {0.1, 3, 0.2}}, {"target", {0, 2, 0}}, {"perspective", {{"fovYDegrees", 30}}}}},
+          {"lights", {kLights[0]}},
+          {"ambient", {{"intensity", 0}}},
+          {"shadow", {{"technique", technique}}},
+          {"antialiasing", antialiasing},
+          {"views", {"color", "ids"}},
+          {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+      const Frame frame = renderJson(scene, spec.dump());
+      const auto& ids = floatsOf(frame, 1);
+      const auto& colors = floatsOf(frame, 0);
+      const std::size_t channels = colors.size() / ids.size();
+      std::vector<float> onSheet;
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] == 1) onSheet.push_back(colors[i * channels]);
+      }
+      ASSERT_GT(onSheet.size(), 2000u);
+      const auto [least, most] = std::ranges::minmax(onSheet);
+      EXPECT_GT(least, 0.9f * most) << technique << ", " << antialiasing;
     }
   }
 }

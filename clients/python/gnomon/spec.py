@@ -356,8 +356,8 @@ class Shadow:
         Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces.
     raySamples:
         Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only penumbras
-        take so many; where a pixel and its neighbours agree, and for lights without a size, one ray does. Unit:
-        rays. Default: 16.
+        take so many; where a pixel and its neighbours agree, one ray does, or 4 beside materials with alpha. Lights
+        without a size take one ray. Unit: rays. Default: 16.
     """
 
     enabled: Optional[bool] = None
