@@ -64,8 +64,8 @@ std::vector<std::uint8_t> showing(std::span<const std::uint8_t> slots, const Dep
 }
 
 /// Where masked and blended triangles lie, holes and all, that no surface hides: a byte a pixel, not 0 there. Where
-/// alpha is as good as the cutoff, or between the samples of a pixel, their holes may differ from those that rays meet.
-/// Empty where the view holds none. `surfaces` is left as it is.
+/// alpha is as good as the cutoff, their holes may differ from those that rays meet. Empty where the view holds none.
+/// `surfaces` is left as it is.
 std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey& survey, DepthBuffer& surfaces) {
   const FrameScene& scene = camera.scene;
   std::vector<std::uint8_t> slots = survey.visible;

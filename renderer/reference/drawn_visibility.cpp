@@ -40,8 +40,9 @@ WayToLight exactWay(const DrawnQuery& query, const SurfacePoint& point, unsigned
           double{points.length[lane]} / query.casters->tree.scale};
 }
 
-/// The float's word where it is sure; else the exact point decides, and where masks have holes: but for a light with a
-/// size, to any place of which a ray may as well go.
+/// Floats decide where they are sure, and else the exact point does. Where alpha is read, that one always does for a
+/// light without a size; rays to one with a size go to some place of it anyway, and the rim of a hole may be off by a
+/// float's rounding.
 double opacityOf(const DrawnQuery& query, const Candidate& hit) {
   const Casters& casters = *query.casters;
   const Opacity opacity = casters.opacity[hit.instance];
@@ -95,11 +96,11 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   return shares;
 }
 
-SquarePlaces shiftsOf(const DrawnPlaces& places, const Interleaved& all, std::uint32_t ray) {
+SquarePlaces shiftsOf(const DrawnPlaces& places, const Interleaved& all, bool aligned) {
   SquarePlaces shifts;
   for (unsigned i = 0; i < kLanes; ++i) {
     const SquarePlace& shift =
-        all.shift(static_cast<std::uint32_t>(places.x[i]), static_cast<std::uint32_t>(places.y[i]), ray);
+        all.shift(static_cast<std::uint32_t>(places.x[i]), static_cast<std::uint32_t>(places.y[i]), aligned);
     shifts.x[i] = shift.x;
     shifts.y[i] = shift.y;
   }
@@ -111,10 +112,14 @@ SquarePlaces shiftsOf(const DrawnPlaces& places, const Interleaved& all, std::ui
 std::array<float, kLanes> meanThrough(DrawnQuery& query, DrawnPoints& points, const DrawnLight& light,
                                       std::uint32_t first, std::uint32_t last, const Interleaved& all, Lanes& lanes,
                                       Lanes& unsure) {
-  SquarePlaces shifts;
+  bool aligned = Interleaved::isAligned(first, first, last);
+  SquarePlaces shifts = shiftsOf(*query.places, all, aligned);
   std::array<float, kLanes> sums{};
   for (std::uint32_t ray = first; ray < last; ++ray) {
-    if (ray == first || ray == Interleaved::kSpreadRays) shifts = shiftsOf(*query.places, all, ray);
+    if (Interleaved::isAligned(ray, first, last) != aligned) {
+      aligned = !aligned;
+      shifts = shiftsOf(*query.places, all, aligned);
+    }
     const SquarePlace& place = all.place(ray);
     SquarePlaces at;
     for (unsigned i = 0; i < kLanes; ++i) {

@@ -68,6 +68,15 @@ glm::dvec2 squareSample(std::uint32_t index, std::uint32_t count, std::uint64_t 
           (static_cast<double>(reversed(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
 }
 
+/// The shift that takes each four rays from a multiple of 4 on to the same places in another order: the first of them
+/// to the same quarter of the square whatever the shift was. (Number 1 of the sequence lies in the other half along
+/// both axes, number 2 along y alone: `shift` is XORed with one of the first four, and so are the numbers of the rays.)
+SquarePlace inFirstQuarter(const SquarePlace& shift) {
+  const std::uint32_t right = shift.x >> 31;
+  const SquarePlace by = sequencePlace(right | (right ^ shift.y >> 31) << 1);
+  return {shift.x ^ by.x, shift.y ^ by.y};
+}
+
 } // namespace
 
 LightSource lightSource(const Light& light, const glm::dvec3& anchor) {
@@ -149,19 +158,6 @@ SquarePlace sequencePlace(std::uint32_t index) {
   // meet many at once: it divides 16 of them on the disc as it does the disc, to 0.038 (rms) instead of 0.046.
   return {place.x ^ place.x >> 2, place.y ^ place.y >> 2};
 }
-
-namespace {
-
-/// The shift that takes each four rays from a multiple of 4 on to the same places in another order: the first of them
-/// to the same quarter of the square whatever the shift was. (Number 1 of the sequence lies in the other half along
-/// both axes, number 2 along y alone: `shift` is XORed with one of the first four, and so are the numbers of the rays.)
-SquarePlace inFirstQuarter(const SquarePlace& shift) {
-  const std::uint32_t right = shift.x >> 31;
-  const SquarePlace by = sequencePlace(right | (right ^ shift.y >> 31) << 1);
-  return {shift.x ^ by.x, shift.y ^ by.y};
-}
-
-} // namespace
 
 Interleaved::Interleaved(std::uint32_t rays) {
   const std::uint32_t own = std::bit_ceil(rays);

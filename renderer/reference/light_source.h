@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -102,18 +103,24 @@ SquarePlace sequencePlace(std::uint32_t index);
 /// The places on a light that drawn points send rays to: a pixel's are the first ones of the sequence XORed with its
 /// own shift. There is one for each pixel of a square of 4 x 4, and they are the same in every square: wherever in a
 /// picture 4 x 4 pixels are taken, their first rays lie evenly all over the light between each other, and so do all of
-/// them (Keller and Heidrich, "Interleaved Sampling", 2001). From kSpreadRays on, rays of one number go to the same
-/// quarter of the light from every pixel: packets of rays stay close together.
+/// them (Keller and Heidrich, "Interleaved Sampling", 2001). Later rays, where all four from a multiple of 4 on are
+/// sent, go to the same places in another order: those of one number to the same quarter of the light from every pixel,
+/// so that packets of rays stay close together.
 class Interleaved {
  public:
-  static constexpr std::uint32_t kSpreadRays = 4;
-
   explicit Interleaved(std::uint32_t rays); ///< most of a pixel
 
   const SquarePlace& place(std::uint32_t ray) const { return places_[ray]; } ///< REQUIRES: ray < rays
-  /// What a pixel's places are XORed with, that of this ray among them.
-  const SquarePlace& shift(std::uint32_t x, std::uint32_t y, std::uint32_t ray) const {
-    return (ray < kSpreadRays ? shifts_ : aligned_)[(y & 3) << 2 | (x & 3)];
+
+  /// Whether a ray of those from `first` up to `last`, which are sent together, goes to one quarter from all pixels.
+  static bool isAligned(std::uint32_t ray, std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t four = ray / 4 * 4;
+    return four >= std::max(first, 4u) && four + 4 <= last;
+  }
+
+  /// What the places of such rays, or of others, are XORed with for a pixel.
+  const SquarePlace& shift(std::uint32_t x, std::uint32_t y, bool aligned) const {
+    return (aligned ? aligned_ : shifts_)[(y & 3) << 2 | (x & 3)];
   }
 
  private:

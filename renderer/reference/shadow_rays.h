@@ -87,7 +87,7 @@ struct Casters {
 /// The share of the light that a candidate stops: 0 where it can't throw a shadow onto the ray's start.
 double opacityOf(const Casters& casters, const RayToLight& ray, const Candidate& hit);
 
-/// The share of the light that the material of a caster stops there. REQUIRES: one that alpha tells.
+/// The share of the light that the material of a caster stops there. REQUIRES: Opacity::byAlpha.
 double opacityAt(const Casters& casters, const PlacedTriangle& caster, const Barycentric& at);
 
 /// The share of the light that comes through, for each ray; then there are none.

@@ -77,7 +77,7 @@ class TracedCamera {
 };
 
 /// The first hits of the camera rays through `places`: pixels from the picture's upper left corner, so that the centre
-/// of the first pixel is 0.5 0.5.
+/// of the first pixel is 0.5 0.5. Masks are read as the picture shows them: in the middle of the pixel.
 std::vector<SurfacePoint> firstHits(const TraceInput& input, std::span<const glm::vec2> places);
 
 /// Where the camera rays through `places` cross the triangles that are known to show there, one a place; moved to the

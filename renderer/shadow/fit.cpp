@@ -10,6 +10,8 @@ namespace gnomon {
 
 namespace {
 
+constexpr double kNearShare = 1e-3; ///< of the far end of depths from a point, where they begin at least
+
 int innerTexels(const FitTarget& target) {
   return target.tileSize - 2 * target.kernel.border;
 }
@@ -122,12 +124,6 @@ Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& e
   fit.depthExtent = depthLength + 2.0 * margin + clear + (near - fit.depthNear);
   return fit;
 }
-
-namespace {
-
-constexpr double kNearShare = 1e-3; ///< of the far end of a tile's depths, where they begin at least
-
-} // namespace
 
 Aabb tangentsOf(const std::vector<Aabb>& receiversLs, double tanHalf) {
   Aabb seen;

@@ -84,8 +84,9 @@ Fit tightFit(const Aabb& receiversLs, const FitTarget& target);
 Fit stableFit(const Sphere& sphere, const LightBasis& basis, const glm::dvec3& eye, int snapTexels,
               const FitTarget& target);
 
-/// Receivers as light from a point sees them: x and y are tangents, cut to `tanHalf` on every side, z metres along the
-/// tile's direction, no less than a share of the farthest. `receiversLs`: relative to the light, each in front of it.
+/// The box around receivers as light from a point sees them: x and y are tangents, cut to `tanHalf` on every side, z
+/// metres along the tile's direction, of each no less than a thousandth of its end. `receiversLs`: relative to the
+/// light, each in front of it.
 Aabb tangentsOf(const std::vector<Aabb>& receiversLs, double tanHalf);
 
 /// The fit for light from a point: the rectangle of directions in which the receivers lie (`seen`, from tangentsOf),

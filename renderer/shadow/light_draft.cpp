@@ -63,17 +63,19 @@ std::vector<Aabb> receiversIn(const LightFace& face, const ShadowCaster& caster,
   return receivers;
 }
 
-/// The basis turned about its direction so that a rectangle around these directions is small: the same tile is that
-/// much sharper. It follows every move of the camera.
-LightBasis turnedTo(const std::vector<Aabb>& receivers, const LightBasis& basis) {
-  constexpr std::size_t kMost = 2048; // of many receivers, those are as good
-  std::vector<glm::dvec2> directions;
-  const std::size_t stride = receivers.size() / kMost + 1;
-  for (std::size_t i = 0; i < receivers.size(); i += stride) {
-    const glm::dvec3 at = receivers[i].center();
-    if (at.z > 0) directions.emplace_back(at.x / at.z, at.y / at.z);
+/// The basis turned about its direction so that a rectangle around what the light reaches is small: the same tile is
+/// that much sharper. Not for stable tiles, for it changes with the camera. Where what is seen fills the cone, no turn
+/// is better than another.
+LightBasis turnedTo(const std::vector<glm::dvec3>& samples, const ShadowCaster& caster, const LightFace& face) {
+  constexpr double kLeastSaved = 0.1; // of the area
+  const glm::dmat3 lightFromWorld = face.basis.lightFromWorld();
+  std::vector<glm::dvec2> tangents;
+  for (const glm::dvec3& point : samples) {
+    const glm::dvec3 at = lightFromWorld * (point - caster.position);
+    if (caster.range > 0 && glm::dot(at, at) > caster.range * caster.range) continue;
+    if (at.z > 0 && std::hypot(at.x, at.y) <= face.tanHalf * at.z) tangents.emplace_back(at.x / at.z, at.y / at.z);
   }
-  return rolled(basis, rollOfLeastArea(directions));
+  return rolled(face.basis, rollOfLeastArea(tangents, kLeastSaved));
 }
 
 /// All that a face can serve: its pyramid as far as the light or the scene reaches, whatever the camera sees of it.
@@ -146,16 +148,14 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
   noteEmptyCascades(draft);
 }
 
-void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces,
-                LightDraft& draft) {
+void draftFaces(const ShadowCaster& caster, const PlanInput& input, const SeenSurfaces& seen, LightDraft& draft) {
   draft.stable = caster.shadow.stabilization != Stabilization::none;
   std::vector<Aabb> reached;
   const double range = caster.range > 0 ? caster.range : HUGE_VAL;
-  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
+  std::copy_if(seen.pieces.begin(), seen.pieces.end(), std::back_inserter(reached),
                [&](const Aabb& piece) { return squaredDistance(piece, caster.position) <= range * range; });
   std::vector<LightFace> faces = facesOf(caster);
-  if (faces.size() == 1 && !draft.stable)
-    faces[0].basis = turnedTo(receiversIn(faces[0], caster, reached), faces[0].basis);
+  if (faces.size() == 1 && !draft.stable) faces[0].basis = turnedTo(seen.samples, caster, faces[0]);
   for (const LightFace& face : faces) {
     TileDraft tile;
     tile.basis = face.basis;

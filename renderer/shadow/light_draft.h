@@ -47,8 +47,14 @@ void addNote(PlannedLight& light, const std::string& note);
 /// A directional light's cascades; `draft.planned` gets the notes.
 void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraft& draft);
 
-/// A spot or point light's faces. `pieces`: what the camera sees, as boxes along the world's axes, relative to the eye.
-/// Where the light's shadow is to be stabilized, a face serves all of its pyramid and not what is seen alone.
-void draftFaces(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces, LightDraft& draft);
+/// What the camera sees, relative to the eye.
+struct SeenSurfaces {
+  std::vector<Aabb> pieces;        ///< boxes along the world's axes that together hold it
+  std::vector<glm::dvec3> samples; ///< some points of it
+};
+
+/// A spot or point light's faces. A spot's only one is turned so that what is seen fills it. Where the light's shadow
+/// is to be stabilized, faces are not turned, and each serves all of its pyramid and not what is seen alone.
+void draftFaces(const ShadowCaster& caster, const PlanInput& input, const SeenSurfaces& seen, LightDraft& draft);
 
 } // namespace gnomon

@@ -36,8 +36,8 @@ std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const Ha
   return kept;
 }
 
-/// The least z of the part of a box that lies in all of these; none where none does. What they leave has its nearest
-/// point in the box's surface: none of them looks along z alone.
+/// The least z of the part of a box that lies in all of these; none where none does. REQUIRES: that part has its
+/// nearest point in the box's surface.
 std::optional<double> nearestWithin(const Aabb& box, const glm::dmat4& lightFromBox,
                                     std::span<const HalfSpace> within) {
   if (box.empty()) return std::nullopt;
@@ -72,11 +72,8 @@ std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightF
                                        const glm::dvec2& highest) {
   const glm::dvec3 apex(glm::inverse(lightFromBox) * glm::dvec4(0, 0, 0, 1));
   if (!box.empty() && glm::clamp(apex, box.min, box.max) == apex) return 0.0;
-  const HalfSpace within[] = {{{1, 0, -highest.x}, 0},
-                              {{-1, 0, lowest.x}, 0},
-                              {{0, 1, -highest.y}, 0},
-                              {{0, -1, lowest.y}, 0},
-                              {{0, 0, -1}, 0}};
+  const HalfSpace within[] = {
+      {{1, 0, -highest.x}, 0}, {{-1, 0, lowest.x}, 0}, {{0, 1, -highest.y}, 0}, {{0, -1, lowest.y}, 0}};
   return nearestWithin(box, lightFromBox, within);
 }
 

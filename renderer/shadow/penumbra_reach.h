@@ -18,23 +18,25 @@ struct PenumbraReach {
 std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
                                   const glm::dvec2& highest);
 
+/// The same in the pyramid from the origin of light space in which x / z and y / z lie between these. REQUIRES: the
+/// lowest are less than the highest.
+std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
+                                       const glm::dvec2& highest);
+
 /// Parallel light whose disc's edge is `lightRadius` off its middle (a tangent): the casters in `scene`, a box that
 /// `lightFromScene` takes to light space, and the receivers in a box of light space. Only the casters over the
 /// receivers and the penumbra around them count: each bounds how far the others matter. Never too little.
 PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const glm::dmat4& lightFromScene,
                             double lightRadius);
 
-/// The same from the origin of light space: in the pyramid where x / z and y / z lie between these, z > 0.
-std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
-                                       const glm::dvec2& highest);
-
-/// For light from a ball of `lightRadius` metres, a tangent: the widest that the penumbra shows from the light between
-/// casters no nearer than `nearest` and receivers no farther than `farthest`, metres along the tile's direction.
+/// For light from a disc of `lightRadius` metres across the tile's direction, as pcss takes it, a tangent: the widest
+/// that the penumbra shows from the light between casters no nearer than `nearest` and receivers no farther than
+/// `farthest`, metres along that direction.
 double penumbraTangent(double nearest, double farthest, double lightRadius);
 
-/// Light space z, metres, of the nearest caster in `scene` that takes a share of such light from a receiver, or would
-/// but for standing more than `widest` (a tangent) off it. `seen`: the receivers as tangentsOf gives them (fit.h).
-/// Never too much; that of the nearest receiver where no caster does.
+/// Light space z, metres, of the nearest caster in `scene` that takes a share of such light from a receiver and stands
+/// no more than `widest` (a tangent) off it. `seen`: the receivers as tangentsOf gives them (fit.h). Never too much;
+/// that of the nearest receiver where no caster does.
 double nearestCasterInPyramid(const Aabb& seen, const Aabb& scene, const glm::dmat4& lightFromScene, double lightRadius,
                               double widest);
 

@@ -79,30 +79,26 @@ bool isPreferred(double angle) {
   return angle > kEnd - glm::pi<double>() && angle <= kEnd;
 }
 
-/// The nearest and the farthest point of every few blocks' middle within the cascade, in light space.
-std::vector<glm::dvec2> sampledReceivers(const CameraView& view, const ReceiverDepths& receivers,
-                                         const LightBasis& basis, const CascadeInterval& cascade) {
-  std::vector<glm::dvec2> points;
+} // namespace
+
+std::vector<glm::dvec3> sampledReceivers(const CameraView& view, const ReceiverDepths& receivers,
+                                         const DepthInterval& depths) {
+  std::vector<glm::dvec3> points;
   const int stride =
       static_cast<int>(std::ceil(std::sqrt(static_cast<double>(receivers.columns) * receivers.rows / kSampledBlocks)));
   for (int row = 0; row < receivers.rows; row += stride) {
     for (int column = 0; column < receivers.columns; column += stride) {
       const DepthSpan& span = receivers.blocks[static_cast<std::size_t>(row * receivers.columns + column)];
       if (span.empty()) continue;
-      const double near = std::max<double>(span.nearest, cascade.near);
-      const double far = std::min<double>(span.farthest, cascade.far);
+      const double near = std::max<double>(span.nearest, depths.near);
+      const double far = std::min<double>(span.farthest, depths.far);
       if (!(near <= far)) continue;
       const glm::dvec2 ndc((2.0 * column + 1.0) / receivers.columns - 1.0, 1.0 - (2.0 * row + 1.0) / receivers.rows);
-      for (const double depth : {near, far}) {
-        const glm::dvec3 point = pointAt(view, ndc, depth);
-        points.emplace_back(glm::dot(basis.right, point), glm::dot(basis.up, point));
-      }
+      for (const double depth : {near, far}) points.push_back(pointAt(view, ndc, depth));
     }
   }
   return points;
 }
-
-} // namespace
 
 std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
                                  const CascadeInterval& cascade) {
@@ -149,7 +145,7 @@ LightBasis rolled(const LightBasis& basis, double angle) {
 
 // Parallel sides of the hull give rectangles that differ by half a turn, and a right angle ones that differ by a
 // quarter, all as large but for rounding; devices round depths differently and must choose the same.
-double rollOfLeastArea(std::span<const glm::dvec2> points) {
+double rollOfLeastArea(std::span<const glm::dvec2> points, double leastSaved) {
   if (points.empty()) return 0.0;
   const std::vector<glm::dvec2> corners = hullCorners(points);
   std::vector<Roll> rolls{{0.0, areaAt(0.0, corners)}};
@@ -159,9 +155,10 @@ double rollOfLeastArea(std::span<const glm::dvec2> points) {
     const double angle = std::atan2(side.y, side.x);
     rolls.push_back({angle, areaAt(angle, corners)});
   }
-  const double most = kAlike * std::min_element(rolls.begin(), rolls.end(), [](const Roll& a, const Roll& b) {
-                                 return a.area < b.area;
-                               })->area;
+  const double least =
+      std::min_element(rolls.begin(), rolls.end(), [](const Roll& a, const Roll& b) { return a.area < b.area; })->area;
+  if (least > (1.0 - leastSaved) * rolls.front().area) return 0.0;
+  const double most = kAlike * least;
   const auto end =
       std::stable_partition(rolls.begin(), rolls.end(), [=](const Roll& roll) { return roll.area <= most; });
   const auto preferred = std::find_if(rolls.begin(), end, [](const Roll& roll) { return isPreferred(roll.angle); });
@@ -170,7 +167,11 @@ double rollOfLeastArea(std::span<const glm::dvec2> points) {
 
 LightBasis tightBasis(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
                       const CascadeInterval& cascade) {
-  return rolled(basis, rollOfLeastArea(sampledReceivers(view, receivers, basis, cascade)));
+  std::vector<glm::dvec2> onMap;
+  for (const glm::dvec3& point : sampledReceivers(view, receivers, {cascade.near, cascade.far})) {
+    onMap.emplace_back(glm::dot(basis.right, point), glm::dot(basis.up, point));
+  }
+  return rolled(basis, rollOfLeastArea(onMap));
 }
 
 } // namespace gnomon

@@ -19,6 +19,11 @@ namespace gnomon {
 std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
                                  const CascadeInterval& cascade);
 
+/// The nearest and the farthest point in the middle of every few survey blocks, within these depths; relative to the
+/// eye.
+std::vector<glm::dvec3> sampledReceivers(const CameraView& view, const ReceiverDepths& receivers,
+                                         const DepthInterval& depths);
+
 /// The box around boxes.
 Aabb boxAround(const std::vector<Aabb>& boxes);
 
@@ -27,8 +32,9 @@ LightBasis rolled(const LightBasis& basis, double angle);
 
 /// The turn, radians, of a rectangle of nearly the least area around points: a side of the least one lies along a side
 /// of their hull (Freeman and Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve",
-/// 1975); the hull is taken at the points that are extreme in 64 directions. 0 without points.
-double rollOfLeastArea(std::span<const glm::dvec2> points);
+/// 1975); the hull is taken at the points that are extreme in 64 directions. 0 without points, and where no turn saves
+/// this share of the area.
+double rollOfLeastArea(std::span<const glm::dvec2> points, double leastSaved = 0);
 
 /// For a tight fit: the basis turned so that a box around the receivers in a cascade spends few texels on what is not
 /// seen. Views of a ground need a fraction of the area that an arbitrary roll takes, so the same tile is that much

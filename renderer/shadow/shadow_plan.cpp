@@ -33,17 +33,18 @@ std::optional<std::string> reasonToSkip(const ShadowCaster& caster, const PlanIn
   return std::nullopt;
 }
 
-/// What the camera sees, as boxes along the world's axes; only lights from a point ask.
-std::vector<Aabb> worldPieces(const PlanInput& input) {
+/// What lights from a point ask for; nothing where there are none.
+SeenSurfaces seenSurfaces(const PlanInput& input) {
   const bool wanted = std::any_of(input.casters.begin(), input.casters.end(),
                                   [](const ShadowCaster& caster) { return caster.type != LightType::directional; });
   if (!wanted || input.receivers.range.empty()) return {};
   const DepthSpan& range = input.receivers.range;
   const LightBasis worldAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  return receiverPieces(input.view, input.receivers, worldAxes, {range.nearest, range.farthest, range.farthest});
+  return {receiverPieces(input.view, input.receivers, worldAxes, {range.nearest, range.farthest, range.farthest}),
+          sampledReceivers(input.view, input.receivers, {range.nearest, range.farthest})};
 }
 
-LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const std::vector<Aabb>& pieces) {
+LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const SeenSurfaces& seen) {
   LightDraft draft;
   draft.planned.light = caster.light;
   if (caster.shadow.enabled && caster.shadow.strength > 0) {
@@ -58,7 +59,7 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
   } else if (caster.type == LightType::directional) {
     draftCascades(caster, input, draft);
   } else {
-    draftFaces(caster, input, pieces, draft);
+    draftFaces(caster, input, seen, draft);
   }
   return draft;
 }
@@ -161,13 +162,12 @@ Fit cascadeFit(const TileDraft& draft, const LightDraft& light, const ShadowCast
 }
 
 Fit faceFit(const TileDraft& draft, const LightDraft& light, const PlanInput& input, FitTarget& target) {
-  const double reach = boxAround(draft.receivers).max.z;
+  const Aabb seen = tangentsOf(draft.receivers, draft.tanHalf);
   const double fromAnchor = glm::length(anchoredOrigin(input, draft));
   const double fromEye = light.stable ? glm::length(input.sceneBounds.max - input.sceneBounds.min)
                                       : glm::length(draft.origin); // a stable fit knows no eye
-  target.magnitude =
-      std::max(fromEye, fromAnchor) + reach * (1.0 + std::sqrt(2.0) * draft.tanHalf) + orthographicReach(input.view);
-  const Aabb seen = tangentsOf(draft.receivers, draft.tanHalf);
+  target.magnitude = std::max(fromEye, fromAnchor) + seen.max.z * (1.0 + std::sqrt(2.0) * draft.tanHalf) +
+                     orthographicReach(input.view);
   if (target.kernel.kind == MapReadingKind::pcss) {
     target.nearestCaster = nearestCasterInPyramid(seen, anchoredScene(input), lightFromAnchored(draft, input),
                                                   target.kernel.lightRadius, kWidestTangent);
@@ -233,8 +233,8 @@ void placeTiles(ShadowPlan& plan) {
 
 ShadowPlan planShadows(const PlanInput& input) {
   std::vector<LightDraft> drafts;
-  const std::vector<Aabb> pieces = worldPieces(input);
-  for (const ShadowCaster& caster : input.casters) drafts.push_back(draftLight(caster, input, pieces));
+  const SeenSurfaces seen = seenSurfaces(input);
+  for (const ShadowCaster& caster : input.casters) drafts.push_back(draftLight(caster, input, seen));
   shareAtlas(drafts, input);
 
   ShadowPlan plan;

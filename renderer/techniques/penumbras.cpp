@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <span>
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
+#include "renderer/core/unfilled.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbra_filter.h"
 
@@ -68,8 +70,8 @@ void trace(const PicturePoints& points, const TracedLight& light, const Round& r
   });
 }
 
-/// A byte a pixel, not 0 where its first ray alone can't be trusted: where it saw another share than one beside it, and
-/// on masks, between whose leaves what shows may be a pixel large.
+/// A byte a pixel, not 0 where first rays alone can't be trusted: where they differ on a pixel or around it, and on
+/// masks, between whose leaves what shows may be a pixel large.
 UnfilledVector<std::uint8_t> firstDoubts(const PicturePoints& points, const PictureShares& shares) {
   UnfilledVector<std::uint8_t> doubts = marksApart(shares.grid, shares.shares, kEdge);
   const std::span<const std::uint8_t> masks = points.masks();
@@ -107,7 +109,9 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
         shares, next, [&](std::uint32_t pixel, std::uint32_t traced) { return shares.apart(pixel, traced) >= kEdge; });
     next = pixelsBeside(shares, next, isAsked);
   }
-  for (Pixels doubtful = pixelsApart(shares.grid, shares.shares, kEdge); !doubtful.empty();) {
+  Pixels doubtful;
+  if (rounds.size() > 1) doubtful = pixelsApart(shares.grid, shares.shares, kEdge);
+  while (!doubtful.empty()) {
     Pixels traced;
     for (std::size_t round = rounds.size() - 1; round > 0; --round) {
       Pixels behind;
@@ -116,7 +120,7 @@ void tracePenumbras(const PicturePoints& points, const TracedLight& light, int s
       trace(points, light, rounds[round], behind, shares);
       traced.insert(traced.end(), behind.begin(), behind.end());
     }
-    // What a pixel agreed with may have moved away from it: then it catches up.
+    // What agreed with a pixel that had four rays may not do so any more.
     doubtful = apartBeside(shares, traced);
   }
   std::vector<int> raysOf;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -59,6 +62,17 @@ void forEachPixel(const SampleGrid& grid, const Rect& block, Each each) {
   }
 }
 
+/// Calls `each(number)` for a pixel and for those next to it or to its corners.
+template <class Each>
+void forEachAround(const SampleGrid& grid, std::uint32_t pixel, Each each) {
+  const glm::ivec2 at = grid.pixelAt(pixel);
+  for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, grid.height - 1); ++row) {
+    for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, grid.width - 1); ++column) {
+      each(grid.numberOf({column, row}));
+    }
+  }
+}
+
 /// What is known so far of one light's shadow over a picture.
 struct PictureShares {
   explicit PictureShares(const SampleGrid& picture)
@@ -89,16 +103,12 @@ struct PictureShares {
 
   /// Whether a pixel, or one beside or at a corner of it, differs by `least` or more from another of these.
   bool isApart(std::uint32_t pixel, int least) const {
-    const glm::ivec2 at = grid.pixelAt(pixel);
     std::uint8_t low = 255;
     std::uint8_t high = 0;
-    for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, grid.height - 1); ++row) {
-      for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, grid.width - 1); ++column) {
-        const std::uint8_t share = shares[grid.numberOf({column, row})];
-        low = std::min(low, share);
-        high = std::max(high, share);
-      }
-    }
+    forEachAround(grid, pixel, [&](std::uint32_t other) {
+      low = std::min(low, shares[other]);
+      high = std::max(high, shares[other]);
+    });
     return high - low >= least;
   }
 
@@ -121,27 +131,25 @@ inline Pixels either(PictureShares& shares, Pixels some, const Pixels& others) {
 }
 
 /// The pixels next to one of `pixels`, or to a corner, for which `keep(pixel, other)` holds of one of those; each once.
-/// On all cores.
+/// Asks `keep` on all cores.
 template <class Keep>
 Pixels pixelsBeside(PictureShares& shares, const Pixels& pixels, Keep keep) {
   constexpr std::size_t kPiece = 1024;
-  std::vector<Pixels> found((pixels.size() + kPiece - 1) / kPiece); // some of them more than once
-  forEachPiece(pixels.size(), kPiece, [&](std::size_t first, std::size_t last) {
-    Pixels& own = found[first / kPiece];
-    for (std::size_t i = first; i < last; ++i) {
-      const glm::ivec2 at = shares.grid.pixelAt(pixels[i]);
-      for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, shares.grid.height - 1); ++row) {
-        for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, shares.grid.width - 1); ++column) {
-          const std::uint32_t other = shares.grid.numberOf({column, row});
-          if (keep(other, pixels[i])) own.push_back(other);
-        }
-      }
-    }
-  });
+  constexpr std::size_t kPieces = 64; ///< of which is kept at a time what was found, up to nine times each
   Pixels beside;
-  for (const Pixels& some : found) {
-    for (const std::uint32_t pixel : some) {
-      if (std::exchange(shares.taken[pixel], std::uint8_t{1}) == 0) beside.push_back(pixel);
+  for (std::size_t begin = 0; begin < pixels.size(); begin += kPieces * kPiece) {
+    const auto some = std::span(pixels).subspan(begin, std::min(kPieces * kPiece, pixels.size() - begin));
+    std::vector<Pixels> found(kPieces);
+    forEachPiece(some.size(), kPiece, [&](std::size_t first, std::size_t last) {
+      for (const std::uint32_t pixel : some.subspan(first, last - first)) {
+        forEachAround(shares.grid, pixel, [&](std::uint32_t other) {
+          if (keep(other, pixel)) found[first / kPiece].push_back(other);
+        });
+      }
+    });
+    for (const Pixels& piece : found) {
+      std::copy_if(piece.begin(), piece.end(), std::back_inserter(beside),
+                   [&](std::uint32_t pixel) { return std::exchange(shares.taken[pixel], std::uint8_t{1}) == 0; });
     }
   }
   for (const std::uint32_t pixel : beside) shares.taken[pixel] = 0;

@@ -42,7 +42,7 @@ class ShadowTracing {
                     : gnomon::traceExactly(points_, light_, pixels, known_);
   }
 
-  /// The same at edges. Towards a light that has a size the points as they were drawn do.
+  /// The same at edges. Towards a light that has a size the points as they were drawn suffice.
   Pixels traceEdges(const Pixels& pixels) {
     return isSoft() ? traceSamples(points_, light_, samplesOfPoint(), pixels, known_) : traceExactly(pixels);
   }

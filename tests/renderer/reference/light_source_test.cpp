@@ -112,13 +112,19 @@ TEST(LightSamples, TheFirstOfASequenceFillEveryRectangleWhateverTheirNumber) {
   }));
 }
 
+/// Where a pixel's ray of those from `first` up to `last` goes.
+SquarePlace placeOf(const Interleaved& all, std::uint32_t x, std::uint32_t y, std::uint32_t ray, std::uint32_t first,
+                    std::uint32_t last) {
+  return shifted(all.place(ray), all.shift(x, y, Interleaved::isAligned(ray, first, last)));
+}
+
 /// Those that the pixels of a square of 4 x 4 with this corner send their first rays to.
 std::vector<SquarePlace> placesOfSquare(std::uint32_t x, std::uint32_t y, std::uint32_t most, std::uint32_t rays) {
   const Interleaved all(most);
   std::vector<SquarePlace> places;
   for (std::uint32_t i = 0; i < 16; ++i) {
     for (std::uint32_t ray = 0; ray < rays; ++ray) {
-      places.push_back(shifted(all.place(ray), all.shift(x + i % 4, y + i / 4, ray)));
+      places.push_back(placeOf(all, x + i % 4, y + i / 4, ray, 0, rays));
     }
   }
   return places;
@@ -156,8 +162,9 @@ TEST(LightSamples, APixelsOwnRaysFillEveryRectangle) {
     for (int bits = 0; bits <= 4; ++bits) {
       const Interleaved all(12);
       std::vector<SquarePlace> places;
-      for (std::uint32_t ray = 0; ray < std::min(12u, 1u << bits); ++ray) {
-        places.push_back(shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray)));
+      const std::uint32_t rays = std::min(12u, 1u << bits);
+      for (std::uint32_t ray = 0; ray < rays; ++ray) {
+        places.push_back(placeOf(all, pixel % 4, pixel / 4, ray, 0, rays));
       }
       for (int across = 0; across <= bits; ++across) EXPECT_EQ(fullest(places, across, bits - across), 1u);
     }
@@ -166,13 +173,29 @@ TEST(LightSamples, APixelsOwnRaysFillEveryRectangle) {
 
 TEST(LightSamples, LaterRaysOfAllPixelsGoToOneQuarter) {
   const Interleaved all(64);
-  for (std::uint32_t ray = Interleaved::kSpreadRays; ray < 64; ++ray) {
+  for (std::uint32_t ray = 4; ray < 64; ++ray) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> quarters;
     for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
-      const SquarePlace place = shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray));
+      const SquarePlace place = placeOf(all, pixel % 4, pixel / 4, ray, 4, 64);
       quarters.emplace(place.x >> 31, place.y >> 31);
     }
     EXPECT_EQ(quarters.size(), 1u) << ray;
+  }
+}
+
+TEST(LightSamples, TheRaysOfASquareOfPixelsShareOutTheQuartersWhicheverAreSent) {
+  const Interleaved all(32);
+  for (std::uint32_t first = 0; first < 24; ++first) {
+    for (std::uint32_t last = first + 1; last <= std::min(first + 24, 32u); ++last) {
+      std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> quarters;
+      for (std::uint32_t ray = first; ray < last; ++ray) {
+        for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
+          const SquarePlace place = placeOf(all, pixel % 4, pixel / 4, ray, first, last);
+          ++quarters[{place.x >> 31, place.y >> 31}];
+        }
+      }
+      for (const auto& [quarter, rays] : quarters) EXPECT_EQ(rays, 4 * (last - first)) << first << " to " << last;
+    }
   }
 }
 
@@ -188,7 +211,7 @@ TEST(LightSamples, APixelsOwnRaysFindTheShareThatAStraightEdgeLeaves) {
   for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
     std::vector<glm::dvec2> places;
     for (std::uint32_t ray = 0; ray < 16; ++ray) {
-      const SquarePlace place = shifted(all.place(ray), all.shift(pixel % 4, pixel / 4, ray));
+      const SquarePlace place = placeOf(all, pixel % 4, pixel / 4, ray, 0, 16);
       places.push_back(mapped({place.x * 0x1p-32, place.y * 0x1p-32}));
     }
     for (double turn = 0; turn < 6.28; turn += 0.07) {

@@ -106,7 +106,7 @@ TEST(PenumbraReach, NoCasterInAPyramidIsNearerThanTheNearest) {
   }));
 }
 
-// Light from any place of a ball reaches the receiver past the caster only within the reach.
+// Of a disc across the tile's direction, as pcss takes the light.
 TEST(PenumbraReach, N1_WhatStandsBeforeAnyPartOfALampIsWithinIt) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     Dice dice(seed);
