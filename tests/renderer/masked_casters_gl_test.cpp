@@ -1,5 +1,6 @@
 // Materials whose holes are finer than the texels of a shadow map, or than pixels, seen in rendered frames.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -26,7 +27,7 @@ Bytes speckles(unsigned opaqueTenths) {
 
 /// A ground of 20 m and a sheet of 10 m at y 2, whose texels are 1 cm; half of that where they are `moved` by a
 /// transform.
-ScenePtr specklesOver(const std::string& alphaMode, bool moved, unsigned opaqueTenths = 3) {
+testing::GlbBuilder speckledSheetOver(const std::string& alphaMode, bool moved, unsigned opaqueTenths) {
   const Bytes png = speckles(opaqueTenths);
   testing::GlbBuilder builder = testing::plane();
   builder.json["nodes"][0]["scale"] = {10, 1, 10};
@@ -41,7 +42,11 @@ ScenePtr specklesOver(const std::string& alphaMode, bool moved, unsigned opaqueT
   builder.add("meshes", builder.json["meshes"][0]);
   builder.json["meshes"][1]["primitives"][0]["material"] = 0;
   builder.addRoot({{"mesh", 1}, {"scale", {5, 1, 5}}, {"translation", {0, 2, 0}}});
-  return testing::sceneOf(builder);
+  return builder;
+}
+
+ScenePtr specklesOver(const std::string& alphaMode, bool moved, unsigned opaqueTenths = 3) {
+  return testing::sceneOf(speckledSheetOver(alphaMode, moved, opaqueTenths));
 }
 
 /// The mean share of the light on the ground below the sheet. A tile's texels are about 6 cm.
@@ -154,6 +159,41 @@ TEST(MaskedCasters, G2_NoSampleOfThePixelsThatShowTheSheetIsShadedByIt) {
       const auto [least, most] = std::ranges::minmax(onSheet);
       EXPECT_GT(least, 0.9f * most) << technique << ", " << antialiasing;
     }
+  }
+}
+
+/// Under a roof of 8 m at y 4 the sheet is dark. The ground, which shows through holes that are about a pixel large,
+/// sees the sun past the roof through other holes: among dark pixels those whose first ray meets none are dark, too.
+TEST(MaskedCasters, N1_RaysBesideHolesFindThePartOfALightThatTheFirstOneMisses) {
+  testing::GlbBuilder builder = speckledSheetOver("MASK", false, 8);
+  builder.addRoot({{"mesh", 0}, {"scale", {4, 1, 4}}, {"translation", {0, 4, 0}}, {"rotation", {1, 0, 0, 0}}});
+  const ScenePtr scene = testing::sceneOf(builder);
+  const double elevation = glm::radians(40.0);
+  for (const char* technique : {"rayTraced", "hybrid"}) {
+    const Json spec = {
+        {"width", 96},
+        {"height", 96},
+        {"camera",
+         {{"eye", {0.4, 3.8, 0}}, {"target", {0.4, 0, 0}}, {"up", {0, 0, -1}}, {"perspective", {{"fovYDegrees", 30}}}}},
+        {"lights",
+         {{{"type", "directional"},
+           {"direction", {-std::cos(elevation), -std::sin(elevation), 0}},
+           {"angularDiameterDegrees", 5}}}},
+        {"shadow", {{"technique", technique}}},
+        {"antialiasing", "none"},
+        {"views", {"shadow", "reference"}},
+        {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
+    const Frame frame = renderJson(scene, spec.dump());
+    const auto& found = floatsOf(frame, 0);
+    const auto& truth = floatsOf(frame, 1);
+    int lit = 0, missed = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (truth[i] < 0.1f) continue;
+      ++lit;
+      missed += found[i] == 0 ? 1 : 0;
+    }
+    EXPECT_GT(lit, 1000);
+    EXPECT_LT(missed, 0.3 * lit) << technique << ": by first rays alone it is 0.38 of them";
   }
 }
 
