@@ -47,10 +47,15 @@ bool mayLieIn(const Aabb& box, double tanHalf) {
   return box.max.z > 0 && box.min.x <= reach && box.max.x >= -reach && box.min.y <= reach && box.max.y >= -reach;
 }
 
+/// Metres; infinite where the light has no end.
+double endOf(const ShadowCaster& caster) {
+  return caster.range > 0 ? caster.range : HUGE_VAL;
+}
+
 /// What the light reaches in a face, as boxes in the face's light space. `reached`: along the world's axes, relative to
 /// the eye.
 std::vector<Aabb> receiversIn(const LightFace& face, const ShadowCaster& caster, const std::vector<Aabb>& reached) {
-  const double range = caster.range > 0 ? caster.range : HUGE_VAL;
+  const double range = endOf(caster);
   const glm::dmat4 toLightSpace = lightFromRelative(face.basis, caster.position);
   std::vector<Aabb> receivers;
   for (const Aabb& piece : reached) {
@@ -68,11 +73,12 @@ std::vector<Aabb> receiversIn(const LightFace& face, const ShadowCaster& caster,
 /// is better than another.
 LightBasis turnedTo(const std::vector<glm::dvec3>& samples, const ShadowCaster& caster, const LightFace& face) {
   constexpr double kLeastSaved = 0.1; // of the area
+  const double range = endOf(caster);
   const glm::dmat3 lightFromWorld = face.basis.lightFromWorld();
   std::vector<glm::dvec2> tangents;
   for (const glm::dvec3& point : samples) {
     const glm::dvec3 at = lightFromWorld * (point - caster.position);
-    if (caster.range > 0 && glm::dot(at, at) > caster.range * caster.range) continue;
+    if (glm::dot(at, at) > range * range) continue;
     if (at.z > 0 && std::hypot(at.x, at.y) <= face.tanHalf * at.z) tangents.emplace_back(at.x / at.z, at.y / at.z);
   }
   return rolled(face.basis, rollOfLeastArea(tangents, kLeastSaved));
@@ -84,7 +90,7 @@ Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDra
   const Aabb scene{input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
   double far = kRoom * transformed(lightFromRelative(tile.basis, anchoredOrigin(input, tile)), scene).max.z;
   for (const Aabb& piece : tile.receivers) far = std::max(far, piece.max.z);
-  if (caster.range > 0) far = std::min(caster.range, far);
+  far = std::min(endOf(caster), far);
   const double side = tile.tanHalf * far;
   return {glm::dvec3(-side, -side, 0), glm::dvec3(side, side, far)};
 }
@@ -151,7 +157,7 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
 void draftFaces(const ShadowCaster& caster, const PlanInput& input, const SeenSurfaces& seen, LightDraft& draft) {
   draft.stable = caster.shadow.stabilization != Stabilization::none;
   std::vector<Aabb> reached;
-  const double range = caster.range > 0 ? caster.range : HUGE_VAL;
+  const double range = endOf(caster);
   std::copy_if(seen.pieces.begin(), seen.pieces.end(), std::back_inserter(reached),
                [&](const Aabb& piece) { return squaredDistance(piece, caster.position) <= range * range; });
   std::vector<LightFace> faces = facesOf(caster);

@@ -75,12 +75,16 @@ std::vector<std::uint32_t> pixelsWhere(const SampleGrid& grid, std::span<const s
   return pixels;
 }
 
+/// In bytes, many at a time.
+inline bool areApart(std::uint8_t least, std::uint8_t most, std::uint8_t apart) {
+  return static_cast<std::uint8_t>(most - least) >= apart;
+}
+
 /// The pixels whose value, or one beside or at a corner of which, differs by `apart` or more from another of these.
 inline std::vector<std::uint32_t> pixelsApart(const SampleGrid& grid, std::span<const std::uint8_t> values,
                                               std::uint8_t apart) {
-  return pixelsWhere(grid, values, [apart](std::uint8_t least, std::uint8_t most) {
-    return static_cast<std::uint8_t>(most - least) >= apart; // in bytes, many at a time
-  });
+  return pixelsWhere(grid, values,
+                     [apart](std::uint8_t least, std::uint8_t most) { return areApart(least, most, apart); });
 }
 
 /// The same as a byte a pixel, not 0 for those.
@@ -92,7 +96,7 @@ inline UnfilledVector<std::uint8_t> marksApart(const SampleGrid& grid, std::span
     const std::uint8_t* low = least.data();
     const std::uint8_t* high = most.data();
     std::uint8_t* mark = marks.data() + row * width;
-    for (std::size_t x = 0; x < width; ++x) mark[x] = static_cast<std::uint8_t>(high[x] - low[x]) >= apart ? 1 : 0;
+    for (std::size_t x = 0; x < width; ++x) mark[x] = areApart(low[x], high[x], apart) ? 1 : 0;
   });
   return marks;
 }
