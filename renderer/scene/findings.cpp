@@ -14,6 +14,11 @@ constexpr std::size_t kMaxWarnings = 64;
 constexpr std::size_t kMaxQuotedBytes = 80;
 constexpr std::size_t kMaxNameBytes = 256;
 
+std::string placesOf(std::size_t places, const std::string& first) {
+  if (places > 1) return " (" + std::to_string(places) + " places, the first is " + (first.empty() ? "/" : first) + ")";
+  return first.empty() ? "" : " (" + first + ")";
+}
+
 } // namespace
 
 void Findings::refuse(Problem problem) {
@@ -39,6 +44,7 @@ void Findings::take(Problems problems) {
 void Findings::take(Findings other) {
   take(std::move(other.problems_));
   for (std::string& warning : other.warnings_) warn(std::move(warning));
+  for (CountedRepair& repair : other.repairs_) count(std::move(repair));
   unsaidWarnings_ += other.unsaidWarnings_;
 }
 
@@ -51,7 +57,30 @@ void Findings::warn(std::string sentence) {
   }
 }
 
+void Findings::repair(const Repair& kind, const std::string& pointer) {
+  if (conformance_ == Conformance::strict)
+    return invalid(pointer, kind.fault + ". Without `strict`, " + kind.remedy + ".");
+  count({kind, pointer});
+}
+
+void Findings::count(CountedRepair repair) {
+  const auto known = std::ranges::find(repairs_, repair.kind, &CountedRepair::kind);
+  if (known != repairs_.end()) {
+    known->places += repair.places;
+  } else if (repairs_.size() < kMaxWarnings) {
+    repairs_.push_back(std::move(repair));
+  } else {
+    ++unsaidWarnings_;
+  }
+}
+
 std::vector<std::string> Findings::takeWarnings() {
+  std::vector<std::string> repairs;
+  for (const auto& [kind, first, places] : repairs_) {
+    repairs.push_back(kind.fault + "; " + kind.remedy + placesOf(places, first) + ".");
+  }
+  repairs_.clear();
+  warnings_.insert(warnings_.begin(), repairs.begin(), repairs.end());
   if (unsaidWarnings_ > 0) {
     warnings_.push_back("There are " + std::to_string(unsaidWarnings_) + " further warnings.");
     unsaidWarnings_ = 0;

@@ -1,16 +1,36 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/base/result.h"
 
 namespace gnomon {
 
+/// What becomes of a file that violates glTF where its picture is still clear.
+enum class Conformance {
+  repaired, ///< it is repaired, with a warning
+  strict    ///< it is refused
+};
+
+/// A kind of fault that has one sensible meaning, and what is done about it. Both are parts of sentences, without a
+/// place:
+/// {"A number is beyond its limit by rounding", "it is brought to the limit"}.
+struct Repair {
+  std::string fault;
+  std::string remedy;
+
+  bool operator==(const Repair&) const = default;
+};
+
 /// What reading a file turned up: problems, which refuse it, and warnings, which tell what is drawn differently.
 /// Both are capped, so that a hostile file can't make its report larger than itself.
 class Findings {
  public:
+  explicit Findings(Conformance conformance = Conformance::repaired) : conformance_(conformance) {}
+
   void refuse(Problem problem);
   void invalid(std::string pointer, std::string detail, std::string limit = {}, std::string actual = {});
   void tooLarge(std::string pointer, std::string detail, std::string limit, std::string actual);
@@ -21,13 +41,26 @@ class Findings {
   /// One sentence; said once, however often it is reported.
   void warn(std::string sentence);
 
+  /// The file violates glTF at `pointer` and is safe to read: repaired, with one warning for each kind, which counts
+  /// the places and names the first; a problem where the file has to conform.
+  void repair(const Repair& kind, const std::string& pointer);
+
   bool refused() const { return !problems_.empty(); }
-  std::size_t count() const { return problems_.size() + warnings_.size() + unsaidWarnings_; }
+  std::size_t count() const { return problems_.size() + warnings_.size() + repairs_.size() + unsaidWarnings_; }
   Problems takeProblems() { return std::move(problems_); }
-  std::vector<std::string> takeWarnings();
+  std::vector<std::string> takeWarnings(); ///< repairs first
 
  private:
+  struct CountedRepair {
+    Repair kind;
+    std::string first; ///< pointer
+    std::size_t places = 1;
+  };
+  void count(CountedRepair repair);
+
+  Conformance conformance_;
   Problems problems_;
+  std::vector<CountedRepair> repairs_;
   std::vector<std::string> warnings_;
   std::size_t unsaidWarnings_ = 0;
 };
