@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
+import re
 import struct
 import urllib.parse
 from pathlib import Path
-from typing import Any, Dict, Mapping, NamedTuple, Union
+from typing import Dict, List, Mapping, NamedTuple, Union
 
 Source = Union[str, Path, bytes]
 
@@ -28,12 +30,17 @@ def bundle(source: Source, files: Mapping[str, Source] = {}) -> Bundle:
     model = _content(source)
     if isinstance(source, bytes):
         return Bundle(model, more)
-    folder = Path(source).parent
-    named = {uri: folder / urllib.parse.unquote(uri) for uri in uris(model)}
-    return Bundle(model, {**{urllib.parse.unquote(uri): path.read_bytes() for uri, path in named.items()}, **more})
+    beside = files_beside(source, model)
+    return Bundle(model, {**{name: path.read_bytes() for name, path in beside.items() if os.path.isfile(path)}, **more})
 
 
-def uris(model: bytes) -> Any:
+def files_beside(source: Union[str, Path], model: bytes) -> Dict[str, Path]:
+    """Where the files are that a model names, by their names in an upload. The server judges those that are missing."""
+    names = {re.sub("^(\\./+)+", "", urllib.parse.unquote(uri)) for uri in uris(model)}
+    return {name: Path(source).parent / name for name in sorted(names)}
+
+
+def uris(model: bytes) -> List[str]:
     """The addresses of buffers and images beside or below a glTF, in either of its forms; none of what is no glTF."""
     text = model
     if model[:4] == b"glTF" and len(model) >= 20:
@@ -64,7 +71,7 @@ class Body(NamedTuple):
 def upload_body(made: Bundle) -> Body:
     if not made.files:
         return Body("model/gltf-binary" if made.model[:4] == b"glTF" else "model/gltf+json", made.model)
-    boundary = "gnomon-" + hashlib.sha256(b"".join([made.model, *made.files.values()])).hexdigest()
+    boundary = "gnomon-" + hashlib.sha256(b"".join([made.model, *made.files.values()])).hexdigest()[:32]
     body = [_part(boundary, 'name="scene"; filename="scene"', made.model)]
     body += [_part(boundary, f'name="file"; filename="{_quoted(name)}"', each) for name, each in made.files.items()]
     return Body(f"multipart/form-data; boundary={boundary}", b"".join([*body, f"--{boundary}--\r\n".encode()]))

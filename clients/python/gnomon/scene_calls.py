@@ -8,10 +8,10 @@ import json
 import re
 import threading
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, Mapping, NamedTuple, Optional, Union, cast
+from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, NamedTuple, Optional, Tuple, Union, cast
 from urllib.parse import quote
 
-from .bundle import Bundle, Source, bundle, upload_body
+from .bundle import Bundle, Source, bundle, files_beside, upload_body
 from .json_form import encoded
 from .problems import NotFound, Refused
 from .reports import SceneSummary
@@ -24,6 +24,25 @@ class Scene(NamedTuple):
 
 
 SceneLike = Union[Scene, str, Path, bytes]
+State = Optional[Tuple[int, int]]  # of a file: when it was written and its size; None where it is missing
+
+
+class _File(NamedTuple):
+    """A scene that was uploaded from a file."""
+
+    id: str
+    states: Dict[Path, State]  # of the model and the files beside it, as they were then
+
+
+def _states(paths: Iterable[Path]) -> Dict[Path, State]:
+    states: Dict[Path, State] = {}
+    for path in paths:
+        try:
+            status = path.stat()
+            states[path] = (status.st_mtime_ns, status.st_size)
+        except (OSError, ValueError):
+            states[path] = None
+    return states
 
 
 class SceneCalls:
@@ -33,7 +52,7 @@ class SceneCalls:
         self._http = http
         self._lock = threading.Lock()
         self._sources: Dict[str, Callable[[], Bundle]] = {}
-        self._files: Dict[Any, str] = {}
+        self._files: Dict[str, _File] = {}
 
     def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
         made = bundle(source, files)
@@ -46,10 +65,10 @@ class SceneCalls:
     def forget(self, name: str) -> None:
         with self._lock:
             self._sources.pop(name, None)
-            self._files = {key: each for key, each in self._files.items() if each != name}
+            self._files = {path: each for path, each in self._files.items() if each.id != name}
 
     def id_of(self, scene: SceneLike) -> str:
-        """A scene's id. A path or bytes are uploaded, once for as long as the file stays as it is."""
+        """A scene's id. A path or bytes are uploaded, once for as long as the files stay as they are."""
         if isinstance(scene, Scene):
             return scene.id
         if isinstance(scene, str) and re.fullmatch("[0-9a-f]{64}", scene):
@@ -57,15 +76,15 @@ class SceneCalls:
         if isinstance(scene, bytes):
             name = Bundle(scene, {}).id
             return name if name in self._sources else self.upload(scene).id
-        status = Path(scene).stat()
-        file = (str(Path(scene).resolve()), status.st_mtime_ns, status.st_size)
+        path = Path(scene).absolute()
         with self._lock:
-            known = self._files.get(file)
-        if known is None:
-            known = self.upload(scene).id
+            known = self._files.get(str(path))
+        if known is None or known.states != _states(known.states):
+            states = _states([path, *files_beside(path, path.read_bytes()).values()])
+            known = _File(self.upload(path).id, states)
             with self._lock:
-                self._files[file] = known
-        return known
+                self._files[str(path)] = known
+        return known.id
 
     def request(self, scene: SceneLike, method: str, tail: str, asked: Any = None, **headers: str) -> Reply:
         with self.stream(scene, method, tail, None if asked is None else encoded(asked), **headers) as response:

@@ -1,8 +1,11 @@
 """The Python client against the shipped server: frames as arrays, plans, evaluations, bakes, scenes."""
 
+import base64
 import contextlib
 import io
+import json
 import os
+import struct
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,6 +19,20 @@ from gnomon import png, transport
 
 BOX = SCENES / "box_on_plane.glb"
 SMALL = {"width": 64, "height": 48}
+
+
+def write_gltf(path, uri, name):
+    """The scene with its buffer in a file beside it, or as a data: URI, or, without a name, nowhere."""
+    content = BOX.read_bytes()
+    length = struct.unpack_from("<I", content, 12)[0]
+    gltf = json.loads(content[20:20 + length])
+    data = content[28 + length:]
+    gltf["buffers"][0]["uri"] = uri if uri != "data:" else "data:;base64," + base64.b64encode(data).decode()
+    if name:
+        (path.parent / name).parent.mkdir(exist_ok=True)
+        (path.parent / name).write_bytes(data)
+    path.write_text(json.dumps(gltf))
+    return path
 
 
 class SessionTest(ServerTest):
@@ -165,6 +182,40 @@ class Scenes(SessionTest):
         self.assertEqual(len(uploads), 1, uploads)
         self.assertEqual(self.session.scene(first), first.summary)
         self.assertIn(first.id, [scene["id"] for scene in self.session.list()])
+
+    def test_a_gltf_brings_the_files_beside_it(self):
+        expected = self.session.frame(BOX, **SMALL)
+        with TemporaryDirectory() as folder:
+            for number, (uri, name) in enumerate({
+                    "box.bin": "box.bin",
+                    "./box.bin": "box.bin",
+                    "my%20data/the%20box.bin": "my data/the box.bin",
+                    "my data/the other box.bin": "my data/the other box.bin",
+                    "b%C3%BCro/100%25.bin": "b\u00fcro/100%.bin",
+                    "say%20%22hi%22;.bin": 'say "hi";.bin',
+                    "data:": None,
+            }.items()):
+                with self.subTest(uri):
+                    model = write_gltf(Path(folder) / f"a model {number}.gltf", uri, name)
+                    np.testing.assert_array_equal(self.session.frame(model, **SMALL).color, expected.color)
+
+    def test_a_file_beside_a_gltf_that_changes_is_seen(self):
+        with TemporaryDirectory() as folder:
+            model = write_gltf(Path(folder) / "box.gltf", "maps/box.bin", "maps/box.bin")
+            before = self.session.frame(model, views=["ids"], **SMALL)
+            self.assertEqual(self.session.scene(model)["id"], self.session.upload(model).id)
+            data = Path(folder) / "maps" / "box.bin"
+            content = np.frombuffer(data.read_bytes(), np.uint8).copy()
+            data.write_bytes(bytes(len(content)))
+            after = self.session.frame(model, views=["ids"], **SMALL)
+            self.assertTrue((before.ids >= 0).any())
+            self.assertFalse((after.ids >= 0).any())
+
+    def test_a_file_that_is_not_beside_a_gltf_is_named(self):
+        with TemporaryDirectory() as folder:
+            model = write_gltf(Path(folder) / "box.gltf", "box.bin", None)
+            with self.assertRaisesRegex(gnomon.BadRequest, '/buffers/0/uri: .*"box.bin"'):
+                self.session.frame(model, **SMALL)
 
     def test_a_deleted_scene_is_gone(self):
         scene = self.session.upload(SCENES / "pebble.glb")

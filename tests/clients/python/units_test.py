@@ -179,12 +179,26 @@ class Bundles(unittest.TestCase):
         with TemporaryDirectory() as folder:
             (Path(folder) / "my data.bin").write_bytes(b"1234")
             (Path(folder) / "secret").write_bytes(b"secret")
-            named = ["my%20data.bin", "data:;base64,AAAA", "../x", "%2e%2e/x", "/etc/hostname", "file:///etc/hostname"]
+            named = ["my%20data.bin", "data:;base64,AAAA", "../x", "%2e%2e/x", "/etc/hostname", "file:///etc/hostname",
+                     "missing.png", "a%00b", "x" * 5000]
             model = Path(folder) / "a.gltf"
             model.write_text(json.dumps({"buffers": [{"uri": uri} for uri in named]}))
             made = bundle.bundle(model, {"smoke.npy": b"5"})
         self.assertEqual(made.files, {"my data.bin": b"1234", "smoke.npy": b"5"})
         self.assertEqual(made.id, "")
+
+    def test_a_name_is_looked_up_as_the_server_does(self):
+        named = {"b.bin": "b.bin", "./c.bin": "c.bin", "a/../d": None, "maps/e%20f.png": "maps/e f.png", "maps/g h.png": "maps/g h.png"}
+        model = json.dumps({"images": [{"uri": uri} for uri in named]}).encode()
+        found = bundle.files_beside("models/a.gltf", model)
+        self.assertEqual(found, {name: Path("models") / name for name in named.values() if name})
+
+    def test_a_boundary_is_one_that_servers_take(self):
+        made = bundle.upload_body(bundle.Bundle(b"{}", {"a.bin": b"1", 'b"c.bin': b"2"}))
+        boundary = made.content_type.partition("boundary=")[2]
+        self.assertRegex(boundary, "^[0-9a-z-]{1,70}$")  # RFC 2046, 5.1.1
+        self.assertEqual(made.content.count(f"--{boundary}\r\n".encode()), 3)
+        self.assertIn(b'filename="b%22c.bin"', made.content)
 
     def test_what_is_no_gltf_names_nothing(self):
         for model in (b"", b"glTF", b"glTF" + bytes(16), b"[]", b'{"buffers": 3}', b'{"buffers": [{"uri": 3}]}'):
