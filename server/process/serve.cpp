@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <fcntl.h>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -71,10 +72,18 @@ Result<FrameSpec> drakeColors(const std::string& file) {
   return problems;
 }
 
+constexpr const char* kAbandoned = "Standard input was closed: the program that started the server has ended.";
+
 [[noreturn]] void endNow(const char* why) {
   logEvent("ended", why);
   flushLog(kLogPatience);
   ::_exit(1); // no destructors: threads may be stuck, and nothing on disk is half-written
+}
+
+/// Where something more asks a process to end that is ending already.
+void endIfUrged(Signals::Event event) {
+  if (event == Signals::Event::signal) endNow("A second signal arrived.");
+  if (event == Signals::Event::abandoned) endNow(kAbandoned);
 }
 
 // From the grace's end to that of the process: replies to what was called off are sent, then taken, then lost.
@@ -85,7 +94,7 @@ constexpr std::chrono::milliseconds kForEverything{1'250};
 void finish(Signals& signals, HttpServer& server, const StopSignal& done, Clock::time_point grace) {
   const auto waitUntil = [&](Clock::time_point deadline) {
     const Signals::Event event = signals.wait(done, deadline);
-    if (event == Signals::Event::signal) endNow("A second signal arrived.");
+    endIfUrged(event);
     return event == Signals::Event::done;
   };
   if (waitUntil(grace)) return;
@@ -95,11 +104,13 @@ void finish(Signals& signals, HttpServer& server, const StopSignal& done, Clock:
   if (!waitUntil(grace + kForEverything)) endNow("The grace period is over and work is still running.");
 }
 
-/// Runs the listener until a signal arrives, then finishes the requests in progress. 0, or 1 where accepting failed.
+/// Runs the listener until a signal arrives, then finishes the requests in progress; at once where nobody is left who
+/// waits for them. 0, or 1 where accepting failed.
 int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer& server, Services& services) {
   const int port = server.port();
   StopSignal listenerEnded;
   bool inOrder = false;
+  bool abandoned = false;
   std::thread listening([&] {
     inOrder = server.run();
     listenerEnded.raise();
@@ -107,19 +118,16 @@ int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer&
   {
     const Watchdog watchdog(
         [bind = options.bind, port](std::chrono::milliseconds patience) { return answersLivez(bind, port, patience); });
-    signals.wait(listenerEnded, Clock::time_point::max());
+    abandoned = signals.wait(listenerEnded, Clock::time_point::max()) == Signals::Event::abandoned;
     constexpr auto kAfterwards = std::chrono::ceil<std::chrono::seconds>(kForEverything + kLogPatience);
-    tellStopping(std::chrono::seconds(options.drainSeconds + options.graceSeconds) + kAfterwards);
+    tellStopping(std::chrono::seconds(abandoned ? 0 : options.drainSeconds + options.graceSeconds) + kAfterwards);
   }
   services.draining = true;
-  logEvent("draining", "The server is shutting down.");
-  if (!listenerEnded.raised() && options.drainSeconds > 0 &&
-      signals.wait(listenerEnded, Clock::now() + std::chrono::seconds(options.drainSeconds)) ==
-          Signals::Event::signal) {
-    endNow("A second signal arrived.");
-  }
+  logEvent("draining", abandoned ? kAbandoned : "The server is shutting down.");
+  if (!listenerEnded.raised() && !abandoned && options.drainSeconds > 0)
+    endIfUrged(signals.wait(listenerEnded, Clock::now() + std::chrono::seconds(options.drainSeconds)));
   StopSignal done;
-  const auto grace = Clock::now() + std::chrono::seconds(options.graceSeconds);
+  const auto grace = Clock::now() + std::chrono::seconds(abandoned ? 0 : options.graceSeconds);
   std::thread finishing([&] {
     server.stop();
     services.workers.endAt(grace);
@@ -187,8 +195,13 @@ int serve(const ServeOptions& options) {
     if (keys) keys->reload();
     tellReady("The keys were read again.");
   };
+  FileDescriptor starter(options.untilStdinCloses ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
+  if (options.untilStdinCloses && !starter) {
+    return failed({{ProblemCode::invalidValue, "until-stdin-closes",
+                    "--until-stdin-closes needs a standard input, and it is closed already.", "", ""}});
+  }
   // A terminal that closes ends a server that has nothing to read again; a service manager means it otherwise.
-  Signals signals(options.keysFile.empty() && !hasServiceManager() ? nullptr : reload);
+  Signals signals(options.keysFile.empty() && !hasServiceManager() ? nullptr : reload, std::move(starter));
   if (!options.keysFile.empty()) {
     auto opened = KeyRing::open(options.keysFile);
     if (!opened) return failed(opened.problems());

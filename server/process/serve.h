@@ -72,14 +72,15 @@ struct ServeOptions {
   int idleTimeoutSeconds = 75;        ///< >= 1; between two requests of a connection
   int drainSeconds = 0; ///< after SIGTERM, requests are served while /readyz fails, so that load balancers notice
   int graceSeconds = 8; ///< after that, for the requests in progress; the rest get 503, within two seconds more
+  bool untilStdinCloses = false; ///< ends within two seconds once nobody holds the other end of standard input
 
   std::vector<StaticFile> page; ///< the web page
 };
 
-/// Serves until SIGTERM or SIGINT, then ends in order: 0. Tells a service manager how it is doing. A second signal ends
-/// at once. 1 = it could not start, or could not go on; the reason is on standard error. Once requests are accepted,
-/// the address is printed on standard output: "listening on http://127.0.0.1:8080". Call it before starting other
-/// threads: it blocks those two signals, and SIGHUP where there is a key file.
+/// Serves until SIGTERM, SIGINT, or as untilStdinCloses has it, then ends in order: 0. Tells a service manager how it
+/// is doing. A second signal ends at once. 1 = it could not start, or could not go on; the reason is on standard error.
+/// Once requests are accepted, the address is printed on standard output: "listening on http://127.0.0.1:8080". Call it
+/// before starting other threads: it blocks those two signals, and SIGHUP where there is a key file.
 int serve(const ServeOptions& options);
 
 } // namespace gnomon

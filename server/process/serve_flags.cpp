@@ -13,7 +13,7 @@ constexpr int kDay = 86'400; // seconds
 const std::map<std::string, std::int64_t> kTimeUnits{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", kDay}};
 
 // Every option but `page` needs a flag below; `backend` has three.
-static_assert(memberCount<ServeOptions>() == 47);
+static_assert(memberCount<ServeOptions>() == 48);
 
 void addWhere(CLI::App& serve, ServeOptions& options) {
   serve.add_option("--bind", options.bind, "Address to listen on; 0.0.0.0 = every IPv4 address, :: = every address")
@@ -278,6 +278,13 @@ void addHowLong(CLI::App& serve, ServeOptions& options) {
       "Time after SIGTERM in which requests are served while /readyz fails, so that load balancers notice");
   add("--grace", "GNOMON_GRACE", options.graceSeconds, 0,
       "Time after that for the requests in progress; the rest get 503");
+  serve
+      .add_flag(
+          "--until-stdin-closes", options.untilStdinCloses,
+          "End within two seconds once standard input is closed, as it is when the program that holds the other end "
+          "of the pipe ends, however it ends")
+      ->envname("GNOMON_UNTIL_STDIN_CLOSES")
+      ->group("Timeouts");
 }
 
 /// Of an option the value that it was given, wherever; empty where it has none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <poll.h>
@@ -11,7 +12,8 @@
 
 namespace gnomon {
 
-Signals::Signals(std::function<void()> onHangup) : onHangup_(std::move(onHangup)) {
+Signals::Signals(std::function<void()> onHangup, FileDescriptor starter)
+    : onHangup_(std::move(onHangup)), starter_(std::move(starter)) {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
@@ -23,7 +25,8 @@ Signals::Signals(std::function<void()> onHangup) : onHangup_(std::move(onHangup)
 
 Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline) {
   while (true) {
-    std::array<pollfd, 2> waiting{{{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}}};
+    std::array<pollfd, 3> waiting{
+        {{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}, {starter_.get(), POLLIN, 0}}}; // poll(2) skips -1
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
     if (waiting[1].revents != 0) {
@@ -34,10 +37,20 @@ Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline)
       if (info.ssi_signo != SIGHUP) return Event::signal;
       onHangup_();
     }
+    if (waiting[2].revents != 0 && starterIsGone()) {
+      starter_.reset();
+      return Event::abandoned;
+    }
     if (Clock::now() >= deadline) {
       return Event::timeout;
     }
   }
+}
+
+bool Signals::starterIsGone() {
+  std::array<char, 4096> dropped;
+  const ssize_t count = ::read(starter_.get(), dropped.data(), dropped.size());
+  return count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
 }
 
 } // namespace gnomon

@@ -7,21 +7,26 @@
 
 namespace gnomon {
 
-/// SIGTERM and SIGINT, received by waiting, and SIGHUP while something is to be read again. Blocks them for the calling
-/// thread and those that it starts later.
+/// SIGTERM and SIGINT, received by waiting, SIGHUP while something is to be read again, and the end of whoever holds
+/// the other end of a pipe. Blocks these signals for the calling thread and those that it starts later.
 class Signals {
  public:
-  /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone.
-  explicit Signals(std::function<void()> onHangup);
+  /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone. `starter`: a pipe's
+  /// end for reading, whose bytes are dropped; none = the end of the process that started this one changes nothing.
+  explicit Signals(std::function<void()> onHangup, FileDescriptor starter = {});
 
-  enum class Event { signal, done, timeout };
+  enum class Event { signal, abandoned, done, timeout };
 
-  /// Waits for SIGTERM or SIGINT, for `done`, or for the deadline.
+  /// Waits for SIGTERM or SIGINT, for the starter's end of the pipe to be closed (told once), for `done`, or for the
+  /// deadline.
   Event wait(const StopSignal& done, Clock::time_point deadline);
 
  private:
+  bool starterIsGone();
+
   std::function<void()> onHangup_;
   FileDescriptor signals_;
+  FileDescriptor starter_;
 };
 
 } // namespace gnomon

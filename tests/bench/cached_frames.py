@@ -62,7 +62,8 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
-        server = subprocess.Popen([options.binary, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True,
+        server = subprocess.Popen([options.binary, "serve", "--until-stdin-closes", "--port", "0"],
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
                                   stderr=open(Path(folder) / "log", "w"))  # fmt: skip
         url = server.stdout.readline().split()[-1]
         port = int(url.rsplit(":", 1)[1]) + 1

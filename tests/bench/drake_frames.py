@@ -101,7 +101,8 @@ def stages(replies):
 def main():
     binary, model, frames = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 50
     gltf = embedded(model.read_bytes())
-    server = subprocess.Popen([binary, "serve", "--port", "0", "--device", "cpu"], stdout=subprocess.PIPE, text=True,
+    server = subprocess.Popen([binary, "serve", "--until-stdin-closes", "--port", "0", "--device", "cpu"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
                               stderr=subprocess.DEVNULL)
     try:
         host = server.stdout.readline().removeprefix("listening on http://").strip()

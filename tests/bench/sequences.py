@@ -75,7 +75,8 @@ def main():
     width, height = map(int, options.size.split("x"))
     spec = {"width": width, "height": height, "camera": {"eye": options.eye, "target": options.target}}
     patches = path_of(options.frames, options.eye, options.target)
-    server = subprocess.Popen([options.binary, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+    server = subprocess.Popen([options.binary, "serve", "--until-stdin-closes", "--port", "0"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                               text=True)
     try:
         host, port = server.stdout.readline().removeprefix("listening on http://").strip().rsplit(":", 1)

@@ -29,6 +29,7 @@ OTHER = {
     "drake-spec": '"/etc/gnomon/drake.json"',
     "backend": '"osmesa"',
     "require-gpu": "true",
+    "until-stdin-closes": "true",
 }
 
 

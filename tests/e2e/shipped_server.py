@@ -55,7 +55,8 @@ class Server:
         self.log = tempfile.TemporaryFile()
         limited = [] if descriptors is None else ["prlimit", f"--nofile={descriptors}"]
         self.process = subprocess.Popen(
-            [*limited, BINARY, "serve", "--port", str(port), *flags],
+            [*limited, BINARY, "serve", "--until-stdin-closes", "--port", str(port), *flags],
+            stdin=subprocess.PIPE,  # open until the tests end, however they end
             stdout=subprocess.PIPE,
             stderr=self.log,
             text=True,
@@ -77,6 +78,7 @@ class Server:
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait(TIMEOUT)
+        self.process.stdin.close()
         self.process.stdout.close()
         self.log.close()
 
@@ -166,6 +168,45 @@ def workers_of(server):
         except OSError:
             pass  # the thread has ended
     return found
+
+
+def started_by(pid):
+    """(process id, time of its start) of the processes below one, and below those; zombies left out."""
+    parents = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, parent, *rest = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue  # it has ended
+        if state not in "ZX":
+            parents[int(stat.parent.name), rest[17]] = int(parent)
+    found, next_ones = set(), {pid}
+    while next_ones:
+        below = {each for each, parent in parents.items() if parent in next_ones} - found
+        found |= below
+        next_ones = {each for each, _ in below}
+    return found
+
+
+def still_running(processes):
+    """Those of `started_by` that have not ended; zombies have."""
+    running = set()
+    for pid, begun in processes:
+        try:
+            state, *rest = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if state not in "ZX" and rest[18] == begun:
+            running.add((pid, begun))
+    return running
+
+
+def await_end(processes, seconds):
+    """Those that still run after so many seconds."""
+    end = time.monotonic() + seconds
+    while still_running(processes) and time.monotonic() < end:
+        time.sleep(0.02)
+    return still_running(processes)
 
 
 class ServerTest(unittest.TestCase):

@@ -37,7 +37,8 @@ class Server:
     def __init__(self, address, binary):
         self.process = None
         if address is None:
-            self.process = subprocess.Popen([binary, "serve", "--port", "0"], stdout=subprocess.PIPE,
+            self.process = subprocess.Popen([binary, "serve", "--until-stdin-closes", "--port", "0"],
+                                            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                             stderr=subprocess.DEVNULL, text=True)
             line = self.process.stdout.readline()
             if not line.startswith("listening on http://"):

@@ -2,12 +2,37 @@
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 import subprocess
 import tempfile
+import threading
+import weakref
 from pathlib import Path
-from typing import Any, Dict, Optional, Sequence, Union
+from typing import Any, Dict, Optional, Sequence, Tuple, Union
+
+# Ends of pipes whose closing ends a server. A process that is forked would hold them, too, and closes its copies.
+_held: "weakref.WeakSet[io.FileIO]" = weakref.WeakSet()
+_opening = threading.Lock()
+
+
+def _opened() -> Tuple[int, io.FileIO]:
+    """A pipe's ends: for the server's standard input, and the one that this process alone holds until it ends."""
+    with _opening:
+        read, write = os.pipe()
+        held = io.FileIO(write, "w")
+        _held.add(held)
+        return read, held
+
+
+def _close_in_child() -> None:
+    for each in list(_held):
+        each.close()
+    _opening.release()
+
+
+os.register_at_fork(before=_opening.acquire, after_in_parent=_opening.release, after_in_child=_close_in_child)
 
 
 def find_binary(binary: Union[str, Path, None] = None) -> str:
@@ -22,14 +47,21 @@ def find_binary(binary: Union[str, Path, None] = None) -> str:
 
 
 class LocalServer:
-    """`gnomon serve` with further flags and environment variables; ends with `close()` or a `with` block."""
+    """`gnomon serve` with further flags and environment variables; ends with `close()`, with a `with` block, and with
+    this process, however that ends."""
 
     def __init__(self, *flags: str, binary: Union[str, Path, None] = None, variables: Optional[Dict[str, str]] = None):
         own = {name: value for name, value in os.environ.items() if not name.startswith("GNOMON_")}
-        command: Sequence[str] = [find_binary(binary), "serve", "--bind", "127.0.0.1", "--port", "0", *flags]
+        command: Sequence[str] = [find_binary(binary), "serve", "--until-stdin-closes", "--bind", "127.0.0.1", "--port", "0",
+                                  *flags]
         self._log = tempfile.TemporaryFile()
-        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self._log,
-                                         text=True, env={**own, **(variables or {})}, start_new_session=True)
+        self._owner = os.getpid()
+        standard_input, self._held = _opened()
+        try:
+            self._process = subprocess.Popen(command, stdin=standard_input, stdout=subprocess.PIPE, stderr=self._log,
+                                             text=True, env={**own, **(variables or {})}, start_new_session=True)
+        finally:
+            os.close(standard_input)
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line.startswith("listening on "):
@@ -49,7 +81,10 @@ class LocalServer:
         return os.pread(self._log.fileno(), size, 0).decode("utf-8", "replace")
 
     def close(self) -> None:
-        """Ends the server; requests in progress have the time that `--grace` gives them."""
+        """Ends the server; requests in progress have the time that `--grace` gives them. A process that was forked from
+        this one leaves it running."""
+        if self._owner != os.getpid():
+            return
         if self._process.poll() is None:
             self._process.terminate()
             try:
@@ -57,6 +92,7 @@ class LocalServer:
             except subprocess.TimeoutExpired:
                 self._process.kill()
         self._process.wait()
+        self._held.close()
         if self._process.stdout is not None:
             self._process.stdout.close()
         self._log.close()

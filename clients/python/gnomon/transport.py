@@ -7,6 +7,7 @@ import contextlib
 import contextvars
 import hashlib
 import http.client
+import os
 import socket
 import ssl
 import threading
@@ -78,6 +79,7 @@ class Transport:
         self._patience = patience
         self._idle: List[http.client.HTTPConnection] = []
         self._lock = threading.Lock()
+        self._process = os.getpid()
         self._tls = ssl.create_default_context() if parts.scheme == "https" else None
 
     def close(self) -> None:
@@ -128,8 +130,7 @@ class Transport:
         restarts refuses new ones: both are tried again."""
         delay = 0.1
         while True:
-            with self._lock:
-                kept = self._idle.pop() if self._idle else None
+            kept = self._kept()
             connection = kept or self._connect()
             try:
                 if connection.sock is None:
@@ -148,6 +149,15 @@ class Transport:
             except BaseException:
                 connection.close()
                 raise
+
+    def _kept(self) -> Optional[http.client.HTTPConnection]:
+        """A connection without a request. Those of the process that this one was forked from stay open there."""
+        with self._lock:
+            if self._process != os.getpid():
+                while self._idle:
+                    self._idle.pop().close()
+                self._process = os.getpid()
+            return self._idle.pop() if self._idle else None
 
     def _exchange(self, connection: http.client.HTTPConnection, method: str, path: str, body: Optional[bytes],
                   headers: Dict[str, str]) -> http.client.HTTPResponse:

@@ -13,7 +13,8 @@ const kTechniques = [
 
 // A server on a free port of this machine.
 export async function startServer(program, device) {
-  const child = start(program, ['serve', '--port', '0', '--device', device], { stdio: ['ignore', 'pipe', 'ignore'] });
+  const child = start(program, ['serve', '--until-stdin-closes', '--port', '0', '--device', device],
+                      { stdio: ['pipe', 'pipe', 'ignore'] });
   const lines = readline.createInterface({ input: child.stdout });
   for await (const line of lines) {
     const [, origin] = line.match(/^listening on (\S+)/) ?? [];

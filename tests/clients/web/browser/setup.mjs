@@ -13,7 +13,8 @@ export async function startServer(gnomon, demo) {
   const body = fs.readFileSync(demo); // before there is a server that would have to be stopped
   // The server refuses variables of its name that it does not know.
   const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('GNOMON_')));
-  const server = spawn(gnomon, ['serve', '--port', '0', '--device', 'cpu'], { env, stdio: ['ignore', 'pipe', 'ignore'] });
+  const server = spawn(gnomon, ['serve', '--until-stdin-closes', '--port', '0', '--device', 'cpu'],
+                       { env, stdio: ['pipe', 'pipe', 'ignore'] });
   const origin = await new Promise((resolve, reject) => {
     server.once('exit', () => reject(new Error('The server has ended.')));
     createInterface({ input: server.stdout }).on('line', (line) => {
