@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes gnomon/spec.py and gnomon/reports.py from a server's OpenAPI document.
+"""Writes gnomon/spec.py, gnomon/keywords.py and gnomon/reports.py from a server's OpenAPI document.
 
     GNOMON_BINARY=build/release/bin/gnomon clients/python/generate.py [--into FOLDER]
 """
@@ -7,6 +7,7 @@
 import argparse
 import json
 import keyword
+import re
 import sys
 import textwrap
 import urllib.request
@@ -16,6 +17,19 @@ FOLDER = Path(__file__).resolve().parent
 ROOTS = {"spec.py": ["FrameSpec", "EvaluationRequest", "SequenceRequest"],
          "reports.py": ["FrameReport", "PlanReport", "SceneSummary", "Capabilities", "EvaluationReport", "BakeReport",
                         "SequenceReport", "Job"]}
+SCENE, SPEC = "scene: SceneLike", "spec: Optional[Spec] = None"
+PATCHES = ["frames", "keys", "count", "stable"]
+# Of each call: what may be positional, and of which request it takes which fields beside those of a frame.
+CALLS = {
+    "frame": ([SCENE, SPEC], None, []),
+    "render": ([SCENE, SPEC], None, []),
+    "orbit": (["session: Session", SCENE, SPEC, "width: int = 640", "height: int = 360"], None, []),
+    "picture": ([SCENE, SPEC, 'media_type: str = "image/png"'], None, []),
+    "evaluate": ([SCENE, SPEC], "EvaluationRequest", ["variants", "sweep", "repeats", "referenceSamples", "path"]),
+    "sequence": ([SCENE, SPEC], "SequenceRequest", PATCHES),
+    "video": ([SCENE, "path: Union[str, Path]", SPEC], "SequenceRequest", [*PATCHES, "framesPerSecond", "videoQuality"]),
+}
+OWN = {"render": {"server": "str", "key": "str"}}
 PRIMITIVES = {"string": "str", "integer": "int", "number": "float", "boolean": "bool"}
 NOTE = "# Written by generate.py from /openapi.json; change the server's rows and run it again.\n"
 
@@ -121,6 +135,39 @@ def spec_module(schemas):
     return text
 
 
+def keyword_types(schema, aliases):
+    """Field -> the type of its keyword, or where that is long its name in `aliases`."""
+    types = {}
+    for field, each in schema["properties"].items():
+        types[field] = request_type(each).replace('Union["', "Union[").replace('", Json]', ", Json]")
+        if len(types[field]) > 60:
+            name = field[0].upper() + field[1:]
+            aliases[name], types[field] = types[field], name
+    return types
+
+
+def keywords_module(schemas):
+    aliases, functions = {}, ""
+    of_frame = {"sun": "Vector", **keyword_types(schemas["FrameSpec"], aliases)}
+    for name, (positional, request, fields) in CALLS.items():
+        more = keyword_types(schemas[request], aliases) if request else {}
+        taken = {**OWN.get(name, {}), **{field: more[field] for field in fields}, **of_frame}
+        already = {each.split(":")[0] for each in positional}
+        lines = [*positional, "*", *(f"{field}: Optional[{text}] = None" for field, text in taken.items() if field not in already)]
+        functions += f"\n\ndef {name}(\n" + "".join(f"    {line},\n" for line in lines) + ") -> None: ...\n"
+    aliased = "".join(f"{name} = {value}\n" for name, value in aliases.items())
+    used = [name for name in reachable(schemas, ROOTS["spec.py"]) if re.search(rf"\b{name}\b", aliased + functions)]
+    text = '"""What the calls of a session take, as type checkers and notebooks see it; `None` leaves a field out."""\n\n' + NOTE
+    text += "from __future__ import annotations\n\nfrom pathlib import Path\n"
+    text += "from typing import TYPE_CHECKING, Literal, Optional, Sequence, Union\n\nfrom .json_form import Spec\n"
+    text += "from .scene_calls import SceneLike\n" + wrapped_import(["Json", "Vector", *used])
+    return text + "\nif TYPE_CHECKING:\n    from .session import Session\n\n" + aliased + functions
+
+
+def wrapped_import(names):
+    return "\n".join(textwrap.wrap(f"from .spec import ({', '.join(names)})", 116, subsequent_indent=" " * 19)) + "\n"
+
+
 def reports_module(schemas):
     requests = reachable(schemas, ROOTS["spec.py"])
     known = [name for name in reachable(schemas, ROOTS["reports.py"]) if name not in requests]
@@ -148,6 +195,7 @@ def main():
         with urllib.request.urlopen(server.url + "/openapi.json") as reply:
             schemas = json.load(reply)["components"]["schemas"]
     (into / "spec.py").write_text(spec_module(schemas), encoding="utf-8")
+    (into / "keywords.py").write_text(keywords_module(schemas), encoding="utf-8")
     (into / "reports.py").write_text(reports_module(schemas), encoding="utf-8")
 
 

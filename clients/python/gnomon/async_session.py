@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, AsyncIterator, Callable, Generator, List, Mapping, Optional, Sequence, TypeVar, Union, cast
 
+from . import keywords
 from .bundle import Source
 from .frame import Frame
 from .jobs import Job
@@ -19,6 +20,7 @@ from .rows import Rows
 from .scene_calls import Scene, SceneLike
 from .session import Patch, Session
 from .transport import CANCEL, Cancel
+from .typed_calls import method_of
 
 T = TypeVar("T")
 
@@ -26,14 +28,16 @@ T = TypeVar("T")
 class AsyncSession:
     """What `Session` has, to be awaited; `concurrency` calls run at once and further ones wait for their turn."""
 
-    def __init__(self, server: Optional[str] = None, *, concurrency: int = 8, **options: Any):
+    def __init__(self, server: Optional[str] = None, *, concurrency: int = 8, key: Optional[str] = None,
+                 binary: Union[str, Path, None] = None, flags: Sequence[str] = (), timeout: float = 630,
+                 patience: float = 60, progress: bool = False):
         self._threads = ThreadPoolExecutor(concurrency, thread_name_prefix="gnomon")
-        self._server = server
-        self._options = options
+        self._start = lambda: Session(server, key=key, binary=binary, flags=flags, timeout=timeout, patience=patience,
+                                      progress=progress)
         self._session: Optional[Session] = None
 
     async def __aenter__(self) -> "AsyncSession":
-        self._session = await self._run(lambda: Session(self._server, **self._options))
+        self._session = await self._run(self._start)
         return self
 
     async def __aexit__(self, *_: Any) -> None:
@@ -71,19 +75,24 @@ class AsyncSession:
     async def capabilities(self) -> Capabilities:
         return await self._run(lambda: self.session.capabilities())
 
+    @method_of(keywords.frame)
     async def frame(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> Frame:
         return await self._run(lambda: self.session.frame(scene, spec, **fields))
 
+    @method_of(keywords.picture)
     async def picture(self, scene: SceneLike, spec: Optional[Spec] = None, media_type: str = "image/png",
                       **fields: Any) -> bytes:
         return await self._run(lambda: self.session.picture(scene, spec, media_type, **fields))
 
+    @method_of(keywords.frame)
     async def plan(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> PlanReport:
         return await self._run(lambda: self.session.plan(scene, spec, **fields))
 
+    @method_of(keywords.evaluate)
     async def evaluate(self, scene: SceneLike, spec: Optional[Spec] = None, **options: Any) -> Rows:
         return await self._run(lambda: self.session.evaluate(scene, spec, **options))
 
+    @method_of(keywords.frame)
     async def bake(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> BakeReport:
         return await self._run(lambda: self.session.bake(scene, spec, **fields))
 
@@ -91,6 +100,7 @@ class AsyncSession:
                     light: Optional[int] = None) -> bytes:
         return await self._run(lambda: self.session.baked(scene, key, media_type, light))
 
+    @method_of(keywords.sequence)
     async def submit(self, scene: SceneLike, spec: Optional[Spec] = None, **options: Any) -> Job:
         return await self._run(lambda: self.session.submit(scene, spec, **options))
 
@@ -98,10 +108,12 @@ class AsyncSession:
         """That of the job; cancelling it leaves the job as it is."""
         return await self._run(lambda: job.wait(timeout))
 
+    @method_of(keywords.video)
     async def video(self, scene: SceneLike, path: Union[str, Path], spec: Optional[Spec] = None,
                     **options: Any) -> SequenceReport:
         return await self._run(lambda: self.session.video(scene, path, spec, **options))
 
+    @method_of(keywords.sequence)
     async def sequence(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                        keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                        **fields: Any) -> AsyncIterator[Frame]:

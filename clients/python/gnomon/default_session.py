@@ -6,15 +6,18 @@ import atexit
 import threading
 from typing import Any, Dict, Optional
 
+from . import keywords
 from .frame import Frame
 from .json_form import Spec
 from .scene_calls import SceneLike
 from .session import Session
+from .typed_calls import function_of
 
 _lock = threading.Lock()
 _sessions: Dict[Any, Session] = {}
 
 
+@function_of(keywords.render)
 def render(scene: SceneLike, spec: Optional[Spec] = None, *, server: Optional[str] = None, key: Optional[str] = None,
            **fields: Any) -> Frame:
     """Renders a scene: a path, bytes, or an id. `fields` are those of a FrameSpec, on top of `spec`, and

@@ -8,9 +8,11 @@ from string import Template
 from typing import Any, Optional
 from urllib.parse import quote
 
+from . import keywords
 from .json_form import Spec, frame_spec
 from .scene_calls import SceneLike
 from .session import Session
+from .typed_calls import function_of
 
 PAGE = Template((Path(__file__).parent / "orbit.html").read_text(encoding="utf-8"))
 
@@ -29,6 +31,7 @@ class Orbit:
         return PAGE.substitute(address=json.dumps(self.address).replace("<", "\\u003c"), width=width, height=height)
 
 
+@function_of(keywords.orbit)
 def orbit(session: Session, scene: SceneLike, spec: Optional[Spec] = None, width: int = 640, height: int = 360,
           **fields: Any) -> Orbit:
     """A widget of a scene: drag or use the arrow keys to orbit. A quarter of the pixels while it moves."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Iterator, Optional, Union
+from typing import Any, Iterator, Optional, Protocol, Tuple, Union
 
 import pytest
 
@@ -12,7 +12,10 @@ from .golden import Tolerance, check
 from .picture import Picture
 from .session import Session
 
-Golden = Callable[..., None]
+
+class Golden(Protocol):
+    def __call__(self, frame: Union[Frame, Picture], name: str,
+                 tolerance: Union[Tolerance, Tuple[float, float], float] = Tolerance(), view: Optional[str] = None) -> None: ...
 
 
 def pytest_addoption(parser: Any) -> None:
@@ -33,8 +36,8 @@ def gnomon_session() -> Iterator[Session]:
 def golden(request: pytest.FixtureRequest) -> Golden:
     """`golden(frame, "name", tolerance=(max, mean), view=None)` compares with golden/name.png beside the test file."""
 
-    def compare(frame: Union[Frame, Picture], name: str, tolerance: Union[Tolerance, Any] = Tolerance(),
-                view: Optional[str] = None) -> None:
+    def compare(frame: Union[Frame, Picture], name: str,
+                tolerance: Union[Tolerance, Tuple[float, float], float] = Tolerance(), view: Optional[str] = None) -> None:
         accepted = Tolerance(*tolerance) if isinstance(tolerance, tuple) else Tolerance(tolerance, tolerance)
         folder = Path(str(request.path)).parent / "golden"
         failures = Path(str(request.config.rootpath)) / str(request.config.getoption("--gnomon-failures"))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
 from urllib.parse import quote
 
+from . import keywords
 from .bundle import Source
 from .frame import Frame, Redraw, read_frame
 from .json_form import Spec, encoded, frame_spec
@@ -22,6 +23,7 @@ from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
 from .streams import events, sequence_parts
 from .transport import Transport
+from .typed_calls import method_of
 from .webm import check_video_name, save_video, whole_file
 
 USUAL_VIEWS = ("color", "depth", "ids", "shadow")
@@ -87,6 +89,7 @@ class Session:
         """What draws, its fingerprint, and the server's limits."""
         return cast(Capabilities, json.loads(self._http.request("GET", "/v1/capabilities").body))
 
+    @method_of(keywords.frame)
     def frame(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> Frame:
         """Renders. `fields` are those of a FrameSpec, on top of `spec`, and `sun=(azimuth, elevation)` in degrees.
         Without `views`, these are color, depth, ids and shadow."""
@@ -94,15 +97,18 @@ class Session:
         reply = self._scenes.request(scene, "POST", "/frames", asked, Accept="application/zip")
         return read_frame(reply.body, self._redraw(scene))
 
+    @method_of(keywords.picture)
     def picture(self, scene: SceneLike, spec: Optional[Spec] = None, media_type: str = "image/png",
                 **fields: Any) -> bytes:
         """A frame as a file: image/png, image/x-exr, image/tiff, image/jpeg, image/webp or application/x-npy."""
         return self._scenes.request(scene, "POST", "/frames", frame_spec(spec, **fields), Accept=media_type).body
 
+    @method_of(keywords.frame)
     def plan(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> PlanReport:
         """What a frame would do, without rendering it."""
         return cast(PlanReport, json.loads(self._scenes.request(scene, "POST", "/plan", frame_spec(spec, **fields)).body))
 
+    @method_of(keywords.evaluate)
     def evaluate(self, scene: SceneLike, spec: Optional[Spec] = None, *, variants: Optional[Sequence[Patch]] = None,
                  sweep: Optional[str] = None, repeats: Optional[int] = None, referenceSamples: Optional[int] = None,
                  path: Optional[Any] = None, **fields: Any) -> Rows:
@@ -112,6 +118,7 @@ class Session:
         report = self._events(scene, "/evaluations", asked, "evaluating", lambda data: (data["done"], data["of"]))
         return flat_rows(cast(EvaluationReport, report))
 
+    @method_of(keywords.frame)
     def bake(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> BakeReport:
         """Bakes the light maps of a frame's lights, ahead of the frames that look them up."""
         asked = frame_spec(spec, **fields)
@@ -124,6 +131,7 @@ class Session:
         query = "" if light is None else f"?light={light}"
         return self._scenes.request(scene, "GET", f"/bakes/{quote(key)}{query}", Accept=media_type).body
 
+    @method_of(keywords.sequence)
     def sequence(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                  keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                  **fields: Any) -> Iterator[Frame]:
@@ -132,6 +140,7 @@ class Session:
         asked = sequence_request(spec, frames, keys, count, stable, fields)
         return self._frames(scene, asked, (count if frames is None else len(frames)) or 0)
 
+    @method_of(keywords.sequence)
     def submit(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                **fields: Any) -> Job:
@@ -151,6 +160,7 @@ class Session:
     def _job(self, report: JobReport) -> Job:
         return Job(self._http, report, self._redraw(report["scene"]), self.progress)
 
+    @method_of(keywords.video)
     def video(self, scene: SceneLike, path: Union[str, Path], spec: Optional[Spec] = None, *,
               frames: Optional[Sequence[Patch]] = None, keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None,
               stable: bool = True, framesPerSecond: Optional[float] = None, videoQuality: Optional[int] = None,

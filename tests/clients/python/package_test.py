@@ -34,7 +34,7 @@ class PackageTest(unittest.TestCase):
 class Package(PackageTest):
     def test_the_specs_are_those_of_the_server(self):
         self.run_here(sys.executable, "-B", PACKAGE / "generate.py", "--into", self.folder)
-        for name in ("spec.py", "reports.py"):
+        for name in ("spec.py", "keywords.py", "reports.py"):
             self.assertEqual((self.folder / name).read_text(), (PACKAGE / "gnomon" / name).read_text(),
                              f"{name} is old: run clients/python/generate.py")
 
