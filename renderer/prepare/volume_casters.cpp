@@ -1,9 +1,10 @@
 #include "renderer/prepare/volume_casters.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {
@@ -56,10 +57,31 @@ bool overlap(const Aabb& a, const Aabb& b) {
   return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
+/// The box with what floats may add to it, whose places are relative to the eye.
+Aabb widened(const Aabb& box) {
+  constexpr double kFloats = 1e-6;
+  const double margin = kFloats * glm::length(glm::max(glm::abs(box.min), glm::abs(box.max)));
+  return {box.min - margin, box.max + margin};
+}
+
+/// One a piece of a solid. `nearest`: where the camera may look into it; absent = everywhere. `light`: relative to the
+/// eye.
+std::vector<VolumeCaps> capsOfPieces(const EdgeMesh& mesh, const glm::dmat4& relativeFromLocal,
+                                     const std::optional<Aabb>& nearest, const glm::dvec4& light) {
+  std::vector<VolumeCaps> caps(mesh.pieces.size(), VolumeCaps::turnedAway);
+  for (std::size_t i = 0; i < caps.size(); ++i) {
+    const Aabb box = widened(transformed(relativeFromLocal, mesh.pieces[i]));
+    if (nearest && !overlap(box, *nearest)) continue;
+    const bool lightMayBeInside = light.w > 0 && squaredDistance(box, glm::dvec3(light)) == 0;
+    caps[i] = lightMayBeInside ? VolumeCaps::all : VolumeCaps::turnedTo;
+  }
+  return caps;
+}
+
 } // namespace
 
 std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
-                                        const CameraView& camera, const Light& light,
+                                        const CameraView& camera, const Light& light, std::span<const EdgeMesh> edges,
                                         std::span<const NodeSwitches> nodes) {
   const glm::dvec4 place = placeOf(light);
   const glm::dvec4 relativeLight = place - place.w * glm::dvec4(camera.eye, 0.0);
@@ -75,12 +97,13 @@ std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& vie
     if (place.w > 0 && light.range && squaredDistance(box, glm::dvec3(relativeLight)) > *light.range * *light.range) {
       continue;
     }
-    VolumeCaster caster{static_cast<std::uint32_t>(i), VolumeCaps::all};
-    const bool solid = scene.primitives[static_cast<std::size_t>(instance.primitive)].solid;
-    if (solid && glm::determinant(glm::dmat3(instance.worldFromLocal)) != 0) {
-      caster.caps = node.visible && !overlap(box, nearest) ? VolumeCaps::turnedAway : VolumeCaps::turnedTo;
+    VolumeCaster caster{static_cast<std::uint32_t>(i), {VolumeCaps::all}};
+    const auto primitive = static_cast<std::size_t>(instance.primitive);
+    if (scene.primitives[primitive].solid && glm::determinant(glm::dmat3(instance.worldFromLocal)) != 0) {
+      caster.caps = capsOfPieces(edges[primitive], geometry.instances[i].relativeFromLocal,
+                                 node.visible ? std::optional(nearest) : std::nullopt, relativeLight);
     }
-    casters.push_back(caster);
+    casters.push_back(std::move(caster));
   }
   return casters;
 }

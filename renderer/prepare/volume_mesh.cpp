@@ -19,16 +19,22 @@ void endDraw(IndexedDraws& draws, std::size_t firstIndex, std::int32_t baseVerte
       {static_cast<std::uint32_t>(count), 1, static_cast<std::uint32_t>(firstIndex), baseVertex, instance});
 }
 
+/// Which triangles throw, of the piece that triangle `t` is part of.
+VolumeCaps capsAt(const VolumeCaster& caster, const EdgeMesh& mesh, std::size_t t) {
+  return caster.caps.size() == 1 ? caster.caps.front() : caster.caps[mesh.pieceOf[t]];
+}
+
 /// The triangles of a caster that throw its shadow: how each is turned to the light, 0 = it does not.
 std::vector<std::int8_t> throwers(const Scene& scene, const Instance& instance, const glm::dvec4& light,
-                                  VolumeCaps caps) {
+                                  const VolumeCaster& caster, const EdgeMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   std::vector<std::int8_t> turns = facings(scene, primitive, instance.worldFromLocal, light);
-  if (caps == VolumeCaps::all) return turns;
   const bool mirrored = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0;
-  const std::int8_t wanted = (caps == VolumeCaps::turnedTo) != mirrored ? 1 : -1;
-  std::replace_if(
-      turns.begin(), turns.end(), [&](std::int8_t turn) { return turn != wanted; }, std::int8_t{0});
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    const VolumeCaps caps = capsAt(caster, mesh, t);
+    const std::int8_t wanted = (caps == VolumeCaps::turnedTo) != mirrored ? 1 : -1;
+    if (caps != VolumeCaps::all && turns[t] != wanted) turns[t] = 0;
+  }
   return turns;
 }
 
@@ -148,26 +154,29 @@ std::vector<std::uint8_t> beyondFar(const Scene& scene, const Primitive& primiti
 }
 
 void addCaps(const Scene& scene, const VolumeCaster& caster, const Instance& instance, const CameraView& camera,
-             std::span<const std::int8_t> turns, VolumeMesh& mesh) {
+             std::span<const std::int8_t> turns, const EdgeMesh& edges, VolumeMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const std::vector<std::uint8_t> beyond = beyondFar(scene, primitive, instance, camera);
-  VolumeEnds& ends = caster.caps == VolumeCaps::turnedAway ? mesh.awayCaps : mesh.caps;
-  for (const int side : {0, 1}) {
-    IndexedDraws& caps = ends.sides[side];
-    IndexedDraws& capsBeyond = ends.beyond[side];
-    const std::size_t first = caps.indices.size();
-    const std::size_t firstBeyond = capsBeyond.indices.size();
-    for (std::size_t t = 0; t < turns.size(); ++t) {
-      if (turns[t] != (side == 0 ? 1 : -1)) continue;
-      const auto corners = std::span(scene.welded).subspan(primitive.firstIndex + 3 * t, 3);
-      caps.indices.insert(caps.indices.end(), corners.begin(), corners.end());
-      if (std::any_of(corners.begin(), corners.end(),
-                      [&](std::uint32_t corner) { return !beyond.empty() && beyond[corner] != 0; })) {
-        capsBeyond.indices.insert(capsBeyond.indices.end(), corners.begin(), corners.end());
+  const auto baseVertex = static_cast<std::int32_t>(primitive.baseVertex);
+  for (const bool away : {false, true}) {
+    VolumeEnds& ends = away ? mesh.awayCaps : mesh.caps;
+    for (const int side : {0, 1}) {
+      IndexedDraws& caps = ends.sides[side];
+      IndexedDraws& capsBeyond = ends.beyond[side];
+      const std::size_t first = caps.indices.size();
+      const std::size_t firstBeyond = capsBeyond.indices.size();
+      for (std::size_t t = 0; t < turns.size(); ++t) {
+        if (turns[t] != (side == 0 ? 1 : -1) || (capsAt(caster, edges, t) == VolumeCaps::turnedAway) != away) continue;
+        const auto corners = std::span(scene.welded).subspan(primitive.firstIndex + 3 * t, 3);
+        caps.indices.insert(caps.indices.end(), corners.begin(), corners.end());
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](std::uint32_t corner) { return !beyond.empty() && beyond[corner] != 0; })) {
+          capsBeyond.indices.insert(capsBeyond.indices.end(), corners.begin(), corners.end());
+        }
       }
+      endDraw(caps, first, baseVertex, caster.instance);
+      endDraw(capsBeyond, firstBeyond, baseVertex, caster.instance);
     }
-    endDraw(caps, first, static_cast<std::int32_t>(primitive.baseVertex), caster.instance);
-    endDraw(capsBeyond, firstBeyond, static_cast<std::int32_t>(primitive.baseVertex), caster.instance);
   }
 }
 
@@ -206,12 +215,13 @@ VolumeMesh volumeMesh(const Scene& scene, const SceneView& view, const CameraVie
   VolumeMesh mesh;
   for (const VolumeCaster& caster : casters) {
     const Instance& instance = view.instances[caster.instance];
-    const std::vector<std::int8_t> turns = throwers(scene, instance, light, caster.caps);
+    const EdgeMesh& edgeMesh = edges[static_cast<std::size_t>(instance.primitive)];
+    const std::vector<std::int8_t> turns = throwers(scene, instance, light, caster, edgeMesh);
     const FarEnds farEnds(
         camera.eye, light,
         camera.perspective ? std::optional<double>{} : farEnough(scene, view, instance, light, turns));
-    addCaps(scene, caster, instance, camera, turns, mesh);
-    addWalls(scene, caster, instance, turns, farEnds, edges[static_cast<std::size_t>(instance.primitive)].edges, mesh);
+    addCaps(scene, caster, instance, camera, turns, edgeMesh, mesh);
+    addWalls(scene, caster, instance, turns, farEnds, edgeMesh.edges, mesh);
   }
   return mesh;
 }

@@ -6,6 +6,7 @@
 
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
+#include "renderer/scene/geometry/welding.h"
 
 namespace gnomon {
 
@@ -62,6 +63,25 @@ glm::vec3 normalOf(const Scene& scene, const Primitive& primitive, std::uint32_t
   return length > 0 ? glm::vec3(area / length) : glm::vec3(0.0f);
 }
 
+void addPieces(const Scene& scene, const Primitive& primitive, EdgeMesh& mesh) {
+  constexpr std::uint32_t kNone = ~0u;
+  const auto welded = std::span(scene.welded).subspan(primitive.firstIndex, primitive.indexCount);
+  const std::vector<std::uint32_t> named = piecesOfVertices(welded, primitive.vertexCount);
+  std::vector<std::uint32_t> numbers(primitive.vertexCount, kNone);
+  mesh.pieceOf.resize(welded.size() / 3);
+  for (std::size_t t = 0; t < mesh.pieceOf.size(); ++t) {
+    std::uint32_t& number = numbers[named[welded[3 * t]]];
+    if (number == kNone) {
+      number = static_cast<std::uint32_t>(mesh.pieces.size());
+      mesh.pieces.emplace_back();
+    }
+    mesh.pieceOf[t] = number;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      mesh.pieces[number].add(glm::dvec3(scene.positions[primitive.baseVertex + welded[3 * t + corner]]));
+    }
+  }
+}
+
 } // namespace
 
 std::vector<MeshEdge> meshEdges(const Scene& scene, const Primitive& primitive) {
@@ -99,13 +119,15 @@ std::vector<EdgeMesh> edgeMeshes(const Scene& scene) {
     for (std::uint32_t triangle = 0; triangle < meshes[i].normals.size(); ++triangle) {
       meshes[i].normals[triangle] = normalOf(scene, primitive, triangle);
     }
+    if (primitive.solid) addPieces(scene, primitive, meshes[i]);
   }
   return meshes;
 }
 
 std::size_t bytesOf(const std::vector<EdgeMesh>& meshes) {
   return std::accumulate(meshes.begin(), meshes.end(), std::size_t{0}, [](std::size_t sum, const EdgeMesh& mesh) {
-    return sum + mesh.edges.size() * sizeof(MeshEdge) + mesh.normals.size() * sizeof(glm::vec3);
+    return sum + mesh.edges.size() * sizeof(MeshEdge) + mesh.normals.size() * sizeof(glm::vec3) +
+           mesh.pieces.size() * sizeof(Aabb) + mesh.pieceOf.size() * sizeof(std::uint32_t);
   });
 }
 

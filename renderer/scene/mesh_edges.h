@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
+#include "renderer/core/aabb.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -30,6 +31,8 @@ std::vector<MeshEdge> meshEdges(const Scene& scene, const Primitive& primitive);
 struct EdgeMesh {
   std::vector<MeshEdge> edges;
   std::vector<glm::vec3> normals; ///< one a triangle, in the primitive's own space, unit length; 0 where it has no area
+  std::vector<Aabb> pieces;       ///< of a solid (Primitive::solid), the box of each connected piece, in its own space
+  std::vector<std::uint32_t> pieceOf; ///< of a solid, one a triangle: index into `pieces`
 };
 
 /// One a primitive of the scene.

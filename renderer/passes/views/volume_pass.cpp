@@ -188,7 +188,7 @@ Result<DrawnVolumes> drawVolumes(const PassInputs& inputs, VolumeCounts& counts,
   DrawnVolumes drawn;
   drawn.timer = gl::Timer::start();
   const std::vector<VolumeCaster> casters =
-      volumeCasters(inputs.scene, inputs.view, inputs.geometry, inputs.camera, light, inputs.nodes);
+      volumeCasters(inputs.scene, inputs.view, inputs.geometry, inputs.camera, light, inputs.edges, inputs.nodes);
   drawn.casters = casters.size();
   const VolumeMesh mesh = volumeMesh(inputs.scene, inputs.view, inputs.camera, placeOf(light), casters, inputs.edges);
 

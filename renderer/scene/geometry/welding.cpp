@@ -58,17 +58,24 @@ std::vector<std::uint32_t> weldedIndices(std::span<const std::uint32_t> indices,
   return welded;
 }
 
-bool boundsSolids(std::span<const std::uint32_t> welded, std::span<const glm::vec3> positions) {
-  if (welded.empty() || !edgesCancel(welded)) return false;
-  Pieces pieces(positions.size());
+std::vector<std::uint32_t> piecesOfVertices(std::span<const std::uint32_t> welded, std::size_t vertexCount) {
+  Pieces pieces(vertexCount);
   for (std::size_t t = 0; t < welded.size(); t += 3) {
     pieces.join(welded[t], welded[t + 1]);
     pieces.join(welded[t], welded[t + 2]);
   }
+  std::vector<std::uint32_t> named(vertexCount);
+  for (std::uint32_t vertex = 0; vertex < vertexCount; ++vertex) named[vertex] = pieces.of(vertex);
+  return named;
+}
+
+bool boundsSolids(std::span<const std::uint32_t> welded, std::span<const glm::vec3> positions) {
+  if (welded.empty() || !edgesCancel(welded)) return false;
+  const std::vector<std::uint32_t> pieces = piecesOfVertices(welded, positions.size());
   // Volumes are measured from a vertex of the piece, so that a place far from the origin costs no digits.
   std::vector<double> volumes(positions.size());
   for (std::size_t t = 0; t < welded.size(); t += 3) {
-    const std::uint32_t piece = pieces.of(welded[t]);
+    const std::uint32_t piece = pieces[welded[t]];
     const glm::dvec3 origin(positions[piece]);
     const glm::dvec3 a = glm::dvec3(positions[welded[t]]) - origin;
     const glm::dvec3 b = glm::dvec3(positions[welded[t + 1]]) - origin;

@@ -55,7 +55,7 @@ CameraView cameraAt(const glm::dvec3& eye, bool perspective = true) {
 }
 
 VolumeMesh meshOf(const Model& model, const CameraView& camera, const glm::dvec4& light, VolumeCaps caps) {
-  const VolumeCaster caster{0, caps};
+  const VolumeCaster caster{0, {caps}};
   return volumeMesh(model.scene, model.view, camera, light, {&caster, 1}, model.edges);
 }
 
@@ -120,6 +120,21 @@ TEST(VolumeMesh, N3_VolumesOfSolidsAreClosedWhicheverSideBoundsThem) {
   }));
 }
 
+TEST(VolumeMesh, N3_PiecesOfASolidAreClosedEachByItsOwnRule) {
+  EXPECT_TRUE(rc::check([] {
+    std::vector<glm::vec3> positions(kCorners);
+    std::vector<std::uint32_t> indices(kTetrahedron);
+    for (const glm::vec3& corner : kCorners) positions.push_back(corner + glm::vec3(1.5f, 0.25f, 0));
+    for (const std::uint32_t index : kTetrahedron) indices.push_back(index + 5);
+    const Model model = modelOf(positions, indices, true);
+    const auto caps = [] { return *rc::gen::element(VolumeCaps::turnedTo, VolumeCaps::turnedAway, VolumeCaps::all); };
+    const VolumeCaster caster{0, {caps(), caps()}};
+    const CameraView camera = cameraAt({1, 2, 3}, *rc::gen::arbitrary<bool>());
+    const VolumeMesh mesh = volumeMesh(model.scene, model.view, camera, anyLight(), {&caster, 1}, model.edges);
+    for (const auto& [edge, sum] : balance(model, mesh)) RC_ASSERT(sum == 0);
+  }));
+}
+
 TEST(VolumeMesh, OnlyTheTrianglesThatThrowItBoundAVolume) {
   const glm::dvec4 light(-1, -1, -1, 1); // sees the three faces at the origin, not the slanted one
   const Model model = modelOf(kCorners, kTetrahedron, true);
@@ -177,7 +192,7 @@ TEST(VolumeMesh, WhatReachesBehindTheFarPlaneIsThereTwice) {
 std::vector<VolumeCaster> castersOf(const Model& model, const CameraView& camera, const Light& light,
                                     const NodeSwitches& node = {}) {
   const FrameGeometry geometry = frameGeometry(model.scene, model.view, camera.eye);
-  return volumeCasters(model.scene, model.view, geometry, camera, light, {&node, 1});
+  return volumeCasters(model.scene, model.view, geometry, camera, light, model.edges, {&node, 1});
 }
 
 Light pointAt(const Vec3& position) {
@@ -190,7 +205,7 @@ Light pointAt(const Vec3& position) {
 TEST(VolumeCasters, TheInsideOfASolidCountsWhereItMayBeSeen) {
   const Model solid = modelOf(kCorners, kTetrahedron, true);
   const CameraView outside = cameraAt({0, 0, 9});
-  const auto capsOf = [](const std::vector<VolumeCaster>& casters) { return casters.at(0).caps; };
+  const auto capsOf = [](const std::vector<VolumeCaster>& casters) { return casters.at(0).caps.at(0); };
   EXPECT_EQ(capsOf(castersOf(solid, outside, pointAt({3, 3, 3}))), VolumeCaps::turnedAway);
   NodeSwitches hidden;
   hidden.visible = false;
@@ -202,6 +217,27 @@ TEST(VolumeCasters, TheInsideOfASolidCountsWhereItMayBeSeen) {
   flat[1][1] = 0;
   EXPECT_EQ(capsOf(castersOf(modelOf(kCorners, kTetrahedron, true, flat), outside, pointAt({3, 3, 3}))),
             VolumeCaps::all);
+}
+
+TEST(VolumeCasters, EachPieceOfASolidIsOneForItself) {
+  std::vector<glm::vec3> positions(kCorners);
+  std::vector<std::uint32_t> indices(kTetrahedron);
+  for (const glm::vec3& corner : kCorners) positions.push_back(corner + glm::vec3(10, 0, 0));
+  for (const std::uint32_t index : kTetrahedron) indices.push_back(index + 5);
+  const Model two = modelOf(positions, indices, true);
+  using Caps = std::vector<VolumeCaps>;
+  const auto capsOf = [&](const glm::dvec3& eye, const Vec3& lamp, const NodeSwitches& node = {}) {
+    return castersOf(two, cameraAt(eye), pointAt(lamp), node).at(0).caps;
+  };
+  const Vec3 inFirst{0.2, 0.2, 0.2};
+  const Vec3 between{5, 0.5, 0.5};
+  EXPECT_EQ(capsOf({5, 0.5, 0.5}, inFirst), (Caps{VolumeCaps::turnedAway, VolumeCaps::turnedAway}));
+  EXPECT_EQ(capsOf({0.3, 0.2, 0.2}, inFirst), (Caps{VolumeCaps::all, VolumeCaps::turnedAway}));
+  EXPECT_EQ(capsOf({0.3, 0.2, 0.2}, between), (Caps{VolumeCaps::turnedTo, VolumeCaps::turnedAway}));
+  EXPECT_EQ(capsOf({10.3, 0.2, 0.2}, inFirst), (Caps{VolumeCaps::turnedAway, VolumeCaps::turnedTo}));
+  NodeSwitches hidden;
+  hidden.visible = false;
+  EXPECT_EQ(capsOf({5, 0.5, 0.5}, inFirst, hidden), (Caps{VolumeCaps::all, VolumeCaps::turnedTo}));
 }
 
 TEST(VolumeCasters, WhatCannotMatterIsLeftOut) {
