@@ -16,7 +16,7 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 ROOTS = {"spec.py": ["FrameSpec", "EvaluationRequest", "SequenceRequest"],
          "reports.py": ["FrameReport", "PlanReport", "SceneSummary", "Capabilities", "EvaluationReport", "BakeReport",
-                        "SequenceReport", "Job"]}
+                        "SequenceReport", "Job", "NodeList"]}
 SCENE, SPEC = "scene: SceneLike", "spec: Optional[Spec] = None"
 PATCHES = ["frames", "keys", "count", "stable"]
 # Of each call: what may be positional, and of which request it takes which fields beside those of a frame.
@@ -188,8 +188,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--into", type=Path, default=FOLDER / "gnomon", help="folder of the written files")
     into = parser.parse_args().into
-    sys.path.insert(0, str(FOLDER))
-    from gnomon.local_server import LocalServer
+    sys.path.append(str(FOLDER / "gnomon"))  # not the package, which imports what is written here
+    from local_server import LocalServer
 
     with LocalServer() as server:
         with urllib.request.urlopen(server.url + "/openapi.json") as reply:

@@ -12,7 +12,8 @@ from .problems import (BadRequest, Busy, ConnectionFailed, DigestMismatch, Item,
 from .rows import Rows
 from .scene_calls import Scene
 from .session import Session
+from .warned import GnomonWarning
 
-__all__ = ["AsyncSession", "BadRequest", "Busy", "ConnectionFailed", "DigestMismatch", "Frame", "Item", "Job", "JobCancelled",
-           "JobFailed", "LocalServer", "NotFound", "Problem", "Refused", "Rows", "Scene", "ServerFault", "Session", "TimedOut", "TooLarge", "camera",
-           "orbit", "read_frame", "render", "spec"]
+__all__ = ["AsyncSession", "BadRequest", "Busy", "ConnectionFailed", "DigestMismatch", "Frame", "GnomonWarning", "Item",
+           "Job", "JobCancelled", "JobFailed", "LocalServer", "NotFound", "Problem", "Refused", "Rows", "Scene",
+           "ServerFault", "Session", "TimedOut", "TooLarge", "camera", "orbit", "read_frame", "render", "spec"]

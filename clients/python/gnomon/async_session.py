@@ -14,7 +14,7 @@ from .bundle import Source
 from .frame import Frame
 from .jobs import Job
 from .json_form import Spec
-from .reports import BakeReport, Capabilities, PlanReport, SceneSummary, SequenceReport
+from .reports import BakeReport, Capabilities, NodeSummary, PlanReport, SceneSummary, SequenceReport
 from .reports import Job as JobReport
 from .rows import Rows
 from .scene_calls import Scene, SceneLike
@@ -65,6 +65,9 @@ class AsyncSession:
 
     async def scene(self, scene: SceneLike) -> SceneSummary:
         return await self._run(lambda: self.session.scene(scene))
+
+    async def nodes(self, scene: SceneLike) -> List[NodeSummary]:
+        return await self._run(lambda: [*self.session.nodes(scene)])
 
     async def list(self) -> List[SceneSummary]:
         return await self._run(lambda: [*self.session.list()])

@@ -17,6 +17,7 @@ from .reports import FrameReport
 
 Array = npt.NDArray[Any]
 Redraw = Callable[[Dict[str, Any], str], bytes]  # (spec, media type) -> the file
+Names = Callable[[], Dict[int, str]]
 MEDIA_TYPES = {".png": "image/png", ".exr": "image/x-exr", ".tiff": "image/tiff", ".tif": "image/tiff",
                ".jpg": "image/jpeg", ".jpeg": "image/jpeg", ".webp": "image/webp", ".npy": "application/x-npy"}
 
@@ -45,12 +46,13 @@ class Frame:
     casterIds: Array
 
     def __init__(self, views: Mapping[str, Array], report: FrameReport, content: bytes = b"",
-                 redraw: Optional[Redraw] = None, index: int = 0):
+                 redraw: Optional[Redraw] = None, index: int = 0, names: Optional[Names] = None):
         self.views = views
         self.report = report
         self.index = index  # in a sequence
         self._content = content
         self._redraw = redraw
+        self._names = names
 
     def __getattr__(self, name: str) -> Array:
         views = self.__dict__.get("views", {})
@@ -75,6 +77,14 @@ class Frame:
     def timings(self) -> Dict[str, float]:
         """Milliseconds of each stage."""
         return self.report.get("stages", {})
+
+    @property
+    def names(self) -> Dict[int, str]:
+        """The name of every node of the scene by its index, as `ids` and `casterIds` have it; "" for -1, where nothing
+        is, and for nodes without a name. The server is asked when it is first needed."""
+        if self._names is None:
+            raise ValueError("this frame belongs to no session, which knows the names of nodes")
+        return self._names()
 
     def picture(self, view: Optional[str] = None) -> Picture:
         """A view as uint8 for people to look at; the first unless one is named."""
@@ -116,6 +126,10 @@ class Frame:
         views = [name] if view or suffix != ".exr" else list(self.views)
         path.write_bytes(self._redraw({**self.report["spec"], "views": views}, MEDIA_TYPES[suffix]))
 
+    def __getstate__(self) -> Dict[str, Any]:
+        """Pickled as it is read from a file: without its session."""
+        return {**self.__dict__, "_redraw": None, "_names": None}
+
     def _repr_png_(self) -> bytes:
         return png.encode(self.picture())
 
@@ -146,9 +160,9 @@ class StoredArrays(Mapping[str, Array]):
         return len(self._names)
 
 
-def read_frame(content: bytes, redraw: Optional[Redraw] = None, index: int = 0) -> Frame:
+def read_frame(content: bytes, redraw: Optional[Redraw] = None, index: int = 0, names: Optional[Names] = None) -> Frame:
     """The frame in a .npz as the server sends it, and as `save` writes it."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         report = json.loads(archive.read("report.json"))
-        names = tuple(name[:-len(".npy")] for name in archive.namelist() if name.endswith(".npy"))
-    return Frame(StoredArrays(content, names), report, content, redraw, index)
+        views = tuple(name[:-len(".npy")] for name in archive.namelist() if name.endswith(".npy"))
+    return Frame(StoredArrays(content, views), report, content, redraw, index, names)

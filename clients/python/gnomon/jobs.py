@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import time
-from typing import TYPE_CHECKING, Iterator, Optional, Tuple, cast
+from typing import TYPE_CHECKING, Callable, Iterator, Optional, Tuple, cast
 
-from .frame import Frame, Redraw, read_frame
+from .frame import Frame
 from .problems import Item, JobCancelled, JobFailed, NotFound
 from .progress import Progress
 from .reports import Job as JobReport
@@ -20,9 +20,10 @@ LONGEST_WAIT = 20  # seconds of one request
 class Job:
     """Outlives the session that made it: `session.job(id)` finds it again."""
 
-    def __init__(self, http: "Transport", report: JobReport, redraw: Redraw, shows_progress: bool = False):
+    def __init__(self, http: "Transport", report: JobReport, frame_of: Callable[[bytes, int], Frame],
+                 shows_progress: bool = False):
         self._http = http
-        self._redraw = redraw
+        self._frame_of = frame_of
         self._shows_progress = shows_progress
         self.id = report["id"]
         self.report = report  # as it was last seen
@@ -67,7 +68,7 @@ class Job:
     def frame(self, index: int) -> Frame:
         """A frame that is drawn already; NotFound where it is not."""
         content = self._http.request("GET", self.report["frames"].replace("{index}", str(index))).body
-        return read_frame(content, self._redraw, index)
+        return self._frame_of(content, index)
 
     def frames(self) -> Iterator[Frame]:
         """All frames in order, each as soon as it is there."""

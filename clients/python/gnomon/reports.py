@@ -1021,3 +1021,35 @@ class Job(TypedDict, total=False):
     address: str
     result: str
     frames: str
+
+
+class NodeSummary(TypedDict, total=False):
+    """A node of the file.
+
+    node:
+        Its index, for `nodes[].node`.
+    name:
+        Its name; may be empty, and others may have the same.
+    parent:
+        Index of the node above it; absent = a root.
+    triangles:
+        Triangles that it places itself, without those below it.
+    """
+
+    node: int
+    name: str
+    parent: int
+    triangles: int
+
+
+class NodeList(TypedDict, total=False):
+    """A page of a scene's nodes, by index.
+
+    nodes:
+        The nodes.
+    next:
+        Where there are more: what `after` asks for the next page with.
+    """
+
+    nodes: List["NodeSummary"]
+    next: int

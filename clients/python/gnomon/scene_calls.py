@@ -14,8 +14,9 @@ from urllib.parse import quote
 from .bundle import Bundle, Source, bundle, files_beside, upload_body
 from .json_form import encoded
 from .problems import NotFound, Refused
-from .reports import SceneSummary
+from .reports import NodeList, NodeSummary, SceneSummary
 from .transport import Reply, Transport, whole_reply
+from .warned import Warned
 
 
 class Scene(NamedTuple):
@@ -24,6 +25,7 @@ class Scene(NamedTuple):
 
 
 SceneLike = Union[Scene, str, Path, bytes]
+NODES_ON_PAGE = 10_000
 State = Optional[Tuple[int, int]]  # of a file: when it was written and its size; None where it is missing
 
 
@@ -48,11 +50,13 @@ def _states(paths: Iterable[Path]) -> Dict[Path, State]:
 class SceneCalls:
     """Calls below /v1/scenes/{id}. May be used by several threads."""
 
-    def __init__(self, http: Transport):
+    def __init__(self, http: Transport, warned: Warned):
         self._http = http
+        self._warned = warned
         self._lock = threading.Lock()
         self._sources: Dict[str, Callable[[], Bundle]] = {}
         self._files: Dict[str, _File] = {}
+        self._names: Dict[str, Dict[int, str]] = {}
 
     def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
         made = bundle(source, files)
@@ -60,12 +64,14 @@ class SceneCalls:
         again = (lambda: made) if isinstance(source, bytes) else (lambda: bundle(source, files))
         with self._lock:
             self._sources[summary["id"]] = again
+        self._warned.of_scene(summary["id"], summary.get("warnings", []))
         return Scene(summary["id"], summary)
 
     def forget(self, name: str) -> None:
         with self._lock:
             self._sources.pop(name, None)
             self._files = {path: each for path, each in self._files.items() if each.id != name}
+            self._names.pop(name, None)
 
     def id_of(self, scene: SceneLike) -> str:
         """A scene's id. A path or bytes are uploaded, once for as long as the files stay as they are."""
@@ -85,6 +91,26 @@ class SceneCalls:
             with self._lock:
                 self._files[str(path)] = known
         return known.id
+
+    def nodes(self, scene: SceneLike) -> Iterator[NodeSummary]:
+        """The nodes of a scene's file, by index."""
+        query = f"?limit={NODES_ON_PAGE}"
+        while True:
+            page = cast(NodeList, json.loads(self.request(scene, "GET", f"/nodes{query}").body))
+            yield from page["nodes"]
+            if "next" not in page:
+                return
+            query = f"?limit={NODES_ON_PAGE}&after={page['next']}"
+
+    def node_names(self, scene: str) -> Dict[int, str]:
+        """Asked for once."""
+        with self._lock:
+            known = self._names.get(scene)
+        if known is None:
+            known = {-1: "", **{each["node"]: each["name"] for each in self.nodes(scene)}}
+            with self._lock:
+                self._names[scene] = known
+        return known
 
     def request(self, scene: SceneLike, method: str, tail: str, asked: Any = None, **headers: str) -> Reply:
         with self.stream(scene, method, tail, None if asked is None else encoded(asked), **headers) as response:

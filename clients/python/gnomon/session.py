@@ -11,19 +11,20 @@ from urllib.parse import quote
 
 from . import keywords
 from .bundle import Source
-from .frame import Frame, Redraw, read_frame
+from .frame import Frame, read_frame
 from .json_form import Spec, encoded, frame_spec
 from .jobs import Job
 from .local_server import LocalServer
 from .problems import ConnectionFailed
 from .progress import Progress
-from .reports import BakeReport, Capabilities, EvaluationReport, PlanReport, SceneSummary, SequenceReport
+from .reports import BakeReport, Capabilities, EvaluationReport, NodeSummary, PlanReport, SceneSummary, SequenceReport
 from .reports import Job as JobReport
 from .rows import Rows, flat_rows
 from .scene_calls import Scene, SceneCalls, SceneLike
 from .streams import events, sequence_parts
 from .transport import Transport
 from .typed_calls import method_of
+from .warned import Warned
 from .webm import check_video_name, save_video, whole_file
 
 USUAL_VIEWS = ("color", "depth", "ids", "shadow")
@@ -47,7 +48,8 @@ class Session:
         self.url = url or cast(LocalServer, self._own).url
         self.progress = progress
         self._http = Transport(self.url, key or os.environ.get("GNOMON_KEY"), timeout, patience)
-        self._scenes = SceneCalls(self._http)
+        self._warned = Warned()
+        self._scenes = SceneCalls(self._http, self._warned)
 
     def __enter__(self) -> "Session":
         return self
@@ -68,6 +70,10 @@ class Session:
     def scene(self, scene: SceneLike) -> SceneSummary:
         """What a scene holds."""
         return cast(SceneSummary, json.loads(self._scenes.request(scene, "GET", "").body))
+
+    def nodes(self, scene: SceneLike) -> Iterator[NodeSummary]:
+        """The nodes of a scene's file by their index, which `ids` shows: name, parent, triangles."""
+        return self._scenes.nodes(scene)
 
     def list(self) -> Iterator[SceneSummary]:
         """All scenes of the server, by id."""
@@ -95,7 +101,7 @@ class Session:
         Without `views`, these are color, depth, ids and shadow."""
         asked = {"views": list(USUAL_VIEWS), **frame_spec(spec, **fields)}
         reply = self._scenes.request(scene, "POST", "/frames", asked, Accept="application/zip")
-        return read_frame(reply.body, self._redraw(scene))
+        return self._frame_of(scene, reply.body)
 
     @method_of(keywords.picture)
     def picture(self, scene: SceneLike, spec: Optional[Spec] = None, media_type: str = "image/png",
@@ -106,7 +112,9 @@ class Session:
     @method_of(keywords.frame)
     def plan(self, scene: SceneLike, spec: Optional[Spec] = None, **fields: Any) -> PlanReport:
         """What a frame would do, without rendering it."""
-        return cast(PlanReport, json.loads(self._scenes.request(scene, "POST", "/plan", frame_spec(spec, **fields)).body))
+        report = json.loads(self._scenes.request(scene, "POST", "/plan", frame_spec(spec, **fields)).body)
+        self._warn(scene, report)
+        return cast(PlanReport, report)
 
     @method_of(keywords.evaluate)
     def evaluate(self, scene: SceneLike, spec: Optional[Spec] = None, *, variants: Optional[Sequence[Patch]] = None,
@@ -158,7 +166,8 @@ class Session:
         return [self._job(report) for report in json.loads(self._http.request("GET", "/v1/jobs").body)["jobs"]]
 
     def _job(self, report: JobReport) -> Job:
-        return Job(self._http, report, self._redraw(report["scene"]), self.progress)
+        scene = report["scene"]
+        return Job(self._http, report, lambda content, index: self._frame_of(scene, content, index), self.progress)
 
     @method_of(keywords.video)
     def video(self, scene: SceneLike, path: Union[str, Path], spec: Optional[Spec] = None, *,
@@ -175,9 +184,11 @@ class Session:
         try:
             with whole_file(path) as file, \
                     self._scenes.stream(scene, "POST", "/sequences", encoded(given(asked)), Accept="video/webm") as reply:
-                return cast(SequenceReport, save_video(reply, file, lambda done: bar.at(done, of)))
+                report = cast(SequenceReport, save_video(reply, file, lambda done: bar.at(done, of)))
         finally:
             bar.close()
+        self._warn(scene, report)
+        return report
 
     def _frames(self, scene: SceneLike, asked: Dict[str, Any], of: int) -> Iterator[Frame]:
         """The frames of a sequence. A reply that breaks off is gone on with behind its last whole frame, which gives the
@@ -189,7 +200,7 @@ class Session:
                 try:
                     with self._scenes.stream(scene, "POST", "/sequences", encoded(asked), Accept="multipart/mixed") as reply:
                         for part in sequence_parts(reply):
-                            frame = read_frame(part.content, self._redraw(scene), done)
+                            frame = self._frame_of(scene, part.content, done)
                             done, failures = done + 1, 0
                             asked = {**asked, "first": done, "carried": json.loads(part.headers["Gnomon-Carried"])}
                             yield frame
@@ -220,9 +231,15 @@ class Session:
             bar.close()
         raise ConnectionError("the server's events ended without a result")
 
-    def _redraw(self, scene: SceneLike) -> Redraw:
+    def _frame_of(self, scene: SceneLike, content: bytes, index: int = 0) -> Frame:
         name = self._scenes.id_of(scene)
-        return lambda spec, media_type: self.picture(name, spec, media_type)
+        frame = read_frame(content, lambda spec, media_type: self.picture(name, spec, media_type), index,
+                           lambda: self._scenes.node_names(name))
+        self._warn(name, frame.report)
+        return frame
+
+    def _warn(self, scene: SceneLike, report: Mapping[str, Any]) -> None:
+        self._warned.of_frame(self._scenes.id_of(scene), report.get("warnings", []))
 
 
 def sequence_request(spec: Optional[Spec], frames: Optional[Sequence[Patch]], keys: Optional[Sequence[Patch]],

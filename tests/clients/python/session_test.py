@@ -7,6 +7,7 @@ import json
 import os
 import struct
 import unittest
+import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from unittest import mock
@@ -21,12 +22,17 @@ BOX = SCENES / "box_on_plane.glb"
 SMALL = {"width": 64, "height": 48}
 
 
-def write_gltf(path, uri, name):
-    """The scene with its buffer in a file beside it, or as a data: URI, or, without a name, nowhere."""
+def glb_parts():
+    """The JSON and the buffer of the scene."""
     content = BOX.read_bytes()
     length = struct.unpack_from("<I", content, 12)[0]
-    gltf = json.loads(content[20:20 + length])
-    data = content[28 + length:]
+    return json.loads(content[20:20 + length]), content[28 + length:]
+
+
+def write_gltf(path, uri, name, change=lambda gltf: None):
+    """The scene with its buffer in a file beside it, or as a data: URI, or, without a name, nowhere."""
+    gltf, data = glb_parts()
+    change(gltf)
     gltf["buffers"][0]["uri"] = uri if uri != "data:" else "data:;base64," + base64.b64encode(data).decode()
     if name:
         (path.parent / name).parent.mkdir(exist_ok=True)
@@ -216,6 +222,49 @@ class Scenes(SessionTest):
             model = write_gltf(Path(folder) / "box.gltf", "box.bin", None)
             with self.assertRaisesRegex(gnomon.BadRequest, '/buffers/0/uri: .*"box.bin"'):
                 self.session.frame(model, **SMALL)
+
+    def test_nodes_have_their_names(self):
+        nodes = [*self.session.nodes(BOX)]
+        self.assertEqual([each["node"] for each in nodes], [0, 1, 2])
+        frame = self.session.frame(BOX, views=["ids", "casterIds"], sun=(135, 40), **SMALL)
+        self.assertEqual(frame.names, {-1: "", **{each["node"]: each["name"] for each in nodes}})
+        self.assertEqual({frame.names[each] for each in np.unique(frame.ids)}, {"", "ground", "box"})
+        with mock.patch("gnomon.scene_calls.NODES_ON_PAGE", 2):
+            self.assertEqual([*self.session.nodes(BOX)], nodes)
+        for each in self.session.sequence(BOX, frames=[{}], **SMALL):
+            self.assertEqual(each.names, frame.names)
+
+    def test_what_is_odd_is_warned_of_once(self):
+        def told(call):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                call()
+            self.assertTrue(all(each.category is gnomon.GnomonWarning and each.filename == __file__ for each in caught))
+            return [str(each.message) for each in caught]
+
+        def with_too_much(gltf):
+            first = len(gltf["nodes"])
+            gltf["extensionsUsed"] = ["EXT_unheard_of", "KHR_lights_punctual"]
+            gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
+            gltf["nodes"] += [{"extensions": {"KHR_lights_punctual": {"light": 0}}} for _ in range(300)]
+            gltf["scenes"][0]["nodes"] += list(range(first, first + 300))
+
+        with TemporaryDirectory() as folder:
+            path = write_gltf(Path(folder) / "lights.gltf", "data:", None, with_too_much)
+            with gnomon.Session(self.url) as session:
+                of_scene = told(lambda: session.upload(path))
+                self.assertTrue(any("EXT_unheard_of" in each for each in of_scene), of_scene)
+                self.assertEqual(sorted(of_scene), sorted(session.scene(path)["warnings"]))
+                of_frame = told(lambda: session.frame(path, **SMALL))
+                self.assertTrue(any("300 lights" in each for each in of_frame), of_frame)
+                self.assertTrue(set(of_frame).isdisjoint(of_scene))
+                self.assertEqual(told(lambda: session.frame(path, **SMALL)), [])
+                self.assertEqual(told(lambda: session.upload(path)), [])
+                self.assertEqual(told(lambda: session.plan(path, **SMALL)), [])
+                self.assertEqual(told(lambda: [*session.sequence(path, frames=[{}], **SMALL)]), [])
+            with gnomon.Session(self.url) as session:
+                found = told(lambda: [*session.sequence(path, frames=[{}, {}], **SMALL)])
+                self.assertEqual(sorted(found), sorted(of_scene + of_frame))
 
     def test_a_deleted_scene_is_gone(self):
         scene = self.session.upload(SCENES / "pebble.glb")

@@ -7,6 +7,7 @@ import json
 import pickle
 import struct
 import unittest
+import warnings
 import zipfile
 import zlib
 from pathlib import Path
@@ -18,6 +19,7 @@ import gnomon
 from gnomon import bundle, camera, golden, json_form, png, problems, spec, streams, webm
 from gnomon.picture import picture_of
 from gnomon.transport import check_digest
+from gnomon.warned import Warned
 
 RANDOM = np.random.default_rng(7)
 
@@ -239,6 +241,40 @@ class Pictures(unittest.TestCase):
                 golden.check(picture[1:], stored, folder, golden.Tolerance(255, 255))
 
 
+class Warnings(unittest.TestCase):
+    """What is warned of, and where."""
+
+    def told(self, *calls):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            for call, scene, *texts in calls:
+                call(scene, texts)
+        for each in caught:
+            self.assertIs(each.category, gnomon.GnomonWarning)
+            self.assertEqual(each.filename, __file__, "the line of the caller is shown")
+        return [str(each.message) for each in caught]
+
+    def test_each_is_told_once_for_each_scene(self):
+        made = Warned()
+        self.assertEqual(self.told((made.of_scene, "a", "node 1 is odd", "node 2 is odd"), (made.of_scene, "a", "node 1 is odd"),
+                                   (made.of_frame, "a", "node 2 is odd"), (made.of_scene, "b", "node 1 is odd")),
+                         ["node 1 is odd", "node 2 is odd", "node 1 is odd"])
+
+    def test_of_frames_each_kind_is_told_by_the_first(self):
+        made = Warned()
+        self.assertEqual(self.told((made.of_frame, "a", "light 0: 17.5 pixels", "light 1: 20 pixels"),
+                                   (made.of_frame, "a", "light 0: 18 pixels", "no sun"), (made.of_frame, "a", "no sun")),
+                         ["light 0: 17.5 pixels", "light 1: 20 pixels", "no sun"])
+
+    def test_they_can_be_errors(self):
+        made = Warned()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", gnomon.GnomonWarning)
+            with self.assertRaisesRegex(gnomon.GnomonWarning, "odd"):
+                made.of_scene("a", ["odd"])
+            made.of_scene("a", ["odd"])
+
+
 class Frames(unittest.TestCase):
     """Frames as they are read from an .npz."""
 
@@ -264,8 +300,12 @@ class Frames(unittest.TestCase):
         with self.assertRaises((zlib.error, zipfile.BadZipFile)):
             frame.depth
 
-    def test_a_frame_survives_pickling(self):
-        frame = pickle.loads(pickle.dumps(gnomon.read_frame(self.stored())))
+    def test_a_frame_survives_pickling_without_its_session(self):
+        alive = gnomon.read_frame(self.stored(), lambda spec, media_type: b"", names=lambda: {-1: "", 0: "box"})
+        self.assertEqual(alive.names[0], "box")
+        frame = pickle.loads(pickle.dumps(alive))
+        with self.assertRaisesRegex(ValueError, "no session"):
+            frame.names
         np.testing.assert_array_equal(frame.depth, np.full((2, 3), 1.5))
 
     def test_a_view_that_was_not_drawn_is_named(self):
