@@ -85,8 +85,46 @@ class Package(PackageTest):
                 np.testing.assert_array_equal(sample[name], values, name)
         manifest = json.loads((self.folder / "set" / "manifest.json").read_text())
         self.assertEqual(len(manifest["samples"]), 4)
+        self.assertEqual(manifest["nodes"], {"0": "ground", "1": "camera", "2": "box"})
         self.assertTrue(manifest["made"]["renderer"]["fingerprint"])
         self.assertIn("choose another folder", self.run_here(*script, "--seed", "2", status=1))
+
+    def check_samples(self, folder, said):
+        """What a data set says of its samples, held against them."""
+        samples = json.loads((folder / "manifest.json").read_text())["samples"]
+        for name, share in samples.items():
+            sample = np.load(folder / name)
+            self.assertEqual((sample["shown"], (sample["ids"] >= 0).mean()), (share, share))
+            self.assertEqual(np.isfinite(sample["depth"]).mean(), share)
+            self.assertGreaterEqual(share, 0.05)
+        shares = [*samples.values()]
+        self.assertIn(f"{np.mean(shares):.1%} in the mean, {min(shares):.1%} to {max(shares):.1%}", said)
+
+    def test_every_frame_of_a_data_set_shows_the_scene(self):
+        length = int.from_bytes(BOX.read_bytes()[12:16], "little")
+        gltf, data = json.loads(BOX.read_bytes()[20:20 + length]), BOX.read_bytes()[28 + length:]
+        (self.folder / "box.bin").write_bytes(data)
+        gltf["buffers"][0]["uri"] = "box.bin"
+        roots = gltf["scenes"][0]["nodes"]
+        for depth in range(3):  # empty nodes above all others, as exporters write them
+            gltf["nodes"].append({"name": f"root {depth}", "children": roots})
+            roots = [len(gltf["nodes"]) - 1]
+        gltf["scenes"][0]["nodes"] = roots
+        (self.folder / "rooted.gltf").write_text(json.dumps(gltf))
+        script = [sys.executable, "-B", PACKAGE / "examples" / "dataset.py", "rooted.gltf"]
+        for hidden in ("0", "2", "9"):
+            said = self.run_here(*script, hidden, "--count", "8", "--width", "64", "--height", "48", "--hidden", hidden)
+            self.check_samples(self.folder / hidden, said)
+        refused = self.run_here(*script, "none", "--count", "3", "--width", "32", "--height", "24", "--shown", "0.99", status=1)
+        self.assertIn("of 50 cameras none shows the scene on 99.0% of the pixels", refused)
+
+    def test_a_data_set_of_a_house_shows_it(self):
+        house = ROOT.parent / "shared" / "assets" / "models" / "HouseScene" / "glTF-Binary" / "house.glb"
+        if not house.exists():
+            self.skipTest(f"there is no {house}")
+        said = self.run_here(sys.executable, "-B", PACKAGE / "examples" / "dataset.py", house, "set", "--count", "20",
+                             "--width", "64", "--height", "48")
+        self.check_samples(self.folder / "set", said)
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ def by_gnomon(program, scene, folder, frames):
     """The frames up to this number that the folder does not have yet: how many, seconds, processor seconds."""
     output, processor = measured(
         [sys.executable, "-B", EXAMPLE, scene, folder, "--count", str(frames), "--width", str(WIDTH), "--height", str(HEIGHT),
-         "--hidden", "0", "--seed", str(SEED)],
+         "--hidden", "0", "--shown", "0", "--seed", str(SEED)],
         {"GNOMON_SERVER": "", "GNOMON_BINARY": str(program), "PYTHONPATH": str(ROOT / "clients/python")})  # fmt: skip
     drawn, seconds = re.search(r"(\d+) frames in ([\d.]+) s", output).groups()
     return int(drawn), float(seconds), processor
@@ -58,9 +58,9 @@ def frames_of(program, scene, count):
 
     options = Namespace(seed=SEED, width=WIDTH, height=HEIGHT, hidden=0)
     with gnomon.Session(binary=program) as session:
-        summary = session.upload(scene).summary
+        summary, nodes = session.upload(scene).summary, [*session.nodes(scene)]
     for number in range(count):
-        pose, K, spec = dataset.random_spec(summary, number, options)
+        pose, K, spec = dataset.random_spec(summary, nodes, number, 0, options)
         yield {"worldFromCamera": pose.tolist(), "focal": K[0, 0], "towardsSun": direction_of(spec.lights[0].sun)}
 
 
