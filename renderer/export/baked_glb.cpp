@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renderer/bake/mapped_mesh.h"
+#include "renderer/core/cofactors.h"
 #include "renderer/core/srgb.h"
 #include "renderer/export/glb_materials.h"
 #include "renderer/image/png_encode.h"
@@ -139,7 +140,7 @@ class GlbWriter {
 
   json attributesOf(const MappedMesh& mesh, const Material& look, const glm::dmat4& moved, bool tangents) {
     constexpr int kFloat = 5126, kUnsignedShort = 5123;
-    const glm::dmat3 turned = glm::transpose(glm::inverse(glm::dmat3(moved)));
+    const glm::dmat3 turned = normalMatrix(glm::dmat3(moved));
     const glm::vec2 texels(layout_.width, layout_.height);
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec4> tangent;
@@ -152,8 +153,8 @@ class GlbWriter {
       low = glm::min(low, position);
       high = glm::max(high, position);
       positions.push_back(position);
-      normals.emplace_back(glm::normalize(turned * glm::dvec3(vertex.normal)));
-      tangent.emplace_back(glm::normalize(glm::dmat3(moved) * glm::dvec3(vertex.tangent)), vertex.tangent.w);
+      normals.emplace_back(unitOr(turned * glm::dvec3(vertex.normal), {0, 1, 0}));
+      tangent.emplace_back(unitOr(glm::dmat3(moved) * glm::dvec3(vertex.tangent), {1, 0, 0}), vertex.tangent.w);
       uv0.push_back(vertex.uv0);
       uv1.push_back(vertex.uv1);
       map.push_back(each.corner / texels);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/core/cofactors.h"
 #include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/vec3.h"
@@ -72,13 +73,13 @@ struct WorldTriangle {
 
 WorldTriangle worldTriangle(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
-  const glm::dmat3 turned = glm::transpose(glm::inverse(glm::dmat3(instance.worldFromLocal)));
+  const glm::dmat3 turned = normalMatrix(glm::dmat3(instance.worldFromLocal));
   WorldTriangle world;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t vertex =
         primitive.baseVertex + scene.indices[primitive.firstIndex + 3 * std::size_t{triangle} + k];
     world.positions[k] = glm::dvec3(instance.worldFromLocal * glm::dvec4(glm::dvec3(scene.positions[vertex]), 1));
-    world.normals[k] = glm::normalize(turned * glm::dvec3(scene.attributes[vertex].normal));
+    world.normals[k] = unitOr(turned * glm::dvec3(scene.attributes[vertex].normal), {0, 1, 0});
   }
   return world;
 }

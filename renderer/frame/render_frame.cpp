@@ -124,9 +124,10 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
-  return Frame{makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked, made.reports,
-                           *std::move(facts), error}),
-               std::move(images)};
+  FrameReport report = makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked,
+                                   made.reports, *std::move(facts), error});
+  for (std::string& damage : damageOf(scene->images)) report.warnings.push_back(std::move(damage));
+  return Frame{std::move(report), std::move(images)};
 }
 
 } // namespace

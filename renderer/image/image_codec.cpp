@@ -26,10 +26,6 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-Problem failure(ProblemCode code, const std::string& what, const std::string& message) {
-  return {code, "", (message.empty() ? what : what + ": " + oneLine(message)) + ".", "", ""};
-}
-
 Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
   const std::string actual = std::to_string(size.width) + "x" + std::to_string(size.height);
   if (size.width > maxSide || size.height > maxSide) {
@@ -43,13 +39,11 @@ Status checkSize(ImageSize size, int maxSide, std::int64_t maxPixels) {
   return Done{};
 }
 
-Status decodeInto(DecodedRows& rows, const CheckedImage& image) {
+std::string decodeInto(DecodedRows& rows, const CheckedImage& image) {
   const auto decode = image.format == PictureFormat::png    ? decodePng
                       : image.format == PictureFormat::jpeg ? decodeJpeg
                                                             : decodeWebp;
-  const std::string message = decode(image.picture, rows);
-  if (!message.empty()) return failure(ProblemCode::malformed, "The image could not be decoded", message);
-  return Done{};
+  return oneLine(decode(image.picture.bytes, rows));
 }
 
 } // namespace
@@ -83,18 +77,23 @@ Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSi
                  : format == PictureFormat::jpeg ? essentialJpeg(encoded)
                                                  : essentialWebp(encoded);
   if (!picture) return std::move(picture).problems();
+  if (format == PictureFormat::png) {
+    if (const std::string wrong = unreadablePng(picture->bytes); !wrong.empty()) {
+      return malformedImage("The PNG can't be read: " + wrong + ".");
+    }
+  }
   return CheckedImage{format, *size, *std::move(picture)};
 }
 
-Result<Image> decodeImage(const CheckedImage& image) {
+DecodedImage decodeImage(const CheckedImage& image) {
   const auto [width, height] = image.size;
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   DecodedRows rows(image.size, rgba.data());
-  if (Status done = decodeInto(rows, image); !done) return std::move(done).problems();
-  return Image{width, height, {"R", "G", "B", "A"}, std::move(rgba)};
+  std::string wrong = decodeInto(rows, image);
+  return {Image{width, height, {"R", "G", "B", "A"}, std::move(rgba)}, std::move(wrong)};
 }
 
-Status decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take) {
+std::string decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take) {
   DecodedRows rows(image.size, atOnce, take);
   return decodeInto(rows, image);
 }
@@ -102,7 +101,10 @@ Status decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take) {
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
   const auto checked = checkImage(encoded, maxSide, maxPixels);
   if (!checked) return checked.problems();
-  return decodeImage(*checked);
+  DecodedImage decoded = decodeImage(*checked);
+  if (checked->picture.cutShort) return malformedImage("The image is cut short.");
+  if (!decoded.wrong.empty()) return malformedImage("The image could not be decoded: " + decoded.wrong + ".");
+  return std::move(decoded.image);
 }
 
 } // namespace gnomon

@@ -38,29 +38,40 @@ Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
 /// What is read: the formats of glTF and of EXT_texture_webp.
 enum class PictureFormat { png, jpeg, webp };
 
-/// An encoded image whose header and structure hold, with nothing but what its pixels depend on.
+/// The parts of an encoded image that its pixels depend on.
+struct EssentialImage {
+  Bytes bytes;
+  bool cutShort = false; ///< the file ends before the picture does
+};
+
+/// An encoded image whose header holds, and its structure as far as the file goes.
 struct CheckedImage {
   PictureFormat format = PictureFormat::png;
   ImageSize size;
-  Bytes picture;
+  EssentialImage picture;
 };
 
 /// Checks a PNG, JPEG or still WebP without decoding a pixel. Refuses what is larger than `maxSide` a side or
-/// `maxPixels` in all.
+/// `maxPixels` in all, and what is no such picture; one that is cut short after its header is none to refuse.
 Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
 
-/// Decodes it to 8-bit RGBA.
-Result<Image> decodeImage(const CheckedImage& image);
+/// 8-bit RGBA. Where its data are damaged or cut short, the rows that can't be read are as the format's usual decoder
+/// leaves them: black and transparent, of a JPEG grey and opaque.
+struct DecodedImage {
+  Image image;
+  std::string wrong; ///< with its data, in the decoder's words; empty = nothing
+};
+DecodedImage decodeImage(const CheckedImage& image);
 
 /// Takes complete rows, 8-bit RGBA: those from row `first` on, the rows before it having been taken. They are gone when
 /// it returns.
 using TakeRows = std::function<void(int first, std::span<const std::uint8_t> rgba)>;
 
 /// The same, `atOnce` rows at a time (a multiple of 16), at the end fewer; all at once where its file does not hold
-/// them in order: interlaced PNGs and WebPs. After a problem, the rows that were taken mean nothing.
-Status decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take);
+/// them in order: interlaced PNGs and WebPs. Gives what is wrong with its data; empty = nothing.
+std::string decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take);
 
-/// Both in turn.
+/// Both in turn; a problem where anything is wrong.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
 
 } // namespace gnomon

@@ -74,22 +74,23 @@ Result<ImageSize> pngSize(EncodedBytes encoded) {
   return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
 
-Result<Bytes> essentialPng(EncodedBytes encoded) {
+Result<EssentialImage> essentialPng(EncodedBytes encoded) {
   Bytes essential(encoded.begin(), encoded.begin() + kSignatureSize);
   std::size_t chunk = kSignatureSize;
-  while (encoded.size() - chunk >= kPngFrameBytes) {
+  constexpr std::size_t kBeforeData = 8; ///< of a chunk
+  while (encoded.size() - chunk >= kBeforeData) {
     const std::uint32_t length = bigEndian(encoded, chunk, 4);
-    if (length > kMaxNumber || length > encoded.size() - chunk - kPngFrameBytes) break;
     const std::string_view type = typeAt(encoded, chunk);
-    const std::size_t next = chunk + kPngFrameBytes + length;
-    bool wanted = false;
-    for (const std::string_view name : kEssentialChunks) wanted = wanted || name == type;
+    const std::size_t whole = kPngFrameBytes + std::size_t{length};
+    const std::size_t next = chunk + std::min(whole, encoded.size() - chunk);
+    const bool wanted = std::ranges::find(kEssentialChunks, type) != kEssentialChunks.end();
     if (!wanted && isCritical(type)) return unsupportedImage("The PNG has a critical chunk of an unknown type.");
     if (wanted) essential.insert(essential.end(), encoded.begin() + chunk, encoded.begin() + next);
-    if (type == "IEND") return essential;
+    if (next - chunk < whole) break;
+    if (type == "IEND") return EssentialImage{std::move(essential)};
     chunk = next;
   }
-  return malformedImage("The PNG is cut short.");
+  return EssentialImage{std::move(essential), true};
 }
 
 } // namespace gnomon

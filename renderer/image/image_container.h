@@ -21,11 +21,12 @@ Result<ImageSize> pngSize(EncodedBytes encoded);
 Result<ImageSize> jpegSize(EncodedBytes encoded);
 Result<ImageSize> webpSize(EncodedBytes encoded);
 
-/// The picture with nothing but the parts that its pixels depend on: metadata is where decoders are attacked.
-/// Fails where the file is cut short; an animated WebP is unsupportedFeature.
-Result<Bytes> essentialPng(EncodedBytes encoded);
-Result<Bytes> essentialJpeg(EncodedBytes encoded);
-Result<Bytes> essentialWebp(EncodedBytes encoded);
+/// The picture with nothing but the parts that its pixels depend on: metadata is where decoders are attacked. Of a file
+/// that is cut short, those that it has, the last one perhaps not whole; fails where that is not even a header. An
+/// animated WebP is unsupportedFeature.
+Result<EssentialImage> essentialPng(EncodedBytes encoded);
+Result<EssentialImage> essentialJpeg(EncodedBytes encoded);
+Result<EssentialImage> essentialWebp(EncodedBytes encoded);
 
 /// The unsigned number of `count` bytes at `offset`, most significant first. REQUIRES: offset + count <= size.
 std::uint32_t bigEndian(EncodedBytes bytes, std::size_t offset, std::size_t count);

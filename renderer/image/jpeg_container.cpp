@@ -1,5 +1,6 @@
 // JPEG's marker segments: ITU-T Recommendation T.81, annex B.
 #include <optional>
+#include <utility>
 
 #include "renderer/image/image_container.h"
 
@@ -98,7 +99,7 @@ Result<ImageSize> jpegSize(EncodedBytes encoded) {
   return malformedImage("The JPEG has no frame header before its data.");
 }
 
-Result<Bytes> essentialJpeg(EncodedBytes encoded) {
+Result<EssentialImage> essentialJpeg(EncodedBytes encoded) {
   Bytes essential(encoded.begin(), encoded.begin() + 2);
   std::size_t position = 2;
   int scans = 0;
@@ -112,10 +113,11 @@ Result<Bytes> essentialJpeg(EncodedBytes encoded) {
     if (isEssential(segment->marker)) {
       essential.insert(essential.end(), encoded.begin() + segment->begin, encoded.begin() + end);
     }
-    if (segment->marker == kEndOfImage) return essential;
+    if (segment->marker == kEndOfImage) return EssentialImage{std::move(essential)};
     position = end;
   }
-  return malformedImage("The JPEG is cut short.");
+  if (scans == 0) return malformedImage("The JPEG ends before its pixels.");
+  return EssentialImage{std::move(essential), true};
 }
 
 } // namespace gnomon

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "renderer/core/stop.h"
 #include "renderer/image/jpeg_errors.h"
@@ -10,8 +12,19 @@
 namespace gnomon {
 namespace {
 
-void leaveAtWarning(j_common_ptr codec, int level) {
-  if (level < 0) leaveWithMessage(codec);
+void keepFirstWarning(j_common_ptr codec, int level) {
+  auto* errors = reinterpret_cast<JpegErrors*>(codec->err);
+  if (level < 0 && errors->base.num_warnings++ == 0) codec->err->format_message(codec, errors->message.data());
+}
+
+/// Grey and opaque, from this row on.
+void greyFrom(int row, DecodedRows& to) {
+  constexpr std::uint32_t kGrey = 0xff808080;
+  for (int y = row; y < to.size().height; ++y) {
+    std::uint8_t* place = to.at(y);
+    for (int x = 0; x < to.size().width; ++x) std::memcpy(place + 4 * x, &kGrey, sizeof kGrey);
+    to.complete(y + 1);
+  }
 }
 
 struct Codec : jpeg_decompress_struct {
@@ -54,9 +67,10 @@ std::string decodeJpeg(EncodedBytes essential, DecodedRows& to) {
   Codec codec{};
   codec.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leaveWithMessage;
-  errors.base.emit_message = leaveAtWarning;
+  errors.base.emit_message = keepFirstWarning;
   const bool done = readInto(codec, errors, essential, to);
-  return done ? std::string() : std::string(errors.message.data());
+  if (!done) greyFrom(static_cast<int>(std::min<JDIMENSION>(codec.output_scanline, codec.output_height)), to);
+  return std::string(errors.message.data());
 }
 
 } // namespace gnomon

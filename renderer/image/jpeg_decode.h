@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// Fills `to` from what essentialJpeg() gave; alpha is 255. Gives what went wrong, in the library's words; empty =
-/// nothing. Whatever the library so much as warns about is an error.
+/// nothing. What can't be read then is grey.
 std::string decodeJpeg(EncodedBytes essential, DecodedRows& to);
 
 } // namespace gnomon

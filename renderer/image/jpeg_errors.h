@@ -12,7 +12,7 @@ namespace gnomon {
 struct JpegErrors {
   jpeg_error_mgr base;
   std::jmp_buf leave;
-  std::array<char, JMSG_LENGTH_MAX> message;
+  std::array<char, JMSG_LENGTH_MAX> message; ///< empty = nothing was wrong
 };
 
 [[noreturn]] inline void leaveWithMessage(j_common_ptr codec) {

@@ -28,17 +28,29 @@ struct Contents {
   std::vector<EncodedBytes> compressed;
 };
 
-/// The chunks of a file whose lengths hold; nothing where a checksum is wrong.
-std::optional<std::vector<PngChunk>> chunksOf(EncodedBytes file) {
+/// The chunks of a file, of which the last may be cut short.
+std::vector<PngChunk> chunksOf(EncodedBytes file) {
   std::vector<PngChunk> chunks;
   for (std::size_t at = kPngSignature.size(); at < file.size();) {
     const std::size_t length = bigEndian(file, at, 4);
-    const EncodedBytes checked = file.subspan(at + 4, 4 + length);
-    if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(file, at + 8 + length, 4)) return std::nullopt;
+    const EncodedBytes left = file.subspan(at + 4);
+    const EncodedBytes checked = left.first(std::min(left.size(), 4 + length));
     chunks.push_back({{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)});
     at += kPngFrameBytes + length;
   }
   return chunks;
+}
+
+/// Of each chunk of the file; a chunk without one is wrong.
+bool checksumsHold(EncodedBytes file) {
+  for (std::size_t at = kPngSignature.size(); at < file.size();) {
+    const std::size_t length = bigEndian(file, at, 4);
+    if (file.size() - at < kPngFrameBytes + length) return false;
+    const EncodedBytes checked = file.subspan(at + 4, 4 + length);
+    if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(file, at + 8 + length, 4)) return false;
+    at += kPngFrameBytes + length;
+  }
+  return true;
 }
 
 /// The spec's table 11.1.
@@ -78,7 +90,7 @@ void readTransparency(EncodedBytes values, PngPixels& pixels) {
   pixels.transparent = color;
 }
 
-/// What is wrong; empty = nothing.
+/// Why there is no picture; empty = there is.
 std::string read(const std::vector<PngChunk>& chunks, Contents& contents) {
   PngPixels& pixels = contents.pixels;
   for (const PngChunk& chunk : chunks) {
@@ -118,20 +130,31 @@ constexpr std::size_t stepsIn(std::size_t size, std::size_t first, std::size_t s
   return size > first ? (size - first + step - 1) / step : 0;
 }
 
+void clearFrom(std::size_t row, DecodedRows& to) {
+  for (int y = static_cast<int>(row); y < to.size().height; ++y) {
+    std::memset(to.at(y), 0, to.rowBytes());
+    to.complete(y + 1);
+  }
+}
+
 } // namespace
 
-std::string decodePng(EncodedBytes essential, DecodedRows& to) {
-  const auto chunks = chunksOf(essential);
-  if (!chunks) return "a checksum is wrong";
+std::string unreadablePng(EncodedBytes essential) {
   Contents contents;
-  if (std::string wrong = read(*chunks, contents); !wrong.empty()) return wrong;
+  return read(chunksOf(essential), contents);
+}
+
+std::string decodePng(EncodedBytes essential, DecodedRows& to) {
+  const std::string checksums = checksumsHold(essential) ? "" : "a checksum is wrong";
+  Contents contents;
+  read(chunksOf(essential), contents);
   const auto width = static_cast<std::size_t>(to.size().width);
   const auto height = static_cast<std::size_t>(to.size().height);
   const std::size_t bits = contents.pixels.bits();
   const std::size_t pixelBytes = std::max<std::size_t>(bits / 8, 1);
   InflatedRows rows(contents.compressed);
   std::vector<std::uint8_t> line(4 * width);
-  if (contents.interlaced) to.all();
+  if (contents.interlaced) std::memset(to.all(), 0, to.rowBytes() * height);
   const std::span<const Pass> passes = contents.interlaced ? std::span<const Pass>(kAdam7) : kWhole;
   for (const Pass& pass : passes) {
     const std::size_t columns = stepsIn(width, pass.firstX, pass.stepX);
@@ -140,7 +163,14 @@ std::string decodePng(EncodedBytes essential, DecodedRows& to) {
     for (std::size_t i = 0; i < lines; ++i) {
       if (i % DecodedRows::kStep == 0) stopIfAsked();
       const std::uint8_t* row = rows.next();
-      if (row == nullptr) return rows.wrong();
+      if (row == nullptr) {
+        if (contents.interlaced) {
+          to.complete(to.size().height);
+        } else {
+          clearFrom(i, to);
+        }
+        return checksums.empty() ? rows.wrong() : checksums;
+      }
       std::uint8_t* place = to.at(static_cast<int>(pass.firstY + i * pass.stepY));
       if (pass.stepX == 1) {
         expandRow(contents.pixels, row, columns, place);
@@ -154,7 +184,7 @@ std::string decodePng(EncodedBytes essential, DecodedRows& to) {
     }
   }
   if (contents.interlaced) to.complete(to.size().height);
-  return {};
+  return checksums;
 }
 
 } // namespace gnomon

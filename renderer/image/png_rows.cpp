@@ -98,14 +98,17 @@ void InflatedRows::begin(std::size_t rowBytes, std::size_t pixelBytes, std::size
 
 const std::uint8_t* InflatedRows::next() {
   if (at_ == held_) {
+    if (!wrong_.empty()) return nullptr;
     held_ = std::min(left_, rows_.size() / (rowBytes_ + 1));
     at_ = 0;
-    if (!inflate(rows_.data(), held_ * (rowBytes_ + 1))) return nullptr;
+    held_ = inflate(rows_.data(), held_ * (rowBytes_ + 1)) / (rowBytes_ + 1);
+    if (held_ == 0) return nullptr;
     left_ -= held_;
   }
   std::uint8_t* row = &rows_[at_ * (rowBytes_ + 1)];
   if (*row > 4) {
     wrong_ = "a row has a filter that PNG does not have";
+    at_ = held_;
     return nullptr;
   }
   const std::uint8_t* above = at_ == 0 ? above_.data() : row - rowBytes_;
@@ -114,7 +117,7 @@ const std::uint8_t* InflatedRows::next() {
   return row + 1;
 }
 
-bool InflatedRows::inflate(std::uint8_t* to, std::size_t bytes) {
+std::size_t InflatedRows::inflate(std::uint8_t* to, std::size_t bytes) {
   state_->next_out = to;
   state_->avail_out = static_cast<std::uint32_t>(bytes);
   while (state_->avail_out > 0) {
@@ -127,15 +130,15 @@ bool InflatedRows::inflate(std::uint8_t* to, std::size_t bytes) {
     const bool more = state_->avail_in > 0;
     if (isal_inflate(state_.get()) != ISAL_DECOMP_OK) {
       wrong_ = "its compressed data are broken";
-      return false;
+      break;
     }
     const bool ended = state_->block_state == ISAL_BLOCK_FINISH || (!more && parts_.empty());
     if (ended && state_->avail_out == before) {
       wrong_ = "it has too few pixels";
-      return false;
+      break;
     }
   }
-  return true;
+  return bytes - state_->avail_out;
 }
 
 void expandRow(const PngPixels& pixels, const std::uint8_t* row, std::size_t count, std::uint8_t* rgba) {

@@ -44,7 +44,8 @@ class InflatedRows {
   const std::string& wrong() const { return wrong_; }
 
  private:
-  bool inflate(std::uint8_t* to, std::size_t bytes);
+  /// How many of so many bytes there are; where fewer, `wrong_` says why.
+  std::size_t inflate(std::uint8_t* to, std::size_t bytes);
 
   std::span<const EncodedBytes> parts_;
   std::unique_ptr<inflate_state> state_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "renderer/image/image_container.h"
 
@@ -17,7 +18,8 @@ constexpr std::uint8_t kAlphaFlag = 0x10;
 struct Chunk {
   std::string_view type;
   EncodedBytes payload;
-  std::size_t next = 0; ///< where the following one begins
+  std::size_t length = 0; ///< that the file states: more than the payload's where the file ends first
+  std::size_t next = 0;   ///< where the following one begins
 };
 
 /// The parts of a still picture that its pixels depend on.
@@ -25,7 +27,8 @@ struct StillWebp {
   ImageSize size;
   bool lossless = false;
   EncodedBytes bitstream;
-  EncodedBytes alpha; ///< of a lossy picture; empty = opaque
+  std::size_t bitstreamLength = 0; ///< as Chunk::length
+  EncodedBytes alpha;              ///< of a lossy picture; empty = opaque
 };
 
 Problem cutShort() {
@@ -41,9 +44,9 @@ std::optional<Chunk> chunkAt(EncodedBytes riff, std::size_t position) {
   if (position > riff.size() || riff.size() - position < kChunkHeader) return std::nullopt;
   const std::size_t length = littleEndian(riff, position + 4, 4);
   const std::size_t begin = position + kChunkHeader;
-  if (length > riff.size() - begin) return std::nullopt;
   return Chunk{{reinterpret_cast<const char*>(riff.data()) + position, 4},
-               riff.subspan(begin, length),
+               riff.subspan(begin, std::min(length, riff.size() - begin)),
+               length,
                begin + length + length % 2};
 }
 
@@ -76,7 +79,7 @@ Result<StillWebp> stillOf(const Chunk& chunk, EncodedBytes alpha) {
   const bool lossless = chunk.type == "VP8L";
   const auto size = lossless ? losslessSize(chunk.payload) : lossySize(chunk.payload);
   if (!size) return size.problems();
-  return StillWebp{*size, lossless, chunk.payload, lossless ? EncodedBytes{} : alpha};
+  return StillWebp{*size, lossless, chunk.payload, chunk.length, lossless ? EncodedBytes{} : alpha};
 }
 
 bool isPicture(const Chunk& chunk) {
@@ -110,8 +113,8 @@ Result<StillWebp> extendedStill(EncodedBytes riff, const Chunk& header) {
 Result<StillWebp> readStill(EncodedBytes encoded) {
   if (encoded.size() < kFileHeader) return cutShort();
   const std::size_t size = littleEndian(encoded, 4, 4);
-  if (size < 4 || size > encoded.size() - kChunkHeader) return cutShort();
-  const EncodedBytes riff = encoded.first(kChunkHeader + size);
+  if (size < 4) return cutShort();
+  const EncodedBytes riff = encoded.first(std::min(encoded.size(), kChunkHeader + size));
   const std::optional<Chunk> first = chunkAt(riff, kFileHeader);
   if (!first) return cutShort();
   if (first->type == "VP8X") return extendedStill(riff, *first);
@@ -123,25 +126,32 @@ void appendLittleEndian(Bytes& bytes, std::size_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i & 0xff));
 }
 
-void appendRiffChunk(Bytes& bytes, std::string_view type, EncodedBytes payload) {
+/// `length`: what it states to have; of the last chunk it may be more than it has.
+void appendRiffChunk(Bytes& bytes, std::string_view type, EncodedBytes payload, std::size_t length) {
   bytes.insert(bytes.end(), type.begin(), type.end());
-  appendLittleEndian(bytes, payload.size(), 4);
+  appendLittleEndian(bytes, length, 4);
   bytes.insert(bytes.end(), payload.begin(), payload.end());
-  if (payload.size() % 2 != 0) bytes.push_back(0);
+  if (payload.size() == length && length % 2 != 0) bytes.push_back(0);
 }
 
-Bytes fileOf(const Bytes& chunks) {
+/// The bytes that the picture lacks.
+std::size_t missingFrom(const StillWebp& still) {
+  const std::size_t padded = still.bitstreamLength + still.bitstreamLength % 2;
+  return still.bitstream.size() < still.bitstreamLength ? padded - still.bitstream.size() : 0;
+}
+
+Bytes fileOf(const Bytes& chunks, const StillWebp& still) {
   constexpr std::string_view kForm = "WEBP";
   Bytes content(kForm.begin(), kForm.end());
   content.insert(content.end(), chunks.begin(), chunks.end());
   Bytes file;
-  appendRiffChunk(file, "RIFF", content);
+  appendRiffChunk(file, "RIFF", content, content.size() + missingFrom(still));
   return file;
 }
 
 Bytes pictureChunk(const StillWebp& still) {
   Bytes chunk;
-  appendRiffChunk(chunk, still.lossless ? "VP8L" : "VP8 ", still.bitstream);
+  appendRiffChunk(chunk, still.lossless ? "VP8L" : "VP8 ", still.bitstream, still.bitstreamLength);
   return chunk;
 }
 
@@ -150,11 +160,11 @@ Bytes withLossyAlpha(const StillWebp& still) {
   appendLittleEndian(header, static_cast<std::size_t>(still.size.width - 1), 3);
   appendLittleEndian(header, static_cast<std::size_t>(still.size.height - 1), 3);
   Bytes chunks;
-  appendRiffChunk(chunks, "VP8X", header);
-  appendRiffChunk(chunks, "ALPH", still.alpha);
+  appendRiffChunk(chunks, "VP8X", header, header.size());
+  appendRiffChunk(chunks, "ALPH", still.alpha, still.alpha.size());
   const Bytes picture = pictureChunk(still);
   chunks.insert(chunks.end(), picture.begin(), picture.end());
-  return fileOf(chunks);
+  return fileOf(chunks, still);
 }
 
 } // namespace
@@ -165,10 +175,11 @@ Result<ImageSize> webpSize(EncodedBytes encoded) {
   return still->size;
 }
 
-Result<Bytes> essentialWebp(EncodedBytes encoded) {
+Result<EssentialImage> essentialWebp(EncodedBytes encoded) {
   const auto still = readStill(encoded);
   if (!still) return still.problems();
-  return still->alpha.empty() ? fileOf(pictureChunk(*still)) : withLossyAlpha(*still);
+  Bytes bytes = still->alpha.empty() ? fileOf(pictureChunk(*still), *still) : withLossyAlpha(*still);
+  return EssentialImage{std::move(bytes), missingFrom(*still) > 0};
 }
 
 } // namespace gnomon

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "renderer/core/cofactors.h"
+
 namespace gnomon {
 namespace {
-
-/// Turns normals: the cofactors of the upper 3 x 3, which is the inverse transpose times the determinant and exists for
-/// every matrix; its sign undone where the matrix mirrors.
-glm::dmat3 normalMatrix(const glm::dmat3& m) {
-  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0 ? -1.0 * cofactors : cofactors;
-}
 
 glm::dmat3 normalFromLocal(const glm::dmat3& linear) {
   glm::dmat3 normals = normalMatrix(linear);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/core/cofactors.h"
 #include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/vec3.h"
@@ -33,10 +34,6 @@ struct FacingTest {
     return lengths > 0 ? glm::dot(turned, towardsLight) / lengths : 0.0f;
   }
 };
-
-glm::dmat3 cofactors(const glm::dmat3& m) {
-  return glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
 
 FacingTest facingTest(const OutlineInput& input, const Instance& instance) {
   FacingTest test;

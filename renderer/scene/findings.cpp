@@ -14,9 +14,12 @@ constexpr std::size_t kMaxWarnings = 64;
 constexpr std::size_t kMaxQuotedBytes = 80;
 constexpr std::size_t kMaxNameBytes = 256;
 
-std::string placesOf(std::size_t places, const std::string& first) {
-  if (places > 1) return " (" + std::to_string(places) + " places, the first is " + (first.empty() ? "/" : first) + ")";
-  return first.empty() ? "" : " (" + first + ")";
+std::string placesOf(std::size_t places, const std::string& first, const std::string& actual) {
+  const std::string what = actual.empty() ? "" : ": " + actual;
+  if (places > 1) {
+    return " (" + std::to_string(places) + " places, the first is " + (first.empty() ? "/" : first) + what + ")";
+  }
+  return first.empty() ? "" : " (" + first + what + ")";
 }
 
 } // namespace
@@ -44,7 +47,13 @@ void Findings::take(Problems problems) {
 void Findings::take(Findings other) {
   take(std::move(other.problems_));
   for (std::string& warning : other.warnings_) warn(std::move(warning));
-  for (CountedRepair& repair : other.repairs_) count(std::move(repair));
+  for (CountedRepair& repair : other.repairs_) {
+    if (conformance_ == Conformance::strict) {
+      this->repair(repair.kind, repair.first, repair.limit, repair.actual);
+    } else {
+      count(std::move(repair));
+    }
+  }
   unsaidWarnings_ += other.unsaidWarnings_;
 }
 
@@ -57,10 +66,21 @@ void Findings::warn(std::string sentence) {
   }
 }
 
-void Findings::repair(const Repair& kind, const std::string& pointer) {
-  if (conformance_ == Conformance::strict)
-    return invalid(pointer, kind.fault + ". Without `strict`, " + kind.remedy + ".");
-  count({kind, pointer});
+void Findings::repair(const Repair& kind, const std::string& pointer, const std::string& limit,
+                      const std::string& actual) {
+  if (conformance_ == Conformance::strict) {
+    return invalid(pointer, kind.fault + ". Without `strict`, " + kind.remedy + ".", limit, actual);
+  }
+  count({kind, pointer, limit, actual});
+}
+
+bool Findings::lostTriangles() const {
+  return std::ranges::any_of(repairs_, [](const CountedRepair& each) { return each.kind.losesTriangles; });
+}
+
+void Findings::refuseRepaired() {
+  for (const CountedRepair& each : repairs_) invalid(each.first, each.kind.fault + ".", each.limit, each.actual);
+  repairs_.clear();
 }
 
 void Findings::count(CountedRepair repair) {
@@ -76,8 +96,8 @@ void Findings::count(CountedRepair repair) {
 
 std::vector<std::string> Findings::takeWarnings() {
   std::vector<std::string> repairs;
-  for (const auto& [kind, first, places] : repairs_) {
-    repairs.push_back(kind.fault + "; " + kind.remedy + placesOf(places, first) + ".");
+  for (const CountedRepair& each : repairs_) {
+    repairs.push_back(each.kind.fault + "; " + each.kind.remedy + placesOf(each.places, each.first, each.actual) + ".");
   }
   repairs_.clear();
   warnings_.insert(warnings_.begin(), repairs.begin(), repairs.end());

@@ -21,6 +21,7 @@ enum class Conformance {
 struct Repair {
   std::string fault;
   std::string remedy;
+  bool losesTriangles = false; ///< something that the file has is not drawn
 
   bool operator==(const Repair&) const = default;
 };
@@ -42,8 +43,14 @@ class Findings {
   void warn(std::string sentence);
 
   /// The file violates glTF at `pointer` and is safe to read: repaired, with one warning for each kind, which counts
-  /// the places and names the first; a problem where the file has to conform.
-  void repair(const Repair& kind, const std::string& pointer);
+  /// the places and names the first; a problem where the file has to conform. `limit` and `actual`: as in a problem.
+  void repair(const Repair& kind, const std::string& pointer, const std::string& limit = {},
+              const std::string& actual = {});
+
+  /// Whether a repair lost triangles.
+  bool lostTriangles() const;
+  /// Turns repairs into problems: they left nothing that would be worth drawing.
+  void refuseRepaired();
 
   bool refused() const { return !problems_.empty(); }
   std::size_t count() const { return problems_.size() + warnings_.size() + repairs_.size() + unsaidWarnings_; }
@@ -54,6 +61,8 @@ class Findings {
   struct CountedRepair {
     Repair kind;
     std::string first; ///< pointer
+    std::string limit{};
+    std::string actual{};
     std::size_t places = 1;
   };
   void count(CountedRepair repair);

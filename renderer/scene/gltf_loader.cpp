@@ -28,6 +28,10 @@ namespace gnomon {
 
 namespace {
 
+bool isEmpty(const BuiltMesh& mesh) {
+  return mesh.primitives.empty() && mesh.deformables.empty();
+}
+
 /// Volumes are named by frames, and not by the model: kept as they are, by their first bytes.
 std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle& bundle) {
   std::map<std::string, std::shared_ptr<const Bytes>> grids;
@@ -51,7 +55,6 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   motion->animations = readAnimations(context);
   auto deformation = std::make_shared<Deformation>();
   deformation->skins = readSkins(context);
-  checkJoints(context);
   checkVariantCount(model, limits, findings);
   const DracoPrimitives draco = decodeDracoPrimitives(context);
   if (findings.refused()) return findings.takeProblems();
@@ -64,6 +67,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   const int defaultMaterial = static_cast<int>(scene->materials.size()) - 1;
   const std::vector<BuiltMesh> meshes =
       buildMeshes(sources, defaultMaterial, *scene, deformation->deformables, findings, known);
+  if (findings.lostTriangles() && std::ranges::all_of(meshes, isEmpty)) findings.refuseRepaired();
   const NodeTree tree = buildNodeTree(model, findings);
   if (findings.refused()) return findings.takeProblems();
   const std::vector<PosedMesh> posed = poseNodes(context, tree, meshes, *deformation, *scene);

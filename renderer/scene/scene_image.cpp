@@ -12,7 +12,8 @@ SceneImage::SceneImage(CheckedImage file, std::string pointer)
     : size_(file.size),
       bytes_(std::max(
           std::uint64_t{4} * static_cast<std::uint64_t>(size_.width) * static_cast<std::uint64_t>(size_.height),
-          std::uint64_t{file.picture.size()})),
+          std::uint64_t{file.picture.bytes.size()})),
+      cutShort_(file.picture.cutShort),
       pointer_(std::move(pointer)),
       file_(std::make_shared<const CheckedImage>(std::move(file))) {}
 
@@ -21,18 +22,28 @@ SceneImage::SceneImage(Image decoded)
       bytes_(std::get<std::vector<std::uint8_t>>(decoded.pixels).size()),
       decoded_(std::make_shared<const Image>(std::move(decoded))) {}
 
-const SceneImage::Pixels& SceneImage::decoded() const {
+const std::shared_ptr<const Image>& SceneImage::decoded() const {
   std::call_once(once_, [this] {
     if (decoded_) return;
-    if (auto image = decodeImage(*file_)) {
-      decoded_ = std::make_shared<const Image>(*std::move(image));
-    } else {
-      decoded_ = locatedImageProblems(std::move(image).problems(), pointer_);
-    }
+    DecodedImage decoded = decodeImage(*file_);
+    decoded_ = std::make_shared<const Image>(std::move(decoded.image));
+    note(decoded.wrong);
     const std::lock_guard lock(mutex_);
     file_.reset();
   });
-  return *decoded_;
+  return decoded_;
+}
+
+void SceneImage::note(const std::string& wrong) const {
+  if (cutShort_) return; // told when it was loaded
+  const std::lock_guard lock(mutex_);
+  wrong_ = wrong;
+}
+
+std::string SceneImage::damage() const {
+  const std::lock_guard lock(mutex_);
+  if (wrong_.empty()) return {};
+  return "The image at " + pointer_ + " is damaged (" + wrong_ + "); what could be read of it is drawn.";
 }
 
 Problem SceneImage::noMemory() const {
@@ -41,7 +52,7 @@ Problem SceneImage::noMemory() const {
 
 Status SceneImage::decode() const {
   try {
-    if (const Pixels& pixels = decoded(); !pixels) return pixels.problems();
+    decoded();
     return Done{};
   } catch (const std::bad_alloc&) {
     return noMemory();
@@ -64,12 +75,10 @@ Status SceneImage::readRows(int atOnce, const TakeRows& take) const {
   }
   try {
     if (file) {
-      const Status done = decodeRows(*file, atOnce, take);
-      return done ? done : locatedImageProblems(done.problems(), pointer_);
+      note(decodeRows(*file, atOnce, take));
+      return Done{};
     }
-    const Pixels& kept = decoded();
-    if (!kept) return kept.problems();
-    take(0, std::get<std::vector<std::uint8_t>>((*kept)->pixels));
+    take(0, std::get<std::vector<std::uint8_t>>(decoded()->pixels));
     return Done{};
   } catch (const std::bad_alloc&) {
     return noMemory();
@@ -84,6 +93,14 @@ Problems locatedImageProblems(Problems problems, const std::string& pointer) {
     }
   }
   return problems;
+}
+
+std::vector<std::string> damageOf(const SceneImages& images) {
+  std::vector<std::string> damage;
+  for (const auto& image : images) {
+    if (std::string found = image->damage(); !found.empty()) damage.push_back(std::move(found));
+  }
+  return damage;
 }
 
 Status decodeImages(const SceneImages& images, std::span<const int> indices) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,10 +29,14 @@ class SceneImage {
   std::uint64_t bytes() const { return bytes_; }
 
   /// Decodes it now, if that has not been done, and keeps the pixels instead of the encoded bytes. A problem, at its
-  /// place in the file, where its data are broken.
+  /// place in the file, where there is no memory for it.
   Status decode() const;
   /// 8-bit RGBA. REQUIRES: decode() gives no problem.
-  const Image& pixels() const { return **decoded(); }
+  const Image& pixels() const { return *decoded(); }
+  /// Whether its file ends before the picture does.
+  bool cutShort() const { return cutShort_; }
+  /// What decoding it has found to be wrong with its data, as a sentence that names its place; empty = nothing so far.
+  std::string damage() const;
   /// Their alpha: the same for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
   std::shared_ptr<const AlphaLevels> alpha() const;
 
@@ -42,17 +45,19 @@ class SceneImage {
   Status readRows(int atOnce, const TakeRows& take) const;
 
  private:
-  using Pixels = Result<std::shared_ptr<const Image>>;
-  const Pixels& decoded() const;
+  const std::shared_ptr<const Image>& decoded() const;
+  void note(const std::string& wrong) const;
   Problem noMemory() const;
 
   ImageSize size_;
   std::uint64_t bytes_ = 0;
+  bool cutShort_ = false;
   std::string pointer_;
   mutable std::once_flag once_;
-  mutable std::mutex mutex_;                         ///< of `file_` and `alpha_`
+  mutable std::mutex mutex_;                         ///< of `file_`, `wrong_` and `alpha_`
   mutable std::shared_ptr<const CheckedImage> file_; ///< none once the pixels are kept
-  mutable std::optional<Pixels> decoded_;
+  mutable std::string wrong_;                        ///< in the decoder's words
+  mutable std::shared_ptr<const Image> decoded_;
   mutable std::weak_ptr<const AlphaLevels> alpha_;
 };
 
@@ -60,6 +65,9 @@ class SceneImage {
 Problems locatedImageProblems(Problems problems, const std::string& pointer);
 
 using SceneImages = std::vector<std::shared_ptr<const SceneImage>>;
+
+/// What decoding has found to be wrong with them so far: a sentence each.
+std::vector<std::string> damageOf(const SceneImages& images);
 
 /// Decodes those with these indices, in parallel. The problems of all, in their order.
 Status decodeImages(const SceneImages& images, std::span<const int> indices);

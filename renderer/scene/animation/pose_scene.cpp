@@ -151,7 +151,7 @@ Result<Properties> moveProperties(const Properties& rest, const Animation& anima
   return moved;
 }
 
-/// Nothing, or the node of an instance that is not finite. What is flat is left out.
+/// Nothing, or the node of an instance that is not finite. What has no area is left out.
 std::optional<std::size_t> placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene,
                                           SceneView& view) {
   view.instances.reserve(moving.placements.size());
@@ -161,7 +161,7 @@ std::optional<std::size_t> placeInstances(const MovingView& moving, const PosedG
     const glm::dmat4 worldFromLocal = placement.skin >= 0
                                           ? graph.skins[static_cast<std::size_t>(placement.skin)].worldFromLocal
                                           : graph.places.worldFromNode[node] * placement.nodeFromCopy;
-    if (graph.hidden[node] || isFlat(worldFromLocal)) continue;
+    if (graph.hidden[node] || hasNoArea(worldFromLocal)) continue;
     const Primitive& primitive = scene.primitives[static_cast<std::size_t>(placement.primitive)];
     Instance instance;
     instance.node = placement.node;

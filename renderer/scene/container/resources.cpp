@@ -45,35 +45,58 @@ using BytesView = std::span<const std::uint8_t>;
 struct Parts {
   const std::vector<gltf::Buffer>& objects;
   const std::vector<ResourceBytes>& buffers;
-  const std::vector<bool>& fallbacks;
   Findings& findings;
 
-  /// Nothing, and a problem, past the end of the buffer; nothing of buffers that have no bytes.
-  std::optional<BytesView> at(std::size_t buffer, std::uint64_t offset, std::uint64_t length,
-                              const std::string& pointer) const {
+  /// As much of it as the buffer has.
+  BytesView at(std::size_t buffer, std::uint64_t offset, std::uint64_t length, const std::string& pointer) const {
     const std::uint64_t whole = objects[buffer].byteLength;
-    if (length > whole || offset > whole - length) {
-      findings.invalid(pointer, "The buffer view reaches past the end of its buffer.", std::to_string(whole) + " bytes",
-                       std::to_string(offset) + " + " + std::to_string(length) + " bytes");
-      return std::nullopt;
-    }
     const BytesView bytes = buffers[buffer].view();
-    if (bytes.size() < whole) return std::nullopt; // refused with the buffer, or a fallback
-    return bytes.subspan(offset, length);
+    const std::uint64_t start = std::min<std::uint64_t>(offset, bytes.size());
+    const BytesView part = bytes.subspan(start, std::min<std::uint64_t>(length, bytes.size() - start));
+    if (length > whole || offset > whole - length) {
+      findings.repair({"A buffer view reaches past the end of its buffer",
+                       part.size() < length ? "what lies beyond is left out" : "its bytes are there, and are read"},
+                      pointer, std::to_string(whole) + " bytes",
+                      std::to_string(offset) + " + " + std::to_string(length) + " bytes");
+    }
+    return part;
   }
 };
 
-Bytes decoded(const gltf::BufferView& view, const Parts& parts, const std::string& pointer, DecodeBudget& budget,
-              Findings& findings) {
+void checkStride(const gltf::BufferView& view, const std::string& pointer, Findings& findings) {
+  if (!view.byteStride) return;
+  const std::uint64_t stride = *view.byteStride;
+  constexpr std::uint64_t kMostStride = 252; // glTF 2.0, bufferView.byteStride
+  if (stride == 0) {
+    findings.repair({"A byteStride is 0", "the elements are read tightly packed"}, pointer);
+  } else if (stride % 4 != 0 || stride > kMostStride) {
+    findings.repair({"A byteStride is not a multiple of 4 up to 252", "it is followed"}, pointer, {},
+                    std::to_string(stride));
+  }
+}
+
+/// What a part of the file that has no bytes comes to; limits refuse the file.
+void leaveOut(Problem problem, Findings& findings) {
+  if (problem.code == ProblemCode::tooLarge) return findings.refuse(std::move(problem));
+  if (problem.detail.ends_with('.')) problem.detail.pop_back();
+  findings.repair({std::move(problem.detail), "what needs it is left out"}, problem.pointer, problem.limit,
+                  problem.actual);
+}
+
+Bytes decoded(const gltf::BufferView& view, const Parts& parts, const std::vector<bool>& fallbacks,
+              const std::string& pointer, DecodeBudget& budget, Findings& findings) {
   const gltf::Meshopt& meshopt = *view.meshopt;
   const std::string at = pointer + "/extensions/" + std::string(meshopt.extension);
-  if (!isSoundMeshopt(view, at, findings)) return {};
-  if (parts.fallbacks[meshopt.buffer]) {
-    findings.invalid(at + "/buffer", "The compressed data can't lie in a fallback buffer.");
-    return {};
+  Findings ofView;
+  Bytes bytes;
+  if (fallbacks[meshopt.buffer]) {
+    ofView.invalid(at + "/buffer", "The compressed data can't lie in a fallback buffer.");
+  } else if (isSoundMeshopt(view, at, ofView)) {
+    const BytesView compressed = parts.at(meshopt.buffer, meshopt.byteOffset, meshopt.byteLength, at);
+    bytes = decodeMeshopt(meshopt, at, compressed, budget, ofView);
   }
-  const auto compressed = parts.at(meshopt.buffer, meshopt.byteOffset, meshopt.byteLength, at);
-  return compressed ? decodeMeshopt(meshopt, at, *compressed, budget, findings) : Bytes{};
+  for (Problem& problem : ofView.takeProblems()) leaveOut(std::move(problem), findings);
+  return bytes;
 }
 
 } // namespace
@@ -105,9 +128,9 @@ Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle
   if (file == bundle.files.end()) {
     return Problem{ProblemCode::invalidScene,
                    pointer,
-                   "The glTF refers to the file " + inQuotes(*name) + ", which was not uploaded with it.",
+                   "The glTF refers to a file that was not uploaded with it.",
                    {},
-                   {}};
+                   inQuotes(*name)};
   }
   return ResourceBytes(std::span<const std::uint8_t>(file->second));
 }
@@ -122,20 +145,25 @@ std::vector<ResourceBytes> readBuffers(const gltf::Model& model, const std::vect
     if (const auto& uri = buffers[i].uri) {
       auto bytes = resolveUri(*uri, bundle, pointer + "/uri");
       if (!bytes) {
-        findings.take(std::move(bytes).problems());
+        for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
         continue;
       }
       read[i] = *std::move(bytes);
     } else if (i == 0 && binary) {
       read[i] = ResourceBytes(*binary);
     } else {
-      findings.invalid(pointer + "/uri", "The buffer has no bytes: neither a uri nor the GLB's BIN chunk.");
+      leaveOut({ProblemCode::invalidScene,
+                pointer + "/uri",
+                "A buffer has no bytes: neither a uri nor the GLB's BIN chunk.",
+                {},
+                {}},
+               findings);
       continue;
     }
     const std::uint64_t claimed = buffers[i].byteLength;
     if (claimed > read[i].view().size()) {
-      findings.invalid(pointer + "/byteLength", "The buffer claims more bytes than it has.",
-                       std::to_string(read[i].view().size()), std::to_string(claimed));
+      findings.repair({"A buffer claims more bytes than it has", "what lies beyond is left out"},
+                      pointer + "/byteLength", std::to_string(read[i].view().size()), std::to_string(claimed));
     }
   }
   return read;
@@ -145,21 +173,22 @@ BufferViews readBufferViews(const gltf::Model& model, const std::vector<Resource
                             const std::vector<bool>& fallbacks, DecodeBudget& budget, Findings& findings) {
   const std::vector<gltf::BufferView>& views = model.bufferViews;
   BufferViews read{std::vector<BytesView>(views.size()), std::vector<Bytes>(views.size())};
-  const Parts parts{model.buffers, buffers, fallbacks, findings};
+  const Parts parts{model.buffers, buffers, findings};
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string pointer = pointerTo("/bufferViews", i);
-    const std::uint64_t stride = views[i].byteStride;
-    if (stride % 4 != 0) {
-      findings.invalid(pointer + "/byteStride", "The stride is not a multiple of 4.", {}, std::to_string(stride));
-    }
-    const auto part = parts.at(views[i].buffer, views[i].byteOffset, views[i].byteLength, pointer);
+    checkStride(views[i], pointer + "/byteStride", findings);
     if (views[i].meshopt) {
-      read.decoded[i] = decoded(views[i], parts, pointer, budget, findings);
+      read.decoded[i] = decoded(views[i], parts, fallbacks, pointer, budget, findings);
       read.bytes[i] = read.decoded[i];
-    } else if (parts.fallbacks[views[i].buffer]) {
-      findings.invalid(pointer + "/buffer", "Only compressed buffer views may lie in a fallback buffer.");
-    } else if (part) {
-      read.bytes[i] = *part;
+    } else if (fallbacks[views[i].buffer]) {
+      leaveOut({ProblemCode::invalidScene,
+                pointer + "/buffer",
+                "A buffer view lies in a fallback buffer, but is not compressed.",
+                {},
+                {}},
+               findings);
+    } else {
+      read.bytes[i] = parts.at(views[i].buffer, views[i].byteOffset, views[i].byteLength, pointer);
     }
   }
   return read;
@@ -173,17 +202,15 @@ std::vector<ResourceBytes> readImages(const gltf::Model& model, const std::vecto
     const std::string pointer = pointerTo("/images", i);
     const auto& uri = images[i].uri;
     const int view = images[i].bufferView;
-    if (uri.has_value() == (view >= 0)) {
-      findings.invalid(pointer, "An image needs either a uri or a bufferView.");
-    } else if (uri) {
-      auto bytes = resolveUri(*uri, bundle, pointer + "/uri");
-      if (bytes) {
-        read[i] = *std::move(bytes);
-      } else {
-        findings.take(std::move(bytes).problems());
-      }
-    } else {
+    if (view >= 0) {
       read[i] = ResourceBytes(bufferViews[static_cast<std::size_t>(view)]);
+      if (uri) findings.repair({"An image has a uri and a bufferView", "the bufferView is read"}, pointer);
+    } else if (!uri) {
+      leaveOut({ProblemCode::invalidScene, pointer, "An image has neither a uri nor a bufferView.", {}, {}}, findings);
+    } else if (auto bytes = resolveUri(*uri, bundle, pointer + "/uri")) {
+      read[i] = *std::move(bytes);
+    } else {
+      for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
     }
   }
   return read;

@@ -37,10 +37,10 @@ std::string shapeText(ComponentType type, int components) {
 
 class PrimitiveDecoding {
  public:
-  PrimitiveDecoding(const LoadContext& load, const gltf::Primitive& primitive, std::string pointer)
+  PrimitiveDecoding(const LoadContext& load, const gltf::Primitive& primitive, std::string pointer, Findings& findings)
       : document_(load.document),
         limits_(load.limits),
-        findings_(load.findings),
+        findings_(findings),
         primitive_(primitive),
         pointer_(std::move(pointer)) {}
 
@@ -71,12 +71,15 @@ class PrimitiveDecoding {
 
   /// The ids of the attributes by name; the primitive has each of them, and POSITION is among them.
   std::optional<std::map<std::string, std::uint32_t>> idsOf(const std::string& pointer) const {
-    const std::map<std::string, std::uint32_t>& ids = primitive_.draco->attributes;
-    for (const auto& [name, id] : ids) {
-      if (!primitive_.attributes.contains(name)) {
-        findings_.invalid(pointerTo(pointer, name), "The primitive has no such attribute.");
-        return std::nullopt;
+    std::map<std::string, std::uint32_t> ids = primitive_.draco->attributes;
+    for (auto id = ids.begin(); id != ids.end();) {
+      if (primitive_.attributes.contains(id->first)) {
+        ++id;
+        continue;
       }
+      findings_.repair({"Draco data has an attribute that its primitive lacks", "it is not read"},
+                       pointerTo(pointer, id->first));
+      id = ids.erase(id);
     }
     if (!ids.contains("POSITION")) {
       findings_.invalid(pointer, "The Draco data has no positions.");
@@ -85,20 +88,25 @@ class PrimitiveDecoding {
     return ids;
   }
 
-  std::optional<DracoPrimitive> viewed(DracoMesh decodedMesh, const std::map<std::string, std::uint32_t>& ids,
-                                       const std::string& pointer) {
+  DracoPrimitive viewed(DracoMesh decodedMesh, const std::map<std::string, std::uint32_t>& ids,
+                        const std::string& pointer) {
     DracoPrimitive decoded;
     decoded.mesh = std::move(decodedMesh);
     const DracoMesh& mesh = decoded.mesh;
     for (const auto& [name, id] : ids) {
-      const DracoAttribute& attribute = mesh.attributes.at(id);
+      const auto found = mesh.attributes.find(id);
+      if (found == mesh.attributes.end()) {
+        decoded.attributes[name] = kFaultyAccessor;
+        continue;
+      }
+      const DracoAttribute& attribute = found->second;
       const gltf::Accessor& accessor = accessorOf(name);
-      const int components = componentsOf(accessor.type);
-      const ComponentType type = accessor.componentType;
-      if (attribute.components != components || attribute.type != type) {
-        findings_.invalid(pointerTo(pointer, name), "The type of the Draco data differs from that of the accessor.",
-                          shapeText(type, components), shapeText(attribute.type, attribute.components));
-        return std::nullopt;
+      const int components = attribute.components;
+      const ComponentType type = attribute.type;
+      if (components != componentsOf(accessor.type) || type != accessor.componentType) {
+        findings_.repair({"Draco data has another type than its accessor states", "its own holds"},
+                         pointerTo(pointer, name), shapeText(accessor.componentType, componentsOf(accessor.type)),
+                         shapeText(type, components));
       }
       if (accessor.count != accessorOf("POSITION").count) continue; // told where the accessors are gathered
       AccessorView view;
@@ -126,6 +134,23 @@ class PrimitiveDecoding {
 
 } // namespace
 
+namespace {
+
+/// Problems of limits refuse the file; others leave out the primitive.
+void leaveOut(Problems problems, Findings& findings) {
+  for (Problem& problem : problems) {
+    if (problem.code == ProblemCode::tooLarge) {
+      findings.refuse(std::move(problem));
+      continue;
+    }
+    if (problem.detail.ends_with('.')) problem.detail.pop_back();
+    findings.repair({std::move(problem.detail), "the primitive is left out", true}, problem.pointer, problem.limit,
+                    problem.actual);
+  }
+}
+
+} // namespace
+
 DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
   const gltf::Model& model = load.document.model;
   DracoPrimitives decoded;
@@ -136,9 +161,12 @@ DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
       if (!mesh.primitives[p].draco) continue;
       stopIfAsked();
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
-      auto primitive = PrimitiveDecoding(load, mesh.primitives[p], pointer).decode(budget);
-      if (!primitive) return {};
-      decoded.emplace(std::pair(m, p), *std::move(primitive));
+      Findings ofPrimitive;
+      auto primitive = PrimitiveDecoding(load, mesh.primitives[p], pointer, ofPrimitive).decode(budget);
+      if (!primitive) leaveOut(ofPrimitive.takeProblems(), load.findings);
+      load.findings.take(std::move(ofPrimitive));
+      if (load.findings.refused()) return {};
+      if (primitive) decoded.emplace(std::pair(m, p), *std::move(primitive));
     }
   }
   return decoded;
@@ -200,8 +228,10 @@ std::optional<DracoMesh> keptMesh(const draco::Mesh& mesh, const std::set<std::u
     const draco::PointAttribute* source = mesh.GetAttributeByUniqueId(id);
     auto attribute = source ? attributeOf(*source, mesh.num_points()) : std::nullopt;
     if (!attribute) {
-      findings.invalid(pointer, "The Draco data has no attribute " + std::to_string(id) + " that a glTF may have.");
-      return std::nullopt;
+      findings.repair(
+          {"Draco data lacks an attribute, or has it in a type that a glTF does not have", "it is left out"}, pointer,
+          {}, "attribute " + std::to_string(id));
+      continue;
     }
     kept.attributes.emplace(id, *std::move(attribute));
   }

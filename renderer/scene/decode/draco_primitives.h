@@ -28,12 +28,12 @@ struct DracoPrimitive {
 /// By the number of the mesh and of the primitive in it.
 using DracoPrimitives = std::map<std::pair<std::size_t, std::size_t>, DracoPrimitive>;
 
-/// Decodes every compressed primitive. What was decoded has the types that its accessors state, and
-/// their counts but for draco_stream.h.
+/// Decodes every compressed primitive; one that can't be decoded is left out, with a repair. An attribute that the data
+/// lack is a kFaultyAccessor.
 DracoPrimitives decodeDracoPrimitives(const LoadContext& load);
 
-/// Triangles and the attributes `wanted` of a decoded mesh; nothing, and a problem, where an index lies outside of it
-/// or an attribute is none that a glTF may have.
+/// Triangles and the attributes `wanted` of a decoded mesh, without those that are none that a glTF may have; nothing,
+/// and a problem, where an index lies outside of it.
 std::optional<DracoMesh> keptMesh(const draco::Mesh& mesh, const std::set<std::uint32_t>& wanted,
                                   const std::string& pointer, Findings& findings);
 

@@ -97,9 +97,9 @@ struct StreamCheck {
 
   bool triangles(std::uint64_t stated) const {
     if (claims.triangles && *claims.triangles != stated) {
-      findings.invalid(pointer, "The number of triangles in the Draco data differs from that of the accessors.",
-                       std::to_string(*claims.triangles), std::to_string(stated));
-      return false;
+      findings.repair(
+          {"Draco data has another number of triangles than its accessor states", "those that it has are drawn"},
+          pointer, std::to_string(*claims.triangles), std::to_string(stated));
     }
     return withinLimit("triangles", limits.maxTriangles, stated) &&
            budget.take(3 * sizeof(std::uint32_t) * stated, pointer, findings);
@@ -199,8 +199,9 @@ std::optional<DracoMesh> decodeDraco(std::span<const std::uint8_t> stream, const
     return std::nullopt;
   }
   if (mesh.num_points() != claims.points) {
-    findings.warn("The Draco data at " + pointer + " has " + std::to_string(mesh.num_points()) +
-                  " vertices, but the accessors state " + std::to_string(claims.points) + ".");
+    findings.repair(
+        {"Draco data has another number of vertices than its accessors state", "those that it has are drawn"}, pointer,
+        std::to_string(claims.points), std::to_string(mesh.num_points()));
   }
   return keptMesh(mesh, wanted, pointer, findings);
 }

@@ -37,8 +37,8 @@ struct DracoMesh {
 /// Decodes a Draco bitstream 2.2 and keeps the attributes `wanted`. The numbers of triangles, points and attributes
 /// that the stream states are held against the claims, the limits and the budget before memory is taken for them.
 /// Nothing, and a problem at `pointer`, where they do not hold or the bytes can't be decoded.
-/// Some encoders split vertices after they have counted them: a number of points other than the claimed one is taken,
-/// with a warning, where the triangles could use as many.
+/// Numbers of triangles and points other than the claimed ones are taken, with a repair, where the triangles could use
+/// as many points: some encoders split vertices after they have counted them.
 std::optional<DracoMesh> decodeDraco(std::span<const std::uint8_t> stream, const DracoClaims& claims,
                                      const std::set<std::uint32_t>& wanted, const Limits& limits, DecodeBudget& budget,
                                      const std::string& pointer, Findings& findings);

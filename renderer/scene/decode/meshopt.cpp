@@ -144,9 +144,9 @@ bool isSoundMeshopt(const gltf::BufferView& bufferView, const std::string& point
                      std::to_string(view.count) + " elements of " + std::to_string(view.byteStride) + " bytes");
     return false;
   }
-  if (bufferView.byteStride != 0 && bufferView.byteStride != view.byteStride) {
+  if (bufferView.byteStride.value_or(0) != 0 && bufferView.byteStride != view.byteStride) {
     findings.invalid(pointer + "/byteStride", "The stride differs from that of the buffer view.",
-                     std::to_string(bufferView.byteStride), std::to_string(view.byteStride));
+                     std::to_string(*bufferView.byteStride), std::to_string(view.byteStride));
     return false;
   }
   return true;

@@ -112,7 +112,7 @@ struct BufferView {
   std::size_t buffer = 0;
   std::uint64_t byteOffset = 0;
   std::uint64_t byteLength = 0;
-  std::uint64_t byteStride = 0; ///< 0 = tightly packed
+  std::optional<std::uint64_t> byteStride{}; ///< none = tightly packed
   std::optional<Meshopt> meshopt;
 };
 

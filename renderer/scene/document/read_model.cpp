@@ -127,7 +127,7 @@ gltf::BufferView readBufferView(const json& source) {
   view.buffer = source["buffer"].get<std::size_t>();
   view.byteOffset = source.value("byteOffset", std::uint64_t{0});
   view.byteLength = source["byteLength"].get<std::uint64_t>();
-  view.byteStride = source.value("byteStride", std::uint64_t{0});
+  if (source.contains("byteStride")) view.byteStride = source["byteStride"].get<std::uint64_t>();
   if (const auto [meshopt, name] = meshoptOf(source); meshopt != nullptr) {
     view.meshopt = gltf::Meshopt{name,
                                  (*meshopt)["buffer"].get<std::size_t>(),

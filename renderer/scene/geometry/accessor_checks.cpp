@@ -41,50 +41,53 @@ struct Run {
   std::size_t alignment = 1;
 };
 
-/// The first element's bytes if all of the run lies inside its buffer view; nullptr, and a problem, if not.
+constexpr const char* kLeftOut = "what needs it is left out";
+
+/// The first element's bytes if all of the run lies inside its buffer view; nullptr, and a repair, if not.
 const std::uint8_t* locate(const GltfDocument& document, const Run& run, const std::string& pointer,
                            Findings& findings) {
   const auto view = document.bufferViews[static_cast<std::size_t>(run.bufferView)];
   const Wide end = Wide{run.offset} + Wide{run.stride} * (run.count - 1) + run.elementBytes;
   if (end > view.size()) {
-    findings.invalid(pointer, "The accessor reaches past the end of its buffer view.",
-                     std::to_string(view.size()) + " bytes",
-                     std::to_string(run.count) + " elements, " + std::to_string(run.stride) + " bytes apart, from " +
-                         std::to_string(run.offset));
+    findings.repair({"An accessor reaches past the end of its buffer view", kLeftOut}, pointer,
+                    std::to_string(view.size()) + " bytes",
+                    std::to_string(run.count) + " elements, " + std::to_string(run.stride) + " bytes apart, from " +
+                        std::to_string(run.offset));
     return nullptr;
   }
   const std::size_t viewOffset = document.model.bufferViews[static_cast<std::size_t>(run.bufferView)].byteOffset;
   if ((viewOffset + run.offset) % run.alignment != 0 || run.stride % run.alignment != 0) {
-    findings.invalid(pointer, "The accessor is not aligned to the size of its components.",
-                     "a multiple of " + std::to_string(run.alignment) + " bytes",
-                     "offset " + std::to_string(viewOffset + run.offset) + ", stride " + std::to_string(run.stride));
-    return nullptr;
+    findings.repair({"An accessor is not aligned to the size of its components", "it is read where it is"}, pointer,
+                    "a multiple of " + std::to_string(run.alignment) + " bytes",
+                    "offset " + std::to_string(viewOffset + run.offset) + ", stride " + std::to_string(run.stride));
   }
   return view.data() + run.offset;
 }
 
-void checkSparseOrder(const AccessorView& view, const std::string& pointer, Findings& findings) {
+bool sparseIsOrdered(const AccessorView& view, const std::string& pointer, Findings& findings) {
   const std::size_t indexBytes = bytesOf(view.sparseIndexType);
   std::int64_t previous = -1;
   for (std::size_t i = 0; i < view.sparseCount; ++i) {
     const std::int64_t index = unsignedAt(view.sparseIndices + i * indexBytes, view.sparseIndexType);
     if (index <= previous || static_cast<std::size_t>(index) >= view.count) {
-      findings.invalid(pointer, "The sparse indices are not increasing or reach past the accessor's count.",
-                       "below " + std::to_string(view.count), std::to_string(index));
-      return;
+      findings.repair({"Sparse indices are not increasing or reach past the accessor's count", kLeftOut}, pointer,
+                      "below " + std::to_string(view.count), std::to_string(index));
+      return false;
     }
     previous = index;
   }
+  return true;
 }
 
-void addSparse(const GltfDocument& document, const gltf::Accessor& accessor, std::size_t elementBytes,
+/// False, and a repair, where a rule is broken.
+bool addSparse(const GltfDocument& document, const gltf::Accessor& accessor, std::size_t elementBytes,
                const std::string& pointer, AccessorView& view, Findings& findings) {
   const gltf::Sparse& sparse = *accessor.sparse;
   const std::size_t count = sparse.count;
   if (count > view.count) {
-    findings.invalid(pointer + "/sparse/count", "The accessor has more sparse values than elements.",
-                     std::to_string(view.count), std::to_string(count));
-    return;
+    findings.repair({"An accessor has more sparse values than elements", kLeftOut}, pointer + "/sparse/count",
+                    std::to_string(view.count), std::to_string(count));
+    return false;
   }
   view.sparseIndexType = sparse.indexType;
   const std::size_t indexBytes = bytesOf(view.sparseIndexType);
@@ -94,10 +97,21 @@ void addSparse(const GltfDocument& document, const gltf::Accessor& accessor, std
   view.sparseValues = locate(
       document, {sparse.valueView, sparse.valueOffset, elementBytes, count, elementBytes, bytesOf(view.componentType)},
       pointer + "/sparse/values", findings);
-  if (!view.sparseIndices || !view.sparseValues) return;
+  if (!view.sparseIndices || !view.sparseValues) return false;
   view.sparseCount = count;
   view.sparseStride = elementBytes;
-  checkSparseOrder(view, pointer + "/sparse/indices", findings);
+  return sparseIsOrdered(view, pointer + "/sparse/indices", findings);
+}
+
+/// From one element to the next.
+std::size_t strideOf(const gltf::BufferView& view, std::size_t elementBytes, const std::string& pointer,
+                     Findings& findings) {
+  const std::size_t stated = view.byteStride.value_or(0);
+  if (stated != 0 && stated < elementBytes) {
+    findings.repair({"A byteStride is smaller than an element", "the elements are read tightly packed"}, pointer,
+                    ">= " + std::to_string(elementBytes), std::to_string(stated));
+  }
+  return stated < elementBytes ? elementBytes : stated;
 }
 
 AccessorView viewAccessor(const GltfDocument& document, const gltf::Accessor& accessor, const std::string& pointer,
@@ -108,22 +122,21 @@ AccessorView viewAccessor(const GltfDocument& document, const gltf::Accessor& ac
   const ElementShape shape = shapeOf(accessor.type, view.componentType);
   view.components = shape.components;
   view.count = accessor.count;
+  if (view.count == 0) {
+    findings.repair({"An accessor has no elements", kLeftOut}, pointer);
+    return kFaultyAccessor;
+  }
   if (accessor.bufferView >= 0) {
-    const std::size_t stride = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-    view.stride = stride == 0 ? shape.bytes : stride;
-    if (view.stride < shape.bytes) {
-      findings.invalid(pointer, "The buffer view's byteStride is smaller than an element.",
-                       ">= " + std::to_string(shape.bytes), std::to_string(view.stride));
-      return {};
-    }
+    const gltf::BufferView& from = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    view.stride = strideOf(from, shape.bytes, pointer, findings);
     view.data = locate(
         document,
         {accessor.bufferView, accessor.byteOffset, view.stride, view.count, shape.bytes, bytesOf(view.componentType)},
         pointer, findings);
-    if (!view.data) return {};
+    if (!view.data) return kFaultyAccessor;
   }
-  if (accessor.sparse) addSparse(document, accessor, shape.bytes, pointer, view, findings);
-  return view;
+  const bool sound = !accessor.sparse || addSparse(document, accessor, shape.bytes, pointer, view, findings);
+  return sound ? view : kFaultyAccessor;
 }
 
 } // namespace

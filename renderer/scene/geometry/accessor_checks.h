@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// A view of each accessor. Accessors that break a rule are told in the findings, and their views are empty.
+/// A view of each accessor; kFaultyAccessor, and a repair, of those that can't be read.
 std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings);
 
 } // namespace gnomon

@@ -26,6 +26,8 @@ struct AccessorView {
   ComponentType componentType = ComponentType::float32;
   bool normalized = false;
 
+  bool faulty = false; ///< it can't be read: nothing else of it means anything
+
   std::size_t sparseCount = 0;
   const std::uint8_t* sparseIndices = nullptr; ///< packed, strictly increasing
   ComponentType sparseIndexType = ComponentType::uint32;
@@ -48,5 +50,8 @@ struct AccessorView {
   }
   const std::uint8_t* sparseBytes(std::size_t element) const; ///< null: it is not among the sparse ones
 };
+
+/// Of no use to any reader: it has no elements, and its type is none that is read.
+inline constexpr AccessorView kFaultyAccessor{.components = 0, .faulty = true};
 
 } // namespace gnomon

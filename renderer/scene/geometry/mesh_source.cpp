@@ -1,7 +1,7 @@
 #include "renderer/scene/geometry/mesh_source.h"
 
 #include <algorithm>
-#include <initializer_list>
+#include <optional>
 
 #include "renderer/scene/materials/materials.h"
 
@@ -9,58 +9,88 @@ namespace gnomon {
 
 namespace {
 
+/// How an attribute is read: which numbers of components have a meaning, and which of them glTF allows. What is beyond
+/// the allowed ones is not looked at.
+struct AttributeShape {
+  int fewest = 3;
+  int mostAllowed = 3;
+  bool wideIntegers = false; ///< 32 bits of an integer have a meaning
+};
+
+const Repair kAttributeUnread{"A vertex attribute has an accessor that can't be read", "it is left out"};
+const Repair kWrongType{"A vertex attribute has a type that it can't have", "it is left out"};
+const Repair kTooWide{"A vertex attribute has more components than glTF allows", "those beyond are not used"};
+const Repair kTooFew{"A vertex attribute has fewer elements than POSITION", "it is left out"};
+const Repair kTooMany{"A vertex attribute has more elements than POSITION", "those beyond are not used"};
+const Repair kUnscaled{"A vertex attribute of integers is not normalized", "it is read as if it were"};
+const Repair kOddJoints{"Joints are not unsigned bytes or shorts", "they are read as the numbers that they are"};
+const Repair kUnpaired{"JOINTS_n or WEIGHTS_n is there without the other", "it is left out"};
+const Repair kNoPositions{"The positions of a primitive can't be read", "the primitive is left out", true};
+const Repair kNoIndices{"The indices of a primitive can't be read", "the primitive is left out", true};
+const Repair kStridedIndices{"The buffer view of indices has a byteStride", "it is followed"};
+const Repair kNormalizedIndices{"The accessor of indices is normalized", "they are read as whole numbers"};
+const Repair kIncomplete{"The last triangle of a primitive is incomplete", "it is left out"};
+
 class PrimitiveGathering {
  public:
   PrimitiveGathering(const LoadContext& load, const gltf::Primitive& primitive, const DracoPrimitive* draco,
                      std::string pointer)
-      : primitive_(primitive),
-        views_(load.accessors),
-        document_(load.document),
-        draco_(draco),
-        findings_(load.findings) {
+      : primitive_(primitive), views_(load.accessors), draco_(draco), findings_(load.findings) {
     source_.pointer = std::move(pointer);
   }
 
-  PrimitiveSource gather(std::vector<int> variantMaterials, const std::vector<UvSets>& uvSets) {
+  /// Nothing, and a repair, where its positions or indices can't be read.
+  std::optional<PrimitiveSource> gather(std::vector<int> variantMaterials, const std::vector<UvSets>& uvSets) {
     source_.material = primitive_.material;
     source_.variantMaterials = std::move(variantMaterials);
     source_.mode = primitive_.mode;
-    source_.positions = attribute("POSITION", {3});
-    source_.normals = attribute("NORMAL", {3});
-    source_.tangents = attribute("TANGENT", {4});
+    source_.positions = attribute("POSITION", {3, 3});
+    if (!source_.positions) {
+      findings_.repair(kNoPositions, source_.pointer + "/attributes/POSITION");
+      return std::nullopt;
+    }
+    if (!gatherIndices()) {
+      findings_.repair(kNoIndices, source_.pointer + "/indices");
+      return std::nullopt;
+    }
+    source_.normals = attribute("NORMAL", {3, 3});
+    source_.tangents = attribute("TANGENT", {4, 4});
     const UvSets sets = uvSetsOf(source_.material, source_.variantMaterials, uvSets);
     for (std::size_t i = 0; i < sets.size(); ++i) {
-      source_.texCoords[i] = attribute("TEXCOORD_" + std::to_string(sets[i]), {2});
+      source_.texCoords[i] = attribute("TEXCOORD_" + std::to_string(sets[i]), {2, 2});
     }
     source_.colors = attribute("COLOR_0", {3, 4});
+    if (source_.colors) source_.colorMost = mostOf(*source_.colors, "COLOR_0");
     gatherJoints();
     for (std::size_t i = 0; i < primitive_.targets.size(); ++i) gatherTarget(i);
-    if (draco_) {
-      source_.indices = &draco_->indices;
-    } else if (primitive_.indices >= 0) {
-      gatherIndices();
-    }
     return std::move(source_);
   }
 
  private:
-  const AccessorView* attribute(const std::string& name, std::initializer_list<int> components) {
+  std::string pointerOf(const std::string& name) const { return source_.pointer + "/attributes/" + name; }
+
+  const AccessorView* attribute(const std::string& name, AttributeShape shape) {
     const auto found = primitive_.attributes.find(name);
     if (found == primitive_.attributes.end()) return nullptr;
-    return checked(viewOf(name, found->second), name, source_.pointer + "/attributes/" + name, components);
+    return checked(viewOf(name, found->second), pointerOf(name), shape);
   }
 
-  const AccessorView* checked(const AccessorView& view, const std::string& name, const std::string& pointer,
-                              std::initializer_list<int> components) {
-    if (std::find(components.begin(), components.end(), view.components) == components.end()) {
-      findings_.invalid(pointer, "The accessor's type is not valid for " + name + ".");
+  /// Nothing, and a repair, where it does not hold what it should.
+  const AccessorView* checked(const AccessorView& view, const std::string& pointer, AttributeShape shape) {
+    const bool tooWide = view.componentType == ComponentType::uint32 && !shape.wideIntegers;
+    if (view.faulty || view.components < shape.fewest || tooWide) {
+      findings_.repair(view.faulty ? kAttributeUnread : kWrongType, pointer);
       return nullptr;
     }
-    if (source_.positions && view.count != source_.positions->count) {
-      findings_.invalid(pointer, "The accessor's count differs from that of POSITION.",
-                        std::to_string(source_.positions->count), std::to_string(view.count));
+    const std::size_t vertices = source_.positions ? source_.positions->count : view.count;
+    if (view.count < vertices) {
+      findings_.repair(kTooFew, pointer, std::to_string(vertices), std::to_string(view.count));
       return nullptr;
     }
+    if (view.count > vertices) {
+      findings_.repair(kTooMany, pointer, std::to_string(vertices), std::to_string(view.count));
+    }
+    if (view.components > shape.mostAllowed) findings_.repair(kTooWide, pointer);
     return &view;
   }
 
@@ -72,24 +102,27 @@ class PrimitiveGathering {
     return views_[static_cast<std::size_t>(accessor)];
   }
 
+  /// What is read where 1 is meant: the greatest value of integers that should be normalized and are not.
+  double mostOf(const AccessorView& view, const std::string& name) {
+    if (view.normalized || view.componentType == ComponentType::float32) return 1;
+    findings_.repair(kUnscaled, pointerOf(name));
+    const bool isByte = view.componentType == ComponentType::int8 || view.componentType == ComponentType::uint8;
+    return isByte ? 255 : 65535;
+  }
+
   void gatherJoints() {
     for (std::size_t set = 0; set < source_.joints.size(); ++set) {
       const std::string number = std::to_string(set);
-      const AccessorView* joints = attribute("JOINTS_" + number, {4});
-      const AccessorView* weights = attribute("WEIGHTS_" + number, {4});
+      const AccessorView* joints = attribute("JOINTS_" + number, {4, 4, true});
+      const AccessorView* weights = attribute("WEIGHTS_" + number, {4, 4});
       if (!joints && !weights) return;
-      const std::string pointer = source_.pointer + "/attributes/";
-      if (!joints || !weights) {
-        return findings_.invalid(pointer + (joints ? "JOINTS_" : "WEIGHTS_") + number,
-                                 "JOINTS_n and WEIGHTS_n must appear together.");
-      }
+      if (!joints || !weights)
+        return findings_.repair(kUnpaired, pointerOf((joints ? "JOINTS_" : "WEIGHTS_") + number));
       const ComponentType type = joints->componentType;
       if ((type != ComponentType::uint8 && type != ComponentType::uint16) || joints->normalized) {
-        return findings_.invalid(pointer + "JOINTS_" + number, "The joints are not unsigned bytes or shorts.");
+        findings_.repair(kOddJoints, pointerOf("JOINTS_" + number));
       }
-      if (weights->componentType != ComponentType::float32 && !weights->normalized) {
-        return findings_.invalid(pointer + "WEIGHTS_" + number, "The weights are not floats or normalized integers.");
-      }
+      mostOf(*weights, "WEIGHTS_" + number); // they are scaled to a sum of 1 in any case
       source_.joints[set] = joints;
       source_.weights[set] = weights;
     }
@@ -106,32 +139,32 @@ class PrimitiveGathering {
                                     : name == "NORMAL"  ? &target.normals
                                     : name == "TANGENT" ? &target.tangents
                                                         : nullptr;
-      if (member) *member = checked(views_[static_cast<std::size_t>(accessor)], name, pointerTo(pointer, name), {3});
+      if (member) *member = checked(views_[static_cast<std::size_t>(accessor)], pointerTo(pointer, name), {3, 3});
     }
     source_.targets.push_back(target);
   }
 
-  void gatherIndices() {
+  /// False where the primitive has indices that can't be read.
+  bool gatherIndices() {
+    if (draco_) {
+      source_.indices = &draco_->indices;
+      return true;
+    }
+    if (primitive_.indices < 0) return true;
     const auto accessor = static_cast<std::size_t>(primitive_.indices);
     const AccessorView& view = views_[accessor];
     const ComponentType type = view.componentType;
     const bool isUnsigned =
         type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
-    if (view.components != 1 || !isUnsigned || document_.model.accessors[accessor].normalized) {
-      findings_.invalid(source_.pointer + "/indices",
-                        "The accessor of the indices is not a SCALAR of unsigned integers.");
-      return;
-    }
-    if (view.data && view.stride != bytesOf(type)) {
-      findings_.invalid(source_.pointer + "/indices", "The buffer view of the indices has a byteStride.");
-      return;
-    }
+    if (view.faulty || view.components != 1 || !isUnsigned) return false;
+    if (view.normalized) findings_.repair(kNormalizedIndices, source_.pointer + "/indices");
+    if (view.data && view.stride != bytesOf(type)) findings_.repair(kStridedIndices, source_.pointer + "/indices");
     source_.indices = &view;
+    return true;
   }
 
   const gltf::Primitive& primitive_;
   const std::vector<AccessorView>& views_;
-  const GltfDocument& document_;
   const DracoPrimitive* draco_; ///< nullptr = not compressed
   Findings& findings_;
   PrimitiveSource source_;
@@ -147,16 +180,21 @@ std::size_t mostVertices(const PrimitiveSource& source) {
   return source.normals ? std::min(source.positions->count, separate) : separate;
 }
 
-/// Every primitive of a mesh has the same number of targets (glTF 2.0, 3.7.2.2); `morphed` counts the vertices of all.
-bool morphFits(const PrimitiveSource& source, const std::vector<PrimitiveSource>& before, const Limits& limits,
-               std::size_t& morphed, Findings& findings) {
+/// Every primitive of a mesh has the same number of targets (glTF 2.0, 3.7.2.2): those that a primitive lacks move
+/// nothing.
+void evenTargets(const gltf::Mesh& mesh, PrimitiveSource& source, Findings& findings) {
+  std::size_t most = 0;
+  for (const gltf::Primitive& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+  if (source.targets.size() == most) return;
+  findings.repair({"A primitive has fewer morph targets than another of its mesh", "what it lacks moves nothing"},
+                  source.pointer + "/targets", std::to_string(most), std::to_string(source.targets.size()));
+  source.targets.resize(most);
+}
+
+/// `morphed` counts the vertices of all.
+bool morphFits(const PrimitiveSource& source, const Limits& limits, std::size_t& morphed, Findings& findings) {
   const std::string pointer = source.pointer + "/targets";
   const std::size_t targets = source.targets.size();
-  if (!before.empty() && targets != before.front().targets.size()) {
-    findings.invalid(pointer, "The primitives of a mesh differ in their number of morph targets.",
-                     std::to_string(before.front().targets.size()), std::to_string(targets));
-    return false;
-  }
   if (targets > limits.maxMorphTargets) {
     findings.tooLarge(pointer, "The mesh has too many morph targets.", std::to_string(limits.maxMorphTargets),
                       std::to_string(targets));
@@ -197,18 +235,19 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, 
         findings.warn("Mesh " + std::to_string(m) + " has points or lines, which are not drawn.");
         continue;
       }
-      const auto compressed = draco.find({m, p});
-      PrimitiveSource source =
-          PrimitiveGathering(load, primitive, compressed == draco.end() ? nullptr : &compressed->second, pointer)
-              .gather(variantMaterials(model, primitive), uvSets);
-      if (!source.positions) {
+      if (!primitive.attributes.contains("POSITION")) {
         findings.warn("Mesh " + std::to_string(m) + " has a primitive without positions, which is not drawn.");
         continue;
       }
-      if (source.mode == PrimitiveMode::triangles && source.corners() % 3 != 0) {
-        findings.warn("Mesh " + std::to_string(m) +
-                      " has a primitive whose last triangle is incomplete and not drawn.");
-      }
+      const auto compressed = draco.find({m, p});
+      if (primitive.draco && compressed == draco.end()) continue; // told where it is decoded
+      auto gathered =
+          PrimitiveGathering(load, primitive, compressed == draco.end() ? nullptr : &compressed->second, pointer)
+              .gather(variantMaterials(model, primitive), uvSets);
+      if (!gathered) continue;
+      PrimitiveSource& source = *gathered;
+      if (source.mode == PrimitiveMode::triangles && source.corners() % 3 != 0) findings.repair(kIncomplete, pointer);
+      evenTargets(mesh, source, findings);
       triangles += source.triangles();
       vertices += mostVertices(source);
       if (triangles > limits.maxTriangles || vertices > limits.maxVertices) {
@@ -219,7 +258,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, 
                           std::to_string(ofTriangles ? triangles : vertices));
         return {};
       }
-      if (!morphFits(source, meshes[m], limits, morphed, findings)) return {};
+      if (!morphFits(source, limits, morphed, findings)) return {};
       meshes[m].push_back(std::move(source));
     }
   }

@@ -29,6 +29,7 @@ struct PrimitiveSource {
   const AccessorView* tangents = nullptr;
   std::array<const AccessorView*, 2> texCoords{}; ///< what uv0 and uv1 hold, by the materials' choice
   const AccessorView* colors = nullptr;
+  double colorMost = 1; ///< what `colors` reads where a color is 1
   const AccessorView* indices = nullptr;
   std::vector<MorphSource> targets;
   std::array<const AccessorView*, 2> joints{}; ///< four joints a vertex each
@@ -40,7 +41,8 @@ struct PrimitiveSource {
   std::size_t triangles() const;
 };
 
-/// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning.
+/// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning, as
+/// are attributes that do not hold what they should.
 /// Refuses before anything is allocated when the whole would pass the limits. `uvSets`: one a material. The
 /// accessors and `draco` must outlive the result.
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, const DracoPrimitives& draco,

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/geometry/mesh_source.h"
@@ -12,8 +14,21 @@ namespace gnomon {
 
 namespace {
 
-/// The corners in the order of the file, before strips and fans are unrolled.
-std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, Findings& findings) {
+/// Instead of a vertex that does not exist.
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
+const Repair kBeyondVertices{"An index names a vertex that does not exist", "the triangles that use it are left out",
+                             true};
+const Repair kRestart{"An index is the primitive restart value", "the triangles that use it are left out", true};
+const Repair kNotFinite{"Triangles have positions that are not finite", "they are left out", true};
+const Repair kNoDirection{"Normals or tangents have the length 0 or are not finite",
+                          "they are computed from the triangles"};
+const Repair kUvNotFinite{"Texture coordinates are not finite", "they count as 0"};
+
+/// The corners in the order of the file, before strips and fans are unrolled. `restarts`: where the primitive restart
+/// value stands among them.
+std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, std::vector<std::size_t>& restarts,
+                                       Findings& findings) {
   const std::size_t vertexCount = source.positions->count;
   std::vector<std::uint32_t> corners(source.corners());
   if (!source.indices) {
@@ -22,41 +37,67 @@ std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, Findings& 
   }
   const std::size_t bits = 8 * bytesOf(source.indices->componentType);
   const auto restart = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
+  std::optional<std::size_t> beyond;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     corners[i] = source.indices->readIndex(i);
     if (corners[i] < vertexCount && corners[i] != restart) continue;
-    findings.invalid(source.pointer + "/indices",
-                     corners[i] == restart ? "An index is the primitive restart value."
-                                           : "An index names a vertex that does not exist.",
-                     "below " + std::to_string(vertexCount),
-                     std::to_string(corners[i]) + " at position " + std::to_string(i));
-    return {};
+    if (corners[i] == restart) {
+      restarts.push_back(i);
+    } else if (!beyond) {
+      beyond = i;
+      findings.repair(kBeyondVertices, source.pointer + "/indices", "below " + std::to_string(vertexCount),
+                      std::to_string(corners[i]) + " at position " + std::to_string(i));
+    }
+    corners[i] = kNoVertex;
+  }
+  if (!restarts.empty()) {
+    findings.repair(kRestart, source.pointer + "/indices", {}, "at position " + std::to_string(restarts.front()));
   }
   return corners;
 }
 
-/// The corners of a primitive's triangles, three after three, as vertices of its accessors; strips and fans are
-/// unrolled with the winding that glTF 2.0, 3.7.2.1 gives them. Every corner is below positions->count, or there is
-/// a problem in the findings and the list is empty.
+void addTriangle(const std::array<std::uint32_t, 3>& triangle, std::vector<std::uint32_t>& triangles) {
+  if (std::ranges::find(triangle, kNoVertex) != triangle.end()) return;
+  triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+}
+
+/// A strip or fan, with the winding that glTF 2.0, 3.7.2.1 gives its triangles.
+void unroll(std::span<const std::uint32_t> run, PrimitiveMode mode, std::vector<std::uint32_t>& triangles) {
+  for (std::size_t i = 0; i + 2 < run.size(); ++i) {
+    if (mode == PrimitiveMode::triangleFan) {
+      addTriangle({run[i + 1], run[i + 2], run[0]}, triangles);
+    } else {
+      addTriangle({run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]}, triangles);
+    }
+  }
+}
+
+/// The corners of a primitive's triangles, three after three, as vertices of its accessors. Every corner is below
+/// positions->count: triangles with another are left out, and strips and fans begin again after a restart value.
 std::vector<std::uint32_t> readTriangles(const PrimitiveSource& source, Findings& findings) {
-  std::vector<std::uint32_t> corners = readCorners(source, findings);
+  std::vector<std::size_t> restarts;
+  std::vector<std::uint32_t> corners = readCorners(source, restarts, findings);
+  std::vector<std::uint32_t> triangles;
   if (source.mode == PrimitiveMode::triangles) {
     corners.resize(corners.size() / 3 * 3);
-    return corners;
+    if (std::ranges::find(corners, kNoVertex) == corners.end()) return corners;
+    triangles.reserve(corners.size());
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      addTriangle({corners[i], corners[i + 1], corners[i + 2]}, triangles);
+    }
+    return triangles;
   }
-  if (corners.size() < 3) return {};
-  const bool fan = source.mode == PrimitiveMode::triangleFan;
-  std::vector<std::uint32_t> triangles;
-  triangles.reserve((corners.size() - 2) * 3);
-  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-    const std::array<std::size_t, 3> at =
-        fan ? std::array<std::size_t, 3>{i + 1, i + 2, 0} : std::array<std::size_t, 3>{i, i + 1 + i % 2, i + 2 - i % 2};
-    for (const std::size_t corner : at) triangles.push_back(corners[corner]);
+  triangles.reserve(source.triangles() * 3);
+  restarts.push_back(corners.size());
+  std::size_t first = 0;
+  for (const std::size_t end : restarts) {
+    unroll(std::span(corners).subspan(first, end - first), source.mode, triangles);
+    first = end + 1;
   }
   return triangles;
 }
 
-/// Drops triangles with a corner that is not finite, with a warning, and those without an area, unless a pose may give
+/// Drops triangles with a corner that is not finite, with a repair, and those without an area, unless a pose may give
 /// them one.
 void dropUndrawable(std::vector<std::uint32_t>& corners, const PrimitiveSource& source, Findings& findings) {
   std::size_t kept = 0;
@@ -75,10 +116,7 @@ void dropUndrawable(std::vector<std::uint32_t>& corners, const PrimitiveSource& 
     kept += 3;
   }
   corners.resize(kept);
-  if (notFinite > 0) {
-    findings.warn("The primitive " + source.pointer + " has " + std::to_string(notFinite) +
-                  " triangles with positions that are not finite; they are not drawn.");
-  }
+  if (notFinite > 0) findings.repair(kNotFinite, source.pointer, {}, std::to_string(notFinite) + " triangles");
 }
 
 /// The vertices that the corners use, ascending; the corners become indices into them.
@@ -170,19 +208,21 @@ bool setTangents(TriangleMesh& mesh, const AccessorView& view) {
   return replaced;
 }
 
-glm::vec2 texCoordAt(const AccessorView* view, std::uint32_t vertex) {
+glm::vec2 texCoordAt(const AccessorView* view, std::uint32_t vertex, bool& someNotFinite) {
   if (!view) return glm::vec2(0);
-  const glm::dvec4 value = view->read(vertex);
-  return finite(value) ? glm::vec2(value) : glm::vec2(0);
+  const glm::dvec2 value(view->read(vertex));
+  if (std::isfinite(value.x) && std::isfinite(value.y)) return glm::vec2(value);
+  someNotFinite = true;
+  return glm::vec2(0);
 }
 
-VertexAttributes attributesAt(const PrimitiveSource& source, std::uint32_t vertex) {
+VertexAttributes attributesAt(const PrimitiveSource& source, std::uint32_t vertex, bool& someUvNotFinite) {
   VertexAttributes attributes;
   if (source.normals) attributes.normal = glm::vec3(directionOf(glm::dvec3(source.normals->read(vertex))));
-  attributes.uv0 = texCoordAt(source.texCoords[0], vertex);
-  attributes.uv1 = texCoordAt(source.texCoords[1], vertex);
+  attributes.uv0 = texCoordAt(source.texCoords[0], vertex, someUvNotFinite);
+  attributes.uv1 = texCoordAt(source.texCoords[1], vertex, someUvNotFinite);
   if (source.colors) {
-    const glm::dvec4 color = source.colors->read(vertex, glm::dvec4(1));
+    const glm::dvec4 color = source.colors->read(vertex, glm::dvec4(source.colorMost)) / source.colorMost;
     attributes.color = glm::u16vec4(to16Bit(color.r), to16Bit(color.g), to16Bit(color.b), to16Bit(color.a));
   }
   return attributes;
@@ -205,10 +245,12 @@ TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
 
   mesh.positions.reserve(mesh.sources.size());
   mesh.attributes.reserve(mesh.sources.size());
+  bool someUvNotFinite = false;
   for (const std::uint32_t vertex : mesh.sources) {
     mesh.positions.emplace_back(source.positions->read(vertex));
-    mesh.attributes.push_back(attributesAt(source, vertex));
+    mesh.attributes.push_back(attributesAt(source, vertex, someUvNotFinite));
   }
+  if (someUvNotFinite) findings.repair(kUvNotFinite, source.pointer);
 
   if (mesh.flat) {
     setFlatNormals(mesh);
@@ -217,10 +259,7 @@ TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings) {
   bool replaced = replaceMissingNormals(mesh);
   mesh.hasTangents = source.tangents != nullptr;
   if (source.tangents && setTangents(mesh, *source.tangents)) replaced = true;
-  if (replaced) {
-    findings.warn("The primitive " + source.pointer +
-                  " has normals or tangents of length 0; they are computed from its triangles.");
-  }
+  if (replaced) findings.repair(kNoDirection, source.pointer);
   return mesh;
 }
 

@@ -192,7 +192,7 @@ std::optional<glm::dmat4> Instancing::nodeFromCopy(std::size_t copy) const {
     matrix = glm::mat4_cast(glm::dquat(q.w, q.x, q.y, q.z) / length);
   }
   if (scales) {
-    const glm::dvec4 scale = scales->read(copy);
+    const glm::dvec3 scale = withThickness(glm::dvec3(scales->read(copy)));
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= scale[axis];
   }
   if (translations) matrix[3] = glm::dvec4(glm::dvec3(translations->read(copy)), 1);
@@ -206,26 +206,26 @@ std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node
   if (!attributes) return std::nullopt;
   const std::string pointer = pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
   if (attributes->empty()) {
-    findings.invalid(pointer, "The instancing has no attributes.");
+    findings.repair({"An instancing has no attributes", "its mesh is drawn once"}, pointer);
     return std::nullopt;
   }
   Instancing instancing;
   for (const auto& [name, accessor] : *attributes) {
     const AccessorView& view = load.accessors[static_cast<std::size_t>(accessor)];
-    if (instancing.count != 0 && view.count != instancing.count) {
-      findings.invalid(pointerTo(pointer, name), "The accessor's count differs from that of the other attributes.",
-                       std::to_string(instancing.count), std::to_string(view.count));
-      return std::nullopt;
-    }
-    instancing.count = view.count;
     const AccessorView** member = memberOf(instancing, name);
-    if (!member) continue; // an attribute of the application's own
-    if (!isOfType(name, view)) {
-      findings.invalid(pointerTo(pointer, name), "The accessor's type is not valid for " + name + ".");
-      return std::nullopt;
+    if (view.faulty || (member && !isOfType(name, view))) {
+      findings.repair({"An attribute of instances has an accessor that it can't have", "it is left out"},
+                      pointerTo(pointer, name));
+      continue;
     }
-    *member = &view;
+    if (instancing.count != 0 && view.count != instancing.count) {
+      findings.repair({"The attributes of instances differ in their number of elements", "the fewest are drawn"},
+                      pointerTo(pointer, name), std::to_string(instancing.count), std::to_string(view.count));
+    }
+    instancing.count = instancing.count == 0 ? view.count : std::min(instancing.count, std::uint64_t{view.count});
+    if (member) *member = &view; // else one of the application's own
   }
+  if (instancing.count == 0) return std::nullopt;
   return instancing;
 }
 

@@ -1,8 +1,10 @@
 #include "renderer/scene/graph/node_tree.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/core/aabb.h"
+#include "renderer/core/cofactors.h"
 
 namespace gnomon {
 
@@ -12,6 +14,30 @@ constexpr double kSmallestSine = 1e-9; ///< below it, two axes count as parallel
 
 /// Volume of the unit cube's image per volume of a box with the same edges: below this, a transform is flat.
 constexpr double kFlatVolume = 1e-12;
+
+/// Of an axis whose scale is 0: nothing that is added to a coordinate, and yet a number with a sign for determinants.
+constexpr double kThickness = 1e-30;
+
+/// Shortest edge of the unit cube's image by the longest: below this, a transform is flat.
+constexpr double kFlatEdge = 1e-15;
+
+/// Area of the largest face of the unit cube's image by the square of its longest edge: below this, it is a line.
+constexpr double kLeastArea = 1e-12;
+
+double longestOf(const glm::dmat3& m) {
+  return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+}
+
+/// The matrix with its column of zeros, if it has one, as in withThickness.
+glm::dmat4 withThickness(glm::dmat4 matrix) {
+  const glm::dmat3 normals = cofactors(glm::dmat3(matrix));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double area = glm::length(normals[axis]);
+    if (glm::dvec3(matrix[axis]) != glm::dvec3(0) || !(area > 0)) continue;
+    matrix[axis] = glm::dvec4(kThickness * (normals[axis] / area), 0);
+  }
+  return matrix;
+}
 
 std::vector<int> readParents(const gltf::Model& model, Findings& findings) {
   std::vector<int> parents(model.nodes.size(), -1);
@@ -79,14 +105,42 @@ void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings) {
   }
 }
 
-bool isFlat(const glm::dmat4& matrix) {
-  double volume = glm::determinant(glm::dmat3(matrix));
+glm::dvec3 withThickness(const glm::dvec3& scale) {
+  const auto isNothing = [&](int axis) { return std::abs(scale[axis]) < kThickness; };
+  if (isNothing(0) + isNothing(1) + isNothing(2) != 1) return scale;
+  glm::dvec3 thick = scale;
   for (int axis = 0; axis < 3; ++axis) {
-    const double edge = glm::length(glm::dvec3(matrix[axis]));
-    if (!(edge > 0) || !std::isfinite(edge)) return true;
+    if (isNothing(axis)) thick[axis] = scale[axis] < 0 ? -kThickness : kThickness;
+  }
+  return thick;
+}
+
+NodeTransform transformOf(const LocalTransform& local) {
+  if (local.matrix) return {withThickness(*local.matrix), *local.matrix};
+  glm::dmat4 rigid = glm::mat4_cast(local.rotation);
+  rigid[3] = glm::dvec4(local.translation, 1);
+  glm::dmat4 scaled = rigid;
+  const glm::dvec3 scale = withThickness(local.scale);
+  for (int axis = 0; axis < 3; ++axis) scaled[axis] *= scale[axis];
+  return {scaled, rigid};
+}
+
+bool isFlat(const glm::dmat4& matrix) {
+  const glm::dmat3 linear(matrix);
+  double volume = glm::determinant(linear);
+  const double longest = longestOf(linear);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = glm::length(linear[axis]);
+    if (!(edge > kFlatEdge * longest) || !std::isfinite(edge)) return true;
     volume /= edge;
   }
   return !(std::abs(volume) > kFlatVolume);
+}
+
+bool hasNoArea(const glm::dmat4& matrix) {
+  const glm::dmat3 linear(matrix);
+  const double longest = longestOf(linear);
+  return !(longestOf(cofactors(linear / longest)) > kLeastArea) || !std::isfinite(longest);
 }
 
 NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,

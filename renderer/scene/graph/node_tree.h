@@ -25,20 +25,20 @@ struct NodeTransform {
   glm::dmat4 parentFromUnscaled{1}; ///< without its scale; a node with a `matrix` keeps it
 };
 
-inline NodeTransform transformOf(const LocalTransform& local) {
-  if (local.matrix) return {*local.matrix, *local.matrix};
-  glm::dmat4 rigid = glm::mat4_cast(local.rotation);
-  rigid[3] = glm::dvec4(local.translation, 1);
-  glm::dmat4 scaled = rigid;
-  for (int axis = 0; axis < 3; ++axis) scaled[axis] *= local.scale[axis];
-  return {scaled, rigid};
-}
+NodeTransform transformOf(const LocalTransform& local);
+
+/// A scale of which one axis is 0, or nearly so, as what it tends to from above: a body becomes a surface that keeps
+/// its front side. Others are as they were.
+glm::dvec3 withThickness(const glm::dvec3& scale);
 
 /// Refuses nodes that have a matrix beside a translation, rotation or scale.
 void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings);
 
 /// Whether a transform leaves nothing of a body's volume; so does one that is not finite.
 bool isFlat(const glm::dmat4& matrix);
+
+/// Whether a transform leaves not even a surface, but a line or a point; so does one that is not finite.
+bool hasNoArea(const glm::dmat4& matrix);
 
 /// Where every node stands, whichever scene it belongs to.
 struct NodePlaces {

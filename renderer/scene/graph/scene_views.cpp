@@ -112,9 +112,10 @@ class Flattening {
         addPlacements(node, -1, static_cast<int>(copy), *nodeFromCopy, primitives);
         placeCopy(node, static_cast<int>(copy), tree_.worldFromNode[node] * *nodeFromCopy, primitives, view, pointer);
       } else {
-        findings_.invalid(pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes",
-                          "An instance has a rotation of length 0 or a number that is not finite.", {},
-                          "copy " + std::to_string(copy));
+        findings_.repair(
+            {"An instance has a rotation of length 0 or a number that is not finite", "it is left out", true},
+            pointerTo("/nodes", node) + "/extensions/EXT_mesh_gpu_instancing/attributes", {},
+            "copy " + std::to_string(copy));
       }
     }
   }
@@ -122,9 +123,10 @@ class Flattening {
   void placeCopy(std::size_t node, int copy, const glm::dmat4& worldFromLocal, const std::vector<int>& primitives,
                  SceneView& view, const std::string& pointer) {
     if (primitives.empty()) return;
-    const bool flat = isFlat(worldFromLocal);
-    if (flat && !animated_) {
-      findings_.warn("The mesh at node " + std::to_string(node) + " has a degenerate transform and is not drawn.");
+    const bool leftOut = hasNoArea(worldFromLocal);
+    if (leftOut && !animated_) {
+      findings_.warn("The mesh at node " + std::to_string(node) +
+                     " is scaled by 0 along two axes or more and is not drawn.");
     }
     for (const int index : primitives) {
       const Primitive& primitive = primitives_[static_cast<std::size_t>(index)];
@@ -135,7 +137,7 @@ class Flattening {
                            std::to_string(triangles_));
         return;
       }
-      if (flat || tree_.hidden[node]) continue;
+      if (leftOut || tree_.hidden[node]) continue;
       view.triangles += triangles;
       Instance instance;
       instance.node = static_cast<int>(node);

@@ -30,7 +30,21 @@ std::string imageName(const GltfDocument& document, int index) {
   return "image " + std::to_string(index) + (name ? ' ' + inQuotes(*name) : "");
 }
 
-/// Where each image of the file that a material uses will stand in Scene::images; -1 = it is left out.
+const char* const kLeftOut = "the textures that use it are left out";
+
+/// Limits refuse the file; what can't be read otherwise is left out.
+void leaveOut(Problems problems, const std::string& pointer, Findings& findings) {
+  for (Problem& problem : locatedImageProblems(std::move(problems), pointer)) {
+    if (problem.code == ProblemCode::tooLarge) {
+      findings.refuse(std::move(problem));
+      continue;
+    }
+    if (problem.detail.ends_with('.')) problem.detail.pop_back();
+    findings.repair({std::move(problem.detail), kLeftOut}, pointer, problem.limit, problem.actual);
+  }
+}
+
+/// The images of the file that a material uses; -1 = it is left out, else its place in Scene::images, yet to be found.
 std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material>& materials, Findings& findings) {
   std::map<int, int> slots;
   for (Material& material : materials) {
@@ -38,11 +52,13 @@ std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material
       if (*texture) slots.emplace((*texture)->image, -1);
     }
   }
-  int next = 0;
   for (auto& [image, slot] : slots) {
-    const std::string_view format = unsupportedFormat(document.images[static_cast<std::size_t>(image)].view());
-    if (format.empty()) {
-      slot = next++;
+    const Encoded bytes = document.images[static_cast<std::size_t>(image)].view();
+    const std::string_view format = unsupportedFormat(bytes);
+    if (bytes.empty()) {
+      continue; // told where it is missing
+    } else if (format.empty()) {
+      slot = 0; // found its place once it has been checked
     } else {
       findings.warn("The " + imageName(document, image) + " is " + std::string(format) +
                     ", which is not supported; the textures that use it are left out.");
@@ -51,22 +67,19 @@ std::map<int, int> usedImages(const GltfDocument& document, std::vector<Material
   return slots;
 }
 
-void checkSizes(const GltfDocument& document, const std::map<int, int>& slots, const Limits& limits,
-                Findings& findings) {
+/// Holds the images against the limits; those without a size are left out.
+void checkSizes(const GltfDocument& document, std::map<int, int>& slots, const Limits& limits, Findings& findings) {
   std::int64_t pixels = 0;
-  for (const auto& [image, slot] : slots) {
+  for (auto& [image, slot] : slots) {
     if (slot < 0) continue;
     const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
     auto size = imageSize(document.images[static_cast<std::size_t>(image)].view());
     if (!size) {
-      findings.take(locatedImageProblems(std::move(size).problems(), pointer));
+      leaveOut(std::move(size).problems(), pointer, findings);
+      slot = -1;
       continue;
     }
     const std::string actual = std::to_string(size->width) + " x " + std::to_string(size->height);
-    if (size->width <= 0 || size->height <= 0) {
-      findings.invalid(pointer, "The image has no pixels.", {}, actual);
-      continue;
-    }
     if (size->width > limits.maxImageSide || size->height > limits.maxImageSide) {
       findings.tooLarge(pointer, "The image is too large.", std::to_string(limits.maxImageSide) + " a side", actual);
       continue;
@@ -93,27 +106,30 @@ std::string imageContent(Encoded bytes, const std::string& pointer) {
 
 SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
                        Findings& findings, KnownContent* known) {
-  const std::map<int, int> slots = usedImages(document, materials, findings);
+  std::map<int, int> slots = usedImages(document, materials, findings);
   checkSizes(document, slots, limits, findings);
   SceneImages images;
   if (findings.refused()) return images;
-  for (const auto& [image, slot] : slots) {
+  for (auto& [image, slot] : slots) {
     if (slot < 0) continue;
     stopIfAsked();
     const std::string pointer = pointerTo("/images", static_cast<std::size_t>(image));
     const Encoded bytes = document.images[static_cast<std::size_t>(image)].view();
     const std::string content = known != nullptr ? imageContent(bytes, pointer) : std::string();
-    if (auto before = known != nullptr ? known->image(content) : nullptr) {
-      images.push_back(std::move(before));
-      continue;
+    auto picture = known != nullptr ? known->image(content) : nullptr;
+    if (!picture) {
+      auto checked = checkImage(bytes, limits.maxImageSide, limits.maxImagePixels);
+      if (!checked) {
+        leaveOut(std::move(checked).problems(), pointer, findings);
+        slot = -1;
+        continue;
+      }
+      picture = std::make_shared<const SceneImage>(*std::move(checked), pointer);
+      if (known != nullptr) known->keepImage(content, picture);
     }
-    auto checked = checkImage(bytes, limits.maxImageSide, limits.maxImagePixels);
-    if (checked) {
-      images.push_back(std::make_shared<const SceneImage>(*std::move(checked), pointer));
-      if (known != nullptr) known->keepImage(content, images.back());
-    } else {
-      findings.take(locatedImageProblems(std::move(checked).problems(), pointer));
-    }
+    if (picture->cutShort()) findings.repair({"An image is cut short", "what it has is drawn"}, pointer);
+    slot = static_cast<int>(images.size());
+    images.push_back(std::move(picture));
   }
   for (Material& material : materials) {
     for (auto* texture : texturesOf(material)) {

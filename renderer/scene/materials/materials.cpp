@@ -73,14 +73,14 @@ std::array<const std::optional<gltf::TextureInfo>*, 5> textureInfosOf(const gltf
           &source.occlusionTexture, &source.emissiveTexture};
 }
 
-/// The image of a texture: its WebP where it has one, else that in a format of glTF's own; -1 = none. Refuses a texture
-/// that has nothing but KHR_texture_basisu.
+/// The image of a texture: its WebP where it has one, else that in a format of glTF's own; -1 = none, as where it
+/// has nothing but KHR_texture_basisu.
 int imageOf(const gltf::Texture& texture, std::size_t index, Findings& findings) {
   if (texture.webp >= 0) return texture.webp;
   if (texture.source < 0 && texture.basisu) {
-    findings.unsupported(pointerTo("/textures", index),
-                         "The texture has only a KTX 2 image (KHR_texture_basisu), which is not supported, and no "
-                         "fallback image.");
+    findings.warn("The texture at " + pointerTo("/textures", index) +
+                  " has only a KTX 2 image (KHR_texture_basisu), which is not supported, and no fallback image; it is "
+                  "left out.");
   }
   return texture.source;
 }

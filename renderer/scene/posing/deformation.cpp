@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 
 #include "renderer/core/aabb.h"
 #include "renderer/scene/document/gltf_document.h"
@@ -21,14 +21,18 @@ glm::vec3 readOr0(const AccessorView* view, std::uint32_t vertex) {
 MorphTarget readTarget(const MorphSource& source, const TriangleMesh& mesh, const std::string& pointer,
                        Findings& findings) {
   MorphTarget target;
+  bool someNotFinite = false;
   for (std::uint32_t i = 0; i < mesh.sources.size(); ++i) {
     const std::uint32_t vertex = mesh.sources[i];
     const MorphDelta delta{i, readOr0(source.positions, vertex), readOr0(source.normals, vertex),
                            readOr0(source.tangents, vertex)};
     if (!finite(delta.position) || !finite(delta.normal) || !finite(delta.tangent)) {
-      findings.invalid(pointer, "The morph target has a number that is not finite.", {},
-                       "at vertex " + std::to_string(vertex));
-      return {};
+      if (!someNotFinite) {
+        findings.repair({"A morph target has numbers that are not finite", "it does not move those vertices"}, pointer,
+                        {}, "at vertex " + std::to_string(vertex));
+      }
+      someNotFinite = true;
+      continue;
     }
     if (delta.position != glm::vec3(0) || delta.normal != glm::vec3(0) || delta.tangent != glm::vec3(0)) {
       target.push_back(delta);
@@ -37,18 +41,29 @@ MorphTarget readTarget(const MorphSource& source, const TriangleMesh& mesh, cons
   return target;
 }
 
+bool isJoint(double number) {
+  return number >= 0 && number <= std::numeric_limits<std::uint16_t>::max() && number == std::trunc(number);
+}
+
 /// Weights that do not sum to 1, by rounding or else, are scaled to; a vertex without weights follows its first joint.
-Influences readInfluences(const PrimitiveSource& source, std::uint32_t vertex) {
+/// What is no number of a joint has no weight, and sets `someNoJoint`.
+Influences readInfluences(const PrimitiveSource& source, std::uint32_t vertex, bool& someNoJoint) {
   Influences influences;
   double sum = 0;
   for (std::size_t set = 0; set < source.joints.size(); ++set) {
     if (!source.joints[set]) continue;
-    const glm::dvec4 joints = source.joints[set]->read(vertex);
+    AccessorView numbers = *source.joints[set];
+    numbers.normalized = false; // whatever the file says: they name joints
+    const glm::dvec4 joints = numbers.read(vertex);
     const glm::dvec4 weights = source.weights[set]->read(vertex);
     for (int i = 0; i < 4; ++i) {
       const std::size_t slot = 4 * set + static_cast<std::size_t>(i);
-      influences.joints[slot] = static_cast<std::uint16_t>(joints[i]);
       const double weight = weights[i] > 0 && std::isfinite(weights[i]) ? weights[i] : 0;
+      if (!isJoint(joints[i])) {
+        someNoJoint = someNoJoint || weight > 0;
+        continue;
+      }
+      influences.joints[slot] = static_cast<std::uint16_t>(joints[i]);
       influences.weights[slot] = static_cast<float>(weight);
       sum += weight;
     }
@@ -71,12 +86,15 @@ Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Fin
   }
   if (source.joints[0]) {
     deformable.influences.reserve(mesh.sources.size());
+    bool someNoJoint = false;
     for (const std::uint32_t vertex : mesh.sources) {
-      deformable.influences.push_back(readInfluences(source, vertex));
-      const auto& joints = deformable.influences.back().joints;
-      deformable.greatestJoint =
-          std::max<int>(deformable.greatestJoint, *std::max_element(joints.begin(), joints.end()));
+      deformable.influences.push_back(readInfluences(source, vertex, someNoJoint));
+      const Influences& added = deformable.influences.back();
+      for (std::size_t i = 0; i < added.joints.size(); ++i) {
+        if (added.weights[i] > 0) deformable.greatestJoint = std::max<int>(deformable.greatestJoint, added.joints[i]);
+      }
     }
+    if (someNoJoint) findings.repair({"A vertex names no joint", "it follows its other joints"}, source.pointer);
   }
   deformable.mesh = std::move(mesh);
   return deformable;
@@ -88,81 +106,26 @@ bool isOfFloatMatrices(const gltf::Accessor& accessor) {
   return accessor.type == ElementType::mat4 && accessor.componentType == ComponentType::float32;
 }
 
-void readBindMatrices(const LoadContext& load, std::size_t accessor, const std::string& pointer, Skin& skin) {
-  Findings& findings = load.findings;
+const Repair kSkinLeftOut{"The inverse bind matrices of a skin can't be read", "what it would deform follows its node"};
+
+/// False, and a repair, where they are not one finite MAT4 of floats a joint.
+bool readBindMatrices(const LoadContext& load, std::size_t accessor, const std::string& pointer, Skin& skin) {
   const AccessorView& view = load.accessors[accessor];
-  if (!isOfFloatMatrices(load.document.model.accessors[accessor])) {
-    return findings.invalid(pointer, "Inverse bind matrices need a MAT4 accessor of floats.");
+  const std::size_t joints = skin.joints.size();
+  if (view.faulty || !isOfFloatMatrices(load.document.model.accessors[accessor]) || view.count < joints) {
+    load.findings.repair(kSkinLeftOut, pointer, std::to_string(joints) + " or more MAT4 of floats");
+    return false;
   }
-  if (view.count < skin.joints.size()) {
-    return findings.invalid(pointer, "The skin has fewer inverse bind matrices than joints.",
-                            ">= " + std::to_string(skin.joints.size()), std::to_string(view.count));
-  }
-  for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+  for (std::size_t joint = 0; joint < joints; ++joint) {
     glm::dmat4& matrix = skin.jointFromMesh[joint];
     matrix = view.readMatrix(joint);
     for (int column = 0; column < 4; ++column) matrix[column].w = column < 3 ? 0 : 1; // affine, whatever was rounded
     if (finite(matrix)) continue;
-    return findings.invalid(pointer, "An inverse bind matrix is not finite.", {}, "of joint " + std::to_string(joint));
+    load.findings.repair(kSkinLeftOut, pointer, "finite numbers", "joint " + std::to_string(joint));
+    return false;
   }
+  return true;
 }
-
-class SkinCheck {
- public:
-  explicit SkinCheck(const LoadContext& load)
-      : model_(load.document.model), views_(load.accessors), limits_(load.limits), findings_(load.findings) {}
-
-  void checkNode(std::size_t node) {
-    const gltf::Node& source = model_.nodes[node];
-    if (source.skin < 0 || source.mesh < 0) return;
-    const std::size_t joints = model_.skins[static_cast<std::size_t>(source.skin)].joints.size();
-    const double greatest = greatestJoint(static_cast<std::size_t>(source.mesh));
-    if (greatest < static_cast<double>(joints)) return;
-    findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh uses a joint that the skin does not have.",
-                      "below " + std::to_string(joints), std::to_string(static_cast<std::int64_t>(greatest)));
-  }
-
- private:
-  double greatestJoint(std::size_t mesh) {
-    const auto known = ofMesh_.find(mesh);
-    if (known != ofMesh_.end()) return known->second;
-    double greatest = -1;
-    for (const gltf::Primitive& primitive : model_.meshes[mesh].primitives) {
-      for (const auto& [name, accessor] : primitive.attributes) {
-        if (name.starts_with("JOINTS_")) greatest = std::max(greatest, greatestIn(static_cast<std::size_t>(accessor)));
-      }
-    }
-    return ofMesh_[mesh] = greatest;
-  }
-
-  double greatestIn(std::size_t accessor) {
-    const auto known = ofAccessor_.find(accessor);
-    if (known != ofAccessor_.end()) return known->second;
-    const AccessorView& view = views_[accessor];
-    double greatest = -1;
-    vertices_ += view.count;
-    if (vertices_ > limits_.maxVertices) {
-      findings_.tooLarge(pointerTo("/accessors", accessor), "The skinned meshes have too many vertices.",
-                         std::to_string(limits_.maxVertices), std::to_string(vertices_));
-    } else if (view.components != 4) {
-      findings_.invalid(pointerTo("/accessors", accessor), "Joints need a VEC4 accessor.");
-    } else {
-      for (std::size_t i = 0; i < view.count; ++i) {
-        const glm::dvec4 joints = view.read(i);
-        greatest = std::max({greatest, joints.x, joints.y, joints.z, joints.w});
-      }
-    }
-    return ofAccessor_[accessor] = greatest;
-  }
-
-  const gltf::Model& model_;
-  const std::vector<AccessorView>& views_;
-  const Limits& limits_;
-  Findings& findings_;
-  std::map<std::size_t, double> ofMesh_;
-  std::map<std::size_t, double> ofAccessor_;
-  std::size_t vertices_ = 0; ///< read so far: accessors may share their bytes or have none
-};
 
 } // namespace
 
@@ -180,23 +143,15 @@ std::vector<Skin> readSkins(const LoadContext& load) {
       return {};
     }
     if (sources[i].joints.empty()) {
-      findings.invalid(pointer + "/joints", "The skin has no joints.", ">= 1", "0");
-      continue;
+      findings.repair({"A skin has no joints", "what it would deform follows its node"}, pointer + "/joints");
     }
     Skin skin{sources[i].joints, {}};
     skin.jointFromMesh.resize(skin.joints.size(), glm::dmat4(1));
-    if (sources[i].inverseBindMatrices >= 0) {
-      readBindMatrices(load, static_cast<std::size_t>(sources[i].inverseBindMatrices), pointer + "/inverseBindMatrices",
-                       skin);
-    }
-    skins.push_back(std::move(skin));
+    const int matrices = sources[i].inverseBindMatrices;
+    const bool sound = matrices < 0 || readBindMatrices(load, static_cast<std::size_t>(matrices),
+                                                        pointer + "/inverseBindMatrices", skin);
+    skins.push_back(sound ? std::move(skin) : Skin{});
   }
   return skins;
 }
-
-void checkJoints(const LoadContext& load) {
-  SkinCheck check(load);
-  for (std::size_t node = 0; node < load.document.model.nodes.size(); ++node) check.checkNode(node);
-}
-
 } // namespace gnomon

@@ -33,13 +33,13 @@ struct Deformable {
   TriangleMesh mesh;
   std::vector<MorphTarget> targets;
   std::vector<Influences> influences;  ///< parallel to the vertices; empty = no joints
-  int greatestJoint = -1;              ///< that an influence names
+  int greatestJoint = -1;              ///< that an influence with a weight names
   int material = 0;                    ///< index into Scene::materials
   std::vector<int> variantMaterials{}; ///< as in Primitive
 };
 
 struct Skin {
-  std::vector<int> joints;               ///< nodes
+  std::vector<int> joints;               ///< nodes; none = it can't be read, and deforms nothing
   std::vector<glm::dmat4> jointFromMesh; ///< the inverse bind matrix of each
 };
 
@@ -62,10 +62,8 @@ struct Deformation {
 /// Reads the morph targets and joints of a primitive whose vertices have been built.
 Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings);
 
-/// The skins of the file, in its order. Without inverse bind matrices a skin has those of identity.
+/// The skins of the file, in its order; one whose inverse bind matrices can't be read has no joints. Without inverse
+/// bind matrices a skin has those of identity.
 std::vector<Skin> readSkins(const LoadContext& load);
-
-/// Refuses meshes, drawn or not, whose joints reach past the skin of the node that they hang on.
-void checkJoints(const LoadContext& load);
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/core/cofactors.h"
 #include "renderer/core/stop.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/welding.h"
@@ -19,11 +20,6 @@ struct Moving {
   glm::dvec3 tangent{0};
   double side = 1; ///< of the bitangent
 };
-
-glm::vec3 unitOr(const glm::dvec3& v, const glm::vec3& otherwise) {
-  const double length = glm::length(v);
-  return std::isfinite(length) && length > 0 ? glm::vec3(v / length) : otherwise;
-}
 
 std::vector<Moving> atRest(const TriangleMesh& mesh) {
   std::vector<Moving> vertices(mesh.positions.size());
@@ -45,22 +41,26 @@ void addTarget(const MorphTarget& target, double weight, std::vector<Moving>& ve
   }
 }
 
-/// What turns normals as the matrix turns the surface: its cofactors, whose columns need no division, so that a flat
-/// matrix has them too.
-glm::dmat3 cofactors(const glm::dmat3& m) {
-  return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
+/// Joints that the skin does not have count for nothing; a vertex that has only such follows the first of the skin.
 void follow(const Influences& influences, std::span<const glm::dmat4> localFromMesh, Moving& vertex) {
   glm::dmat4 matrix(0);
+  double used = 0;
+  bool someMissing = false;
   for (std::size_t i = 0; i < influences.joints.size(); ++i) {
     const double weight = influences.weights[i];
-    if (weight != 0) matrix += weight * localFromMesh[influences.joints[i]];
+    if (weight == 0) continue;
+    if (influences.joints[i] < localFromMesh.size()) {
+      matrix += weight * localFromMesh[influences.joints[i]];
+      used += weight;
+    } else {
+      someMissing = true;
+    }
   }
+  if (someMissing) matrix = used > 0 ? matrix / used : localFromMesh.front();
   const glm::dmat3 linear(matrix);
   const double side = glm::determinant(linear) < 0 ? -1 : 1;
   vertex.position = glm::dvec3(matrix * glm::dvec4(vertex.position, 1));
-  vertex.normal = side * (cofactors(linear) * vertex.normal);
+  vertex.normal = normalMatrix(linear) * vertex.normal;
   vertex.tangent = linear * vertex.tangent;
   vertex.side *= side;
 }
@@ -72,7 +72,8 @@ void setFlatNormals(const TriangleMesh& mesh, PosedShape& shape) {
     const glm::dvec3 a(shape.positions[corners[0]]);
     const glm::dvec3 area =
         glm::cross(glm::dvec3(shape.positions[corners[1]]) - a, glm::dvec3(shape.positions[corners[2]]) - a);
-    for (int corner = 0; corner < 3; ++corner) shape.normals[corners[corner]] = unitOr(area, {0, 0, 1});
+    const glm::vec3 normal(unitOr(area, {0, 0, 1}));
+    for (int corner = 0; corner < 3; ++corner) shape.normals[corners[corner]] = normal;
   }
 }
 
@@ -82,6 +83,7 @@ SkinPose poseSkin(const Skin& skin, std::span<const glm::dmat4> worldFromNode) {
   const auto worldFromMesh = [&](std::size_t joint) {
     return worldFromNode[static_cast<std::size_t>(skin.joints[joint])] * skin.jointFromMesh[joint];
   };
+  if (skin.joints.empty()) return {};
   const glm::dvec3 origin(worldFromNode[static_cast<std::size_t>(skin.joints.front())][3]);
   const double mirrored = glm::determinant(glm::dmat3(worldFromMesh(0))) < 0 ? -1 : 1;
   SkinPose posed;
@@ -118,9 +120,9 @@ PosedShape pose(const Deformable& deformable, std::span<const double> weights,
     }
     shape.positions.emplace_back(vertex.position);
     shape.bounds.add(glm::dvec3(shape.positions.back()));
-    shape.normals.push_back(unitOr(vertex.normal, mesh.attributes[i].normal));
+    shape.normals.emplace_back(unitOr(vertex.normal, glm::dvec3(mesh.attributes[i].normal)));
     if (mesh.hasTangents) {
-      shape.tangents.emplace_back(unitOr(vertex.tangent, glm::vec3(mesh.attributes[i].tangent)),
+      shape.tangents.emplace_back(unitOr(vertex.tangent, glm::dvec3(mesh.attributes[i].tangent)),
                                   static_cast<float>(vertex.side));
     }
   }

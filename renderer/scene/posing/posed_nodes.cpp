@@ -31,47 +31,49 @@ class Posing {
     if (source.mesh < 0) return {};
     const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(source.mesh)];
     if (mesh.deformables.empty()) return {};
-    const auto weights = weightsOf(node, static_cast<std::size_t>(source.mesh), mesh);
-    if (!weights || !jointsFit(node, mesh)) return {};
+    const std::vector<double> weights = weightsOf(node, static_cast<std::size_t>(source.mesh), mesh);
+    const int skin = skinOf(node, mesh);
     const int own = moving_.contains(node) ? static_cast<int>(node) : -1;
-    const auto [place, isNew] = posed_.try_emplace({source.mesh, source.skin, own, *weights});
-    if (isNew) place->second = makePrimitives(node, mesh, *weights);
+    const auto [place, isNew] = posed_.try_emplace({source.mesh, skin, own, weights});
+    if (isNew) place->second = makePrimitives(node, mesh, skin, weights);
     return place->second;
   }
 
  private:
-  /// The node's weights, else the mesh's, else zeros; nothing, and a problem, where they are not one a target.
-  std::optional<std::vector<double>> weightsOf(std::size_t node, std::size_t mesh, const BuiltMesh& built) {
+  /// The node's weights, else the mesh's, else zeros; one a target, whatever the file has.
+  std::vector<double> weightsOf(std::size_t node, std::size_t mesh, const BuiltMesh& built) {
     const std::size_t targets = deformable(built.deformables.front()).targets.size();
     const bool own = model_.nodes[node].weights.has_value();
-    const auto& weights = own ? model_.nodes[node].weights : model_.meshes[mesh].weights;
-    if (!weights) return std::vector<double>(targets, 0.0);
-    if (weights->size() != targets) {
+    std::vector<double> weights =
+        (own ? model_.nodes[node].weights : model_.meshes[mesh].weights).value_or(std::vector<double>(targets, 0.0));
+    if (weights.size() != targets) {
       const std::string pointer = own ? pointerTo("/nodes", node) : pointerTo("/meshes", mesh);
-      findings_.invalid(pointer + "/weights", "The number of weights differs from the number of morph targets.",
-                        std::to_string(targets), std::to_string(weights->size()));
-      return std::nullopt;
+      findings_.repair({"The number of weights differs from the number of morph targets",
+                        "missing ones are 0, and those beyond are not used"},
+                       pointer + "/weights", std::to_string(targets), std::to_string(weights.size()));
+      weights.resize(targets, 0.0);
     }
     return weights;
   }
 
-  bool jointsFit(std::size_t node, const BuiltMesh& mesh) {
+  /// What deforms the mesh at a node; -1 = no skin.
+  int skinOf(std::size_t node, const BuiltMesh& mesh) {
     const int skin = model_.nodes[node].skin;
-    if (skin < 0) return true;
+    if (skin < 0) return -1;
     const std::size_t joints = deformation_.skins[static_cast<std::size_t>(skin)].joints.size();
+    if (joints == 0) return -1;
     for (const int index : mesh.deformables) {
       const int greatest = deformable(index).greatestJoint;
       if (greatest < static_cast<int>(joints)) continue;
-      findings_.invalid(pointerTo("/nodes", node) + "/skin", "The mesh uses a joint that the skin does not have.",
-                        "below " + std::to_string(joints), std::to_string(greatest));
-      return false;
+      findings_.repair({"A mesh uses joints that its skin does not have", "its vertices follow their other joints"},
+                       pointerTo("/nodes", node) + "/skin", "below " + std::to_string(joints),
+                       std::to_string(greatest));
     }
-    return true;
+    return skin;
   }
 
-  PosedMesh makePrimitives(std::size_t node, const BuiltMesh& mesh, const std::vector<double>& weights) {
+  PosedMesh makePrimitives(std::size_t node, const BuiltMesh& mesh, int skin, const std::vector<double>& weights) {
     PosedMesh made;
-    const int skin = model_.nodes[node].skin;
     if (skin >= 0) made.worldFromSkin = jointsOf(skin).worldFromLocal;
     for (const int index : mesh.deformables) {
       stopIfAsked();

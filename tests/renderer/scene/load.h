@@ -46,6 +46,22 @@ inline Scene load(const testing::GlbBuilder& builder, const Limits& limits = kLi
   return load(builder.bundle(), limits);
 }
 
+/// What is said of a file, a line each: the problems that refuse it, else its warnings. Each with its place.
+inline std::string findingsOf(const SceneBundle& bundle) {
+  const auto result = loadGltf(bundle);
+  std::string text;
+  if (result) {
+    for (const std::string& warning : (*result)->summary.warnings) text += warning + "\n";
+  } else {
+    for (const Problem& problem : result.problems()) text += problem.detail + " (" + problem.pointer + ")\n";
+  }
+  return text;
+}
+
+inline std::string findingsOf(const testing::GlbBuilder& builder) {
+  return findingsOf(builder.bundle());
+}
+
 inline SceneBundle bundleOf(const std::string& json) {
   return {Bytes(json.begin(), json.end()), {}};
 }

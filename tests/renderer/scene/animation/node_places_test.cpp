@@ -196,13 +196,13 @@ TEST(NodePlaces, ARigidMoveSharesAllVertices) {
 
 TEST(NodePlaces, WhatIsScaledToNothingIsLeftOutAndWhatTheFileHasFlatComesBack) {
   testing::GlbBuilder flat = testing::cube();
-  flat.json["nodes"][0]["scale"] = {1, 0, 1};
+  flat.json["nodes"][0]["scale"] = {0, 0, 1};
   const auto scene = shared(flat);
   EXPECT_TRUE(scene->scenes[0].instances.empty());
   NodeOptions entry = placed(0);
   entry.scale = Vec3{1, 2, 1};
   EXPECT_EQ(posed(scene, {entry})->scenes[0].bounds.max, glm::dvec3(1, 2, 1));
-  entry.scale = Vec3{0, 1, 1};
+  entry.scale = Vec3{0, 1, 0};
   EXPECT_TRUE(posed(shared(testing::cube()), {entry})->scenes[0].instances.empty());
 }
 

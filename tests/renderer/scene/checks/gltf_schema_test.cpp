@@ -95,7 +95,7 @@ TEST(GltfSchema, TakesWholeNumbersWithAFraction) {
 
 TEST(GltfSchema, RefusesValuesOutOfRange) {
   const std::pair<const char*, json> lies[] = {
-      {"/accessors/0/count", 0},
+      {"/accessors/0/count", -1},
       {"/accessors/0/count", 1e300},
       {"/accessors/0/componentType", 5124},
       {"/accessors/0/type", "VEC5"},

@@ -138,7 +138,7 @@ TEST(ReadModel, AgreesWithTinyGltfOnMeshesAndBytes) {
   for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
     EXPECT_EQ(model.bufferViews[i].byteOffset, other.bufferViews[i].byteOffset);
     EXPECT_EQ(model.bufferViews[i].byteLength, other.bufferViews[i].byteLength);
-    EXPECT_EQ(model.bufferViews[i].byteStride, other.bufferViews[i].byteStride);
+    EXPECT_EQ(model.bufferViews[i].byteStride.value_or(0), other.bufferViews[i].byteStride);
   }
 }
 

@@ -60,8 +60,8 @@ TEST(SceneViews, RefusesPlacesThatAreNotFinite) {
   EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0")));
 }
 
-TEST(SceneViews, LeavesOutFlatInstancesWithAWarning) {
-  for (const json& scale : {json{0, 0, 0}, json{1, 0, 1}}) {
+TEST(SceneViews, LeavesOutInstancesWithoutAnAreaWithAWarning) {
+  for (const json& scale : {json{0, 0, 0}, json{1, 0, 0}, json{0, 0, -2}}) {
     testing::GlbBuilder builder = testing::cube();
     builder.json["nodes"][0]["scale"] = scale;
     const Scene scene = load(builder);
@@ -71,6 +71,18 @@ TEST(SceneViews, LeavesOutFlatInstancesWithAWarning) {
   testing::GlbBuilder tiny = testing::cube();
   tiny.json["nodes"][0]["scale"] = {1e-9, 1e-9, -1e-9};
   EXPECT_EQ(load(tiny).scenes[0].instances.size(), 1u);
+}
+
+TEST(SceneViews, WhatOneScaleOf0FlattensKeepsItsFrontSide) {
+  for (const json& scale : {json{1, 0, 1}, json{-1, 0, 1}, json{0, 2, -1}, json{1, -1, 0}}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.json["nodes"][0]["scale"] = scale;
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.scenes[0].instances.size(), 1u) << scale;
+    EXPECT_THAT(scene.summary.warnings, IsEmpty());
+    const bool mirrored = std::ranges::count_if(scale, [](const json& each) { return each < 0; }) % 2 == 1;
+    EXPECT_EQ(glm::determinant(glm::dmat3(scene.scenes[0].instances[0].worldFromLocal)) < 0, mirrored) << scale;
+  }
 }
 
 TEST(SceneViews, RefusesCyclesAndSharedChildren) {

@@ -77,14 +77,14 @@ TEST(MaterialExtensions, G2_GlassCastsByWhatItKeepsAndIsWarnedOf) {
                                     "/materials/0/extensions/KHR_materials_transmission/transmissionFactor")));
 }
 
-TEST(MaterialExtensions, ATextureThatHasOnlyBasisUniversalIsRefused) {
+TEST(MaterialExtensions, ATextureThatHasOnlyBasisUniversalIsLeftOut) {
   testing::GlbBuilder builder = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
   builder.add("images", {{"bufferView", builder.addView(Bytes(16, 0))}, {"mimeType", "image/ktx2"}});
   builder.add("textures", {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
   builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
-  const Problems problems = problemsOf(builder);
-  ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/textures/0")));
-  EXPECT_THAT(problems[0].detail, HasSubstr("KHR_texture_basisu"));
+  const Scene scene = load(builder);
+  EXPECT_FALSE(scene.materials[0].baseColor);
+  EXPECT_THAT(scene.summary.warnings, ::testing::Contains(HasSubstr("/textures/0 has only a KTX 2 image")));
 }
 
 TEST(MaterialExtensions, EveryMinificationFilterIsKept) {

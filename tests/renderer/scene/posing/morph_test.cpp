@@ -75,23 +75,23 @@ TEST(MorphTargets, AreHeldAgainstTheirMeshAndTheLimits) {
   const std::string targets = "/meshes/0/primitives/0/targets";
   testing::GlbBuilder builder = morphing();
   builder.json["meshes"][0]["weights"] = {1};
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/meshes/0/weights")));
+  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/weights"));
   builder = morphing();
   builder.json["nodes"][0]["weights"] = {1, 2, 3};
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/weights")));
+  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/nodes/0/weights"));
   builder = morphing();
   builder.json["meshes"][0]["primitives"][0]["targets"][1]["NORMAL"] = builder.addPoints({{0, 0, 0}});
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, targets + "/1/NORMAL")));
+  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(targets + "/1/NORMAL"));
   builder = morphing();
   json second = builder.json["meshes"][0]["primitives"][0];
   second["targets"].erase(1);
   builder.json["meshes"][0]["primitives"].push_back(second);
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/meshes/0/primitives/1/targets")));
+  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/1/targets"));
   builder = morphing();
   const float infinite = std::numeric_limits<float>::infinity();
   builder.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] =
       builder.addPoints({{0, 0, 0}, {0, infinite, 0}, {0, 0, 0}});
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, targets + "/0")));
+  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(targets + "/0"));
 
   Limits limits;
   limits.maxMorphTargets = 1;
