@@ -96,6 +96,40 @@ TEST(GeometryViews, PositionsAreTheWorldsPoints) {
   EXPECT_GT(seen, 1000u);
 }
 
+/// A ground of 40 m whose far edge lies across the picture, seen from low above it: every pixel that shows the ground
+/// holds the depth at which the line of sight through its middle meets it, and some are farther than any of the samples
+/// that antialiasing looks at.
+TEST(GeometryViews, DepthsAtAFarEdgeAreTheSurfacesOwn) {
+  testing::GlbBuilder ground = testing::plane();
+  ground.json["nodes"][0]["scale"] = {20, 1, 20};
+  const ScenePtr scene = testing::sceneOf(ground);
+  constexpr int kWidth = 160, kHeight = 90;
+  const double tangent = std::tan(22.5 * 3.14159265358979 / 180);
+  std::size_t beyond = 0;
+  for (int step = 0; step < 16; ++step) {
+    const double high = 0.27 + 0.0115 * step; // the edge moves by a sixteenth of a pixel
+    Json spec = fromAbove({"depth"});
+    spec["width"] = kWidth;
+    spec["height"] = kHeight;
+    spec["antialiasing"] = "msaa4x";
+    spec["output"]["exrPixelType"] = "float";
+    spec["camera"] = {{"eye", {0, high, 0}}, {"target", {0, high, -1}}, {"perspective", {{"fovYDegrees", 45}}}};
+    const Frame frame = renderJson(scene, spec.dump());
+    const auto& depths = floatsOf(frame);
+    std::size_t seen = 0;
+    for (std::size_t pixel = 0; pixel < depths.size(); ++pixel) {
+      if (std::isinf(depths[pixel])) continue;
+      ++seen;
+      const double down = (static_cast<double>(pixel / kWidth) + 0.5) * 2 / kHeight - 1;
+      ASSERT_NEAR(depths[pixel], high / (down * tangent), 1e-4 * depths[pixel])
+          << "eye " << high << ", pixel " << pixel;
+      beyond += depths[pixel] > frame.report.depthRange[1];
+    }
+    EXPECT_GT(seen, 1000u);
+  }
+  EXPECT_GT(beyond, 0u) << "otherwise the edge tells nothing";
+}
+
 TEST(GeometryViews, PositionsAreAsExactFarFromTheOrigin) {
   testing::GlbBuilder far = testing::plane();
   far.json["nodes"][0]["translation"] = {4e6, 0, 0};

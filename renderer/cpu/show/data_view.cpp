@@ -16,11 +16,12 @@ HWY_INLINE DebugLight debugLightOf(const ShowJob& job) {
   return {job.maps, job.scene.frame, job.debugLight, job.casters, job.slotNodes};
 }
 
-HWY_INLINE DebugValue depthValue(const ShowJob& job, const Receiver& receiver) {
-  if (!job.encoded) return number(receiver.viewDepth);
+HWY_INLINE DebugValue depthValue(const ShowJob& job, const Fragments& fragments) {
+  const Float viewDepth = ownDepths(job.scene, fragments);
+  if (!job.encoded) return number(viewDepth);
   const glm::vec4& range = job.scene.frame.depthRange;
   const float span = std::max(range.y - range.x, 1e-6f);
-  return {Float3(1.0f - 0.9f * clamp((receiver.viewDepth - range.x) / span, 0.0f, 1.0f)), 1.0f};
+  return {Float3(1.0f - 0.9f * clamp((viewDepth - range.x) / span, 0.0f, 1.0f)), 1.0f};
 }
 
 HWY_INLINE DebugValue shadowValue(const ShowJob& job, const Receiver& receiver) {
@@ -40,17 +41,12 @@ HWY_INLINE DebugValue surfaceValue(const ShowJob& job, const Surface& surface) {
 }
 
 HWY_INLINE DebugValue receiverValue(const ShowJob& job, const Receiver& receiver) {
-  switch (job.view) {
-    case View::depth:
-      return depthValue(job, receiver);
-    case View::shadow:
-      return shadowValue(job, receiver);
-    default:
-      return debugData(debugLightOf(job), job.view, job.encoded, receiver);
-  }
+  if (job.view == View::shadow) return shadowValue(job, receiver);
+  return debugData(debugLightOf(job), job.view, job.encoded, receiver);
 }
 
 HWY_INLINE DebugValue valueOf(const ShowJob& job, const Packet& packet) {
+  if (job.view == View::depth) return depthValue(job, packet.fragments);
   return traitsOf(job.view).material ? surfaceValue(job, surfaceOf(job, packet))
                                      : receiverValue(job, receiversOf(job, packet));
 }

@@ -54,6 +54,21 @@ HWY_INLINE Receiver receiversOf(const FrameScene& scene, const Fragments& fragme
   return receiver;
 }
 
+/// View depths of what is shown, metres: the surfaces' own, whatever the survey's samples saw of them.
+HWY_INLINE Float ownDepths(const FrameScene& scene, const Fragments& fragments) {
+  const Sight sight = sightThrough(scene.frame, fragments.place);
+  const Float3 forward{glm::vec3(scene.frame.forward)};
+  Float depths = 0.0f;
+  OfInstance own;
+  for (unsigned left = bitsOf(fragments.shown); left != 0; left &= ~bitsOf(own.lanes)) {
+    own = instanceShown(scene, fragments, left);
+    const Corners corners(scene, scene.slots[scene.geometry.firstSlot[own.instance]], own.triangle);
+    const SeenTriangle seen = corners.seen(scene.instances[own.instance].relativeFromLocal, sight);
+    depths = select(own.lanes, withinCorners(seen.triangle, forward, meetingOf(sight, seen).depth), depths);
+  }
+  return depths;
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -102,6 +102,15 @@ HWY_INLINE Meeting meetingOf(const Sight& sight, const SeenTriangle& seen) {
   return m;
 }
 
+/// The view depth of a meeting, no farther and no nearer than the triangle's corners: a triangle is met outside of them
+/// where it is seen edge-on, as asSurveyed says.
+HWY_INLINE Float withinCorners(const Triangle& triangle, const Float3& forward, const Float& viewDepth) {
+  const Float first = dot(triangle.corner, forward);
+  const Float second = first + dot(triangle.edge1, forward);
+  const Float third = first + dot(triangle.edge2, forward);
+  return clamp(viewDepth, min(first, min(second, third)), max(first, max(second, third)));
+}
+
 /// How u and v of a meeting change as the place moves by a pixel to the right and up.
 struct MeetingSteps {
   Float2 right, up;
