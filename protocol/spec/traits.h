@@ -57,7 +57,7 @@ inline constexpr std::array kViewTraits{
     ViewTraits{View::texelDensity,      ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
     ViewTraits{View::blendWeight,       ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kValue,channels::kValue},
     ViewTraits{View::bias,              ViewSource::data,     false,   false,   true,  true,  false,   false, false, channels::kRgb,  channels::kValue},
-    ViewTraits{View::casterIds,         ViewSource::data,     false,   false,   true,  true,  false,   false, true,  channels::kRgb,  channels::kId},
+    ViewTraits{View::casterIds,         ViewSource::data,     false,   false,   true,  false, false,   false, true,  channels::kRgb,  channels::kId},
     ViewTraits{View::lightContribution, ViewSource::picture,  true,    true,    true,  false, false,   true,  false, channels::kRgb,  channels::kRgb},
     ViewTraits{View::reference,         ViewSource::rays,     false,   false,   true,  false, false,   false, false, channels::kValue,channels::kValue},
     ViewTraits{View::error,             ViewSource::rays,     false,   false,   true,  false, true,    false, false, channels::kRgb,  channels::kValue},

@@ -7,6 +7,7 @@
 
 #include "protocol/spec/format_traits.h"
 #include "renderer/device/view_image.h"
+#include "renderer/frame/caster_view.h"
 #include "renderer/frame/view_words.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
@@ -161,13 +162,17 @@ bool tellsOfTriangles(View view) {
   return traitsOf(view).source == ViewSource::geometry;
 }
 
-bool isDrawn(View view) {
-  return !comparesWithRays(view) && !tellsOfTriangles(view);
-}
-
 } // namespace
 
-FrameViews::FrameViews(const FrameSpec& spec) : spec_(spec) {
+bool FrameViews::isTraced(View view) const {
+  return view == View::casterIds && castersByRays_;
+}
+
+bool FrameViews::isDrawn(View view) const {
+  return !comparesWithRays(view) && !tellsOfTriangles(view) && !isTraced(view);
+}
+
+FrameViews::FrameViews(const FrameSpec& spec, bool castersByRays) : spec_(spec), castersByRays_(castersByRays) {
   for (const View view : spec.views) {
     requestOf_.push_back(requests_.size());
     if (!isDrawn(view)) continue;
@@ -199,7 +204,11 @@ bool FrameViews::needReference() const {
 }
 
 bool FrameViews::needGeometry() const {
-  return std::any_of(spec_.views.begin(), spec_.views.end(), tellsOfTriangles);
+  return needCasters() || std::any_of(spec_.views.begin(), spec_.views.end(), tellsOfTriangles);
+}
+
+bool FrameViews::needCasters() const {
+  return std::any_of(spec_.views.begin(), spec_.views.end(), [this](View view) { return isTraced(view); });
 }
 
 std::vector<float> FrameViews::fullShadow(FrameDrawing& drawing) const {
@@ -214,11 +223,12 @@ Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredSha
 }
 
 std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured,
-                                          const ShownGeometry* geometry) const {
+                                          const ShownGeometry* geometry, const std::vector<int>& casters) const {
   std::vector<ViewImage> images;
   for (const View view : spec_.views) {
     images.push_back({view, comparesWithRays(view)   ? errorImage(drawing, view, *measured)
                             : tellsOfTriangles(view) ? geometryView(*geometry, view, madePixels(view))
+                            : isTraced(view)         ? casterView(*geometry, casters, madePixels(view))
                                                      : Image{}});
   }
   // After the errors, which are painted over one of them.

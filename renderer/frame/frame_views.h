@@ -44,31 +44,38 @@ Image errorPicture(const MeasuredShadow& measured, View view, const Image& color
 /// shadow with rays or edges are predicted, that shadow at full strength and a picture to paint on.
 class FrameViews {
  public:
-  /// `spec`: effective; it outlives this.
-  explicit FrameViews(const FrameSpec& spec);
+  /// `spec`: effective; it outlives this. `castersByRays`: view casterIds is not the device's, as no map decides the
+  /// shadow of debug.light.
+  FrameViews(const FrameSpec& spec, bool castersByRays);
 
   const std::vector<ViewRequest>& requests() const { return requests_; }
   /// Some view compares a shadow with rays.
   bool needReference() const;
   /// Some view tells of the triangles that are seen.
   bool needGeometry() const;
+  /// Some view tells who throws the shadow of debug.light, and rays are to find it.
+  bool needCasters() const;
 
   /// The debug light's shadow at full strength, a value a pixel, first row on top. REQUIRES: needReference, or
   /// debug.predictEdges.
   std::vector<float> fullShadow(FrameDrawing& drawing) const;
   /// The pictures of the spec's views, in their order. `measured`: null where no view compares a shadow with rays;
-  /// `geometry`: null where none tells of triangles.
-  std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured,
-                                const ShownGeometry* geometry) const;
+  /// `geometry`: null where none tells of triangles; `casters`: casterNodes, of no meaning unless needCasters.
+  std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured, const ShownGeometry* geometry,
+                                const std::vector<int>& casters) const;
 
  private:
+  bool isTraced(View view) const; ///< view casterIds where rays make it
+  bool isDrawn(View view) const;  ///< by the device
   /// What the view is made as; words that are numbers come from numbers.
   PixelType madePixels(View view) const;
   Image errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const;
 
   const FrameSpec& spec_;
+  bool castersByRays_;
   std::vector<ViewRequest> requests_;
-  std::vector<std::size_t> requestOf_; ///< one a view of the spec; of no meaning for views of source rays and geometry
+  std::vector<std::size_t>
+      requestOf_; ///< one a view of the spec; of no meaning for those that the device does not draw
   std::optional<std::size_t> fullShadow_; ///< index of its request
   std::optional<std::size_t> backdrop_;
 };

@@ -46,7 +46,8 @@ glm::vec3 colorOfHue(float turn, float saturation, float brightness) {
   return color;
 }
 
-/// A hue for each index, far from those of its neighbours: steps of the golden ratio. Black for -1.
+} // namespace
+
 glm::vec3 colorOf(int id) {
   if (id < 0) return glm::vec3(0);
   const auto step = [id](double ratio) {
@@ -56,6 +57,8 @@ glm::vec3 colorOf(int id) {
   return colorOfHue(step(0.6180339887498949), 0.55f + 0.4f * step(0.7548776662466927),
                     0.7f + 0.3f * step(0.5698402909980532));
 }
+
+namespace {
 
 /// White for no motion, and the full hue of its direction from `kFarMotion` pixels on: red to the right, then
 /// clockwise. Black where there is none.

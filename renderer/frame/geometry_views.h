@@ -25,6 +25,9 @@ struct ShownGeometry {
   const EarlierMoment* earlier = nullptr; ///< what view motion compares with; needed by that alone
 };
 
+/// A hue for each index, far from those of its neighbours: steps of the golden ratio. Black for -1.
+glm::vec3 colorOf(int id);
+
 /// A view of source `geometry`, as View says: numbers, or what they are seen as.
 Image geometryView(const ShownGeometry& shown, View view, PixelType pixels);
 

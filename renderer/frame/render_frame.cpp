@@ -5,6 +5,7 @@
 #include "protocol/spec/traits.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/baked_lights.h"
+#include "renderer/frame/caster_view.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/motion_view.h"
@@ -77,7 +78,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
                                                          : std::vector<std::uint32_t>{};
   const auto subject = debugSubject(effective, plan, layered);
   if (!subject) return subject.problems();
-  const FrameViews views(effective);
+  const bool layerDecides = std::find(layered.begin(), layered.end(), subject->light) != layered.end();
+  const FrameViews views(effective, layerDecides);
   const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
   drawing.endStage("plan");
 
@@ -119,7 +121,16 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
                                    *std::move(triangles), earlier ? &*earlier : nullptr});
   }
 
-  auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr);
+  std::vector<int> casters;
+  if (views.needCasters()) {
+    const auto rays = tracedScene();
+    if (!rays) return rays.problems();
+    const TraceInput input{**rays,           resolved->view,    effective.width,
+                           effective.height, *effective.lights, resolved->nodes};
+    casters = casterNodes(*geometry, input, subject->light);
+  }
+
+  auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr, casters);
   drawing.endStage("readback");
   auto facts = drawing.finish();
   if (!facts) return facts.problems();

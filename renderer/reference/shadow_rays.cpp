@@ -19,7 +19,9 @@ struct LightQuery {
   RTCIntersectContext context;
   const Casters* casters = nullptr;
   std::span<const RayToLight> rays;
-  std::array<float, kLanes> through{}; ///< of the light, past the casters met so far that let some of it through
+  std::array<float, kLanes> through{};   ///< of the light, past the casters met so far that let some of it through
+  std::array<double, kLanes> farthest{}; ///< metres to the caster that is nearest to the light so far; 0 = none yet
+  std::array<std::uint32_t, kLanes> caster{}; ///< its instance
 };
 
 bool meetsCaster(const Casters& casters, const RayToLight& ray, const Triangle& caster) {
@@ -47,6 +49,23 @@ void keepHalfOpaque(const RTCFilterFunctionNArguments* call) {
                    [&](const Candidate& hit) { return opacityOf(*query.casters, query.rays[hit.lane], hit) > 0.5; });
 }
 
+/// Takes note of the caster that is farthest along the ray, and goes on.
+void noteFarthest(const RTCFilterFunctionNArguments* call) {
+  LightQuery& query = queryOf(call);
+  filterCandidates(*call, [&](const Candidate& hit) {
+    const RayToLight& ray = query.rays[hit.lane];
+    if (opacityOf(*query.casters, ray, hit) <= 0.5) return false;
+    const Triangle caster = query.casters->tree.triangle(hit.instance, hit.triangle);
+    const glm::dvec3 area = caster.area();
+    const double distance = glm::dot(area, caster.a - ray.from->position) / glm::dot(area, ray.way.direction);
+    if (distance > query.farthest[hit.lane]) {
+      query.farthest[hit.lane] = distance;
+      query.caster[hit.lane] = hit.instance;
+    }
+    return false;
+  });
+}
+
 LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFunctionN filter) {
   LightQuery query;
   rtcInitIntersectContext(&query.context);
@@ -55,6 +74,7 @@ LightQuery queryFor(const Casters& casters, const RaysToLight& rays, RTCFilterFu
   query.casters = &casters;
   query.rays = rays.rays;
   query.through.fill(1);
+  query.caster.fill(kNoSurface);
   return query;
 }
 
@@ -173,6 +193,13 @@ std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays) 
   }
   rays.count = 0;
   return distances;
+}
+
+std::array<std::uint32_t, kLanes> castersOf(const Casters& casters, RaysToLight& rays) {
+  LightQuery query = queryFor(casters, rays, noteFarthest);
+  occlude(casters.tree, firstLanes(rays.count), query.context, rays.packet.ray);
+  rays.count = 0;
+  return query.caster;
 }
 
 } // namespace gnomon

@@ -97,6 +97,10 @@ std::array<float, kLanes> sharesThrough(const Casters& casters, RaysToLight& ray
 /// are none.
 std::array<float, kLanes> blockersOf(const Casters& casters, RaysToLight& rays);
 
+/// The instance whose caster lies nearest to the light, of those that let through less than half, for each ray;
+/// kNoSurface where none does. Then there are none.
+std::array<std::uint32_t, kLanes> castersOf(const Casters& casters, RaysToLight& rays);
+
 /// Metres: how far two planes and a point in one of them may lie apart and yet be the same. The vertices of both were
 /// rounded when the file was written and when they were placed, which moves a plane by as much within its triangle
 /// (Higham, "Accuracy and Stability of Numerical Algorithms", 2.1 and 3.1), and twice as much a triangle's length

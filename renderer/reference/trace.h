@@ -155,6 +155,9 @@ class TracedLight {
   /// blockerDistances, one a point, on the calling thread. REQUIRES: as many of each as points.
   void blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const;
 
+  /// casterInstances, one a point, on the calling thread. REQUIRES: as many instances as points.
+  void casters(std::span<const SurfacePoint> points, std::span<std::uint32_t> instances) const;
+
   bool hasSize() const; ///< several rays go to it from a point
 
  private:
@@ -169,5 +172,11 @@ class TracedLight {
 
 /// Metres from each point to what hides the light's middle from it, the nearest; infinity where nothing does.
 std::vector<float> blockerDistances(const TraceInput& input, int light, std::span<const SurfacePoint> points);
+
+/// The instance that hides the light's middle from each point: of several the one nearest to the light, as in a shadow
+/// map; of blended ones those that stop more than half. What is turned away from the light and hidden by nothing else
+/// hides the light from itself. kNoSurface where nothing does, and where no light of it could arrive: out of its range
+/// or cone, on what receives no shadow of it.
+std::vector<std::uint32_t> casterInstances(const TraceInput& input, int light, std::span<const SurfacePoint> points);
 
 } // namespace gnomon

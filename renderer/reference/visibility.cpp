@@ -200,6 +200,36 @@ void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::sp
   trace();
 }
 
+void TracedLight::casters(std::span<const SurfacePoint> points, std::span<std::uint32_t> instances) const {
+  const TracedScene::Tree& tree = state_->casters.tree;
+  RaysToLight rays;
+  std::array<SurfacePoint, kLanes> from;
+  std::array<std::size_t, kLanes> of{};
+  const auto trace = [&] {
+    const unsigned count = rays.count;
+    const std::array<std::uint32_t, kLanes> found = castersOf(state_->casters, rays);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (found[k] != kNoSurface) instances[of[k]] = found[k];
+    }
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    SurfacePoint point = points[i];
+    instances[i] = kNoSurface;
+    if (point.instance == kNoSurface || state_->shadowed[point.instance] == 0) continue;
+    const WayToLight way = wayTo(state_->from.light, point.position);
+    if (!reaches(state_->from.light, way)) continue;
+    if (!faces(point.normal, way)) {
+      if (state_->casters.opacity[point.instance] != Opacity::none) instances[i] = point.instance;
+      if (glm::dot(glm::dvec3(point.normal), way.direction) < 0) point.normal = -point.normal; // the light's side
+    }
+    of[rays.count] = i;
+    from[rays.count] = point;
+    rays.add(tree, from[rays.count], startOf(tree, point), way);
+    if (rays.count == kLanes) trace();
+  }
+  trace();
+}
+
 std::vector<float> lightVisibility(const TraceInput& input, int light, std::span<const SurfacePoint> points,
                                    int samples) {
   const TracedLight traced(input, light);
@@ -220,6 +250,15 @@ std::vector<float> blockerDistances(const TraceInput& input, int light, std::spa
     traced.blockerDistances(points.subspan(first, last - first), std::span(distances).subspan(first, last - first));
   });
   return distances;
+}
+
+std::vector<std::uint32_t> casterInstances(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
+  const TracedLight traced(input, light);
+  std::vector<std::uint32_t> instances(points.size());
+  forEachPiece(points.size(), kPoints, [&](std::size_t first, std::size_t last) {
+    traced.casters(points.subspan(first, last - first), std::span(instances).subspan(first, last - first));
+  });
+  return instances;
 }
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/shadow/filter_kernel.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/tested_device.h"
 
 namespace gnomon {
 namespace {
@@ -239,6 +240,114 @@ TEST(DebugViews, H9_CastersAreNamedInTheFacesOfAPointLight) {
   EXPECT_EQ(valueAt(frame, 0.5 + 6.0 / 20, 0.5 - 2.0 / 20), 2054.0f);
   EXPECT_EQ(valueAt(frame, 0.5, 0.5 - 2.0 / 20), -1.0f) << "under the light";
   EXPECT_EQ(valueAt(frame, 0.5 - 6.0 / 20, 0.5 + 2.0 / 20), -1.0f) << "beside";
+}
+
+/// Techniques that need no map: rays say who throws the shadow.
+const char* const kByRays[] = {"rayTraced", "lightMap", "hybrid"};
+
+/// Where `shadow` (view 1) is full a node is named, and none where all light arrives; gives how many pixels show
+/// `node`.
+std::size_t pixelsNaming(const Frame& frame, float node) {
+  const auto& ids = floatsOf(frame, 0);
+  const auto& visibility = floatsOf(frame, 1);
+  std::size_t naming = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    naming += ids[i] == node;
+    if (visibility[i] > 0.0f && visibility[i] < 1.0f) continue; // an edge, or between texels of a light map
+    EXPECT_EQ(ids[i] >= 0.0f, visibility[i] == 0.0f) << "pixel " << i << " names " << ids[i];
+    if (::testing::Test::HasFailure()) return 0;
+  }
+  return naming;
+}
+
+TEST(DebugViews, H9_RaysNameTheCastersWhereNoMapDoes) {
+  const Json light = {{"type", "directional"}, {"direction", {0, -1, 1}}};
+  const ScenePtr scene = testing::sceneOf(twoPlates());
+  for (const char* technique : kByRays) {
+    Json spec = fromAbove({"casterIds", "shadow"}, light);
+    spec["shadow"]["technique"] = technique;
+    const Frame frame = renderJson(scene, spec.dump());
+    EXPECT_EQ(valueAt(frame, 0.2, 0.4), 3.0f) << technique;
+    EXPECT_EQ(valueAt(frame, 0.8, 0.4), 2054.0f) << technique;
+    EXPECT_EQ(valueAt(frame, 0.5, 0.4), -1.0f) << technique << ": between them";
+    EXPECT_EQ(valueAt(frame, 0.2, 0.3), -1.0f) << technique << ": on the plate itself";
+    EXPECT_EQ(frame.images[0].image.channels, std::vector<std::string>{"id"});
+    // A metre of each plate's shadow, 10 pixels across, to a pixel of its rim.
+    EXPECT_NEAR(static_cast<double>(pixelsNaming(frame, 3)), 100.0, 20.0) << technique;
+    EXPECT_NEAR(static_cast<double>(pixelsNaming(frame, 2054)), 100.0, 20.0) << technique;
+  }
+}
+
+/// A box of 2 m on the ground, as node 1, beside a sun at 35 degrees: what of it is turned away is its own shadow.
+TEST(DebugViews, H9_ABoxOnTheGroundThrowsEveryShadow) {
+  testing::GlbBuilder scene = ground();
+  const auto positions = std::vector<testing::Point>{{-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1},
+                                                     {-1, 0, 1},  {1, 0, 1},  {1, 2, 1},  {-1, 2, 1}};
+  const int at = scene.addPoints(positions);
+  const int indices = scene.addIndices(
+      {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 3, 6, 2, 3, 7, 6, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5});
+  scene.addMeshNode(scene.addMesh({{"attributes", {{"POSITION", at}}}, {"indices", indices}}));
+  const ScenePtr built = testing::sceneOf(scene);
+  for (const char* technique : kByRays) {
+    Json spec = fromAbove({"casterIds", "shadow"},
+                          {{"type", "directional"}, {"sun", {{"azimuthDegrees", 280}, {"elevationDegrees", 35}}}});
+    spec["width"] = 160;
+    spec["camera"] = {{"eye", {4, 2, 4}}, {"target", {1, 0, 0}}};
+    spec["shadow"]["technique"] = technique;
+    EXPECT_GT(pixelsNaming(renderJson(built, spec.dump()), 1), 1000u) << technique;
+  }
+}
+
+TEST(DebugViews, H9_OfSeveralCastersRaysNameTheNearestToTheLightAsMapsDo) {
+  testing::GlbBuilder scene = ground();
+  for (const double high : {1.0, 2.0}) {
+    scene.addRoot({{"mesh", 0}, {"translation", {0, high, -high}}, {"scale", {0.5, 0.5, 0.5}}});
+  }
+  const ScenePtr built = testing::sceneOf(scene);
+  for (const char* technique : {"shadowMap", "rayTraced"}) {
+    Json spec = fromAbove({"casterIds"}, {{"type", "directional"}, {"direction", {0, -1, 1}}});
+    spec["shadow"]["technique"] = technique;
+    const Frame frame = renderJson(built, spec.dump());
+    EXPECT_EQ(valueAt(frame, 0.5, 0.5), 2.0f) << technique;
+    EXPECT_EQ(valueAt(frame, 0.5, 0.9), -1.0f) << technique;
+  }
+}
+
+TEST(DebugViews, H9_RaysNameCastersInTheReachOfALampAlone) {
+  Json spec = fromAbove({"casterIds"}, {{"type", "point"}, {"position", {0, 2, -2}}, {"range", 6.2}});
+  const double half = std::atan(10.0 / 8) * 180 / 3.14159265358979; // 20 m of ground
+  spec["camera"] = {{"eye", {0, 8, 0}}, {"up", {0, 0, -1}}, {"perspective", {{"fovYDegrees", 2 * half}}}};
+  spec["shadow"]["technique"] = "rayTraced";
+  const Frame frame = renderJson(testing::sceneOf(twoPlates()), spec.dump());
+  EXPECT_EQ(valueAt(frame, 0.5 - 5.6 / 20, 0.5 - 2.0 / 20), 3.0f);
+  EXPECT_EQ(valueAt(frame, 0.5 + 5.6 / 20, 0.5 - 2.0 / 20), 2054.0f);
+  EXPECT_EQ(valueAt(frame, 0.5 + 6.7 / 20, 0.5 - 2.0 / 20), -1.0f) << "behind the plate, out of reach";
+  EXPECT_EQ(valueAt(frame, 0.5, 0.5 - 2.0 / 20), -1.0f) << "under the light";
+}
+
+TEST(DebugViews, H9_RaysColorCastersAsMapsDo) {
+  const Json light = {{"type", "directional"}, {"direction", {0, -1, 1}}};
+  const ScenePtr scene = testing::sceneOf(twoPlates());
+  const auto bytesOf = [&](const char* technique) {
+    Json spec = fromAbove({"casterIds"}, light);
+    spec["output"] = {{"format", "png"}};
+    spec["shadow"]["technique"] = technique;
+    return std::get<std::vector<std::uint8_t>>(renderJson(scene, spec.dump()).images[0].image.pixels);
+  };
+  const auto mapped = bytesOf("shadowMap");
+  const auto traced = bytesOf("rayTraced");
+  ASSERT_EQ(mapped.size(), traced.size());
+  for (const std::size_t pixel : {40u * 100u + 20u, 40u * 100u + 80u, 40u * 100u + 50u, 30u * 100u + 20u}) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(mapped[pixel * 3 + c], traced[pixel * 3 + c], 1) << pixel;
+  }
+}
+
+TEST(DebugViews, H9_RaysNameTheCastersOfShadowVolumes) {
+  GNOMON_NEEDS_GL("shadow volumes are OpenGL's");
+  Json spec = fromAbove({"casterIds", "shadow"}, {{"type", "directional"}, {"direction", {0, -1, 1}}});
+  spec["shadow"]["technique"] = "shadowVolume";
+  const Frame frame = renderJson(testing::sceneOf(twoPlates()), spec.dump());
+  EXPECT_NEAR(static_cast<double>(pixelsNaming(frame, 3)), 100.0, 20.0);
 }
 
 } // namespace
