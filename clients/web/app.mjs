@@ -2,7 +2,7 @@
 
 import { capabilities, renderFrame } from './api.mjs';
 import { createBakePanel } from './bake_panel.mjs';
-import { createCameraPanel } from './camera_panel.mjs';
+import { cameraName, createCameraPanel } from './camera_panel.mjs';
 import { createCompare } from './compare.mjs';
 import { createControl } from './controls.mjs';
 import { fromHash, toHash } from './deep_link.mjs';
@@ -15,15 +15,16 @@ import { lightsWithSun } from './light_math.mjs';
 import { createLightsPanel } from './lights_panel.mjs';
 import { createMotionPanel } from './motion_panel.mjs';
 import { createNodesPanel } from './nodes_panel.mjs';
-import { fitOrbit, kFovYDegrees, orbitInForce } from './orbit_math.mjs';
+import { kFovYDegrees, kWholeScene, orbitInForce } from './orbit_math.mjs';
 import { setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
 import { showReport } from './report_panel.mjs';
 import { createScenePanel } from './scene_panel.mjs';
+import { withoutScene } from './scene_spec.mjs';
 import { copySnippet, download } from './share.mjs';
-import { draftSpec, fullSpec } from './spec.mjs';
+import { draftSpec, fullSpec, pictureSize } from './spec.mjs';
 import { attachOrbit } from './stage.mjs';
 import { createStore } from './store.mjs';
 import { createSunPanel } from './sun_panel.mjs';
@@ -38,7 +39,7 @@ const stage = byId('stage');
 const picture = createPicture(byId('picture'));
 const problems = createProblems(document.body, byId('banner'));
 const showTimings = createTimings(byId('timings'));
-const store = createStore({ ...fromHash(location.hash), summary: null, report: null });
+const store = createStore({ ...fromHash(location.hash), summary: null, report: null, cameraShown: null });
 const announce = (text) => (byId('live').textContent = text);
 const sharpSpec = () => fullSpec(store.state, stageSize());
 let shown = null; // what the sharp picture was asked with: {state, spec}
@@ -56,11 +57,7 @@ const loop = createFrameLoop({ render, show, fail: refused, busy: (on) => (byId(
 
 let askedSize = ''; // of the last sharp picture
 
-function stageSize() {
-  const limited = Math.min(1, 1920 / stage.clientWidth, 1080 / stage.clientHeight);
-  const side = (pixels) => Math.max(16, Math.round(pixels * limited));
-  return { width: side(stage.clientWidth), height: side(stage.clientHeight) };
-}
+const stageSize = () => pictureSize(stage.clientWidth, stage.clientHeight, devicePixelRatio);
 
 async function render(draft, scale, signal) {
   const { state } = store;
@@ -82,7 +79,7 @@ async function show({ report, images, roundTripMs, asked }, draft) {
   const told = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
   byId('report-section').hidden = !told && !report.volumes.length && !report.warnings.length;
   shown = asked;
-  store.update({ report });
+  store.update({ report, cameraShown: asked.spec.camera });
   announce(`The picture is sharp, after ${Math.round(roundTripMs)} milliseconds`);
   if (compare.isOn()) compare.refresh();
 }
@@ -117,10 +114,9 @@ function lens() {
 }
 
 const moveTo = (orbit) => store.setSpec('camera', { ...lens(), orbit });
-const wholeScene = ({ boundsMin, boundsMax }) => fitOrbit(boundsMin, boundsMax, stage.clientWidth / stage.clientHeight);
 
 function fit() {
-  if (store.state.summary) store.setSpec('camera', { orbit: wholeScene(store.state.summary) });
+  if (store.state.summary) store.setSpec('camera', { orbit: kWholeScene });
 }
 
 attachOrbit(stage, {
@@ -170,20 +166,17 @@ const scenePanel = createScenePanel({
 });
 byId('empty-upload').addEventListener('click', () => byId('files').click());
 
-// A link's camera and light stay with its scene, also with the file of another volume; another scene starts with its
-// own, where it has any.
+// What a link says of its scene stays with it, also with the file of another volume; another scene starts with its own
+// camera and light, where it has any, and with nothing of the one before.
 function showScene(summary, added) {
   problems.clear();
   const { sceneId, spec } = store.state;
   const same = Boolean(added) || sceneId === summary.id;
-  const { camera, lights, volumes, ...rest } = spec;
-  const [eye] = summary.cameras;
-  const next = { ...rest, camera: (same && camera) || (eye ? { node: eye.node } : { orbit: wholeScene(summary) }) };
-  if (same && lights) next.lights = lights;
-  else if (!summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
+  const next = same ? { ...spec } : withoutScene(spec);
+  next.camera ??= summary.cameras.length ? { node: cameraName(summary.cameras[0]) } : { orbit: kWholeScene };
+  if (!next.lights && !summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
   if (added) next.volumes = withFile(store.state, added);
-  else if (volumes?.every(({ file }) => summary.volumeFiles.includes(file))) next.volumes = volumes;
-  store.update({ sceneId: summary.id, summary, spec: next, report: null, freshVolume: Boolean(added) });
+  store.update({ sceneId: summary.id, summary, spec: next, report: null, cameraShown: null, freshVolume: Boolean(added) });
 }
 
 byId('sun').append(createSunPanel(store), createLightsPanel(store));

@@ -5,6 +5,9 @@ import { element, short } from './dom.mjs';
 
 const kLens = { path: 'camera.perspective.fovYDegrees', label: 'Lens', unit: '°', says: 'Full vertical angle of view', slider: [5, 120, 0.5], clears: 'camera.perspective', needs: (store) => !store.effective('camera.orthographic') };
 
+// As a request asks for a camera of the file, whatever its name.
+export const cameraName = ({ node }) => node;
+
 // `fit()` gives the orbit of the whole scene.
 export function createCameraPanel(store, fit) {
   const list = element('select', { id: 'camera-node', 'aria-label': 'Camera' });
@@ -26,7 +29,7 @@ export function createCameraPanel(store, fit) {
   store.subscribe(({ spec, summary }) => {
     if (summary !== shown) {
       shown = summary;
-      const cameras = (summary?.cameras ?? []).map((camera) => element('option', { value: camera.node }, camera.name || `Camera at node ${camera.node}`));
+      const cameras = (summary?.cameras ?? []).map((camera) => element('option', { value: cameraName(camera) }, camera.name || `Camera at node ${camera.node}`));
       list.replaceChildren(element('option', { value: '' }, 'Orbit by hand'), ...cameras);
     }
     list.value = spec.camera?.node ?? '';
@@ -38,5 +41,6 @@ export function createCameraPanel(store, fit) {
 function readoutOf(orbit) {
   if (!orbit) return '';
   const { azimuthDegrees, elevationDegrees, distance, target } = orbit;
-  return `${azimuthDegrees.toFixed(1)}° · ${elevationDegrees.toFixed(1)}° · ${short(distance)} m from ${target.map((v) => short(v)).join(' ')}`;
+  const way = `${azimuthDegrees.toFixed(1)}° · ${elevationDegrees.toFixed(1)}°`;
+  return target && distance ? `${way} · ${short(distance)} m from ${target.map((v) => short(v)).join(' ')}` : `${way} · the whole scene`;
 }

@@ -7,7 +7,8 @@ import { percent } from './error_numbers.mjs';
 import { merged } from './merge_patch.mjs';
 
 const kSweeps = [['techniques', 'Techniques'], ['filters', 'Filters'], ['sizes', 'Tile sizes and cascades'], ['all', 'All of these']];
-const kBox = { left: 46, top: 10, width: 252, height: 150 };
+const kBox = { left: 64, top: 22, width: 228, height: 138 }; // room around it for the longest labels
+const decade = (power) => String(Number((10 ** power).toPrecision(1)));
 
 // `specOf()`: the sharp spec of the present state.
 export function createEvaluationPanel(store, { specOf, problems, announce }) {
@@ -92,12 +93,13 @@ function axes(x, y) {
   return [
     ...marks(x).flatMap((power, i, all) => {
       const at = left + (i / (all.length - 1)) * width;
-      return [svgElement('line', { class: 'grid', x1: at, x2: at, y1: top, y2: top + height }), text({ x: at, y: top + height + 14, 'text-anchor': 'middle' }, short(10 ** power))];
+      return [svgElement('line', { class: 'grid', x1: at, x2: at, y1: top, y2: top + height }), text({ x: at, y: top + height + 18, 'text-anchor': 'middle' }, decade(power))];
     }),
     ...marks(y).flatMap((power, i, all) => {
       const at = top + (1 - i / (all.length - 1)) * height;
-      return [svgElement('line', { class: 'grid', x1: left, x2: left + width, y1: at, y2: at }), text({ x: left - 6, y: at + 4, 'text-anchor': 'end' }, i ? `${short(100 * 10 ** power)} %` : '≤')];
+      return [svgElement('line', { class: 'grid', x1: left, x2: left + width, y1: at, y2: at }), text({ x: left - 6, y: at + 4, 'text-anchor': 'end' }, `${i ? '' : '≤ '}${decade(power + 2)} %`)];
     }),
-    text({ x: left + width / 2, y: top + height + 30, 'text-anchor': 'middle' }, 'milliseconds'),
+    text({ x: left + width / 2, y: top + height + 33, 'text-anchor': 'middle' }, 'milliseconds'),
+    text({ x: left - 6, y: top - 10, 'text-anchor': 'end' }, 'wrong'),
   ];
 }

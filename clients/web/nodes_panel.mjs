@@ -5,9 +5,9 @@ import { count, element } from './dom.mjs';
 import { found, ownSwitch, switchInForce, treeOf, withSwitch } from './node_tree.mjs';
 
 const kSwitches = [
-  ['visible', 'Seen', 'The camera sees it'],
-  ['castShadow', 'Casts', 'It casts shadows'],
-  ['receiveShadow', 'Gets', 'Shadows fall on it'],
+  ['visible', 'Seen', 'by the camera'],
+  ['castShadow', 'Casts', 'shadows'],
+  ['receiveShadow', 'Gets', 'shadows'],
 ];
 const kMostRows = 300; // of one list; a search finds the rest
 
@@ -24,6 +24,7 @@ export function createNodesPanel(store) {
   async function load(id) {
     sceneId = id;
     nodes = [];
+    search.value = '';
     try {
       const page = await sceneNodes(id);
       if (sceneId !== id) return;
@@ -58,7 +59,7 @@ export function createNodesPanel(store) {
     const open = element('button', { type: 'button', class: 'twist', 'aria-expanded': 'false', 'aria-label': `What is below ${name}`, onclick: () => unfold() }, '›');
     if (!node.children.length) open.style.visibility = 'hidden';
     const switches = kSwitches.map(([key, text, says]) => {
-      const button = element('button', { type: 'button', class: 'node-switch', title: says, 'aria-label': `${name}: ${says.toLowerCase()}`, onclick: () => flip(key) }, text);
+      const button = element('button', { type: 'button', class: 'node-switch', title: `${text} ${says}`, 'aria-label': `${text} ${says}: ${name}`, onclick: () => flip(key) }, text);
       shown.add(() => {
         const on = switchInForce(store.state.spec.nodes, path, key);
         button.setAttribute('aria-pressed', String(on));

@@ -5,13 +5,16 @@ const kRadians = Math.PI / 180;
 const kSteepest = 89.5; // degrees: straight above, "up" has no direction
 export const kFovYDegrees = 45; // the server's default lens
 
-// The orbit that shows the whole box.
+// The server frames the scene where target and distance are left to it.
+export const kWholeScene = { azimuthDegrees: 150, elevationDegrees: 22 };
+
+// An orbit that shows the whole box.
 export function fitOrbit(boundsMin, boundsMax, aspect = 16 / 9) {
   const target = boundsMin.map((low, i) => (low + boundsMax[i]) / 2);
   const radius = Math.hypot(...boundsMin.map((low, i) => (boundsMax[i] - low) / 2)) || 1;
   const halfAngle = Math.min(kFovYDegrees / 2, Math.atan(Math.tan((kFovYDegrees / 2) * kRadians) * aspect) / kRadians);
   const distance = radius / Math.sin(halfAngle * kRadians);
-  return { target, azimuthDegrees: 150, elevationDegrees: 22, distance };
+  return { ...kWholeScene, target, distance };
 }
 
 // The orbit that looks the way that an eye and a target do. The target of a glTF camera is only a direction: what is
@@ -32,11 +35,12 @@ export function orbitFromView({ eye, target }, depthRange, centre) {
   return turned(orbit, 0, 0);
 }
 
-// The user's orbit, else the one that the last frame's camera amounts to; null before the first frame.
-export function orbitInForce({ spec, report, summary }) {
-  if (spec.camera?.orbit) return spec.camera.orbit;
+// The user's orbit, else the one that the frame of this camera amounts to; null before there is one.
+export function orbitInForce({ spec, report, summary, cameraShown }) {
+  const own = spec.camera?.orbit;
+  if (own?.target && own.distance) return own;
   const shown = report?.spec.camera;
-  return shown?.eye && summary ? orbitFromView(shown, report.depthRange, centreOf(summary)) : null;
+  return shown?.eye && summary && cameraShown === spec.camera ? orbitFromView(shown, report.depthRange, centreOf(summary)) : null;
 }
 
 const centreOf = ({ boundsMin, boundsMax }) => boundsMin.map((low, i) => (low + boundsMax[i]) / 2);

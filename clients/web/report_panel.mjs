@@ -21,7 +21,7 @@ function lightOf(light) {
       element('td', { title: `${count(tile.culledTriangles)} culled` }, count(tile.casterTriangles)),
     );
   });
-  const head = [['', ''], ['metres', 'View depth; for a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
+  const head = [['no.', 'Number of the cascade or face'], ['metres', 'View depth; for a spot or point light, distance from it'], ['tile', 'Texels'], ['mm', 'Size of a texel in the world'], ['tri', 'Caster triangles drawn']];
   const table = element(
     'table',
     {},

@@ -1,5 +1,15 @@
 // From the page's state to the FrameSpec that is sent. Pure.
 
+const kMostPixels = 1920 * 1080;
+
+// The size of a picture that has a pixel for each of the screen's, in a place of so many CSS pixels; where these are more
+// than kMostPixels, of the same shape.
+export function pictureSize(width, height, pixelRatio) {
+  const scale = Math.min(pixelRatio, Math.sqrt(kMostPixels / Math.max(1, width * height)));
+  const side = (pixels) => Math.max(16, Math.round(pixels * scale));
+  return { width: side(width), height: side(height) };
+}
+
 // The sharp picture of the present state. `size` is used where the user chose none.
 export function fullSpec({ spec, view, report }, size) {
   const sized = spec.width && spec.height ? spec : { ...size, ...spec };

@@ -5,6 +5,7 @@
 //   summary  of the scene, or null
 //   freshVolume  its file was just chosen: the values in it are to set the scale of its density
 //   report   of the last frame, or null; its spec has every default resolved
+//   cameraShown  the spec's camera of the last frame, or null
 
 import { getPath, removePath, setPath } from './paths.mjs';
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { lightsWithSun, sunAgainst, sunInForce } from '../../../clients/web/light_math.mjs';
-import { basis, fitOrbit, orbitFromView, panned, turned, zoomed } from '../../../clients/web/orbit_math.mjs';
+import { basis, fitOrbit, kWholeScene, orbitFromView, orbitInForce, panned, turned, zoomed } from '../../../clients/web/orbit_math.mjs';
 import { fromDome, toDome } from '../../../clients/web/sky_dome.mjs';
 
 const kRadians = Math.PI / 180;
@@ -66,6 +66,16 @@ test('panning right by the height of the picture moves by what it shows', () => 
   const moved = panned(orbit, 1, 0, 90);
   near(moved.target[0], -20); // tan 45° · 10 m · 2, and the picture follows the hand
   near(panned(orbit, 0, 1, 90).target[1], 20);
+});
+
+test('an orbit that leaves its place to the server is that of the picture of it', () => {
+  const camera = { orbit: kWholeScene };
+  const report = { spec: { camera: { eye: [0, 0, 10], target: [0, 0, 0] } }, depthRange: [8, 12] };
+  const summary = { boundsMin: [-1, -1, -1], boundsMax: [1, 1, 1] };
+  assert.equal(orbitInForce({ spec: { camera }, report, summary, cameraShown: { node: 'node:1' } }), null);
+  const orbit = orbitInForce({ spec: { camera }, report, summary, cameraShown: camera });
+  near(orbit.distance, 10);
+  near(orbit.azimuthDegrees, 180);
 });
 
 test('the whole box is in view', () => {

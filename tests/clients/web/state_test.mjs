@@ -7,7 +7,8 @@ import { fromHash, toHash } from '../../../clients/web/deep_link.mjs';
 import { kSections } from '../../../clients/web/fields.mjs';
 import { flatten, getPath, pointerOf, removePath, setPath } from '../../../clients/web/paths.mjs';
 import { curlCommand } from '../../../clients/web/snippets.mjs';
-import { draftSpec, fullSpec } from '../../../clients/web/spec.mjs';
+import { withoutScene } from '../../../clients/web/scene_spec.mjs';
+import { draftSpec, fullSpec, pictureSize } from '../../../clients/web/spec.mjs';
 import { createStore } from '../../../clients/web/store.mjs';
 
 test('a path is set without touching what it is set in', () => {
@@ -44,6 +45,31 @@ test('a link brings the state back', () => {
   assert.deepEqual(fromHash(toHash(state)), state);
   assert.equal(toHash(fromHash(toHash(state))), toHash(state));
   assert.deepEqual(fromHash(''), { sceneId: null, view: 'color', spec: {} });
+});
+
+test('a link spells lists as fields do', () => {
+  const state = { sceneId: 'ab12', view: 'color', spec: { lights: [{ intensity: 2 }], volumes: [{ transferFunction: [{ value: 1 }] }] } };
+  assert.equal(toHash(state), '#scene=ab12&lights[0].intensity=2&volumes[0].transferFunction[0].value=1');
+  assert.deepEqual(fromHash(toHash(state)), state);
+  assert.deepEqual(fromHash('#scene=ab12&lights.0.intensity=2').spec, { lights: [{ intensity: 2 }] });
+});
+
+test('what belongs to a scene goes with it', () => {
+  const stays = { exposure: 1, width: 640, height: 360, shadow: { size: 'Large', filter: { type: 'pcf', size: 7 } }, toneMapping: 'none' };
+  const goes = {
+    camera: { node: 'node:3' }, lights: [{ type: 'point' }], nodes: [{ node: 4, visible: false }], animation: { index: 2, timeSeconds: 1 },
+    scene: 1, materialVariant: 'red', volumes: [{ file: 'a.npy' }], debug: { light: 3 }, motionFrom: { animation: { index: 1 } },
+  };
+  const lengths = { filter: { ...stays.shadow.filter, radius: 0.2 }, depthRange: { mode: 'manual', min: 0, max: 9 }, bias: { mode: 'manual', depth: 0.1 } };
+  assert.deepEqual(withoutScene({ ...stays, ...goes, shadow: { ...stays.shadow, ...lengths } }), stays);
+  assert.deepEqual(withoutScene({}), {});
+});
+
+test('a picture has a pixel for each of the screen', () => {
+  assert.deepEqual(pictureSize(390, 470, 2), { width: 780, height: 940 });
+  assert.deepEqual(pictureSize(900, 620, 1), { width: 900, height: 620 });
+  const { width, height } = pictureSize(1500, 2000, 3);
+  assert.ok(width * height < 1920 * 1080 * 1.01 && Math.abs(width / height - 0.75) < 0.01);
 });
 
 test('a link can not reach beyond the spec', () => {

@@ -128,7 +128,7 @@ test('lights are added, edited and taken away', async () => {
   assert.equal(await page.locator('.light-row:visible').count(), 2);
   const row = page.locator('.light-row').nth(1);
   await change(() => row.locator('input[role=switch]').uncheck());
-  await page.waitForFunction(() => location.hash.includes('lights.1.shadow.enabled=false'));
+  await page.waitForFunction(() => location.hash.includes('lights[1].shadow.enabled=false'));
   await change(() => row.getByRole('button', { name: 'Remove' }).click());
   assert.equal(await page.locator('.light-row:visible').count(), 1);
 });
@@ -137,7 +137,7 @@ test('a node is found and hidden', async () => {
   await unfold('Nodes');
   await open.page.locator('.node').first().waitFor();
   await open.page.fill('[type=search]', 'gnomon');
-  const seen = open.page.getByRole('button', { name: 'gnomon: the camera sees it' });
+  const seen = open.page.getByRole('button', { name: 'Seen by the camera: gnomon' });
   await change(() => seen.click());
   assert.equal(await seen.getAttribute('aria-pressed'), 'false');
   await change(() => open.page.getByRole('button', { name: 'All as in the file' }).click());
