@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "protocol/base/nearest_name.h"
 #include "protocol/fields/field_checks.h"
 
 namespace gnomon {
@@ -17,15 +18,17 @@ std::optional<double> numberOf(const JsonNode& node) {
   return std::nullopt;
 }
 
-void addUnknownKey(const std::vector<std::string_view>& known, const Place& place, ProblemList& problems) {
+void addUnknownKey(std::string_view key, const std::vector<std::string_view>& known, const Place& place,
+                   ProblemList& problems) {
   std::string names;
   for (const std::string_view name : known) {
     if (!names.empty()) names += ", ";
     names += name;
   }
+  const std::vector<std::string> words(known.begin(), known.end());
   problems.add({.code = ProblemCode::invalidValue,
                 .pointer = place.pointer(),
-                .detail = "There is no field of this name.",
+                .detail = "There is no field of this name" + suggestion(key, words),
                 .limit = names});
 }
 
@@ -129,9 +132,11 @@ bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems,
   if (!text) {
     addWrongType(node, names, place, problems);
   } else {
+    std::vector<std::string> words;
+    for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = place.pointer(),
-                  .detail = "This is not one of the possible values.",
+                  .detail = "This is not one of the possible values" + suggestion(*text, words),
                   .limit = names,
                   .actual = shownNode(node)});
   }
@@ -210,7 +215,7 @@ bool decodeObject(const JsonNode& node, const Place& place, ProblemList& problem
     if (decodeMember(member.key, member.value, inner, problems, type, out)) continue;
     std::vector<std::string_view> known;
     appendKeys(type, known);
-    addUnknownKey(known, inner, problems);
+    addUnknownKey(member.key, known, inner, problems);
   }
   return true;
 }

@@ -5,6 +5,7 @@
 
 #include "protocol/base/json.h"
 #include "protocol/base/text.h"
+#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
 #include "protocol/spec/limits.h"
@@ -12,7 +13,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMaxQueryKeys = 256; ///< more than a spec without lists has fields
+constexpr std::size_t kMaxQueryKeys = 256; ///< more than a spec with a few lights has fields
 
 using Query = std::vector<std::pair<std::string, std::string>>;
 
@@ -58,24 +59,47 @@ std::optional<JsonNode> sunOf(const std::string& text, ProblemList& problems) {
   return lights;
 }
 
-/// Where `path` ends in the tree, its objects made on the way; nothing where another key gave a value there already.
-JsonNode* makePlace(JsonNode& root, const std::vector<std::string>& path) {
-  JsonNode* node = &root;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    auto* object = std::get_if<JsonNode::Object>(&node->value);
-    if (!object) return nullptr;
-    const auto found =
-        std::find_if(object->begin(), object->end(), [&](const JsonMember& member) { return member.key == path[i]; });
-    const bool isLast = i + 1 == path.size();
-    if (found != object->end()) {
-      if (isLast) return nullptr;
-      node = &found->value;
-    } else {
-      object->push_back({path[i], isLast ? JsonNode{nullptr} : JsonNode{JsonNode::Object{}}});
-      node = &object->back().value;
-    }
+bool isIndex(const FieldStep& step) {
+  return std::holds_alternative<std::size_t>(step);
+}
+
+/// One step down the tree: what was there already, or what was made; nothing where no such step can be taken.
+struct Descent {
+  JsonNode* node = nullptr;
+  bool isNew = false;
+  bool leavesGap = false; ///< the list has no element before this one
+};
+
+Descent descend(JsonNode& from, const FieldStep& step) {
+  if (auto* array = std::get_if<JsonNode::Array>(&from.value); array && isIndex(step)) {
+    const std::size_t index = std::get<std::size_t>(step);
+    if (index > array->size()) return {nullptr, false, true};
+    const bool isNew = index == array->size();
+    if (isNew) array->push_back({nullptr});
+    return {&(*array)[index], isNew};
   }
-  return node;
+  auto* object = std::get_if<JsonNode::Object>(&from.value);
+  if (!object) return {};
+  const std::string key = isIndex(step) ? std::to_string(std::get<std::size_t>(step)) : std::get<std::string>(step);
+  const auto found =
+      std::find_if(object->begin(), object->end(), [&](const JsonMember& member) { return member.key == key; });
+  if (found != object->end()) return {&found->value, false};
+  object->push_back({key, {nullptr}});
+  return {&object->back().value, true};
+}
+
+/// Where `path` ends in the tree, its objects and lists made on the way; nothing where another key gave a value there
+/// already, or no element comes before one in a list.
+Descent makePlace(JsonNode& root, const std::vector<FieldStep>& path) {
+  Descent place{&root, false};
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    place = descend(*place.node, path[i]);
+    const bool isLast = i + 1 == path.size();
+    if (!place.node || (isLast && !place.isNew)) return {nullptr, false, place.leavesGap};
+    if (isLast || !place.isNew) continue;
+    place.node->value = isIndex(path[i + 1]) ? JsonNode{JsonNode::Array{}}.value : JsonNode{JsonNode::Object{}}.value;
+  }
+  return place;
 }
 
 /// Reads a query into the tree of the same spec's JSON.
@@ -92,7 +116,17 @@ class QueryReader {
       problem.pointer = shortenedKey(key);
       problems_.add(std::move(problem));
     }
-    if (value) put(key, std::move(*value));
+    if (value) gather(key, std::move(*value));
+  }
+
+  /// To be called once all keys are read. Elements of lists come last and in their order, whichever way they came.
+  void put() {
+    std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+      const bool ofList = std::any_of(a.path.begin(), a.path.end(), isIndex);
+      const bool otherOfList = std::any_of(b.path.begin(), b.path.end(), isIndex);
+      return ofList != otherOfList ? otherOfList : ofList && a.path < b.path;
+    });
+    for (Entry& entry : entries_) put(entry);
   }
 
   JsonNode& root() { return root_; }
@@ -105,38 +139,52 @@ class QueryReader {
     problems_.add({.code = code, .pointer = shortenedKey(key), .detail = detail});
   }
 
-  void put(const std::string& key, JsonNode value) {
-    std::vector<std::string> path;
-    if (key == "sun") {
-      path = {"lights"};
-    } else if (key == "view") {
-      path = {"views"};
+  struct Entry {
+    std::string key;
+    std::vector<FieldStep> path;
+    JsonNode value;
+  };
+
+  void gather(const std::string& key, JsonNode value) {
+    if (key == "view") {
       JsonNode list{JsonNode::Array{}};
       std::get<JsonNode::Array>(list.value).push_back(std::move(value));
       value = std::move(list);
-    } else if (key == "format") {
-      path = {"output", "format"};
-    } else {
-      path = split(key, '.');
     }
+    const auto path = fieldSteps(key == "sun"      ? "lights"
+                                 : key == "view"   ? "views"
+                                 : key == "format" ? "output.format"
+                                                   : key);
+    if (path) return entries_.push_back({key, *path, std::move(value)});
+    for (Problem problem : path.problems()) {
+      problem.pointer = shortenedKey(key);
+      problems_.add(std::move(problem));
+    }
+  }
+
+  void put(Entry& entry) {
+    const auto& [key, path, value] = entry;
     if (path.size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
       return add(key, ProblemCode::malformed, "This path has too many parts.");
     }
-    JsonNode* place = makePlace(root_, path);
-    if (!place) return add(key, ProblemCode::invalidValue, "Another key of the query gives this field, too.");
-    *place = std::move(value);
-    std::string pointer;
-    for (const std::string& part : path) pointer += pointerSegment(part);
-    fields_.push_back({key, std::move(pointer)});
+    const Descent place = makePlace(root_, path);
+    if (!place.node) {
+      return add(key, ProblemCode::invalidValue,
+                 place.leavesGap ? "The list has no element before this one: indices begin at 0 and leave none out."
+                                 : "Another key of the query gives this field, too.");
+    }
+    *place.node = std::move(entry.value);
+    fields_.push_back({key, pointerOf(path)});
   }
 
   ProblemList& problems_;
   JsonNode root_{JsonNode::Object{}};
   std::unordered_set<std::string> seen_;
+  std::vector<Entry> entries_;
   std::vector<QueryField> fields_;
 };
 
-/// The query key that gave what stands at a JSON pointer; where none did, the one that would: its dotted path.
+/// The query key that gave what stands at a JSON pointer; where none did, the one that would.
 std::string keyAt(const std::string& pointer, const std::vector<QueryField>& fields) {
   for (const QueryField& field : fields) {
     if (pointsInto(pointer, field.pointer)) return QueryReader::shortenedKey(field.key);
@@ -144,9 +192,7 @@ std::string keyAt(const std::string& pointer, const std::vector<QueryField>& fie
   for (const QueryField& field : fields) {
     if (pointsInto(field.pointer, pointer)) return QueryReader::shortenedKey(field.key);
   }
-  std::string path = pointer.empty() ? "" : pointer.substr(1);
-  std::replace(path.begin(), path.end(), '/', '.');
-  return path;
+  return fieldPath(pointer);
 }
 
 } // namespace
@@ -161,6 +207,7 @@ Result<FrameSpec> decodeFrameQuery(const Query& query) {
   ProblemList problems;
   QueryReader reader(problems);
   for (const auto& [key, text] : query) reader.read(key, text);
+  reader.put();
 
   Result<FrameSpec> spec = decodeFrameTree(reader.root(), ProblemList());
   if (!spec) {

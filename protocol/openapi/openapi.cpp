@@ -178,7 +178,7 @@ Json planRoute() {
 Json frameRoute() {
   Json get = operation("getFrame", "Render a frame from a query string, for links and <img>",
                        frameReplies({"304", "400", "404", "406", "413", "422", "429", "500", "503", "504"}));
-  get["description"] = "Keys are a field's dotted path; values are JSON or bare words.";
+  get["description"] = "Keys are a field's path, as camera.node or lights[0].intensity; values are JSON or bare words.";
   get["parameters"] = queryParameters();
   return {{"get", std::move(get)}};
 }

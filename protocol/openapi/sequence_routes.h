@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/base/json.h"
+#include "protocol/json/json_source.h"
 
 /// The routes of sequences, drawn while the client waits or as jobs.
 namespace gnomon::openapi {

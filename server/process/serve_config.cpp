@@ -74,10 +74,8 @@ Status applyConfig(CLI::App& command, const std::string& file) {
     const std::string place = file + ":" + std::to_string(entry.line);
     CLI::Option* const known = checked.get_option_no_throw("--" + entry.key);
     if (known == nullptr || !known->get_configurable()) {
-      const std::string nearest = nearestName(entry.key, keys);
-      const std::string meant = nearest.empty() ? "." : "; did you mean " + nearest + "?";
-      problems.push_back(
-          {ProblemCode::invalidValue, place, "There is no key " + asciiExcerpt(entry.key) + meant, "", ""});
+      const std::string detail = "There is no key " + asciiExcerpt(entry.key) + suggestion(entry.key, keys);
+      problems.push_back({ProblemCode::invalidValue, place, detail, "", ""});
     } else if (const std::string fault = setOption(*known, entry); !fault.empty()) {
       problems.push_back({ProblemCode::invalidValue, place, entry.key + ": " + fault, "", ""});
     } else if (CLI::Option& option = *command.get_option("--" + entry.key); option.count() == 0) {

@@ -41,6 +41,35 @@ class Fields(CommandLine):
         self.render()
         self.assertNotEqual(flags, self.output.read_bytes())
 
+    def test_an_alpha_makes_the_background_transparent(self):
+        self.render("--background", "0,0,0,0")
+        flag = self.output.read_bytes()
+        self.render("--set", "background.color=[0,0,0]", "--set", "background.alpha=0")
+        self.assertEqual(flag, self.output.read_bytes())
+        self.assertEqual(flag[25], 6)  # the IHDR's color type: with alpha
+        self.assert_ends(gnomon("render", BOX, "-o", "a.png", "--background", "0,0"), USAGE, "or four with alpha")
+
+    def test_an_element_of_a_list_is_spelled_as_fields_are(self):
+        self.render("--set", "lights[0].sun.azimuthDegrees=40", "--set", "lights[0].sun.elevationDegrees=30")
+        sets = self.output.read_bytes()
+        self.render("--sun", "40,30")
+        self.assertEqual(sets, self.output.read_bytes())
+        for path in ("lights[].intensity", "lights[3].intensity"):
+            run = gnomon("render", BOX, "-o", str(self.output), "--set", f"{path}=3")
+            self.assert_ends(run, PROBLEM, f"--set {path} ")
+
+    def test_what_was_meant_is_guessed(self):
+        for flags, meant in ((["--set", "shadow.filtr.size=7"], "filter"), (["--view", "dept"], "depth")):
+            run = gnomon("render", BOX, "-o", str(self.output), *flags)
+            self.assert_ends(run, PROBLEM, f"did you mean {meant}?")
+
+    def test_a_request_that_is_broken_names_its_file(self):
+        spec = self.folder / "spec.json"
+        for text, said in (('{"width": 64,', "This is not JSON"), ('{"width": 0}', "/width: ")):
+            spec.write_text(text)
+            for command in (["render", BOX, "-o", str(self.output)], ["plan", BOX], ["evaluate", BOX]):
+                self.assert_ends(gnomon(*command, "--spec", str(spec)), PROBLEM, f"({spec})", said)
+
     def test_a_placement_replaces_that_of_the_request(self):
         spec = self.folder / "spec.json"
         spec.write_text('{"camera": {"orbit": {"azimuthDegrees": 10}}}')
@@ -64,6 +93,36 @@ class Fields(CommandLine):
 
 
 class Many(CommandLine):
+    def named_alike(self):
+        """Two scenes of one name, in folders of their own."""
+        scenes = []
+        for folder in ("one", "two"):
+            (self.folder / folder).mkdir()
+            scenes.append(str(shutil.copy(BOX, self.folder / folder / "box.glb")))
+        return scenes
+
+    def test_scenes_of_one_name_are_told_apart_by_their_folders(self):
+        scenes = self.named_alike()
+        self.assert_ends(gnomon("render", *scenes, "-o", str(self.folder / "{folder}-{scene}.png"), *SMALL), OK)
+        for folder in ("one", "two"):
+            self.assertEqual(png_size((self.folder / f"{folder}-box.png").read_bytes()), (64, 48))
+
+    def test_without_their_folders_the_rest_is_drawn(self):
+        scenes = [*self.named_alike(), CAMERAS]
+        run = gnomon("render", *scenes, "-o", str(self.folder / "{scene}.png"), *SMALL)
+        self.assert_ends(run, PROBLEM, f"({scenes[1]})", scenes[0], "a name with {folder}")
+        self.assertEqual(len(run.stderr.splitlines()), 1)
+        for name in ("box", "cameras"):
+            self.assertEqual(png_size((self.folder / f"{name}.png").read_bytes()), (64, 48))
+
+    def test_a_scene_that_is_cut_is_named(self):
+        cut = self.folder / "cut.glb"
+        cut.write_bytes(Path(BOX).read_bytes()[:600])
+        length = str(Path(BOX).stat().st_size)
+        for command in (["render", str(cut), "-o", str(self.output)], ["inspect", str(cut)], ["plan", str(cut)],
+                        ["turntable", str(cut), "--frames", "2", "-o", str(self.folder / "{frame}.png")]):  # fmt: skip
+            self.assert_ends(gnomon(*command), PROBLEM, f"gnomon: {cut}: ", "600", length)
+
     def test_every_scene_by_every_camera(self):
         names = [camera["name"] for camera in json.loads(gnomon("inspect", CAMERAS, "--json").stdout)["cameras"]][:2]
         self.assertEqual(len(set(names)), 2)

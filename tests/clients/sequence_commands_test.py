@@ -33,6 +33,21 @@ class Sequences(CommandLine):
             self.assert_ends(self.run_sequence("there-{frame}.png", REQUEST, "--server", url), OK)
         self.assertEqual(self.files("there-*.png"), here)
 
+    def test_other_videos_than_webm_are_told_what_there_is(self):
+        for name in ("turn.mp4", "turn.MOV", "turn-{frame}.mkv", "turn.gif"):
+            run = gnomon("turntable", BOX, "-o", str(self.folder / name), "--frames", "2")
+            self.assert_ends(run, USAGE, "videos are .webm")
+            self.assertNotIn("{frame} in its name", run.stderr.decode())
+        self.assert_ends(gnomon("turntable", BOX, "-o", "turn.png"), USAGE, "needs {frame}", ".webm")
+        self.assert_ends(gnomon("turntable", BOX, "-o", "turn-{frame}.bmp"), USAGE, ".png", ".webm")
+
+    def test_a_request_that_is_broken_names_its_file(self):
+        request = self.folder / "request.json"
+        for text in ('{"spec": {', '{"count": 0}', '{"spec": {"width": 0}, "frames": [{}]}'):
+            request.write_text(text)
+            run = gnomon("sequence", BOX, str(request), "-o", str(self.folder / "{frame}.png"))
+            self.assert_ends(run, PROBLEM, f"({request})")
+
     def test_the_request_may_stand_behind_the_scene(self):
         request = self.folder / "request.json"
         request.write_text(json.dumps(REQUEST))

@@ -201,6 +201,13 @@ class WithProxy(CommandLine):
         self.assertEqual(self.count("POST", "/frames"), 2)
         self.assertGreaterEqual(self.count("POST", "/v1/scenes"), 1)
 
+    def test_an_upload_that_is_cut_is_named(self):
+        cut = self.folder / "cut.glb"
+        cut.write_bytes(Path(BOX).read_bytes()[:600])
+        run = gnomon("upload", BOX, str(cut), *self.there)
+        self.assert_ends(run, PROBLEM, f"({cut})", "600", str(Path(BOX).stat().st_size))
+        self.assert_ends(gnomon("render", str(cut), "-o", str(self.output), *self.there), PROBLEM, f"gnomon: {cut}: ", "600")
+
     def test_a_scene_that_the_server_has_is_drawn_by_its_id(self):
         self.render(*self.there)
         drawn = self.output.read_bytes()

@@ -127,6 +127,15 @@ class Frames(ServerTest):
         self.assertEqual(self.server.get(f"{path}?width=64&height=48&format=exr").body[:4], EXR_MAGIC)
         self.assert_problem(self.server.get(f"{path}?width=64&widht=64"), 400, "widht")
 
+    def test_a_query_reaches_into_lists(self):
+        spec = {"width": 64, "height": 48, "lights": [{"sun": {"azimuthDegrees": 58, "elevationDegrees": 22}, "intensity": 2},
+                                                      {"type": "point", "position": [0, 3, 0]}]}  # fmt: skip
+        query = "lights%5B1%5D.position=%5B0%2C3%2C0%5D&lights[0].intensity=2&lights[1].type=point&sun=58,22&width=64&height=48"
+        reply = self.server.get(f"/v1/scenes/{self.scene}/frame?{query}", Accept="image/png")
+        self.assertEqual(reply.body, self.server.frame(self.scene, spec, "image/png").body)
+        refused = self.server.get(f"/v1/scenes/{self.scene}/frame?lights[1].type=point")
+        self.assert_problem(refused, 400, "lights[1].type")
+
     def test_a_known_frame_is_not_drawn_again(self):
         path = f"/v1/scenes/{self.scene}/frame?width=64&height=48"
         tag = self.server.get(path).headers["ETag"]

@@ -50,7 +50,7 @@ int runBake(const BakeOptions& options) {
   auto progress = ProgressLine::onTerminal();
   const auto baked = bakeScene(options, *spec, progress);
   progress.finish();
-  if (!baked) return printProblems(baked.problems(), origins);
+  if (!baked) return printProblems(ofScene(options.scene, baked.problems()), origins);
   if (const Status written = writeFile(options.output, baked->file); !written) return printProblems(written.problems());
   if (options.report.empty()) return kExitOk;
   const Status reported = writeFile(options.report, asBytes(baked->reportJson));

@@ -76,10 +76,8 @@ std::string failureText(const CLI::App* app, const CLI::Error& error) {
        app->get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); })) {
     names.push_back(command->get_name());
   }
-  const std::string nearest = nearestName(word, names);
-  return CLI::FailureMessage::simple(app,
-                                     CLI::ValidationError("There is no command " + asciiExcerpt(word) +
-                                                          (nearest.empty() ? "." : "; did you mean " + nearest + "?")));
+  return CLI::FailureMessage::simple(
+      app, CLI::ValidationError("There is no command " + asciiExcerpt(word) + suggestion(word, names)));
 }
 
 } // namespace

@@ -102,7 +102,7 @@ int runEvaluate(const EvaluateOptions& options) {
   auto progress = ProgressLine::onTerminal();
   const auto report = measure(options, *request, progress);
   progress.finish();
-  if (!report) return printProblems(report.problems(), origins);
+  if (!report) return printProblems(ofScene(options.scene, report.problems()), origins);
   if (const Status written = writeAll(options, *report); !written) return printProblems(written.problems());
   const bool piped = options.json == "-" || options.csv == "-" || options.svg == "-";
   if (!piped) std::cout << evaluationTable(*report);

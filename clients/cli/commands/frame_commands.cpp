@@ -124,11 +124,11 @@ int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedS
       progress.lead(std::to_string(i + 1) + " of " + std::to_string(items.size()) + ", " + nameOf(items[i]) + ": ");
     }
     const ResolvedSpec& resolved = specs[i % specs.size()];
-    Status made = run.make(items[i], *resolved.spec);
+    const Status made = items[i].collision ? Status(*items[i].collision) : run.make(items[i], *resolved.spec);
     progress.finish();
     if (made) continue;
-    exit =
-        printProblems(items.size() > 1 ? about(nameOf(items[i]), made.problems()) : made.problems(), resolved.origins);
+    const Problems problems = ofScene(items[i].scene, made.problems());
+    exit = printProblems(items.size() > 1 ? about(nameOf(items[i]), problems) : problems, resolved.origins);
   }
   return exit;
 }
@@ -143,7 +143,7 @@ int runRender(RenderOptions options) {
   std::vector<ResolvedSpec> specs;
   for (std::size_t i = 0; i < std::max<std::size_t>(options.cameras.size(), 1); ++i) {
     if (!options.cameras.empty()) options.arguments.camera = options.cameras[i];
-    specs.push_back(resolveSpec(*text, options.arguments));
+    specs.push_back(resolveSpec(*text, options.arguments, options.spec));
     if (!specs.back().spec) return printProblems(specs.back().spec.problems(), specs.back().origins);
   }
   auto maker = makerFor(options.where);
@@ -179,7 +179,7 @@ int runPlan(const PlanOptions& options) {
   auto progress = ProgressLine::onTerminal();
   const auto plan = planScene(options, *spec, progress);
   progress.finish();
-  if (!plan) return printProblems(plan.problems(), origins);
+  if (!plan) return printProblems(ofScene(options.scene, plan.problems()), origins);
   std::cout << *plan;
   return kExitOk;
 }
@@ -201,7 +201,8 @@ Subcommand addRenderCommand(CLI::App& app) {
               "-o,--output", options->output,
               "The picture; its name's suffix is its format: " + suffixList() +
                   ". - is standard output. Of several views, each file name gets the view's name, frame.depth.png, but "
-                  "for EXR and NPZ, which hold every view. {scene}, {camera} and {view} stand for those names")
+                  "for EXR and NPZ, which hold every view. {scene}, {camera} and {view} stand for those names, "
+                  "{folder} for that of the folder that the scene lies in")
           ->required()
           ->check(checkOutput);
   command

@@ -31,7 +31,7 @@ Result<SceneSummary> inspect(const std::string& path) {
 
 int runInspect(const InspectOptions& options) {
   const auto summary = inspect(options.scene);
-  if (!summary) return printProblems(summary.problems());
+  if (!summary) return printProblems(ofScene(options.scene, summary.problems()));
   if (options.json) {
     std::cout << toJson(*summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   } else {

@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
@@ -18,6 +20,7 @@
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
+#include "protocol/base/text.h"
 #include "protocol/job/job_json.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/sequence_json.h"
@@ -46,13 +49,28 @@ bool isVideo(const std::string& output) {
   return std::filesystem::path(output).extension() == kVideoSuffix;
 }
 
+/// A suffix that promises moving pictures in one file.
+bool looksLikeVideo(const std::string& output) {
+  constexpr std::array<std::string_view, 9> kSuffixes{".mp4", ".m4v",  ".mov", ".avi", ".mkv",
+                                                      ".ogv", ".mpeg", ".gif", ".apng"};
+  const std::string suffix = lowerCase(std::filesystem::path(output).extension().string());
+  return suffix == kVideoSuffix || std::find(kSuffixes.begin(), kSuffixes.end(), suffix) != kSuffixes.end();
+}
+
 std::string checkFrameName(const std::string& output) {
   if (isVideo(output)) {
     const bool isOne = output.find("{frame}") == std::string::npos && output.find("{view}") == std::string::npos;
     return isOne ? "" : "is one file: a video has no {frame} and no {view} in its name";
   }
-  if (output.find("{frame}") == std::string::npos) return "needs {frame} in its name, as frames/{frame}.png";
-  return checkPictureName(output);
+  if (looksLikeVideo(output)) {
+    return "can't be " + std::filesystem::path(output).extension().string() + ": videos are .webm, as turn.webm";
+  }
+  const std::string wrong = checkPictureName(output);
+  if (!wrong.empty()) return wrong + ", or of a video in .webm";
+  if (output.find("{frame}") == std::string::npos) {
+    return "needs {frame} in its name, as frames/{frame}.png; a video is one file, as turn.webm";
+  }
+  return "";
 }
 
 Status writeReport(const SequenceOptions& options, const std::string& report) {
@@ -64,7 +82,7 @@ int drawVideo(const SequenceOptions& options, const std::string& requestJson, co
               const FlagOrigins& origins, FrameMaker& maker, ProgressLine& progress) {
   const auto fail = [&](const Problems& problems) {
     progress.finish();
-    return printProblems(problems, origins);
+    return printProblems(ofScene(options.scene, problems), origins);
   };
   const auto name = filledIn(options.output, {{"scene", sceneName(options.scene)}});
   if (!name) return fail(name.problems());
@@ -95,7 +113,7 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
   };
   const auto report = maker.drawAll(sequence, requestJson, take, progress);
   progress.finish();
-  if (!report) return printProblems(report.problems(), origins);
+  if (!report) return printProblems(ofScene(options.scene, report.problems()), origins);
   if (auto done = writeReport(options, *report); !done) return printProblems(done.problems());
   if (options.report != "-") std::cout << written << " pictures\n";
   return kExitOk;
@@ -105,7 +123,8 @@ Status openScene(const SequenceOptions& options, const FrameSpec& spec, FrameMak
   progress.stage("reading " + options.scene);
   auto bundle = readSceneFile(options.scene, spec.volumes);
   if (!bundle) return bundle.problems();
-  return maker.open(*std::move(bundle), progress);
+  const Status opened = maker.open(*std::move(bundle), progress);
+  return opened ? opened : Status(ofScene(options.scene, opened.problems()));
 }
 
 /// Leaves the frames to a job of the server, and prints its id.
@@ -128,7 +147,7 @@ int submitJob(const SequenceOptions& options, const std::string& requestJson, co
   };
   const auto reply = callAbout(*remote, *bundle, id, callOf, "asking for a job", progress);
   progress.finish();
-  if (!reply) return printProblems(reply.problems(), origins);
+  if (!reply) return printProblems(ofScene(options.scene, reply.problems()), origins);
   const auto job = reply->status == 202 ? readJob(reply->body) : std::nullopt;
   if (!job) return printProblems(problemsOf(remote->url, *reply), origins);
   std::cout << printable(job->id) << '\n';
@@ -150,7 +169,9 @@ int runSequence(SequenceOptions options) {
   std::string requestJson = *text;
   if (request.is_object()) {
     const ResolvedSpec resolved = resolveSpec(request.value("spec", Json::object()).dump(), options.arguments);
-    if (!resolved.spec) return printProblems(about("spec", resolved.spec.problems()), resolved.origins);
+    if (!resolved.spec) {
+      return printProblems(ofRequest(options.spec, about("spec", resolved.spec.problems())), resolved.origins);
+    }
     request["spec"] = Json::parse(resolved.json);
     addVideoFields(options, request);
     requestJson = jsonText(request);
@@ -158,7 +179,7 @@ int runSequence(SequenceOptions options) {
   }
   FrameSizes sizes;
   const auto sequence = decodeSequence(requestJson, [&](const FrameSpec& spec) { sizes.see(spec); });
-  if (!sequence) return printProblems(sequence.problems());
+  if (!sequence) return printProblems(ofRequest(options.spec, sequence.problems()));
   if (options.isAsync) return submitJob(options, requestJson, *sequence, origins);
   if (auto problem = sizes.problem(*sequence); problem && isVideo(options.output)) return printProblems({*problem});
   auto maker = makerFor(options.where);

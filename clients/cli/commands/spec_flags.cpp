@@ -136,7 +136,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
             if (asked && set && *asked != *set)
               refuse("--set", "output.format is " + *set + ", but the output's name says " + *asked);
           },
-          "Set any field of the request by its dotted path. Repeatable")
+          "Set any field of the request by its path, a list's element as lights[0].intensity. Repeatable")
       ->type_name("PATH=VALUE")
       ->take_all()
       ->group("Picture");

@@ -49,7 +49,7 @@ Result<std::string> uploadFile(const Remote& remote, const std::string& file, Pr
   const auto bundle = readSceneFile(file);
   if (!bundle) return bundle.problems();
   auto id = sceneId(remote, *bundle, progress);
-  if (!id) return id.problems();
+  if (!id) return about(file, id.problems());
   return *id + "  " + printable(file);
 }
 

@@ -80,7 +80,7 @@ int runWatch(WatchOptions options) {
     if (made) {
       std::cout << options.output << "  " << std::lround(millisecondsSince(start)) << " ms" << std::endl;
     } else {
-      printProblems(made.problems(), resolved.origins);
+      printProblems(ofScene(options.scene, made.problems()), resolved.origins);
       std::cerr << std::flush;
     }
   } while (watch->wait());

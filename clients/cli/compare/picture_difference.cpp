@@ -62,19 +62,23 @@ std::string kindText(const Image& picture) {
   return isFloat(picture) ? "linear floats" : "8 bits a channel";
 }
 
-Result<LayerPair> pairOf(std::span<const ExrLayer> first, std::span<const ExrLayer> second, const std::string& asked) {
-  const auto equals = asked.find('=');
+/// The layers of this name, or of both names of NAME=OTHER. `flag` is what asks for them; empty = every layer is
+/// compared.
+Result<LayerPair> pairOf(std::span<const ExrLayer> first, std::span<const ExrLayer> second, const std::string& asked,
+                         const std::string& flag) {
+  const auto equals = flag.empty() ? std::string::npos : asked.find('=');
   const std::string ours = asked.substr(0, equals);
   const std::string theirs = equals == std::string::npos ? ours : asked.substr(equals + 1);
-  const auto place = [](std::span<const ExrLayer> layers, const std::string& name) -> Result<std::size_t> {
+  const auto place = [&](std::span<const ExrLayer> layers, const std::string& name,
+                         const std::string& which) -> Result<std::size_t> {
     std::string names;
     for (std::size_t i = 0; i < layers.size(); ++i) {
       if (layers[i].name == name) return i;
       names += (names.empty() ? "" : ", ") + layers[i].name;
     }
-    return Problem{ProblemCode::notFound, "--layer", "The picture has no such layer.", names, name};
+    return Problem{ProblemCode::notFound, flag, "The " + which + " picture has no such layer.", names, name};
   };
-  const auto here = place(first, ours), there = place(second, theirs);
+  const auto here = place(first, ours, "first"), there = place(second, theirs, "second");
   if (!here) return here.problems();
   if (!there) return there.problems();
   return LayerPair{*here, *there};
@@ -116,7 +120,7 @@ Result<std::vector<LayerPair>> layerPairs(std::span<const ExrLayer> first, std::
   std::vector<LayerPair> pairs;
   Problems problems;
   for (const std::string& each : wanted) {
-    const auto pair = pairOf(first, second, each);
+    const auto pair = pairOf(first, second, each, asked.empty() ? "" : "--layer");
     if (pair) pairs.push_back(*pair);
     if (!pair) problems.insert(problems.end(), pair.problems().begin(), pair.problems().end());
   }

@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::string_view kPresetPrefix = "preset.";
 
-std::string suggestion(std::string_view mistyped, std::span<const std::string> names) {
-  const std::string nearest = nearestName(mistyped, names);
-  return nearest.empty() ? "." : "; did you mean " + nearest + "?";
-}
-
 std::string placeOf(const std::string& file, int line) {
   return file + ":" + std::to_string(line);
 }

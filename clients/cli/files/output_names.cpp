@@ -25,19 +25,46 @@ bool isName(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// Two items that would write one file.
-std::optional<Problem> collision(const std::vector<BatchItem>& items, std::string BatchItem::*file, const char* flag) {
+bool has(const std::string& pattern, const char* placeholder) {
+  return pattern.find(placeholder) != std::string::npos;
+}
+
+bool hasPlaceholder(const std::string& pattern) {
+  return has(pattern, "{scene}") || has(pattern, "{folder}") || has(pattern, "{camera}");
+}
+
+/// What would tell the two apart in the pattern; empty where nothing would.
+std::string missingPlaceholders(const std::string& pattern, const BatchItem& a, const BatchItem& b) {
+  std::string missing;
+  if (a.scene != b.scene && !has(pattern, "{scene}")) missing = "{scene}";
+  if (a.scene != b.scene && has(pattern, "{scene}") && !has(pattern, "{folder}")) missing = "{folder}";
+  if (a.camera != b.camera && !has(pattern, "{camera}"))
+    missing += (missing.empty() ? "" : " and ") + std::string("{camera}");
+  return missing.empty() ? "" : "a name with " + missing;
+}
+
+/// Marks the items that would write a file which one before them writes.
+void markCollisions(std::vector<BatchItem>& items, std::string BatchItem::*file, const std::string& pattern,
+                    const char* flag) {
   std::map<std::string, const BatchItem*> owners;
-  for (const BatchItem& item : items) {
+  for (BatchItem& item : items) {
     const std::string& name = item.*file;
-    if (name.empty()) continue;
+    if (name.empty() || item.collision) continue;
     const auto [owner, isNew] = owners.emplace(name, &item);
     if (isNew) continue;
     const std::string what = name == "-" ? "Standard output" : "The file " + name;
-    return Problem{ProblemCode::invalidValue, flag, what + " would be written more than once.",
-                   "a name with {scene} and {camera}", owner->second->scene + " and " + item.scene};
+    item.collision = Problem{ProblemCode::invalidValue, flag,
+                             what + " would be written more than once: by " + owner->second->scene + ", too.",
+                             missingPlaceholders(pattern, *owner->second, item), ""};
   }
-  return std::nullopt;
+}
+
+/// The name of the folder that a scene lies in.
+std::string folderName(const std::string& path) {
+  if (path == "-") return "stdin";
+  std::error_code error;
+  const auto whole = std::filesystem::absolute(path, error).lexically_normal();
+  return error ? "" : whole.parent_path().filename().string();
 }
 
 } // namespace
@@ -78,16 +105,23 @@ Result<std::vector<BatchItem>> batchItems(const BatchOrder& order) {
   std::vector<BatchItem> items;
   for (const std::string& scene : order.scenes) {
     for (const auto& camera : cameras) {
-      const Placeholders values{{"scene", sceneName(scene)}, {"camera", camera.value_or("default")}};
+      const Placeholders values{
+          {"scene", sceneName(scene)}, {"folder", folderName(scene)}, {"camera", camera.value_or("default")}};
       auto output = filledIn(order.output, values);
       if (!output) return output.problems();
       auto report = filledIn(order.report, values);
       if (!report) return report.problems();
-      items.push_back({scene, camera, *std::move(output), *std::move(report)});
+      items.push_back({scene, camera, *std::move(output), *std::move(report), std::nullopt});
     }
   }
-  if (auto problem = collision(items, &BatchItem::output, "--output")) return *std::move(problem);
-  if (auto problem = collision(items, &BatchItem::report, "--report")) return *std::move(problem);
+  for (const auto& [file, pattern, flag] : {std::tuple(&BatchItem::output, &order.output, "--output"),
+                                            std::tuple(&BatchItem::report, &order.report, "--report")}) {
+    if (pattern->empty()) continue;
+    markCollisions(items, file, *pattern, flag);
+    // Of a name that is the same for all, all but the first would fail.
+    const auto collided = std::find_if(items.begin(), items.end(), [](const auto& item) { return item.collision; });
+    if (collided != items.end() && !hasPlaceholder(*pattern)) return *collided->collision;
+  }
   return items;
 }
 

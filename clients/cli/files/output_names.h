@@ -37,10 +37,11 @@ struct BatchItem {
   std::string scene;
   std::optional<std::string> camera;
   std::string output, report;
+  std::optional<Problem> collision; ///< it would write a file that one before it writes: it is not to be made
 };
 
-/// The pictures to make, scene by scene. {scene} is a scene's name, {camera} the flag's value, or "default" without
-/// one. Problems: two pictures, or two reports, that would be one file; several on standard output.
+/// The pictures to make, scene by scene. {scene} is a scene's name, {folder} that of its folder, {camera} the flag's
+/// value, or "default" without one. Problems: a name that is the same for all, where there are several.
 Result<std::vector<BatchItem>> batchItems(const BatchOrder& order);
 
 } // namespace gnomon::cli

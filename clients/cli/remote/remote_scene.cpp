@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/base/bytes.h"
+#include "protocol/json/problem_rows.h"
 
 namespace gnomon::cli {
 namespace {
@@ -71,14 +72,26 @@ std::string textAt(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+namespace {
+
+ProblemCode codeAt(const Json& entry) {
+  const std::string word = textAt(entry, "code");
+  for (const Spelling& spelling : kSpellings<ProblemCode>) {
+    if (spelling.name == word) return static_cast<ProblemCode>(spelling.value);
+  }
+  return ProblemCode::invalidValue;
+}
+
+} // namespace
+
 Problems problemsOf(const std::string& server, const HttpReply& reply) {
   const Json body = Json::parse(reply.body, nullptr, false);
   Problems problems;
   if (body.is_object() && body.contains("problems") && body["problems"].is_array()) {
     for (const Json& entry : body["problems"]) {
       if (!entry.is_object()) continue;
-      problems.push_back({ProblemCode::invalidValue, textAt(entry, "pointer"), textAt(entry, "detail"),
-                          textAt(entry, "limit"), textAt(entry, "actual")});
+      problems.push_back({codeAt(entry), textAt(entry, "pointer"), textAt(entry, "detail"), textAt(entry, "limit"),
+                          textAt(entry, "actual")});
     }
   }
   if (problems.empty()) {

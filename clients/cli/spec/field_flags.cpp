@@ -40,6 +40,9 @@ Result<Json> fieldValue(const FieldFlag& flag, std::string_view text) {
     case FlagValue::threeNumbers:
       if (const auto numbers = parseNumbers(text, 3, 3)) return Json(*numbers);
       return notA(flag, "three numbers with commas between", text);
+    case FlagValue::color:
+      if (const auto numbers = parseNumbers(text, 3, 4)) return Json(*numbers);
+      return notA(flag, "three numbers with commas between, red, green and blue, or four with alpha", text);
     case FlagValue::word:
       return Json(std::string(text));
     case FlagValue::nameOrIndex:
@@ -54,6 +57,7 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
   if (!value) return value.problems();
   std::string path = flag.path;
   if (flag.value == FlagValue::nameOrIndex) path += value->is_number() ? ".index" : ".name";
+  if (flag.value == FlagValue::color) path += ".color";
   const auto steps = split(path, '.');
   // First, since erasing moves what stands behind.
   const auto camera = spec.find("camera");
@@ -64,6 +68,11 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
     return Problem{ProblemCode::invalidValue, pointerOf(path), "There is no such place in the spec.", "", ""};
   }
   if (flag.value == FlagValue::nameOrIndex) parent->erase(value->is_number() ? "name" : "index");
+  if (flag.value == FlagValue::color) {
+    if (value->size() > 3) (*parent)["alpha"] = (*value)[3];
+    (*parent)["color"] = {(*value)[0], (*value)[1], (*value)[2]};
+    return pointerOf(flag.path);
+  }
   (*parent)[steps.back()] = *std::move(value);
   return pointerOf(path);
 }

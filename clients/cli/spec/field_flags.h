@@ -12,6 +12,7 @@ namespace gnomon::cli {
 enum class FlagValue {
   number,
   threeNumbers,
+  color,      ///< three numbers, or four with the alpha: the field's `color` and `alpha`
   word,       ///< taken as it is written
   nameOrIndex ///< the field is called index where it is a whole number, and name where it isn't
 };
@@ -20,7 +21,7 @@ enum class FlagValue {
 /// the request goes.
 struct FieldFlag {
   const char* flag;
-  const char* path; ///< dotted; of a nameOrIndex the object
+  const char* path; ///< dotted; of a nameOrIndex and a color the object
   FlagValue value;
   const char* typeName; ///< for help
   const char* replaces; ///< fields of `camera` that go, with a space between: other placements, other lenses
@@ -41,15 +42,15 @@ inline constexpr std::array kFieldFlags{
     FieldFlag{"--animation", "animation", FlagValue::nameOrIndex, "NAME", "", "An animation, by its name or index"},
     FieldFlag{"--time", "animation.timeSeconds", FlagValue::number, "SECONDS", "", "Time within the animation"},
     FieldFlag{"--variant", "materialVariant", FlagValue::word, "NAME", "", "A material variant of the scene"},
-    FieldFlag{"--background", "background.color", FlagValue::threeNumbers, "R,G,B", "",
-              "Linear red, green and blue behind everything, 0..1"},
+    FieldFlag{"--background", "background", FlagValue::color, "R,G,B[,A]", "",
+              "Linear red, green and blue behind everything, and how opaque it is, 0..1; 0,0,0,0 is transparent"},
     FieldFlag{"--exposure", "exposure", FlagValue::number, "STOPS", "", "Light is multiplied by 2 to this power"},
 };
 
-/// The value that a flag's text gives its field. A problem says what the text should be.
+/// The value that a flag's text gives its field, of a color all its numbers. A problem says what the text should be.
 Result<Json> fieldValue(const FieldFlag& flag, std::string_view text);
 
-/// Puts the flag's value into the spec. Gives the pointer of the field.
+/// Puts the flag's value into the spec. Gives the pointer of the field, of a color that of the object.
 Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::string_view text);
 
 } // namespace gnomon::cli

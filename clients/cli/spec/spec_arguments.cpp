@@ -10,6 +10,7 @@
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/spec/field_flags.h"
 #include "protocol/base/text.h"
+#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
 #include "protocol/spec/limits.h"
@@ -17,43 +18,47 @@
 namespace gnomon::cli {
 namespace {
 
-std::optional<std::size_t> indexOf(const std::string& step) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-  if (error != std::errc() || end != step.data() + step.size()) return std::nullopt;
-  return index;
-}
-
 /// The place one step below `node`, made where it may be made; null when the step can't be taken.
-Json* stepInto(Json& node, const std::string& step) {
-  const auto index = indexOf(step);
-  if (node.is_null()) node = index ? Json::array() : Json::object();
-  if (node.is_object() && !step.empty()) return &node[step];
-  if (!node.is_array() || !index || *index > node.size()) return nullptr;
-  if (*index == node.size()) node.push_back(nullptr);
-  return &node[*index];
+Json* stepInto(Json& node, const FieldStep& step) {
+  const auto* name = std::get_if<std::string>(&step);
+  if (node.is_null()) node = name ? Json::object() : Json::array();
+  if (node.is_object()) {
+    const std::string key = name ? *name : std::to_string(std::get<std::size_t>(step));
+    return key.empty() ? nullptr : &node[key];
+  }
+  if (!node.is_array() || name || std::get<std::size_t>(step) > node.size()) return nullptr;
+  const std::size_t index = std::get<std::size_t>(step);
+  if (index == node.size()) node.push_back(nullptr);
+  return &node[index];
 }
 
 } // namespace
 
-std::string pointerOf(std::string_view dottedPath) {
-  std::string pointer = "/" + std::string(dottedPath);
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  return pointer;
+std::string pointerOf(std::string_view path) {
+  const auto steps = fieldSteps(path);
+  return steps ? gnomon::pointerOf(*steps) : "/" + std::string(path);
 }
 
-Status setAtPath(Json& root, std::string_view dottedPath, Json value) {
-  const auto parts = split(dottedPath, '.');
-  if (parts.size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
+Status setAtPath(Json& root, std::string_view path, Json value) {
+  const auto steps = fieldSteps(path);
+  if (!steps) {
+    Problem problem = steps.problems().front();
+    problem.pointer = pointerOf(path);
+    return problem;
+  }
+  if (steps->size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
     return Problem{ProblemCode::invalidValue, "", "The path is too deep.",
-                   std::to_string(kLimits.maxJsonDepth) + " steps", std::to_string(parts.size())};
+                   std::to_string(kLimits.maxJsonDepth) + " steps", std::to_string(steps->size())};
   }
   Json* place = &root;
-  std::string pointer;
-  for (const std::string& step : parts) {
-    pointer += "/" + step;
+  std::vector<FieldStep> taken;
+  for (const FieldStep& step : *steps) {
+    taken.push_back(step);
     place = stepInto(*place, step);
-    if (!place) return Problem{ProblemCode::invalidValue, pointer, "There is no such place in the spec.", "", ""};
+    if (!place) {
+      return Problem{ProblemCode::invalidValue, gnomon::pointerOf(taken), "There is no such place in the spec.", "",
+                     ""};
+    }
   }
   *place = std::move(value);
   return Done{};
@@ -157,6 +162,7 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   if (flags.device) set("device", *flags.device, "--device");
   if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
+      origins.emplace(problem.pointer, "--set " + path); // of a step that can't be taken: above the path's end
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
     const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
@@ -185,10 +191,14 @@ std::optional<std::string> formatOfSets(const std::vector<std::pair<std::string,
   return spec[format].get<std::string>();
 }
 
-ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments) {
+Problems ofRequest(const std::string& file, Problems problems) {
+  return file.empty() ? problems : about(file == "-" ? "standard input" : file, std::move(problems));
+}
+
+ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file) {
   // First by itself: a duplicate key, say, would be gone once the flags are laid over it.
   auto given = decodeFrameSpec(specJson);
-  if (!given) return {given.problems(), {}, "{}"};
+  if (!given) return {ofRequest(file, given.problems()), {}, "{}"};
   Json spec = Json::parse(specJson, nullptr, false);
   if (!spec.is_object()) spec = Json::object(); // an empty text is a spec, too
   FlagOrigins origins;
@@ -205,7 +215,7 @@ Result<std::string> specText(const std::string& file) {
 ResolvedSpec resolveSpecFile(const std::string& file, const SpecArguments& arguments) {
   const auto text = specText(file);
   if (!text) return {text.problems(), {}, "{}"};
-  return resolveSpec(*text, arguments);
+  return resolveSpec(*text, arguments, file);
 }
 
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t least, std::size_t most) {

@@ -15,12 +15,12 @@
 
 namespace gnomon::cli {
 
-/// "camera.orbit.azimuthDegrees" -> "/camera/orbit/azimuthDegrees".
-std::string pointerOf(std::string_view dottedPath);
+/// "lights[0].sun.azimuthDegrees" -> "/lights/0/sun/azimuthDegrees".
+std::string pointerOf(std::string_view path);
 
-/// Puts `value` at a dotted path, making the objects on the way; a number steps into a list, where the next free
-/// place may be named too. Problems carry the pointer of the step that can't be taken.
-Status setAtPath(Json& root, std::string_view dottedPath, Json value);
+/// Puts `value` at a field's path (field_path.h), making the objects on the way; of a list the next free place may be
+/// named, too. Problems carry the pointer of the step that can't be taken.
+Status setAtPath(Json& root, std::string_view path, Json value);
 
 /// As in a query string: JSON where the text begins like JSON or is one of its words, else a bare word: 3, true,
 /// [1,2,3], Large. JSON that is broken, too deep or has a key twice is a problem.
@@ -30,14 +30,14 @@ Result<Json> valueOf(std::string_view text);
 struct SpecArguments {
   std::optional<int> width;                  ///< --width, --size
   std::optional<int> height;                 ///< --height, --size
-  std::optional<std::string> camera;         ///< --camera: a node's index when it is a number, else its name
+  std::optional<std::string> camera;         ///< --camera: its name, its index, or "node:" and its node's index
   std::optional<std::vector<double>> orbit;  ///< --orbit: azimuth, elevation, distance if a third
   std::optional<std::array<double, 2>> sun;  ///< --sun: azimuth, elevation
   std::vector<std::string> views;            ///< --view
   std::map<std::string, std::string> fields; ///< of kFieldFlags: the flag, and its text
   std::optional<std::string> device;         ///< --device
   std::optional<std::string> format;         ///< `output.format`: --format, or from the output's suffix
-  std::vector<std::pair<std::string, std::string>> sets; ///< --set: dotted path, value
+  std::vector<std::pair<std::string, std::string>> sets; ///< --set: path, value
 };
 
 /// The `output.format` that the last of these --set asks for, by its own path or within `output`; nothing where none
@@ -51,10 +51,14 @@ struct ResolvedSpec {
   std::string json; ///< as it was written, the flags laid over it; "{}" where it can't be read
 };
 
+/// The problems of a request that was read from a file, each saying so; "-" is standard input, an empty name is none.
+Problems ofRequest(const std::string& file, Problems problems);
+
 /// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above but for the format,
 /// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
-/// the lens; --sun turns the first directional light, or adds one.
-ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments);
+/// the lens; --sun turns the first directional light, or adds one. What is wrong with the JSON by
+/// itself is told with the `file` that it was read from.
+ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file = "");
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".
 Result<std::string> specText(const std::string& file);

@@ -62,6 +62,15 @@ Problems about(const std::string& what, Problems problems) {
   return problems;
 }
 
+Problems ofScene(const std::string& file, Problems problems) {
+  for (Problem& problem : problems) {
+    const bool isOfFile = problem.code == ProblemCode::malformed || problem.code == ProblemCode::invalidScene ||
+                          problem.code == ProblemCode::unsupportedFeature;
+    if (isOfFile && problem.pointer.empty()) problem.pointer = file == "-" ? "standard input" : file;
+  }
+  return problems;
+}
+
 void tellProblemsAs(ProblemForm form) {
   manners().problems = form;
 }

@@ -21,6 +21,9 @@ std::string problemLine(const Problem& problem, const FlagOrigins& origins = {})
 /// The same problems, each saying first what it is about.
 Problems about(const std::string& what, Problems problems);
 
+/// The problems of loading a scene, where those that have no place in it get its file as their place.
+Problems ofScene(const std::string& file, Problems problems);
+
 /// How problems are told.
 enum class ProblemForm { lines, json };
 

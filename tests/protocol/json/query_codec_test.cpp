@@ -86,8 +86,33 @@ TEST(DecodeFrameQuery, ProblemsNameTheKeyThatWasWritten) {
 
 TEST(DecodeFrameQuery, AnUnknownPathNamesItsKey) {
   EXPECT_THAT(pointersOf(decodeFrameQuery({{"a..b", "1"}})), ElementsAre("a..b"));
-  EXPECT_THAT(pointersOf(decodeFrameQuery({{"lights.0.type", "spot"}})), ElementsAre("lights.0.type"));
   EXPECT_THAT(pointersOf(decodeFrameQuery({{"camera.eye.x", "1"}})), ElementsAre("camera.eye.x"));
+}
+
+TEST(DecodeFrameQuery, ElementsOfListsHaveTheirIndexInBrackets) {
+  const Result<FrameSpec> spec = decodeFrameQuery({{"lights[1].position", "[0,5,0]"},
+                                                   {"lights[1].type", "point"},
+                                                   {"lights[0].intensity", "7"},
+                                                   {"nodes[0].node", "box"},
+                                                   {"nodes.0.visible", "false"},
+                                                   {"sun", "10,20"}});
+  ASSERT_TRUE(spec);
+  ASSERT_EQ(spec->lights->size(), 2u);
+  EXPECT_EQ(spec->lights->at(0).sun, (Sun{10, 20}));
+  EXPECT_EQ(spec->lights->at(0).intensity, 7);
+  EXPECT_EQ(spec->lights->at(1).type, LightType::point);
+  ASSERT_EQ(spec->nodes.size(), 1u);
+  EXPECT_EQ(spec->nodes[0].visible, false);
+}
+
+TEST(DecodeFrameQuery, WhatIsWrongWithAListIsToldAtItsKey) {
+  for (const char* key : {"lights[1].type", "lights[].type", "lights[x].type", "lights[0", "lights[0]type", "[0].type",
+                          "lights[9999999999].type", "views[0][0]"}) {
+    EXPECT_THAT(pointersOf(decodeFrameQuery({{key, "spot"}})), ElementsAre(key));
+  }
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"lights[0].type", "spots"}})), ElementsAre("lights[0].type"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"lights[0].type", "spot"}, {"lights[0].range", "1"}})),
+              ElementsAre("lights[0].direction", "lights[0].position"));
 }
 
 TEST(DecodeFrameQuery, WhatIsAbsentIsNamedByItsPath) {

@@ -122,9 +122,12 @@ TEST(LayerPairs, ALayerThatOneOfThemLacksIsAProblem) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.problems().front().limit, "color");
   EXPECT_EQ(missing.problems().front().actual, "depth");
-  EXPECT_FALSE(layerPairs(one, both, {}));
+  EXPECT_EQ(missing.problems().front().pointer, ""); // no flag asked for it
+  EXPECT_EQ(missing.problems().front().detail, "The second picture has no such layer.");
+  EXPECT_EQ(layerPairs(one, both, {}).problems().front().detail, "The first picture has no such layer.");
   const std::vector<std::string> unknown{"dept"};
-  EXPECT_FALSE(layerPairs(both, both, unknown));
+  EXPECT_EQ(layerPairs(both, both, unknown).problems().front().pointer, "--layer");
+  EXPECT_TRUE(layerPairs(layersNamed({"a=b", "c"}), layersNamed({"a=b", "c"}), {})); // a name, not two
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "clients/cli/files/output_names.h"
 
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -36,10 +37,33 @@ TEST(BatchItems, WithoutACameraTheNameIsDefault) {
 
 TEST(BatchItems, TwoPicturesAreNeverOneFile) {
   EXPECT_FALSE(batchItems({{"a.glb", "b.glb"}, {}, "x.png", ""}));
-  EXPECT_FALSE(batchItems({{"1/a.glb", "2/a.glb"}, {}, "{scene}.png", ""}));
-  EXPECT_FALSE(batchItems({{"a.glb"}, {"x/y", "x_y"}, "{camera}.png", ""}));
   EXPECT_FALSE(batchItems({{"a.glb", "b.glb"}, {}, "-", ""}));
   EXPECT_FALSE(batchItems({{"a.glb", "b.glb"}, {}, "{scene}.png", "r.json"}));
+}
+
+TEST(BatchItems, OfPicturesThatWouldBeOneFileTheFirstIsMadeAndWhatIsMissingIsTold) {
+  const auto items = batchItems({{"1/a.glb", "1/b.glb", "2/a.glb"}, {}, "{scene}.png", ""});
+  ASSERT_TRUE(items);
+  EXPECT_FALSE((*items)[0].collision);
+  EXPECT_FALSE((*items)[1].collision);
+  ASSERT_TRUE((*items)[2].collision);
+  EXPECT_NE((*items)[2].collision->detail.find("1/a.glb"), std::string::npos);
+  EXPECT_EQ((*items)[2].collision->limit, "a name with {folder}");
+  const auto cameras = batchItems({{"a.glb"}, {"x", "y"}, "{scene}.png", ""});
+  EXPECT_EQ((*cameras)[1].collision->limit, "a name with {camera}");
+  const auto same = batchItems({{"a.glb"}, {"x/y", "x_y"}, "{camera}.png", ""});
+  EXPECT_EQ((*same)[1].collision->limit, "");
+  const auto reports = batchItems({{"1/a.glb", "2/a.glb"}, {}, "{folder}-{scene}.png", "{scene}.json"});
+  EXPECT_EQ((*reports)[1].collision->pointer, "--report");
+}
+
+TEST(BatchItems, AFolderIsThatOfTheScene) {
+  const auto items = batchItems({{"x/1/a.glb", "x/2/../3/a.glb", "a.glb", "-"}, {}, "{folder}.png", ""});
+  ASSERT_TRUE(items);
+  EXPECT_EQ((*items)[0].output, "1.png");
+  EXPECT_EQ((*items)[1].output, "3.png");
+  EXPECT_EQ((*items)[2].output, std::filesystem::current_path().filename().string() + ".png");
+  EXPECT_EQ((*items)[3].output, "stdin.png");
 }
 
 TEST(FrameNumber, Sorts) {

@@ -32,6 +32,18 @@ TEST(FieldFlags, AnAnimationIsANameOrAnIndex) {
             nlohmann::json::parse(R"({"animation": {"name": "Walk 2"}})"));
 }
 
+TEST(FieldFlags, ABackgroundHasAnAlphaIfAFourthNumberIsGiven) {
+  EXPECT_EQ(with(R"({"background": {"alpha": 0.5}})", "--background", "0.1,0.2,0.3"),
+            nlohmann::json::parse(R"({"background": {"alpha": 0.5, "color": [0.1, 0.2, 0.3]}})"));
+  EXPECT_EQ(with("{}", "--background", "0,0,0,0"),
+            nlohmann::json::parse(R"({"background": {"alpha": 0.0, "color": [0.0, 0.0, 0.0]}})"));
+  for (const char* text : {"0,0", "0,0,0,0,0", "white"}) {
+    const auto refused = fieldValue(flagOf("--background"), text);
+    ASSERT_FALSE(refused) << text;
+    EXPECT_NE(refused.problems().front().detail.find("or four with alpha"), std::string::npos);
+  }
+}
+
 TEST(FieldFlags, BadTextsAndPlacesAreProblems) {
   for (const char* text : {"", "1", "1,2", "1,2,3,4", "1,2,x", "1,2,nan"}) {
     EXPECT_FALSE(fieldValue(flagOf("--eye"), text)) << text;

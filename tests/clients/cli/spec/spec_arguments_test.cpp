@@ -106,14 +106,15 @@ TEST(SpecArguments, OrbitKeepsTheTargetOfAnOrbit) {
 
 TEST(SpecArguments, SetTakesDottedPathsJsonAndBareWords) {
   SpecArguments flags;
-  flags.sets = {{"shadow.filter.size", "7"},      {"shadow.size", "XLarge"},  {"camera.eye", "[1,2,3]"},
-                {"camera.target", "[0,0,0]"},     {"lights.0.type", "point"}, {"lights.0.position", "[0,5,0]"},
-                {"shadow.blendCascades", "false"}};
+  flags.sets = {{"shadow.filter.size", "7"},  {"shadow.size", "XLarge"},        {"camera.eye", "[1,2,3]"},
+                {"camera.target", "[0,0,0]"}, {"lights[0].type", "point"},      {"lights[0].position", "[0,5,0]"},
+                {"lights.1.sun", "{}"},       {"shadow.blendCascades", "false"}};
   const FrameSpec spec = resolved("{}", flags);
   EXPECT_EQ(spec.shadow.filter.size, 7);
   EXPECT_EQ(spec.shadow.size, ShadowSize::XLarge);
   EXPECT_EQ(spec.camera.lookAt->eye, (Vec3{1, 2, 3}));
   EXPECT_EQ(spec.lights->at(0).type, LightType::point);
+  EXPECT_EQ(spec.lights->size(), 2u);
   EXPECT_FALSE(spec.shadow.blendCascades);
 }
 
@@ -145,7 +146,10 @@ TEST(SpecArguments, SetRefusesWhatIsNoPlaceOrNoJson) {
     return problems.empty() ? "taken" : problems.front().pointer;
   };
   EXPECT_EQ(pointerOfRefusal("width.deep", "1"), "/width/deep");
+  EXPECT_EQ(pointerOfRefusal("lights[7].intensity", "1"), "/lights/7");
   EXPECT_EQ(pointerOfRefusal("lights.7.intensity", "1"), "/lights/7");
+  EXPECT_EQ(pointerOfRefusal("lights[].intensity", "1"), "/lights[].intensity");
+  EXPECT_EQ(pointerOfRefusal("camera[0].fit", "true"), "/camera");
   EXPECT_EQ(pointerOfRefusal("shadows.enabled", "true"), "/shadows");
   EXPECT_EQ(pointerOfRefusal("height", "[1"), "/height/1");
   EXPECT_EQ(pointerOfRefusal("height", "tall"), "/height");
@@ -159,6 +163,16 @@ TEST(SpecArguments, AnEmptySpecIsTheDefaults) {
 TEST(SpecArguments, ASpecThatIsWrongByItselfIsRefused) {
   EXPECT_FALSE(refused(R"({"width": 64, "width": 65})", {}).empty());
   EXPECT_FALSE(refused("{", {}).empty());
+}
+
+TEST(SpecArguments, WhatIsWrongWithAFileByItselfIsToldWithItsName) {
+  const auto told = [](const std::string& json, const std::string& file) {
+    return problemLine(resolveSpec(json, {}, file).spec.problems().front());
+  };
+  EXPECT_THAT(told("{\"width\": ", "sun.json"), HasSubstr("(sun.json) This is not JSON"));
+  EXPECT_THAT(told("{\"width\": 0}", "sun.json"), StartsWith("/width: (sun.json) "));
+  EXPECT_THAT(told("{", "-"), HasSubstr("(standard input) "));
+  EXPECT_THAT(told("{", ""), StartsWith("This is not JSON"));
 }
 
 TEST(SpecArguments, AProblemNamesTheFlag) {
