@@ -6,7 +6,7 @@ import { element, short } from './dom.mjs';
 const kLens = { path: 'camera.perspective.fovYDegrees', label: 'Lens', unit: '°', says: 'Full vertical angle of view', slider: [5, 120, 0.5], clears: 'camera.perspective', needs: (store) => !store.effective('camera.orthographic') };
 
 // As a request asks for a camera of the file, whatever its name.
-export const cameraName = ({ node }) => node;
+export const cameraName = ({ node }) => `node:${node}`;
 
 // `fit()` gives the orbit of the whole scene.
 export function createCameraPanel(store, fit) {
@@ -15,7 +15,7 @@ export function createCameraPanel(store, fit) {
   const readout = element('p', { class: 'readout' });
   list.addEventListener('change', () => {
     if (list.value === '') fit();
-    else store.setSpec('camera', { node: Number(list.value) });
+    else store.setSpec('camera', { node: list.value });
   });
   const node = element(
     'div',

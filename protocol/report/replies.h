@@ -35,7 +35,7 @@ struct RendererInfo {
 };
 
 struct CameraSummary {
-  int node = 0; ///< index into the file's nodes; usable as camera.node
+  int node = 0; ///< index into the file's nodes; camera.node takes it as node:INDEX
   std::string name{};
   std::string type{}; ///< "perspective" | "orthographic"
 };

@@ -12,7 +12,7 @@ namespace gnomon {
 template <>
 inline constexpr auto kRows<CameraSummary> =
     replyRows("CameraSummary", "A camera of the scene.",
-              field("node", &CameraSummary::node, {.says = "Index of its node, for `camera.node`."}),
+              field("node", &CameraSummary::node, {.says = "Index of its node; node:INDEX is its `camera.node`."}),
               field("name", &CameraSummary::name, {.says = "Name of its node, or its own."}),
               field("type", &CameraSummary::type, {.says = "perspective or orthographic."}));
 static_assert(kRowsAreComplete<CameraSummary>);

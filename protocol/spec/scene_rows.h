@@ -30,7 +30,8 @@ template <>
 inline constexpr auto kRows<Orbit> =
     rows("Orbit", "Where the camera stands on a sphere around a target.",
          field("target", &Orbit::target,
-               {.says = "Centre of the sphere, at which the camera looks; absent = the centre of the scene.",
+               {.says = "Centre of the sphere, at which the camera looks; absent = the centre of the scene, or without "
+                        "`distance` the point that brings what is seen into the middle of the picture.",
                 .unit = "metres",
                 .range = kPositionRange}),
          field("azimuthDegrees", &Orbit::azimuthDegrees,
@@ -41,7 +42,8 @@ inline constexpr auto kRows<Orbit> =
          field("elevationDegrees", &Orbit::elevationDegrees,
                {.says = "Height of the eye above the target's horizon.", .unit = "degrees", .range = kElevationRange}),
          field("distance", &Orbit::distance,
-               {.says = "Distance from the eye to the target; absent = far enough to show the whole scene.",
+               {.says = "Distance from the eye to the target; absent = as near as shows all that is seen, "
+                        "with a margin.",
                 .unit = "metres",
                 .range = kLengthRange}));
 static_assert(kRowsAreComplete<Orbit>);
@@ -115,7 +117,9 @@ inline constexpr auto kRows<Camera> =
          inlined("lookAt", &Camera::lookAt, {.says = "Placement by `eye`, `target` and `up`."}),
          field("orbit", &Camera::orbit, {.says = "Placement on a sphere around a target."}),
          field("node", &Camera::node,
-               {.says = "Placement and lens of a camera in the scene, by its node's index or name.",
+               {.says = "Placement and lens of a camera in the scene, by its name; where none has this one, by its "
+                        "index among the scene's "
+                        "cameras, from 0; or by node: and its node's index, as node:4.",
                 .range = kNodeRange,
                 .minCount = 1,
                 .maxCount = 1024}),

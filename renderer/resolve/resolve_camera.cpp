@@ -1,25 +1,16 @@
 #include "renderer/resolve/resolve_camera.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <optional>
+#include <string_view>
 
 #include "renderer/core/vec3.h"
 
 namespace gnomon {
 namespace {
-
-/// The smallest sphere around the box, which holds the scene. A scene without surfaces is a metre wide.
-struct BoundingSphere {
-  glm::dvec3 center{0};
-  double radius = 1;
-};
-
-BoundingSphere sphereAround(const Aabb& bounds) {
-  if (bounds.empty()) return {};
-  const double radius = glm::length(bounds.halfExtent());
-  return {bounds.center(), radius > 0 ? radius : 1.0};
-}
 
 /// Orthonormal axes; `up` is bent to stand on the view direction.
 void orient(CameraView& view, const EyeTarget& place) {
@@ -87,31 +78,12 @@ CameraView lensOf(Camera& camera, double radius, const glm::dvec2& size) {
   return view;
 }
 
-/// The least distance from `target` at which a camera that looks along `forward` sees all corners of the scene's box;
-/// infinite where the axis does not lie in the picture, so that no distance does. `lens`: what the lens is of a view.
-double framingDistance(const Aabb& bounds, const EyeTarget& directions, const CameraView& lens) {
-  const double margin = 1.05;
-  const BoundingSphere sphere = sphereAround(bounds);
-  if (bounds.empty() || !lens.perspective) return 2 * sphere.radius * margin;
-  CameraView view = lens;
-  orient(view, directions);
-  const glm::dvec2 low = (view.halfSize - view.center) / margin; // tangents from the axis to the picture's sides
-  const glm::dvec2 high = (view.halfSize + view.center) / margin;
-  if (!glm::all(glm::greaterThan(glm::min(low, high), glm::dvec2(0.0)))) return HUGE_VAL;
-  double distance = sphere.radius * 1e-3;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-    const glm::dvec3 p = bounds.center() + sign * bounds.halfExtent() - toVector(directions.target);
-    const double towards = -glm::dot(p, view.forward);
-    const glm::dvec2 across(glm::dot(p, view.right), glm::dot(p, view.up));
-    const glm::dvec2 needed = glm::max(across / high, -across / low) + towards;
-    distance = std::max({distance, needed.x, needed.y});
-  }
-  return distance;
-}
+/// Of an orbit: where its camera looks from, and what is above in its picture.
+struct OrbitAxes {
+  glm::dvec3 outward{0, 0, 1}, up{0, 1, 0};
+};
 
-/// `lens`: what the lens is of a view.
-Result<EyeTarget> placeOrbit(const Orbit& orbit, const CameraView& lens, const Aabb& bounds) {
+OrbitAxes axesOf(const Orbit& orbit) {
   const double azimuth = glm::radians(orbit.azimuthDegrees);
   const double elevation = glm::radians(orbit.elevationDegrees);
   const glm::dvec3 outward(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
@@ -120,35 +92,80 @@ Result<EyeTarget> placeOrbit(const Orbit& orbit, const CameraView& lens, const A
   const glm::dvec3 up = std::abs(outward.y) > 0.999999
                             ? glm::dvec3(-std::sin(azimuth), 0, std::cos(azimuth)) * (outward.y > 0 ? 1.0 : -1.0)
                             : glm::dvec3(0, 1, 0);
-  const glm::dvec3 target = orbit.target ? toVector(*orbit.target) : sphereAround(bounds).center;
-  const EyeTarget directions{toTriple(target + outward), toTriple(target), toTriple(up)};
-  const double distance = orbit.distance ? *orbit.distance : framingDistance(bounds, directions, lens);
-  if (!(distance < HUGE_VAL)) {
-    return Problem{ProblemCode::invalidValue, "/camera/orbit/distance",
-                   "With this lens no distance shows the whole scene, so that it has to be given.",
-                   "a principal point within the picture", "absent"};
+  return {outward, up};
+}
+
+/// `lens`: what the lens is of a view.
+Result<EyeTarget> placeOrbit(const Orbit& orbit, const CameraView& lens, const glm::dvec3& center,
+                             const FramedSubject& seen) {
+  const auto [outward, up] = axesOf(orbit);
+  const Problem noneShowsAll{ProblemCode::invalidValue, "/camera/orbit/distance",
+                             "With this lens no distance shows the whole scene, so that it has to be given.",
+                             "a principal point within the picture", "absent"};
+  CameraView view = lens;
+  const glm::dvec3 target = orbit.target ? toVector(*orbit.target) : center;
+  orient(view, EyeTarget{toTriple(target + outward), toTriple(target), toTriple(up)});
+  if (!orbit.target && !orbit.distance) {
+    const auto eye = framingEye(view, seen);
+    if (!eye) return noneShowsAll;
+    const double depth = std::max(glm::dot(seen.center - *eye, view.forward), seen.radius * 1e-3);
+    return EyeTarget{toTriple(*eye), toTriple(*eye + view.forward * depth), toTriple(up)};
   }
-  return EyeTarget{toTriple(target + outward * distance), toTriple(target), toTriple(up)};
+  const auto distance = orbit.distance ? orbit.distance : framingDistance(view, target, seen);
+  if (!distance) return noneShowsAll;
+  return EyeTarget{toTriple(target + outward * *distance), toTriple(target), toTriple(up)};
+}
+
+/// The whole number that a text is; nothing where it is none.
+std::optional<std::size_t> numberIn(std::string_view text) {
+  std::size_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+/// By its name, or else by its index among the scene's cameras, or by its node's index behind "node:".
+const SceneCamera* findCamera(const std::string& asked, const SceneView& scene) {
+  constexpr std::string_view kNode = "node:";
+  const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                  [&](const SceneCamera& camera) { return camera.name == asked; });
+  if (named != scene.cameras.end()) return &*named;
+  if (const auto index = numberIn(asked)) return *index < scene.cameras.size() ? &scene.cameras[*index] : nullptr;
+  const auto held = std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
+    return asked == std::string(kNode) + std::to_string(camera.node);
+  });
+  return held == scene.cameras.end() ? nullptr : &*held;
+}
+
+/// Every camera that may be asked for: "0 = overview (node:4)".
+std::string camerasOf(const SceneView& scene) {
+  std::string known;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
+    known += (known.empty() ? "one of " : ", ") + std::to_string(i);
+    if (!camera.name.empty()) known += " = " + camera.name;
+    known += " (node:" + std::to_string(camera.node) + ")";
+  }
+  return known.empty() ? "the scene has no cameras" : known;
 }
 
 Result<const SceneCamera*> findCamera(const std::variant<int, std::string>& node, const SceneView& scene) {
-  std::string known;
-  for (const SceneCamera& camera : scene.cameras) {
-    const bool found = std::holds_alternative<int>(node) ? std::get<int>(node) == camera.node
-                                                         : std::get<std::string>(node) == camera.name;
-    if (found) return &camera;
-    known += (known.empty() ? "" : ", ") + std::to_string(camera.node);
-    if (!camera.name.empty()) known += " (" + camera.name + ")";
-  }
-  const std::string asked =
-      std::holds_alternative<int>(node) ? std::to_string(std::get<int>(node)) : std::get<std::string>(node);
-  return Problem{ProblemCode::invalidValue, "/camera/node", "No node of this scene by that index or name has a camera.",
-                 known.empty() ? "the scene has no cameras" : "one of " + known, asked};
+  const auto* index = std::get_if<int>(&node);
+  const std::string asked = index ? std::to_string(*index) : std::get<std::string>(node);
+  if (const SceneCamera* found = findCamera(asked, scene)) return found;
+  return Problem{ProblemCode::invalidValue, "/camera/node", "The scene has no camera of this name or index.",
+                 camerasOf(scene), asked};
 }
 
 } // namespace
 
 Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, const glm::ivec2& size) {
+  return resolveCamera(camera, scene, size, subjectOf(scene.bounds));
+}
+
+Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, const glm::ivec2& size,
+                                     const FramedSubject& seen) {
   ResolvedCamera resolved;
   Camera& out = resolved.camera;
   out.pose = camera.pose;
@@ -156,7 +173,8 @@ Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scen
   out.perspective = camera.perspective;
   out.intrinsics = camera.intrinsics;
   out.orthographic = camera.orthographic;
-  const double radius = sphereAround(scene.bounds).radius;
+  const FramedSubject whole = subjectOf(scene.bounds);
+  const double radius = whole.radius;
 
   if (camera.node) {
     const auto found = findCamera(*camera.node, scene);
@@ -171,7 +189,7 @@ Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scen
   }
   resolved.view = lensOf(out, radius, glm::dvec2(size));
   if (!out.pose && !out.lookAt) {
-    const auto place = placeOrbit(camera.orbit.value_or(Orbit{}), resolved.view, scene.bounds);
+    const auto place = placeOrbit(camera.orbit.value_or(Orbit{}), resolved.view, whole.center, seen);
     if (!place) return place.problems();
     out.lookAt = *place;
   }

@@ -9,6 +9,7 @@
 #include "renderer/resolve/resolve_camera.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"
+#include "renderer/resolve/seen_extent.h"
 
 namespace gnomon {
 
@@ -65,7 +66,15 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
     frame.scene = indexOf(scene, {frame.scene, *variant});
   }
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
-  auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height});
+  auto nodes = resolveNodes(spec.nodes, scene);
+  if (!nodes) return nodes.problems();
+  frame.nodes = std::move(*nodes);
+  SeenExtent seen(scene, view, frame.nodes);
+  // What is hidden altogether is framed as if it were there.
+  const FramedSubject subject =
+      seen.empty() ? subjectOf(view.bounds)
+                   : subjectOf(seen.bounds(), [&](const glm::dvec3& way) { return seen.farthest(way); });
+  auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height}, subject);
   if (!camera) return camera.problems();
   frame.spec.camera = camera->camera;
   frame.view = camera->view;
@@ -78,9 +87,6 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   }
   if (const Status known = checkDebugLight(spec.debug, frame.spec.lights->size()); !known) return known.problems();
 
-  auto nodes = resolveNodes(spec.nodes, scene);
-  if (!nodes) return nodes.problems();
-  frame.nodes = std::move(*nodes);
   auto volumes = resolveVolumes(spec.volumes, scene, view, frame.nodes);
   if (!volumes) return volumes.problems();
   frame.volumes = *std::move(volumes);

@@ -123,6 +123,18 @@ class Many(CommandLine):
                         ["turntable", str(cut), "--frames", "2", "-o", str(self.folder / "{frame}.png")]):  # fmt: skip
             self.assert_ends(gnomon(*command), PROBLEM, f"gnomon: {cut}: ", "600", length)
 
+    def test_a_camera_is_named_or_numbered(self):
+        cameras = json.loads(gnomon("inspect", CAMERAS, "--json").stdout)["cameras"]
+        for index, camera in enumerate(cameras):
+            pictures = set()
+            for asked in (camera["name"], str(index), f"node:{camera['node']}"):
+                self.render("--camera", asked, scene=CAMERAS)
+                pictures.add(self.output.read_bytes())
+            self.assertEqual(len(pictures), 1, camera)
+        run = gnomon("render", CAMERAS, "-o", str(self.output), "--camera", str(len(cameras)))
+        self.assert_ends(run, PROBLEM, "--camera", f"0 = {cameras[0]['name']} (node:{cameras[0]['node']})")
+        self.assertIn(f"1: node {cameras[1]['node']} ", gnomon("inspect", CAMERAS).stdout.decode())
+
     def test_every_scene_by_every_camera(self):
         names = [camera["name"] for camera in json.loads(gnomon("inspect", CAMERAS, "--json").stdout)["cameras"]][:2]
         self.assertEqual(len(set(names)), 2)

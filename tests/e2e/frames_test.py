@@ -136,6 +136,19 @@ class Frames(ServerTest):
         refused = self.server.get(f"/v1/scenes/{self.scene}/frame?lights[1].type=point")
         self.assert_problem(refused, 400, "lights[1].type")
 
+    def test_a_camera_is_named_or_numbered(self):
+        scene = self.server.upload("cameras")
+        cameras = self.server.get(f"/v1/scenes/{scene}").json()["cameras"]
+        for index, camera in enumerate(cameras):
+            frames = [self.server.frame(scene, {"width": 64, "height": 48, "camera": {"node": asked}}, "image/png")
+                      for asked in (camera["name"], index, str(index), f"node:{camera['node']}")]  # fmt: skip
+            self.assertEqual([frame.status for frame in frames], [200] * 4)
+            self.assertEqual(len({frame.body for frame in frames}), 1, camera)
+            query = f"/v1/scenes/{scene}/frame?camera.node={index}&width=64&height=48"
+            self.assertEqual(self.server.get(query, Accept="image/png").body, frames[0].body)
+        refused = self.server.frame(scene, {"camera": {"node": len(cameras)}}, "image/png")
+        self.assert_problem(refused, 400, "/camera/node")
+
     def test_a_known_frame_is_not_drawn_again(self):
         path = f"/v1/scenes/{self.scene}/frame?width=64&height=48"
         tag = self.server.get(path).headers["ETag"]

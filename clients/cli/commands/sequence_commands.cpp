@@ -199,7 +199,7 @@ struct Seen {
   double distance() const { return std::hypot(eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]); }
 };
 
-Result<Seen> seenBy(FrameMaker& maker, FrameSpec spec, double azimuth, ProgressLine& progress) {
+Result<Seen> seenBy(FrameMaker& maker, FrameSpec spec, const Orbit& orbit, ProgressLine& progress) {
   // Only the camera matters: small, and without shadows.
   const double scale = std::max(1.0, std::max(spec.width, spec.height) / 64.0);
   spec.width = std::max(1, static_cast<int>(std::lround(spec.width / scale)));
@@ -209,9 +209,8 @@ Result<Seen> seenBy(FrameMaker& maker, FrameSpec spec, double azimuth, ProgressL
   spec.quality.reset();
   spec.views = {View::depth};
   spec.output = {};
-  if (!spec.camera.orbit) spec.camera.orbit.emplace();
+  spec.camera.orbit = orbit;
   spec.camera.fit.reset();
-  spec.camera.orbit->azimuthDegrees = azimuth;
   const auto rendered = maker.draw(spec, progress);
   if (!rendered) return rendered.problems();
   const Json camera = Json::parse(rendered->reportJson)["spec"]["camera"];
@@ -222,16 +221,24 @@ Result<Seen> seenBy(FrameMaker& maker, FrameSpec spec, double azimuth, ProgressL
 /// from all sides, so that it does not grow and shrink while it turns.
 Result<Orbit> steadyOrbit(FrameMaker& maker, const FrameSpec& spec, ProgressLine& progress) {
   Orbit orbit = spec.camera.orbit.value_or(Orbit{});
-  if (orbit.target && orbit.distance) return orbit;
+  if (!orbit.target) {
+    Orbit any = orbit; // with a distance, the target that is left open is the centre of the scene
+    any.distance = 1;
+    const auto seen = seenBy(maker, spec, any, progress);
+    if (!seen) return seen.problems();
+    orbit.target = seen->target;
+  }
+  if (orbit.distance) return orbit;
   constexpr int kSides = 8;
   double distance = 0;
   for (int side = 0; side < kSides; ++side) {
-    const auto seen = seenBy(maker, spec, 360.0 * side / kSides, progress);
+    Orbit from = orbit;
+    from.azimuthDegrees = 360.0 * side / kSides;
+    const auto seen = seenBy(maker, spec, from, progress);
     if (!seen) return seen.problems();
     distance = std::max(distance, seen->distance());
-    if (!orbit.target) orbit.target = seen->target;
   }
-  if (!orbit.distance) orbit.distance = distance;
+  orbit.distance = distance;
   return orbit;
 }
 

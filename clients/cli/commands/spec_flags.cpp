@@ -102,10 +102,11 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
           "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon")
       ->type_name("AZ,EL")
       ->group("Picture");
-  const std::string cameraSays = "Use a camera of the scene, by its node's name or index";
+  const std::string cameraSays =
+      "Use a camera of the scene, by its name, or its index among the scene's cameras, or node:INDEX";
   auto* camera = cameras != nullptr ? command.add_option("--camera", *cameras, cameraSays + ". Repeatable")->take_all()
                                     : command.add_option("--camera", arguments.camera, cameraSays);
-  camera->type_name("NODE")->group("Picture");
+  camera->type_name("CAMERA")->group("Picture");
   auto* orbit = command.add_option_function<std::string>(
       "--orbit",
       [&arguments, refuse](const std::string& text) {

@@ -102,11 +102,6 @@ Json orbitOf(const Json& spec, const std::vector<double>& numbers) {
   return orbit;
 }
 
-Json cameraNode(const std::string& text) {
-  if (const auto index = parseWhole<int>(text)) return *index;
-  return text;
-}
-
 bool isDirectional(const Json& light) {
   return light.is_object() && (!light.contains("type") || light["type"] == "directional");
 }
@@ -143,7 +138,7 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   if (flags.width) set("width", *flags.width, "--width");
   if (flags.height) set("height", *flags.height, "--height");
   if (flags.camera) {
-    replacePlacement(spec, "node", cameraNode(*flags.camera));
+    replacePlacement(spec, "node", *flags.camera);
     origins["/camera/node"] = "--camera";
   }
   if (flags.orbit) {
@@ -162,12 +157,12 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   if (flags.device) set("device", *flags.device, "--device");
   if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
-      origins.emplace(problem.pointer, "--set " + path); // of a step that can't be taken: above the path's end
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
     const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());
     for (Problem problem : done ? Problems() : done.problems()) {
       if (!value) problem.pointer = pointerOf(path) + problem.pointer;
+      origins.emplace(problem.pointer, "--set " + path); // of a step that can't be taken: above the path's end
       problems.push_back(std::move(problem));
     }
     origins[pointerOf(path)] = "--set " + path;

@@ -210,13 +210,14 @@ Branch motionBranch(const SceneSummary& s) {
   return branch;
 }
 
-/// For cameras and lights: node, name, type.
+/// For cameras and lights: index, node, name, type.
 template <class Item>
 Branch listed(const char* title, const std::vector<Item>& items) {
   Branch branch{std::string(title) + "  " + std::to_string(items.size()), {}};
   for (const Item& item : items) {
+    const std::string index = std::to_string(branch.twigs.size());
     const std::string name = item.name.empty() ? "" : " \"" + printable(item.name) + "\"";
-    branch.twigs.push_back({"node " + std::to_string(item.node) + name + ", " + item.type, {}});
+    branch.twigs.push_back({index + ": node " + std::to_string(item.node) + name + ", " + item.type, {}});
   }
   return branch;
 }

@@ -469,7 +469,7 @@ class CameraSummary(TypedDict, total=False):
     """A camera of the scene.
 
     node:
-        Index of its node, for `camera.node`.
+        Index of its node; node:INDEX is its `camera.node`.
     name:
         Name of its node, or its own.
     type:

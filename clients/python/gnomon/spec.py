@@ -22,14 +22,16 @@ class Orbit:
     """Where the camera stands on a sphere around a target.
 
     target:
-        Centre of the sphere, at which the camera looks; absent = the centre of the scene. Unit: metres.
+        Centre of the sphere, at which the camera looks; absent = the centre of the scene, or without `distance` the
+        point that brings what is seen into the middle of the picture. Unit: metres.
     azimuthDegrees:
         Direction from the target to the eye, clockwise from north (-Z) as seen from above. The default looks from
         the south-southwest, so that two sides of a building show. Unit: degrees. Default: 210.0.
     elevationDegrees:
         Height of the eye above the target's horizon. Unit: degrees. Default: 20.0.
     distance:
-        Distance from the eye to the target; absent = far enough to show the whole scene. Unit: metres.
+        Distance from the eye to the target; absent = as near as shows all that is seen, with a margin. Unit:
+        metres.
     """
 
     target: Optional[Vector] = None
@@ -130,7 +132,8 @@ class Camera:
     orbit:
         Placement on a sphere around a target.
     node:
-        Placement and lens of a camera in the scene, by its node's index or name.
+        Placement and lens of a camera in the scene, by its name; where none has this one, by its index among the
+        scene's cameras, from 0; or by node: and its node's index, as node:4.
     fit:
         True = show the whole scene from the default direction; false is not accepted.
     pose:

@@ -41,7 +41,10 @@ TEST(ResolveCamera, AnOrbitWithoutADistanceFramesTheWholeScene) {
     RC_ASSERT(static_cast<bool>(resolved));
     const double reach = reachOf(resolved->view, scene.bounds);
     RC_ASSERT(reach <= 1.0);
-    RC_ASSERT(reach > 0.9); // and no farther away than that takes
+    // And no farther away than that takes, but for a thousandth of the scene before its nearest point.
+    const double room = glm::length(scene.bounds.halfExtent()) * 1e-3;
+    const glm::dvec3 nearest = farthestOf(scene.bounds)(-resolved->view.forward) - resolved->view.eye;
+    RC_ASSERT(reach > 0.9 || glm::dot(nearest, resolved->view.forward) < room * 1.001);
   }));
 }
 
@@ -100,12 +103,43 @@ TEST(ResolveCamera, G5_OrthographicCamerasKeepTheirBoxWhateverTheAspect) {
 TEST(ResolveCamera, AnUnknownNodeIsToldWithThoseThereAre) {
   SceneView scene;
   scene.cameras.push_back({3, "a", {}, {0, 0, -1}, {0, 1, 0}, Perspective{}, {}});
+  scene.cameras.push_back({7, "", {}, {0, 0, -1}, {0, 1, 0}, Perspective{}, {}});
   Camera camera;
   camera.node = 4;
   const auto refused = resolveCamera(camera, scene, {64, 64});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.problems()[0].limit, "one of 3 (a)");
+  EXPECT_EQ(refused.problems()[0].limit, "one of 0 = a (node:3), 1 (node:7)");
   EXPECT_EQ(refused.problems()[0].actual, "4");
+  const auto none = resolveCamera(camera, SceneView(), {64, 64});
+  EXPECT_EQ(none.problems()[0].limit, "the scene has no cameras");
+}
+
+TEST(ResolveCamera, ACameraHasANameOrAnIndexOrANode) {
+  SceneView scene;
+  const auto add = [&](int node, const char* name) {
+    scene.cameras.push_back({node, name, {double(node), 0, 0}, {0, 0, -1}, {0, 1, 0}, Perspective{}, {}});
+  };
+  add(5, "front");
+  add(0, "side");
+  add(9, "0"); // its name comes before the index of another
+  add(1, "node:0");
+  const auto nodeOf = [&](std::variant<int, std::string> asked) {
+    Camera camera;
+    camera.node = std::move(asked);
+    const auto resolved = resolveCamera(camera, scene, {64, 64});
+    return resolved ? static_cast<int>(resolved->view.eye.x) : -1;
+  };
+  EXPECT_EQ(nodeOf("front"), 5);
+  EXPECT_EQ(nodeOf("side"), 0);
+  EXPECT_EQ(nodeOf("0"), 9);
+  EXPECT_EQ(nodeOf(0), 9);
+  EXPECT_EQ(nodeOf(1), 0);
+  EXPECT_EQ(nodeOf("1"), 0);
+  EXPECT_EQ(nodeOf("node:0"), 1); // again a name
+  EXPECT_EQ(nodeOf("node:5"), 5);
+  for (const char* asked : {"4", "-1", "node:4", "node:", "node:x", "", "Front", "99999999999999999999"}) {
+    EXPECT_EQ(nodeOf(asked), -1) << asked;
+  }
 }
 
 } // namespace

