@@ -29,7 +29,7 @@ CALLS = {
     "sequence": ([SCENE, SPEC], "SequenceRequest", PATCHES),
     "video": ([SCENE, "path: Union[str, Path]", SPEC], "SequenceRequest", [*PATCHES, "framesPerSecond", "videoQuality"]),
 }
-OWN = {"render": {"server": "str", "key": "str"}}
+OWN = {"render": {"server": "str", "key": "str", "strict": "bool"}}
 PRIMITIVES = {"string": "str", "integer": "int", "number": "float", "boolean": "bool"}
 NOTE = "# Written by generate.py from /openapi.json; change the server's rows and run it again.\n"
 

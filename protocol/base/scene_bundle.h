@@ -11,6 +11,7 @@ namespace gnomon {
 struct SceneBundle {
   Bytes model;                        ///< a GLB or glTF JSON
   std::map<std::string, Bytes> files; ///< by the name that the model uses, percent-decoded; never a path upwards
+  bool strict = false;                ///< refused where it violates glTF, instead of repaired
 };
 
 } // namespace gnomon

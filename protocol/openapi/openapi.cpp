@@ -20,12 +20,22 @@ Json textPart(const char* description) {
   return {{"type", "string"}, {"description", description}};
 }
 
+constexpr const char* kStrict = "Refuse a model that violates glTF, with all of its problems, instead of repairing it.";
+
 /// The parts of an upload: the model, and the files that it names under their own file names.
 Json uploadParts() {
   const Json files = {{"type", "array"},
                       {"items", {{"type", "string"}}},
                       {"description", "A file that the model names, with its name as the part's file name."}};
-  return {{"scene", textPart("The model, glTF or GLB.")}, {"file", files}};
+  const Json strict = {{"type", "string"}, {"enum", {"true", "false"}}, {"description", kStrict}};
+  return {{"scene", textPart("The model, glTF or GLB.")}, {"file", files}, {"strict", strict}};
+}
+
+Json strictParameter() {
+  return {{"name", "strict"},
+          {"in", "query"},
+          {"description", kStrict},
+          {"schema", {{"type", "boolean"}, {"default", false}}}};
 }
 
 /// A scene as the whole body, or as a form with the files that it names.
@@ -108,6 +118,8 @@ Json queryParameters() {
 Json sceneRoute() {
   Json put = operation("putScene", "Upload a scene by name",
                        sceneReplies({"400", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
+  put = withScene(std::move(put));
+  put["parameters"].push_back(strictParameter());
   // Where no summary is kept, a worker loads the scene for it, whatever the method.
   const auto summary = [](Json good) {
     return replies(std::move(good), {"400", "404", "413", "422", "429", "500", "503", "504"});
@@ -116,7 +128,7 @@ Json sceneRoute() {
   Json head = operation("headScene", "Whether a scene is there", summary({{"200", success("It is there.", Json())}}));
   Json remove = operation("deleteScene", "Remove a scene",
                           replies({{"204", success("It is gone.", Json())}}, {"400", "404", "503"}));
-  return {{"put", withBody(withScene(std::move(put)), sceneBody())},
+  return {{"put", withBody(std::move(put), sceneBody())},
           {"get", withScene(std::move(get))},
           {"head", withScene(std::move(head))},
           {"delete", withScene(std::move(remove))}};
@@ -125,6 +137,7 @@ Json sceneRoute() {
 Json scenesRoute() {
   Json post = operation("postScene", "Upload a scene; its name is the hash of its bytes",
                         sceneReplies({"400", "408", "411", "413", "415", "422", "429", "500", "503", "504", "507"}));
+  post["parameters"] = Json::array({strictParameter()});
   const Json content = {{"application/json", schemaContent("SceneList")}};
   Json get = operation(
       "listScenes", "The scenes that there are, in pages",
@@ -241,7 +254,7 @@ Json renderRoute() {
   Json post =
       operation("render", "Upload a scene and render a frame of it in one go",
                 frameReplies({"304", "400", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
-  post["parameters"] = Json::array({reference("parameters/ifNoneMatch")});
+  post["parameters"] = Json::array({reference("parameters/ifNoneMatch"), strictParameter()});
   return {{"post", withBody(std::move(post), renderBody())}};
 }
 

@@ -193,7 +193,8 @@ inline constexpr auto kRows<FrameReport> = rows(
                    "shade, predict (with "
                    "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
-    field("warnings", &FrameReport::warnings, {.says = "What was drawn differently from what was asked."}));
+    field("warnings", &FrameReport::warnings,
+          {.says = "What the scene's file holds that is drawn differently, and what else is not as it was asked."}));
 static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
@@ -210,7 +211,8 @@ inline constexpr auto kRows<PlanReport> = rows(
     field("lights", &PlanReport::lights, {.says = "What would be decided for each light, without times."}),
     field("predictedError", &PlanReport::predictedError,
           {.says = "Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn."}),
-    field("warnings", &PlanReport::warnings, {.says = "What would be drawn differently from what was asked."}));
+    field("warnings", &PlanReport::warnings,
+          {.says = "What the scene's file holds that is drawn differently, and what else would not be as it was asked."}));
 static_assert(kRowsAreComplete<PlanReport>);
 
 } // namespace gnomon

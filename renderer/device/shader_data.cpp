@@ -39,11 +39,14 @@ int typeOf(LightType type) {
   return GNOMON_DIRECTIONAL;
 }
 
+/// The narrowest falloff, between two cosines: a sharp edge, where both cones are the same.
+constexpr double kSharpEdge = 1e-5;
+
 /// Angular falloff as KHR_lights_punctual recommends: 1 inside the inner cone, 0 outside the outer one.
 glm::vec2 coneFalloff(const LitLight& light) {
   const double inner = std::cos(light.innerCone);
   const double outer = std::cos(light.outerCone);
-  const double scale = 1.0 / std::max(1e-3, inner - outer);
+  const double scale = 1.0 / std::max(kSharpEdge, inner - outer);
   return {scale, -outer * scale};
 }
 

@@ -35,7 +35,7 @@ Arriving arriving(const Light& light, const glm::dvec3& position) {
     const double inner = std::cos(glm::radians(light.innerConeDegrees));
     const double outer = std::cos(glm::radians(light.outerConeDegrees));
     const double cosine = glm::dot(directionOf(light), -toLight);
-    const double falloff = std::clamp((cosine - outer) / std::max(inner - outer, 1e-3), 0.0, 1.0);
+    const double falloff = std::clamp((cosine - outer) / std::max(inner - outer, 1e-5), 0.0, 1.0);
     attenuation *= falloff * falloff;
   }
   return {radiance * attenuation, toLight};

@@ -62,7 +62,8 @@ Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const R
   report.lights = lightReports(frame->spec, plan, errors, frame->view.eye, layered);
   addCasters(plan, *frame, scene, geometry, report.lights);
   report.predictedError = errors.all;
-  report.warnings = frame->warnings;
+  report.warnings = loaded.summary.warnings;
+  report.warnings.insert(report.warnings.end(), frame->warnings.begin(), frame->warnings.end());
   return report;
 }
 

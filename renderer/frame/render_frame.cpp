@@ -137,6 +137,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
   FrameReport report = makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
+  const std::vector<std::string>& ofFile = loaded->summary.warnings;
+  report.warnings.insert(report.warnings.begin(), ofFile.begin(), ofFile.end());
   for (std::string& damage : damageOf(scene->images)) report.warnings.push_back(std::move(damage));
   return Frame{std::move(report), std::move(images)};
 }

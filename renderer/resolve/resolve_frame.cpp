@@ -48,6 +48,21 @@ ShadowSize usualSize(LightType type) {
 
 } // namespace
 
+namespace {
+
+/// Why the scene does not have the camera that is asked for, where its file has one.
+Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene) {
+  for (const LeftOutCamera& each : scene.leftOutCameras) {
+    const auto* asked = camera.node ? std::get_if<std::string>(&*camera.node) : nullptr;
+    if (asked && (*asked == each.name || *asked == "node:" + std::to_string(each.node))) {
+      problems.front().detail = "The camera of that node is left out, since the file has a fault: " + each.why;
+    }
+  }
+  return problems;
+}
+
+} // namespace
+
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   if (spec.quality) {
     return Problem{ProblemCode::invalidValue, "/quality",
@@ -75,7 +90,7 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
       seen.empty() ? subjectOf(view.bounds)
                    : subjectOf(seen.bounds(), [&](const glm::dvec3& way) { return seen.farthest(way); });
   auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height}, subject);
-  if (!camera) return camera.problems();
+  if (!camera) return whyWithout(camera.problems(), spec.camera, scene);
   frame.spec.camera = camera->camera;
   frame.view = camera->view;
 

@@ -19,7 +19,8 @@ std::string placesOf(std::size_t places, const std::string& first, const std::st
   if (places > 1) {
     return " (" + std::to_string(places) + " places, the first is " + (first.empty() ? "/" : first) + what + ")";
   }
-  return first.empty() ? "" : " (" + first + what + ")";
+  if (first.empty()) return actual.empty() ? "" : " (" + actual + ")";
+  return " (" + first + what + ")";
 }
 
 } // namespace
@@ -47,11 +48,11 @@ void Findings::take(Problems problems) {
 void Findings::take(Findings other) {
   take(std::move(other.problems_));
   for (std::string& warning : other.warnings_) warn(std::move(warning));
-  for (CountedRepair& repair : other.repairs_) {
+  for (CountedRepair& each : other.repairs_) {
     if (conformance_ == Conformance::strict) {
-      this->repair(repair.kind, repair.first, repair.limit, repair.actual);
+      repair(each.kind, each.first, each.limit, each.actual);
     } else {
-      count(std::move(repair));
+      count(std::move(each));
     }
   }
   unsaidWarnings_ += other.unsaidWarnings_;
@@ -68,10 +69,27 @@ void Findings::warn(std::string sentence) {
 
 void Findings::repair(const Repair& kind, const std::string& pointer, const std::string& limit,
                       const std::string& actual) {
-  if (conformance_ == Conformance::strict) {
-    return invalid(pointer, kind.fault + ". Without `strict`, " + kind.remedy + ".", limit, actual);
+  if (conformance_ == Conformance::strict && violations_.size() < kMaxProblems) {
+    violations_.push_back(
+        {ProblemCode::invalidScene, pointer, kind.fault + ". Without `strict`, " + kind.remedy + ".", limit, actual});
   }
   count({kind, pointer, limit, actual});
+}
+
+std::string Findings::leaveOut(Findings part, const std::string& remedy) {
+  Problems problems = part.takeProblems();
+  take(std::move(part));
+  std::string why;
+  for (Problem& problem : problems) {
+    if (problem.code == ProblemCode::tooLarge) {
+      refuse(std::move(problem));
+      continue;
+    }
+    if (why.empty()) why = problem.detail + (problem.pointer.empty() ? "" : " (" + problem.pointer + ")");
+    if (problem.detail.ends_with('.')) problem.detail.pop_back();
+    repair({std::move(problem.detail), remedy}, problem.pointer, problem.limit, problem.actual);
+  }
+  return why;
 }
 
 bool Findings::lostTriangles() const {
@@ -81,6 +99,12 @@ bool Findings::lostTriangles() const {
 void Findings::refuseRepaired() {
   for (const CountedRepair& each : repairs_) invalid(each.first, each.kind.fault + ".", each.limit, each.actual);
   repairs_.clear();
+}
+
+Problems Findings::takeProblems() {
+  problems_.insert(problems_.end(), violations_.begin(), violations_.end());
+  violations_.clear();
+  return std::move(problems_);
 }
 
 void Findings::count(CountedRepair repair) {

@@ -47,14 +47,20 @@ class Findings {
   void repair(const Repair& kind, const std::string& pointer, const std::string& limit = {},
               const std::string& actual = {});
 
+  /// What was found in a part of the file: its repairs are taken, and its problems become repairs by which the part is
+  /// left out, but for limits, which refuse. `remedy`: as in a Repair. The first of the problems; empty = it is sound.
+  std::string leaveOut(Findings part, const std::string& remedy);
+
   /// Whether a repair lost triangles.
   bool lostTriangles() const;
   /// Turns repairs into problems: they left nothing that would be worth drawing.
   void refuseRepaired();
 
   bool refused() const { return !problems_.empty(); }
+  /// Whether the file has to conform and does not. That ends nothing early, so that all of it is found.
+  bool violated() const { return !violations_.empty(); }
   std::size_t count() const { return problems_.size() + warnings_.size() + repairs_.size() + unsaidWarnings_; }
-  Problems takeProblems() { return std::move(problems_); }
+  Problems takeProblems();                 ///< violations last
   std::vector<std::string> takeWarnings(); ///< repairs first
 
  private:
@@ -69,6 +75,7 @@ class Findings {
 
   Conformance conformance_;
   Problems problems_;
+  Problems violations_; ///< what is no conforming file's, where it has to be one
   std::vector<CountedRepair> repairs_;
   std::vector<std::string> warnings_;
   std::size_t unsaidWarnings_ = 0;

@@ -13,9 +13,12 @@
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_checks.h"
+#include "renderer/scene/geometry/accessor_content.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
+#include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
+#include "renderer/scene/graph/scene_roots.h"
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
@@ -43,7 +46,7 @@ std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle&
 
 Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id,
                                           KnownContent* known) {
-  Findings findings;
+  Findings findings(bundle.strict ? Conformance::strict : Conformance::repaired);
   auto document = readGltf(bundle, limits, findings);
   if (!document) return std::move(document).problems();
 
@@ -51,6 +54,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   const std::vector<AccessorView> views = viewAccessors(*document, limits, findings);
   if (findings.refused()) return findings.takeProblems();
   const LoadContext context{*document, views, limits, findings};
+  checkContents(context);
   auto motion = std::make_shared<Motion>();
   motion->animations = readAnimations(context);
   auto deformation = std::make_shared<Deformation>();
@@ -70,6 +74,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.lostTriangles() && std::ranges::all_of(meshes, isEmpty)) findings.refuseRepaired();
   const NodeTree tree = buildNodeTree(model, findings);
   if (findings.refused()) return findings.takeProblems();
+  checkSkinRoots(model, tree.parents, tree.order, findings);
   const std::vector<PosedMesh> posed = poseNodes(context, tree, meshes, *deformation, *scene);
   if (findings.refused()) return findings.takeProblems();
   FlatScenes flat = flattenScenes(context, {tree, meshes, posed, scene->primitives}, !motion->animations.empty());
@@ -90,9 +95,11 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
   if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
   scene->nodes = namedNodes(model);
+  scene->leftOutCameras = leftOutCameras(model);
   scene->images = loadImages(*document, limits, scene->materials, findings, known);
   if (findings.refused()) return findings.takeProblems();
 
+  if (findings.violated()) return findings.takeProblems();
   scene->grids = gridFiles(bundle);
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
   scene->defaultScene = std::max(model.scene, 0);

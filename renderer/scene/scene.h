@@ -175,6 +175,13 @@ struct SceneCamera {
   std::optional<Orthographic> orthographic;
 };
 
+/// A camera of the file that is not drawn from.
+struct LeftOutCamera {
+  int node = 0;
+  std::string name;
+  std::string why;
+};
+
 struct SceneLight {
   int node = 0;
   std::string name;
@@ -213,12 +220,13 @@ struct Scene {
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
   std::vector<SceneNode> nodes;                              ///< as the file numbers them
-  std::vector<PlacedNode> placedNodes;                       ///< parallel; empty where there are no grids
-  std::shared_ptr<const Deformation> deformation;            ///< of skins and morph targets; nullptr = nothing deforms
-  std::shared_ptr<const Motion> motion;                      ///< what poses are made from; nullptr in a pose
-  std::shared_ptr<PoseCache> poses;                          ///< the last poses asked for; beside motion
-  std::vector<SceneView> scenes;     ///< the file's, and then all of them again for each variant
-  std::vector<std::string> variants; ///< names of the file's material variants
+  std::vector<LeftOutCamera> leftOutCameras;
+  std::vector<PlacedNode> placedNodes;            ///< parallel; empty where there are no grids
+  std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
+  std::shared_ptr<const Motion> motion;           ///< what poses are made from; nullptr in a pose
+  std::shared_ptr<PoseCache> poses;               ///< the last poses asked for; beside motion
+  std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
+  std::vector<std::string> variants;              ///< names of the file's material variants
   int defaultScene = 0;
   SceneSummary summary; ///< its id is empty unless the scene is kept somewhere
 };

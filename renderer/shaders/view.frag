@@ -29,16 +29,19 @@ vec3 radianceFrom(int light, SurfacePoint s, Receiver receiver) {
 #endif
 }
 
-vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {
+bool isUnlit(vec4 emission) {
 #ifdef UNLIT
-  bool unlit = emission.w == 1.0;
+  return emission.w == 1.0;
 #else
-  const bool unlit = false;
+  return false;
 #endif
+}
+
+vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {
 #ifdef VIEW_LIGHT_CONTRIBUTION
-  return unlit || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
+  return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
-  if (unlit) return emission.rgb;
+  if (isUnlit(emission)) return emission.rgb;
   vec3 sum = emission.rgb + frame.ambient.rgb * ambientReflected(s) * occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
@@ -67,15 +70,30 @@ layout(binding = GNOMON_VOLUMES_UNIT) uniform sampler2D volumes;
 vec4 volumesHere() { return texelFetch(volumes, ivec2(gl_FragCoord.xy), 0); }
 #endif
 
-// The background is neither exposed nor tone mapped, what stands before it is.
+// What shows as it is, neither exposed nor tone mapped, unlike the volumes before it.
+vec3 seenAsItIs(vec3 color) {
+#ifdef VOLUMES
+  vec4 before = volumesHere();
+  return toneMapped(before.rgb * frame.depthRange.z) + before.a * color;
+#else
+  return color;
+#endif
+}
+
 vec4 backgroundSeen() {
 #ifdef VOLUMES
-  vec4 here = volumesHere();
-  vec3 shown = toneMapped(here.rgb * frame.depthRange.z) + here.a * frame.background.rgb;
-  return vec4(shown, 1.0 - here.a * (1.0 - frame.background.a));
+  return vec4(seenAsItIs(frame.background.rgb), 1.0 - volumesHere().a * (1.0 - frame.background.a));
 #else
   return frame.background;
 #endif
+}
+
+vec3 seenThroughVolumes(vec3 radiance) {
+#ifdef VOLUMES
+  vec4 before = volumesHere();
+  radiance = before.rgb + before.a * radiance;
+#endif
+  return toneMapped(radiance * frame.depthRange.z);
 }
 
 vec4 picture(Sample seen, uint samples) {
@@ -88,12 +106,9 @@ vec4 picture(Sample seen, uint samples) {
   vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   Receiver receiver = receiverOf(seen, surface.face, samples);
-  vec3 radiance = radianceToEye(s, receiver, emissionAt(seen.index), surface.occlusion);
-#ifdef VOLUMES
-  vec4 before = volumesHere();
-  radiance = before.rgb + before.a * radiance;
-#endif
-  vec3 shown = toneMapped(radiance * frame.depthRange.z);
+  vec4 emission = emissionAt(seen.index);
+  vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
+  vec3 shown = isUnlit(emission) ? seenAsItIs(radiance) : seenThroughVolumes(radiance);
 #if defined(VIEW_CASCADES)
   vec3 tint = hasTiles() ? cascadeTint(debugLight, receiver, towardsDebugLight(receiver)) : vec3(1.0);
   shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * tint;

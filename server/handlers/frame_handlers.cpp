@@ -7,6 +7,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
+#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/scenes/upload.h"
 
@@ -181,6 +182,8 @@ HttpReply renderOnce(Services& services, RouteCall call) {
   if (!spec) {
     return problemReply(spec.problems(), id);
   }
+  const auto strict = queryFlag(call.request.query, "strict");
+  if (!strict) return problemReply(strict.problems(), id);
   auto bundle = bundleFromParts(*parts, {"spec"});
   if (!bundle) {
     return problemReply(bundle.problems(), id);
@@ -191,6 +194,10 @@ HttpReply renderOnce(Services& services, RouteCall call) {
   call.request.body = Bytes();
   const auto pack = packed(*bundle);
   if (!pack) return problemReply(pack.problems(), id);
+  if (*strict || bundle->strict) {
+    HttpReply loaded = loadScene(services, call, pack->id, {pack->file}, true);
+    if (loaded.status != 200) return loaded;
+  }
   bundle = SceneBundle();
   const auto give = [&pack]() -> Result<StoredBundle> { return StoredBundle{pack->file}; };
   return answer(services, call, {pack->id, *std::move(spec), give, kPrivate, {}});

@@ -159,9 +159,9 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
     return [&services, handler](RouteCall call) { return handler(services, std::move(call)); };
   };
   std::vector<Route> routes{
-      {"POST", "/v1/scenes", Scope::upload, upload, sceneTypes, bind(postScene)},
+      {"POST", "/v1/scenes", Scope::upload, upload, sceneTypes, bind(postScene), {"strict"}},
       {"GET", "/v1/scenes", Scope::read, none, {}, bind(listScenes), {"limit", "after"}},
-      {"PUT", "/v1/scenes/{id}", Scope::upload, upload, sceneTypes, bind(putScene)},
+      {"PUT", "/v1/scenes/{id}", Scope::upload, upload, sceneTypes, bind(putScene), {"strict"}},
       {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
       {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
       {"GET", "/v1/scenes/{id}/nodes", Scope::read, none, {}, bind(getNodes), {"limit", "after"}},
@@ -178,7 +178,13 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
       {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake), {"light"}},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
-      {"POST", "/v1/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderOnce)},
+      {"POST",
+       "/v1/render",
+       Scope::upload | Scope::render,
+       oneShot,
+       {"multipart/form-data"},
+       bind(renderOnce),
+       {"strict"}},
       {"POST", "/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderDrake)},
       plainRoute(services, "/v1/capabilities", Scope::read, getCapabilities),
       plainRoute(services, "/openapi.json", Scope::none, getOpenApi),

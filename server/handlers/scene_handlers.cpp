@@ -21,18 +21,12 @@ HttpReply summaryReply(std::string summary, int status = 200) {
   return reply;
 }
 
-/// Has a worker load the scene: its summary, or the reply that says why not.
-HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle) {
-  Task task = taskFor(call, OrderKind::load, id, std::move(bundle), "", services.requestTimeout);
-  task.lane = Lane::load;
-  return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
-}
-
 HttpReply store(Services& services, RouteCall& call, const std::optional<std::string>& expectedId) {
   auto bundle = bundleFromRequest(call.request, services.limits);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   const auto pack = packed(*bundle);
   if (!pack) return problemReply(pack.problems(), call.request.id);
+  const bool strict = bundle->strict;
   bundle = SceneBundle();
   if (expectedId && *expectedId != pack->id) {
     return problemReply({{ProblemCode::hashMismatch, "",
@@ -45,14 +39,15 @@ HttpReply store(Services& services, RouteCall& call, const std::optional<std::st
     return problemReply(used.problems(), call.request.id);
   }
   const bool isKnown = static_cast<bool>(used);
-  auto summary = isKnown ? services.store.summary(pack->id) : std::nullopt;
+  // One that is known may have been repaired.
+  auto summary = isKnown && !strict ? services.store.summary(pack->id) : std::nullopt;
   if (!isKnown) {
     if (const auto room = services.store.checkRoom(pack->bytes); !room) {
       return problemReply(room.problems(), call.request.id); // before a worker loads it
     }
   }
   if (!summary) {
-    HttpReply loaded = loadScene(services, call, pack->id, {pack->file});
+    HttpReply loaded = loadScene(services, call, pack->id, {pack->file}, strict);
     if (loaded.status != 200) return loaded;
     const auto kept = services.store.put(pack->id, pack->file, pack->bytes, std::string(loaded.body));
     if (!kept) return problemReply(kept.problems(), call.request.id);

@@ -164,6 +164,14 @@ HttpReply replyOf(TaskResult result, std::string_view requestId) {
   return reply;
 }
 
+HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle,
+                    bool strict) {
+  Task task = taskFor(call, OrderKind::load, id, std::move(bundle), "", services.requestTimeout);
+  task.lane = Lane::load;
+  task.order.strict = strict;
+  return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
+}
+
 HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork work) {
   if (mediaType != kEventStream) return replyOf(work(call.clientGone, {}), call.request.id);
   return eventReply(call, [work = std::move(work), requestId = call.request.id](const std::function<bool()>& gone,

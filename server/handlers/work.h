@@ -55,6 +55,10 @@ TaskResult runTask(Services& services, Task task, const std::function<bool()>& g
 /// The body of a result; nothing where the result has problems, or gets one because there is no body to read.
 std::optional<std::string> bodyOf(TaskResult& result);
 
+/// Has a worker load the scene: its summary, or the reply that says why not. `strict`: refused where it violates glTF.
+HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle,
+                    bool strict = false);
+
 /// The result as a reply: the body with its type and room, stages in Server-Timing, or the problems.
 HttpReply replyOf(TaskResult result, std::string_view requestId);
 

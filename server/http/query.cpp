@@ -38,6 +38,13 @@ std::optional<std::string_view> queryText(const Query& query, std::string_view k
   return found == query.end() ? std::nullopt : std::optional<std::string_view>(found->second);
 }
 
+Result<bool> queryFlag(const Query& query, std::string_view key) {
+  const std::string_view text = queryText(query, key).value_or("false");
+  if (text == "true" || text == "false") return text == "true";
+  return Problem{ProblemCode::invalidValue, "/" + std::string(key), "The value is neither true nor false.",
+                 "true or false", asciiExcerpt(text)};
+}
+
 std::optional<int> wholeNumber(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -37,6 +37,9 @@ std::optional<int> wholeNumber(std::string_view text);
 Result<std::optional<int>> queryNumber(const Query& query, std::string_view key, int least, int most,
                                        std::string_view wrong);
 
+/// Whether `key` is there with the value `true`; its other value is `false`.
+Result<bool> queryFlag(const Query& query, std::string_view key);
+
 /// The text under `key`; nothing where the query has no such key.
 std::optional<std::string_view> queryText(const Query& query, std::string_view key);
 

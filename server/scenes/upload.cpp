@@ -4,6 +4,7 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
+#include "server/http/query.h"
 #include "server/system/memory_file.h"
 #include "server/wire/bundle.h"
 
@@ -14,8 +15,8 @@ Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& 
   if (!boundary) {
     return Problem{ProblemCode::malformed, "", "The Content-Type of the form names no boundary.", "", ""};
   }
-  constexpr std::size_t kModelAndSpec = 2;
-  return parseMultipart(asText(request.body), *boundary, limits.maxBundleFiles + kModelAndSpec);
+  constexpr std::size_t kOthers = 3; // the model, the spec and strict
+  return parseMultipart(asText(request.body), *boundary, limits.maxBundleFiles + kOthers);
 }
 
 Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others) {
@@ -33,6 +34,14 @@ Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const st
       }
       bundle.model = content();
       hasModel = true;
+      continue;
+    }
+    if (part.name == "strict") {
+      if (part.content != "true" && part.content != "false") {
+        problems.push_back({ProblemCode::invalidValue, "strict", "The value is neither true nor false.",
+                            "true or false", asciiExcerpt(part.content)});
+      }
+      bundle.strict = part.content == "true";
       continue;
     }
     const bool byFileName = part.name == "file" || part.name == "files";
@@ -86,6 +95,8 @@ Status checkBundleSize(const SceneBundle& bundle, const Limits& limits) {
 }
 
 Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits) {
+  const auto strict = queryFlag(request.query, "strict");
+  if (!strict) return strict.problems();
   SceneBundle bundle;
   if (mediaType(headerValue(request.headers, "content-type").value_or("")) == "multipart/form-data") {
     const auto parts = partsOf(request, limits);
@@ -101,6 +112,7 @@ Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits
   } else {
     bundle.model = std::move(request.body);
   }
+  bundle.strict = bundle.strict || *strict;
   if (bundle.model.empty()) {
     return Problem{ProblemCode::malformed, "", "The model is empty.", "", ""};
   }

@@ -13,14 +13,15 @@
 /// A bundle as clients send it.
 namespace gnomon {
 
-/// The parts of a form: at most the files of a bundle, its model and a spec. Views of the request's body.
+/// The parts of a form: at most the files of a bundle, its model, a spec and `strict`. Views of the request's body.
 Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& limits);
 
 /// The bundle in a form: the part `scene` is the model; a part `file` (or `files`) is a file under its file name, any
-/// other part a file under its own name. Parts named in `others` are left to the caller.
+/// other part a file under its own name. `strict` of `true` asks for a bundle that is refused where it violates glTF.
+/// Parts named in `others` are left to the caller.
 Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const std::vector<std::string>& others);
 
-/// The bundle in an upload's body: a model by itself, or a form. Takes the body.
+/// The bundle in an upload's body: a model by itself, or a form; strict also where the query says so. Takes the body.
 Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits);
 
 /// A bundle as one file in memory, and what identifies it.

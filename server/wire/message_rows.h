@@ -55,6 +55,7 @@ inline constexpr auto kRows<Order> =
          field("kind", &Order::kind, {.says = "What is wanted."}),
          field("scene", &Order::scene, {.says = "The scene's id."}),
          field("isStored", &Order::isStored, {.says = "The bundle comes from a disk."}),
+         field("strict", &Order::strict, {.says = "What violates glTF is refused."}),
          field("milliseconds", &Order::milliseconds, {.says = "Until its deadline.", .unit = "milliseconds"}),
          field("queuedMilliseconds", &Order::queuedMilliseconds, {.says = "That it waited.", .unit = "milliseconds"}),
          field("mediaType", &Order::mediaType, {.says = "Of the result."}),

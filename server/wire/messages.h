@@ -55,6 +55,7 @@ struct Order {
   OrderKind kind = OrderKind::frame;
   std::string scene{};           ///< its id
   bool isStored = false;         ///< the bundle comes from a disk, and may be damaged
+  bool strict = false;           ///< of a load: a file that violates glTF is refused
   double milliseconds = 0;       ///< until its deadline
   double queuedMilliseconds = 0; ///< that it waited in the front
   std::string mediaType{};       ///< of the result: one that the kind can be sent as

@@ -40,7 +40,7 @@ Answer carryOut(WorkContext& context, const OrderCall& call) noexcept {
 }
 
 std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall& call) {
-  auto loaded = context.scenes.get(call.order.scene, {call.bundle, call.order.isStored}, call.goOn);
+  auto loaded = context.scenes.get(call.order.scene, {call.bundle, call.order.isStored, call.order.strict}, call.goOn);
   if (auto* failure = std::get_if<LoadFailure>(&loaded)) {
     if (!call.goOn()) return Answer{.problems = {stoppedProblem("the scene", call)}};
     return Answer{.problems = std::move(failure->problems), .damaged = failure->damaged};

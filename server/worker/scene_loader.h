@@ -15,6 +15,7 @@ namespace gnomon {
 struct BundleFile {
   const FileDescriptor& file;
   bool isStored = false; ///< it comes from a disk, and may be damaged
+  bool strict = false;   ///< refused where it violates glTF, whether or not it is loaded already
 };
 
 /// Why an order's scene can't be had.

@@ -144,8 +144,12 @@ class Problems(CommandLine):
         self.refused(str(self.folder), said=["is not a file"])
         (self.folder / "bad.glb").write_bytes(Path(BOX).read_bytes()[:100])
         self.refused(str(self.folder / "bad.glb"), said=["gnomon: "])
-        (self.folder / "up.gltf").write_text('{"asset": {"version": "2.0"}, "buffers": [{"uri": "../x", "byteLength": 1}]}')
-        self.refused(str(self.folder / "up.gltf"), said=["isn't inside its folder", "../x"])
+        (self.folder / "model").mkdir()
+        (self.folder / "x").write_bytes(b"x")
+        up = self.folder / "model" / "up.gltf"
+        up.write_text('{"asset": {"version": "2.0"}, "buffers": [{"uri": "../x", "byteLength": 1}]}')
+        self.refused(str(up), said=["outside of its folder", "../x", "--allow-outside-files"])
+        self.render("--allow-outside-files", scene=str(up))
 
     def test_specs_that_are_not(self):
         for text in (b"{", b'{"width": 64, "width": 64}', b"[" * 20000, b'{"wide": 1}'):
@@ -170,6 +174,27 @@ class Render(CommandLine):
         self.assertEqual(png_size(self.output.read_bytes()), (64, 48))
         self.assertEqual((run.stdout, run.stderr), (b"", b""))
         self.assertEqual(os.listdir(self.folder), ["frame.png"])
+
+    def test_what_is_repaired_is_told_and_can_be_refused(self):
+        longer = self.folder / "longer.glb"
+        longer.write_bytes(Path(BOX).read_bytes() + b"past the end")
+        expected = self.render("--sun", "135,40") and self.output.read_bytes()
+        said = self.render("--sun", "135,40", scene=str(longer)).stderr.decode()
+        self.assertRegex(said, "^gnomon: warning: The GLB has bytes after its end; [^\n]*\n$")
+        self.assertEqual(self.output.read_bytes(), expected)
+        for command in (["render", str(longer), "-o", str(self.output)], ["inspect", str(longer)], ["plan", str(longer)]):
+            self.assert_ends(gnomon(*command, "--strict"), PROBLEM, "after its end")
+        self.assert_ends(gnomon("inspect", BOX, "--strict"), OK)
+
+    def test_an_image_that_is_missing_is_left_out(self):
+        scene = Path(split_glb(Path(BOX).read_bytes(), self.folder))
+        document = json.loads(scene.read_text())
+        document["images"] = [{"uri": "textures\\gone.png"}]
+        document["textures"] = [{"source": 0}]
+        for material in document["materials"]:
+            material.setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = {"index": 0}
+        scene.write_text(json.dumps(document))
+        self.assert_ends(self.render(scene=str(scene)), OK, "gnomon: warning: ", "textures/gone.png")
 
     def test_the_suffix_is_the_format(self):
         self.output = self.folder / "frame.exr"

@@ -101,6 +101,37 @@ class Scenes(ServerTest):
         body, content_type = form([("model", "a.glb", self.glb)])
         self.assert_problem(self.server.ask("POST", "/v1/scenes", body, {"Content-Type": content_type}), 400, "scene")
 
+    def test_what_violates_gltf_is_repaired_or_refused_as_the_upload_asks(self):
+        longer = self.glb + b"past the end"
+        repaired = self.server.ask("POST", "/v1/scenes", longer, GLB)
+        self.assertEqual(repaired.status, 201)
+        warnings = repaired.json()["warnings"]
+        self.assertIn("after its end", " ".join(warnings))
+        name = hashlib.sha256(longer).hexdigest()
+        reports = [self.server.frame(name, SMALL, "application/json").json()["report"]]
+        shot = [("scene", "scene", longer), ("spec", None, json.dumps(SMALL).encode())]
+        body, kind = form(shot)
+        once = self.server.ask("POST", "/v1/render", body, {"Content-Type": kind, "Accept": "application/json"})
+        reports.append(once.json()["report"])
+        for report in reports:
+            self.assertEqual(report["warnings"][: len(warnings)], warnings)
+
+        strict_form, strict_kind = form([*shot, ("strict", None, b"true")])
+        for method, path, content, content_type in (
+            ("POST", "/v1/scenes?strict=true", longer, GLB["Content-Type"]),
+            ("PUT", f"/v1/scenes/{name}?strict=true", longer, GLB["Content-Type"]),
+            ("POST", "/v1/render?strict=true", body, kind),
+            ("POST", "/v1/render", strict_form, strict_kind),
+        ):
+            refused = self.server.ask(method, path, content, {"Content-Type": content_type})
+            self.assert_problem(refused, 422)
+            self.assertIn("after its end", refused.json()["problems"][0]["detail"])
+        self.assertEqual(self.server.get(f"/v1/scenes/{name}").status, 200, "who wants it repaired has it")
+        self.assertEqual(self.server.ask("POST", "/v1/scenes?strict=true", self.glb, GLB).status, 201)
+        self.assertEqual(self.server.ask("POST", "/v1/scenes?strict=true", self.glb, GLB).status, 200)
+        self.assertEqual(self.server.ask("POST", "/v1/scenes?strict=false", longer, GLB).status, 200)
+        self.assert_problem(self.server.ask("POST", "/v1/scenes?strict=1", self.glb, GLB), 400, "/strict")
+
     def test_other_types_are_refused(self):
         for content_type in ("application/octet-stream", "text/plain", "application/json"):
             reply = self.server.ask("POST", "/v1/scenes", self.glb, {"Content-Type": content_type})

@@ -25,7 +25,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Bytes model(data, data + size);
-  const auto container = openContainer(model);
+  Findings findings;
+  const auto container = openContainer(model, findings);
   if (!container) {
     fuzz::requireSound(container.problems());
     return 0;
@@ -40,7 +41,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::requireSound(json.problems());
     return 0;
   }
-  Findings findings;
   checkVersion(*json, findings);
   checkExtensions(*json, findings);
   checkSchema(*json, findings);

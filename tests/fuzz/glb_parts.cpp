@@ -39,7 +39,8 @@ Bytes glbOf(const Bytes& json, const Bytes& binary) {
 std::size_t mutatePart(std::uint8_t* data, std::size_t size, std::size_t capacity, unsigned seed,
                        const Mutation& mutate) {
   const Bytes whole(data, data + size);
-  const auto parts = openContainer(whole);
+  Findings findings;
+  const auto parts = openContainer(whole, findings);
   const bool isGlb = size >= 4 && std::equal(data, data + 4, "glTF");
   if (!parts || !isGlb || seed % 8 == 0 || capacity < kHeaders + 8) return mutate(data, size, capacity);
 

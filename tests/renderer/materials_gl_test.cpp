@@ -47,6 +47,30 @@ TEST(MaterialFrames, WhatIsUnlitShowsItsColorWhateverTheLight) {
   for (const Json& lights : {Json::array(), kSun}) EXPECT_NEAR(redOf(scene, fromAbove(lights)), 0.25f, 1e-3f);
 }
 
+/// As bytes, at default settings but for these.
+std::array<int, 3> shownBytes(const ScenePtr& scene, Json settings) {
+  settings["width"] = settings["height"] = 16;
+  settings["camera"] = {{"eye", {0, 5, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}};
+  settings["lights"] = kSun;
+  const Frame frame = renderJson(scene, settings.dump());
+  const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
+  const std::size_t middle = pixels.size() / 256 * (8 * 16 + 8);
+  return {pixels[middle], pixels[middle + 1], pixels[middle + 2]};
+}
+
+TEST(MaterialFrames, WhatIsUnlitShowsItsColorAsItIsPastExposureAndToneMapping) {
+  const ScenePtr scene = testing::sceneOf(ground(Json::parse(
+      R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0.21763764,0,1]},"extensions":{"KHR_materials_unlit":{}}})")));
+  const std::array<int, 3> orange{255, 128, 0};
+  for (const char* settings : {"{}", R"({"exposure":2})", R"({"exposure":-3,"toneMapping":"none"})",
+                               R"({"antialiasing":"none"})", R"({"toneMapping":"none"})"}) {
+    EXPECT_EQ(shownBytes(scene, Json::parse(settings)), orange) << settings;
+  }
+  Json spec = fromAbove(kSun);
+  spec["exposure"] = 4;
+  EXPECT_NEAR(redOf(scene, spec), 1.0f, 1e-3f) << "in linear numbers, too";
+}
+
 TEST(MaterialFrames, AWhiteFloorShowsTheAmbientRadiance) {
   const ScenePtr scene = testing::sceneOf(
       ground(Json::parse(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":0}})")));

@@ -1,5 +1,12 @@
 #include "tests/support/glb_builder.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <string>
+
 namespace gnomon::testing {
 
 namespace {
@@ -19,6 +26,77 @@ void appendChunk(Bytes& bytes, std::uint32_t type, const Content& content, std::
   append32(bytes, type);
   bytes.insert(bytes.end(), content.begin(), content.end());
   bytes.insert(bytes.end(), padded - content.size(), padding);
+}
+
+/// Unless a number is not finite.
+void addBounds(const std::vector<Point>& points, nlohmann::json& accessor) {
+  Point least{HUGE_VALF, HUGE_VALF, HUGE_VALF};
+  Point most{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
+  for (const Point& point : points) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(point[axis])) return;
+      least[axis] = std::min(least[axis], point[axis]);
+      most[axis] = std::max(most[axis], point[axis]);
+    }
+  }
+  if (points.empty()) return;
+  accessor["min"] = least;
+  accessor["max"] = most;
+}
+
+/// The names of all extensions in it.
+void findExtensions(const nlohmann::json& value, std::set<std::string>& names) {
+  for (const auto& [key, member] : value.items()) {
+    if (key == "extras" || !member.is_structured()) continue;
+    if (key == "extensions" && member.is_object()) {
+      for (const auto& [name, extension] : member.items()) names.insert(name);
+    }
+    findExtensions(member, names);
+  }
+}
+
+/// `extensionsUsed`, where the document does not have it and needs it.
+void listExtensions(nlohmann::json& document) {
+  if (document.contains("extensionsUsed")) return;
+  std::set<std::string> names;
+  findExtensions(document, names);
+  if (!names.empty()) document["extensionsUsed"] = names;
+}
+
+/// The whole number of a member; `none` where there is no such number.
+std::size_t numberAt(const nlohmann::json& object, const char* key, std::size_t none) {
+  const auto member = object.find(key);
+  if (member == object.end() || !member->is_number_integer() || *member < 0) return none;
+  return member->get<std::size_t>();
+}
+
+/// The element of an array of the root; nullptr where there is none.
+nlohmann::json* elementOf(nlohmann::json& document, const char* key, std::size_t index) {
+  const auto array = document.find(key);
+  if (array == document.end() || !array->is_array() || index >= array->size()) return nullptr;
+  return &(*array)[index];
+}
+
+/// The min and max of positions that have neither and are packed floats.
+void boundPositions(nlohmann::json& document, const Bytes& binary) {
+  for (std::size_t m = 0; const nlohmann::json* mesh = elementOf(document, "meshes", m); ++m) {
+    if (!mesh->contains("primitives") || !(*mesh)["primitives"].is_array()) continue;
+    for (const nlohmann::json& primitive : (*mesh)["primitives"]) {
+      if (!primitive.contains("attributes")) continue;
+      nlohmann::json* accessor =
+          elementOf(document, "accessors", numberAt(primitive["attributes"], "POSITION", SIZE_MAX));
+      if (!accessor || accessor->contains("min") || accessor->contains("max")) continue;
+      if (numberAt(*accessor, "componentType", 0) != 5126 || accessor->contains("sparse")) continue;
+      const nlohmann::json* view = elementOf(document, "bufferViews", numberAt(*accessor, "bufferView", SIZE_MAX));
+      if (!view || view->contains("byteStride")) continue;
+      const std::size_t offset = numberAt(*view, "byteOffset", 0) + numberAt(*accessor, "byteOffset", 0);
+      const std::size_t count = numberAt(*accessor, "count", 0);
+      if (offset > binary.size() || count > (binary.size() - offset) / sizeof(Point)) continue;
+      std::vector<Point> points(count);
+      std::memcpy(points.data(), binary.data() + offset, count * sizeof(Point));
+      addBounds(points, *accessor);
+    }
+  }
 }
 
 } // namespace
@@ -50,7 +128,9 @@ int GlbBuilder::addView(const void* data, std::size_t bytes, int stride) {
 }
 
 int GlbBuilder::addPoints(const std::vector<Point>& points) {
-  return addAccessor(points, "VEC3", 5126, points.size());
+  const int accessor = addAccessor(points, "VEC3", 5126, points.size());
+  addBounds(points, json["accessors"].back());
+  return accessor;
 }
 
 int GlbBuilder::addIndices(const std::vector<std::uint32_t>& indices) {
@@ -77,6 +157,8 @@ int GlbBuilder::addRoot(nlohmann::json node) {
 
 Bytes GlbBuilder::glb() const {
   nlohmann::json document = json;
+  listExtensions(document);
+  boundPositions(document, binary);
   if (!binary.empty() && !document.contains("buffers")) {
     document["buffers"] = nlohmann::json::array({{{"byteLength", binary.size()}}});
   }

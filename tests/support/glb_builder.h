@@ -17,7 +17,8 @@ using Point = std::array<float, 3>;
 Bytes makeGlb(std::string_view json, const Bytes& binary = {});
 
 /// A glTF under construction. Everything in `json` may be changed by hand before glb() is called, so that a test
-/// can tell any lie; buffer 0 and its byteLength are added by glb() unless `json` already has buffers.
+/// can tell any lie; buffer 0 and its byteLength are added by glb() unless `json` already has buffers, as are
+/// extensionsUsed and the min and max of positions.
 struct GlbBuilder {
   nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
   Bytes binary;

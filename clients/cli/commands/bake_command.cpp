@@ -14,6 +14,7 @@ namespace {
 
 struct BakeOptions {
   std::string scene;
+  SceneFileOptions reading;
   std::string output;
   std::string spec;   // a file, "-" = standard input, empty = none
   std::string report; // a file, "-" = standard output, empty = none
@@ -35,7 +36,7 @@ std::string checkBakeOutput(const std::string& output) {
 
 Result<Baked> bakeScene(const BakeOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene);
+  const auto bundle = readSceneFile(options.scene, options.reading);
   if (!bundle) return bundle.problems();
   const BakeOrder order{spec, *kindOf(options.output), options.light};
   if (options.where.server.empty()) return bakeHere(*bundle, order, options.where.backend, progress);
@@ -64,6 +65,7 @@ Subcommand addBakeCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("bake", "Bake the shadows of what stands still into a file, in this process or on a server");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  addSceneFileFlags(*command, options->reading);
   command
       ->add_option("-o,--output", options->output,
                    "What was baked: .glb = the scene with the light that arrives as a light map, .exr or .png = the "

@@ -20,6 +20,7 @@ namespace {
 
 struct EvaluateOptions {
   std::string scene;
+  SceneFileOptions reading;
   std::string spec; // a file, "-" = standard input, empty = none
   std::vector<std::string> variants;
   std::optional<std::string> sweep;
@@ -73,7 +74,7 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
   const auto evaluation = decodeEvaluation(request);
   if (!evaluation) return evaluation.problems();
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, evaluation->spec.volumes);
+  const auto bundle = readSceneFile(options.scene, options.reading, evaluation->spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return evaluateHere(*bundle, *evaluation, options.where.backend, progress);
   const auto remote = remoteOf(options.where);
@@ -118,6 +119,7 @@ Subcommand addEvaluateCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("evaluate", "Measure speed and error of shadows, compared with exact ones by ray tracing");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  addSceneFileFlags(*command, options->reading);
   addSpecFlag(*command, options->spec);
   auto* variants = command->add_option(
       "--variant", options->variants, "One variant: what it changes in the request, as a JSON merge patch. Repeatable");

@@ -21,6 +21,7 @@ namespace gnomon::cli {
 namespace {
 
 struct RenderOptions {
+  SceneFileOptions reading;
   std::vector<std::string> scenes;
   std::vector<std::string> cameras;
   std::string output;
@@ -73,8 +74,8 @@ Status writeWithReference(const BatchItem& item, const Rendered& rendered, Frame
 /// The pictures of one scene.
 class SceneRun {
  public:
-  SceneRun(FrameMaker& maker, bool reference, ProgressLine& progress)
-      : maker_(maker), reference_(reference), progress_(progress) {}
+  SceneRun(FrameMaker& maker, const RenderOptions& options, ProgressLine& progress)
+      : maker_(maker), options_(options), progress_(progress) {}
 
   /// Opens the scene of the item unless it is open already, and makes its pictures.
   Status make(const BatchItem& item, const FrameSpec& spec) {
@@ -85,7 +86,9 @@ class SceneRun {
     if (!opened_) return opened_;
     const auto rendered = maker_.draw(spec, progress_);
     if (!rendered) return rendered.problems();
-    if (reference_) return writeWithReference(item, *rendered, maker_, progress_);
+    progress_.finish();
+    printWarnings(warningsOf(rendered->reportJson));
+    if (options_.reference) return writeWithReference(item, *rendered, maker_, progress_);
     return writeAll(item, *rendered, progress_);
   }
 
@@ -96,13 +99,13 @@ class SceneRun {
       return Done{};
     }
     progress_.stage("reading " + scene);
-    auto bundle = readSceneFile(scene, spec.volumes);
+    auto bundle = readSceneFile(scene, options_.reading, spec.volumes);
     if (!bundle) return bundle.problems();
     return maker_.open(*std::move(bundle), progress_);
   }
 
   FrameMaker& maker_;
-  bool reference_;
+  const RenderOptions& options_;
   ProgressLine& progress_;
   std::string scene_;
   Status opened_ = Done{};
@@ -114,10 +117,10 @@ std::string nameOf(const BatchItem& item) {
 }
 
 /// Every picture that can be made; those that can't be tell their problems.
-int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs, bool reference,
-                FrameMaker& maker) {
+int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs,
+                const RenderOptions& options, FrameMaker& maker) {
   auto progress = ProgressLine::onTerminal();
-  SceneRun run(maker, reference, progress);
+  SceneRun run(maker, options, progress);
   int exit = kExitOk;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items.size() > 1) {
@@ -148,7 +151,7 @@ int runRender(RenderOptions options) {
   }
   auto maker = makerFor(options.where);
   if (!maker) return printProblems(maker.problems());
-  return renderBatch(*items, specs, options.reference, *maker);
+  return renderBatch(*items, specs, options, *maker);
 }
 
 std::string checkOutput(const std::string& output) {
@@ -158,6 +161,7 @@ std::string checkOutput(const std::string& output) {
 
 struct PlanOptions {
   std::string scene;
+  SceneFileOptions reading;
   std::string spec; // a file, "-" = standard input, empty = none
   SpecArguments arguments;
   WhereOptions where;
@@ -165,7 +169,7 @@ struct PlanOptions {
 
 Result<std::string> planScene(const PlanOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, spec.volumes);
+  const auto bundle = readSceneFile(options.scene, options.reading, spec.volumes);
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return planHere(*bundle, spec, options.where.backend, progress);
   const auto remote = remoteOf(options.where);
@@ -195,6 +199,7 @@ Subcommand addRenderCommand(CLI::App& app) {
           "A .glb or .gltf file, or several; - is standard input. With --server also the id of a scene that is "
           "there. Each is loaded once, and drawn by each camera")
       ->required();
+  addSceneFileFlags(*command, options->reading);
   auto* output =
       command
           ->add_option(
@@ -236,6 +241,7 @@ Subcommand addPlanCommand(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
   auto* command = app.add_subcommand("plan", "Print what a frame's shadows would be, without rendering it");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  addSceneFileFlags(*command, options->reading);
   addSpecFlag(*command, options->spec);
   addSpecArgument(*command, options->spec);
   addPictureFlags(*command, options->arguments);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/terminal/messages.h"
 #include "clients/cli/terminal/result_text.h"
@@ -15,13 +16,14 @@ namespace {
 
 struct InspectOptions {
   std::string scene;
+  SceneFileOptions reading;
   bool json = false;
 };
 
-Result<SceneSummary> inspect(const std::string& path) {
+Result<SceneSummary> inspect(const InspectOptions& options) {
   auto progress = ProgressLine::onTerminal();
-  progress.stage("reading " + path);
-  const auto bundle = readSceneFile(path);
+  progress.stage("reading " + options.scene);
+  const auto bundle = readSceneFile(options.scene, options.reading);
   if (!bundle) return bundle.problems();
   progress.stage("loading the scene");
   const auto scene = loadScene(*bundle);
@@ -30,7 +32,7 @@ Result<SceneSummary> inspect(const std::string& path) {
 }
 
 int runInspect(const InspectOptions& options) {
-  const auto summary = inspect(options.scene);
+  const auto summary = inspect(options);
   if (!summary) return printProblems(ofScene(options.scene, summary.problems()));
   if (options.json) {
     std::cout << toJson(*summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
@@ -47,6 +49,7 @@ Subcommand addInspectCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("inspect", "Print what a scene holds, and what of it is ignored or drawn differently");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
+  addSceneFileFlags(*command, options->reading);
   command->add_flag("--json", options->json, "Print JSON, as the server's summary, instead of a tree");
   return {[command] { return command->parsed(); }, [options] { return runInspect(*options); }};
 }

@@ -20,6 +20,7 @@
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
+#include "clients/cli/terminal/result_text.h"
 #include "protocol/base/text.h"
 #include "protocol/job/job_json.h"
 #include "protocol/json/json_codec.h"
@@ -34,6 +35,7 @@ constexpr const char* kVideoSuffix = ".webm";
 
 struct SequenceOptions {
   std::string scene;
+  SceneFileOptions reading;
   std::string spec;   ///< a file, "-" = standard input, empty = none; of a sequence a SequenceRequest
   int frames = 36;    ///< of a turntable
   std::string output; ///< with {frame}, or a video
@@ -93,6 +95,7 @@ int drawVideo(const SequenceOptions& options, const std::string& requestJson, co
   if (!report) return fail(report.problems());
   if (auto finished = file->finish(); !finished) return fail(finished.problems());
   progress.finish();
+  printWarnings(warningsOf(*report));
   if (auto done = writeReport(options, *report); !done) return printProblems(done.problems());
   if (options.report != "-") std::cout << sequence.count - sequence.first << " frames\n";
   return kExitOk;
@@ -114,6 +117,7 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
   const auto report = maker.drawAll(sequence, requestJson, take, progress);
   progress.finish();
   if (!report) return printProblems(ofScene(options.scene, report.problems()), origins);
+  printWarnings(warningsOf(*report));
   if (auto done = writeReport(options, *report); !done) return printProblems(done.problems());
   if (options.report != "-") std::cout << written << " pictures\n";
   return kExitOk;
@@ -121,7 +125,7 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
 
 Status openScene(const SequenceOptions& options, const FrameSpec& spec, FrameMaker& maker, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  auto bundle = readSceneFile(options.scene, spec.volumes);
+  auto bundle = readSceneFile(options.scene, options.reading, spec.volumes);
   if (!bundle) return bundle.problems();
   const Status opened = maker.open(*std::move(bundle), progress);
   return opened ? opened : Status(ofScene(options.scene, opened.problems()));
@@ -132,7 +136,8 @@ int submitJob(const SequenceOptions& options, const std::string& requestJson, co
               const FlagOrigins& origins) {
   const auto remote = remoteOf(options.where);
   if (!remote) return printProblems(remote.problems());
-  const auto bundle = readSceneFile(options.scene, frameSpec(sequence, sequence.first, sequence.carried).volumes);
+  const auto bundle =
+      readSceneFile(options.scene, options.reading, frameSpec(sequence, sequence.first, sequence.carried).volumes);
   if (!bundle) return printProblems(bundle.problems());
   auto progress = ProgressLine::onTerminal();
   std::string id;
@@ -312,6 +317,7 @@ Subcommand addSequenceCommand(CLI::App& app) {
   auto* command =
       app.add_subcommand("sequence", "Render the frames of a sequence: paths, moving nodes, a day of the sun");
   command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
+  addSceneFileFlags(*command, options->reading);
   addSpecFlag(*command, options->spec,
               ". Here it is a sequence, as POST /v1/scenes/{id}/sequences takes it, and the fields are its spec's");
   addSpecArgument(*command, options->spec);
@@ -334,6 +340,7 @@ Subcommand addTurntableCommand(CLI::App& app) {
   auto options = std::make_shared<SequenceOptions>();
   auto* command = app.add_subcommand("turntable", "Render a scene from all around");
   command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
+  addSceneFileFlags(*command, options->reading);
   command->add_option("--frames", options->frames, "How many pictures one turn has")
       ->check(CLI::Range(2, static_cast<int>(kLimits.maxSequenceFrames)))
       ->capture_default_str();

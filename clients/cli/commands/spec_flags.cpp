@@ -152,6 +152,15 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
       ->group("Picture");
 }
 
+void addSceneFileFlags(CLI::App& command, SceneFileOptions& options) {
+  command.add_flag("--strict", options.strict, "Refuse a model that violates glTF, instead of repairing it")
+      ->group("Model");
+  command
+      .add_flag("--allow-outside-files", options.allowOutsideFiles,
+                "Open files that the model names outside of its own folder")
+      ->group("Model");
+}
+
 void addServerFlags(CLI::App& command, WhereOptions& where) {
   auto* server = command.add_option("--server", where.server, "The server that does the work")->envname("GNOMON_URL");
   server->type_name("URL")->group("Server");

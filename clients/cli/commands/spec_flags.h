@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/cli/files/scene_file.h"
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
@@ -37,6 +38,9 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
 
 /// --server and how it is called, for commands that can do without one in this process.
 void addServerFlags(CLI::App& command, WhereOptions& where);
+
+/// How the model's file is read.
+void addSceneFileFlags(CLI::App& command, SceneFileOptions& options);
 
 /// The server, with the key to show it: from the file, or from the environment's GNOMON_KEY. A command line is seen by
 /// other users of the machine, so no flag takes a key.

@@ -16,6 +16,7 @@ namespace gnomon::cli {
 namespace {
 
 struct StoreOptions {
+  SceneFileOptions reading;
   std::vector<std::string> items; ///< files, or ids
   bool json = false;
   WhereOptions where;
@@ -44,9 +45,10 @@ int forEachItem(const StoreOptions& options, Act act) {
   return exit;
 }
 
-Result<std::string> uploadFile(const Remote& remote, const std::string& file, ProgressLine& progress) {
+Result<std::string> uploadFile(const Remote& remote, const std::string& file, const SceneFileOptions& reading,
+                               ProgressLine& progress) {
   progress.stage("reading " + file);
-  const auto bundle = readSceneFile(file);
+  const auto bundle = readSceneFile(file, reading);
   if (!bundle) return bundle.problems();
   auto id = sceneId(remote, *bundle, progress);
   if (!id) return about(file, id.problems());
@@ -123,8 +125,14 @@ Subcommand addUploadCommand(CLI::App& app) {
   auto options = std::make_shared<StoreOptions>();
   auto* command = app.add_subcommand("upload", "Give scenes to a server, and print their ids");
   command->add_option("scenes", options->items, "A .glb or .gltf file, or several; - is standard input")->required();
+  addSceneFileFlags(*command, options->reading);
   addStoreServerFlags(*command, options->where);
-  return {[command] { return command->parsed(); }, [options] { return forEachItem(*options, uploadFile); }};
+  return {[command] { return command->parsed(); },
+          [options] {
+            return forEachItem(*options, [&](const Remote& remote, const std::string& file, ProgressLine& progress) {
+              return uploadFile(remote, file, options->reading, progress);
+            });
+          }};
 }
 
 Subcommand addLsCommand(CLI::App& app) {

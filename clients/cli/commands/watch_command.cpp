@@ -13,13 +13,16 @@
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
+#include "clients/cli/terminal/result_text.h"
 #include "protocol/base/elapsed.h"
+#include "protocol/base/file_uri.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {
 namespace {
 
 struct WatchOptions {
+  SceneFileOptions reading;
   std::string scene, output;
   std::string spec; // a file, empty = none
   SpecArguments arguments;
@@ -34,10 +37,10 @@ std::vector<std::filesystem::path> sourcesOf(const WatchOptions& options, const 
   const auto model = readFile(scene, kLimits.maxSceneBytes);
   if (!model) return files;
   for (const std::string& uri : externalUris(*model)) {
-    const auto name = percentDecoded(uri);
+    const auto named = fileUri(uri);
     // What leads out of the scene's folder is refused later, and not looked at here.
-    if (name && !name->starts_with('/') && name->find("..") == std::string::npos) {
-      files.push_back(scene.parent_path() / *name);
+    if (named && (!named->isOutside || options.reading.allowOutsideFiles)) {
+      files.push_back(scene.parent_path() / named->path);
     }
   }
   for (const VolumeOptions& volume : volumes) {
@@ -53,11 +56,13 @@ Status makeOnce(const WatchOptions& options, const ResolvedSpec& resolved, Frame
   if (Status watched = watch.watch(sourcesOf(options, volumes)); !watched) return watched;
   if (!resolved.spec) return resolved.spec.problems();
   progress.stage("reading " + options.scene);
-  auto bundle = readSceneFile(options.scene, resolved.spec->volumes);
+  auto bundle = readSceneFile(options.scene, options.reading, resolved.spec->volumes);
   if (!bundle) return bundle.problems();
   if (Status opened = maker.open(*std::move(bundle), progress); !opened) return opened;
   const auto rendered = maker.draw(*resolved.spec, progress);
   if (!rendered) return rendered.problems();
+  progress.finish();
+  printWarnings(warningsOf(rendered->reportJson));
   progress.stage("writing");
   const auto names = writePictures(rendered->pictures, options.output);
   if (!names) return names.problems();
@@ -93,6 +98,7 @@ Subcommand addWatchCommand(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
   auto* command = app.add_subcommand("watch", "Render again when the scene, its files or the request change");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required()->check(CLI::ExistingFile);
+  addSceneFileFlags(*command, options->reading);
   command->add_option("-o,--output", options->output, "The picture")->required()->check(checkPictureName);
   command->add_option("--spec", options->spec, "A request as JSON. Flags override its fields")
       ->check(CLI::ExistingFile);

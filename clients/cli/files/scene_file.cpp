@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string_view>
 
 #include "clients/cli/files/file_io.h"
 #include "protocol/base/bytes.h"
+#include "protocol/base/file_uri.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {
@@ -20,7 +20,8 @@ std::string_view jsonText(std::span<const std::uint8_t> model) {
   if (model.size() < kHeader + kChunkHeader) return {};
   const std::uint64_t length = littleEndian(model.subspan(kHeader, 4));
   if (length > model.size() - kHeader - kChunkHeader) return {};
-  return text.substr(kHeader + kChunkHeader, length);
+  const std::string_view json = text.substr(kHeader + kChunkHeader, length);
+  return json.substr(0, json.find_last_not_of('\0') + 1); // some pad with zeros
 }
 
 /// Follows the JSON event by event and keeps the strings at /buffers/N/uri and /images/N/uri.
@@ -81,30 +82,88 @@ bool isInside(const std::filesystem::path& folder, const std::filesystem::path& 
   return end == folder.end() && rest != file.end();
 }
 
-/// Where the name leads, when that is inside the folder.
-std::optional<std::filesystem::path> resolve(const std::filesystem::path& folder, const std::string& name) {
-  if (!isPlainRelative(name)) return std::nullopt;
+/// Where a path leads, and whether that is inside the folder.
+struct Place {
+  std::filesystem::path file;
+  bool isInside = false;
+};
+
+Place placeOf(const std::filesystem::path& folder, const std::filesystem::path& path) {
   std::error_code error;
   const auto root = std::filesystem::canonical(folder, error);
-  if (error) return std::nullopt;
-  const auto file = std::filesystem::weakly_canonical(root / name, error);
-  if (error || !isInside(root, file)) return std::nullopt;
-  return file;
+  if (error) return {folder / path, false};
+  const auto file = std::filesystem::weakly_canonical(root / path, error);
+  if (error) return {root / path, false};
+  return {file, isInside(root, file)};
 }
+
+class BundleReading {
+ public:
+  BundleReading(SceneBundle& bundle, std::filesystem::path folder, bool allowOutside, std::size_t room)
+      : bundle_(bundle), folder_(std::move(folder)), allowOutside_(allowOutside), room_(room) {}
+
+  /// What is no file, or is not there, is left to the loader.
+  void addFileOf(const std::string& uri, const std::string& pointer) {
+    const auto named = fileUri(uri);
+    if (!named || bundle_.files.contains(named->name)) return;
+    const Place place = placeOf(folder_, named->path);
+    std::error_code error;
+    if (!std::filesystem::exists(place.file, error) || std::filesystem::is_directory(place.file, error)) return;
+    if (!place.isInside && !allowOutside_) {
+      problems_.push_back({ProblemCode::invalidScene, pointer, "The model names a file outside of its folder.",
+                           "with --allow-outside-files any file", uri.substr(0, kMostQuoted)});
+      return;
+    }
+    add(named->name, place.file, "The model");
+  }
+
+  void addVolume(const std::string& name, const std::string& pointer) {
+    if (bundle_.files.contains(name)) return;
+    const Place place = isPlainRelative(name) ? placeOf(folder_, name) : Place{};
+    if (!place.isInside) {
+      problems_.push_back({ProblemCode::invalidScene, pointer, "The volume names a file that isn't inside its folder.",
+                           "a relative name without \"..\" or a scheme", name.substr(0, kMostQuoted)});
+      return;
+    }
+    add(name, place.file, "The volume");
+  }
+
+  Problems takeProblems() { return std::move(problems_); }
+
+ private:
+  static constexpr std::size_t kMostQuoted = 200;
+
+  void add(const std::string& name, const std::filesystem::path& file, const std::string& who) {
+    auto bytes = readFile(file, room_);
+    if (bytes) {
+      room_ -= bytes->size();
+      bundle_.files[name] = std::move(*bytes);
+      return;
+    }
+    for (Problem problem : bytes.problems()) {
+      problem.pointer = (folder_ / name).string();
+      problem.detail += " " + who + " names it.";
+      problems_.push_back(std::move(problem));
+    }
+  }
+
+  SceneBundle& bundle_;
+  std::filesystem::path folder_;
+  bool allowOutside_;
+  std::size_t room_; ///< bytes
+  Problems problems_;
+};
 
 } // namespace
 
-Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limits& limits) {
-  return readSceneFile(path, {}, limits);
-}
-
-Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<const VolumeOptions> volumes,
-                                  const Limits& limits) {
+Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const SceneFileOptions& options,
+                                  std::span<const VolumeOptions> volumes, const Limits& limits) {
   const bool isPiped = path == "-";
   auto model = isPiped ? readStandardInput(limits.maxSceneBytes) : readFile(path, limits.maxSceneBytes);
   if (!model) return model.problems();
   SceneBundle bundle;
   bundle.model = std::move(*model);
+  bundle.strict = options.strict;
 
   const auto uris = externalUris(bundle.model);
   if (uris.size() > limits.maxBundleFiles) {
@@ -112,35 +171,12 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<c
                    std::to_string(limits.maxBundleFiles), std::to_string(uris.size())};
   }
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  std::size_t room = limits.maxSceneBytes - bundle.model.size();
-  Problems problems;
-  const auto add = [&](const std::optional<std::string>& name, const std::string& written, const std::string& pointer,
-                       const std::string& who) {
-    if (name && bundle.files.contains(*name)) return;
-    const auto file = name ? resolve(folder, *name) : std::nullopt;
-    if (!file) {
-      problems.push_back({ProblemCode::invalidScene, pointer, who + " names a file that isn't inside its folder.",
-                          "a relative name without \"..\" or a scheme", written.substr(0, 200)});
-      return;
-    }
-    auto bytes = readFile(*file, room);
-    if (!bytes) {
-      for (Problem problem : bytes.problems()) {
-        problem.pointer = (folder / *name).string();
-        problem.detail += " " + who + " names it.";
-        problems.push_back(std::move(problem));
-      }
-      return;
-    }
-    room -= bytes->size();
-    bundle.files[*name] = std::move(*bytes);
-  };
-  for (const std::string& uri : uris)
-    add(percentDecoded(uri), uri, isPiped ? "standard input" : path.string(), "The model");
+  BundleReading reading(bundle, folder, options.allowOutsideFiles, limits.maxSceneBytes - bundle.model.size());
+  for (const std::string& uri : uris) reading.addFileOf(uri, isPiped ? "standard input" : path.string());
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    add(volumes[i].file, volumes[i].file, "/volumes/" + std::to_string(i) + "/file", "The volume");
+    reading.addVolume(volumes[i].file, "/volumes/" + std::to_string(i) + "/file");
   }
-  if (!problems.empty()) return problems;
+  if (Problems problems = reading.takeProblems(); !problems.empty()) return problems;
   return bundle;
 }
 

@@ -17,13 +17,17 @@ namespace gnomon::cli {
 /// read as glTF gives none: judging it is the loader's.
 std::vector<std::string> externalUris(std::span<const std::uint8_t> model);
 
-/// Reads a .glb or .gltf and the files that it names beside it; "-" is standard input, whose files lie in the current
-/// folder. A name must be relative and stay inside the model's
-/// folder, symbolic links followed; anything else is refused, and nothing of it is opened.
-Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Limits& limits = kLimits);
+/// How a model is read.
+struct SceneFileOptions {
+  bool strict = false;            ///< refused where it violates glTF, instead of repaired
+  bool allowOutsideFiles = false; ///< files outside of the model's folder are opened, too
+};
 
-/// The same, and the files of these volumes, which lie in the model's folder, too.
-Result<SceneBundle> readSceneFile(const std::filesystem::path& path, std::span<const VolumeOptions> volumes,
-                                  const Limits& limits = kLimits);
+/// Reads a .glb or .gltf and the files that it names; "-" is standard input, whose files lie in the current folder.
+/// Files outside of the model's folder, symbolic links followed, are refused unless the options allow them, and nothing
+/// of them is opened. Those that are not there are left to the loader. `volumes`: their files are read as well, which
+/// lie in the model's folder.
+Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const SceneFileOptions& options = {},
+                                  std::span<const VolumeOptions> volumes = {}, const Limits& limits = kLimits);
 
 } // namespace gnomon::cli

@@ -135,7 +135,7 @@ Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, Prog
 }
 
 Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress) {
-  if (bundle.files.empty()) {
+  if (bundle.files.empty() && !bundle.strict) { // one that is there may have been repaired
     progress.stage("asking for the scene");
     const std::string id = modelId(bundle.model);
     HttpCall ask;
@@ -149,7 +149,7 @@ Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, Pro
   const UploadBody upload = uploadBody(bundle);
   HttpCall post;
   post.method = "POST";
-  post.path = "/v1/scenes";
+  post.path = bundle.strict ? "/v1/scenes?strict=true" : "/v1/scenes";
   post.contentType = upload.contentType;
   post.body = upload.bytes;
   post.onSent = [&progress](double share) { progress.share(share); };

@@ -103,6 +103,15 @@ int printProblems(const Problems& problems, const FlagOrigins& origins) {
   return kExitProblem;
 }
 
+void printWarnings(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return;
+  if (manners().problems == ProblemForm::json) {
+    std::cerr << Json{{"warnings", warnings}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return;
+  }
+  for (const std::string& warning : warnings) std::cerr << "gnomon: warning: " + printable(warning) + "\n";
+}
+
 std::string printable(std::string text) {
   const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   std::replace_if(text.begin(), text.end(), isControl, '?');

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "protocol/base/result.h"
 
@@ -39,6 +40,9 @@ std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins 
 
 /// Every problem on its line on stderr, each after "gnomon: "; or all as JSON on one line. Gives kExitProblem.
 int printProblems(const Problems& problems, const FlagOrigins& origins = {});
+
+/// Every warning on its line on stderr, each after "gnomon: warning: "; or all as JSON on one line.
+void printWarnings(const std::vector<std::string>& warnings);
 
 /// The text with every control character replaced, so that what a file or a server says can't steer the terminal.
 std::string printable(std::string text);

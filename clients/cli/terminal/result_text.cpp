@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "clients/cli/terminal/messages.h"
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
 
 namespace gnomon::cli {
@@ -238,6 +240,18 @@ Branch warningsBranch(const SceneSummary& s) {
 }
 
 } // namespace
+
+std::vector<std::string> warningsOf(const std::string& reportJson) {
+  const Json report = Json::parse(reportJson, nullptr, false);
+  if (!report.is_object()) return {};
+  const auto listed = report.find("warnings");
+  std::vector<std::string> warnings;
+  if (listed == report.end() || !listed->is_array()) return warnings;
+  for (const Json& warning : *listed) {
+    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  }
+  return warnings;
+}
 
 std::string summaryText(const std::string& title, const SceneSummary& s) {
   std::vector<Branch> branches{{"file  " + readableBytes(s.bytes), {}}, memoryBranch(s), boundsBranch(s)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/report/replies.h"
@@ -14,6 +15,9 @@ std::string evaluationTable(const EvaluationReport& report);
 /// What a frame's shadows get wrong, in one line: "wrong 0.4200 % (false shadow 0.3000 %, false lit 0.1200 %), edges
 /// 0.31 pixels off".
 std::string errorText(const ErrorMetrics& metrics);
+
+/// The warnings of a frame's or a sequence's report.
+std::vector<std::string> warningsOf(const std::string& reportJson);
 
 /// The summary as a tree of lines for people. `title` is its root.
 std::string summaryText(const std::string& title, const SceneSummary& summary);

@@ -60,8 +60,10 @@ class AsyncSession:
             cancel.set()
             raise
 
-    async def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
-        return await self._run(lambda: self.session.upload(source, files))
+    async def upload(self, source: Source, files: Mapping[str, Source] = {}, *, strict: bool = False,
+                     allow_outside_files: bool = False) -> Scene:
+        return await self._run(lambda: self.session.upload(source, files, strict=strict,
+                                                           allow_outside_files=allow_outside_files))
 
     async def scene(self, scene: SceneLike) -> SceneSummary:
         return await self._run(lambda: self.session.scene(scene))

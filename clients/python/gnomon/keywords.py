@@ -53,6 +53,7 @@ def render(
     *,
     server: Optional[str] = None,
     key: Optional[str] = None,
+    strict: Optional[bool] = None,
     sun: Optional[Vector] = None,
     width: Optional[int] = None,
     height: Optional[int] = None,

@@ -393,7 +393,7 @@ class FrameReport(TypedDict, total=False):
         Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, shade, predict
         (with `debug.predictEdges`), reference (if a view asks for rays), readback, encode. Unit: milliseconds.
     warnings:
-        What was drawn differently from what was asked.
+        What the scene's file holds that is drawn differently, and what else is not as it was asked.
     """
 
     spec: Dict[str, Any]
@@ -426,7 +426,7 @@ class PlanReport(TypedDict, total=False):
     predictedError:
         Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn.
     warnings:
-        What would be drawn differently from what was asked.
+        What the scene's file holds that is drawn differently, and what else would not be as it was asked.
     """
 
     spec: Dict[str, Any]

@@ -8,7 +8,7 @@ import json
 import re
 import threading
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, NamedTuple, Optional, Tuple, Union, cast
+from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, NamedTuple, Optional, Set, Tuple, Union, cast
 from urllib.parse import quote
 
 from .bundle import Bundle, Source, bundle, files_beside, upload_body
@@ -47,6 +47,10 @@ def _states(paths: Iterable[Path]) -> Dict[Path, State]:
     return states
 
 
+def is_scene_id(scene: SceneLike) -> bool:
+    return isinstance(scene, str) and re.fullmatch("[0-9a-f]{64}", scene) is not None
+
+
 class SceneCalls:
     """Calls below /v1/scenes/{id}. May be used by several threads."""
 
@@ -57,13 +61,19 @@ class SceneCalls:
         self._sources: Dict[str, Callable[[], Bundle]] = {}
         self._files: Dict[str, _File] = {}
         self._names: Dict[str, Dict[int, str]] = {}
+        self._conforming: Set[str] = set()  # ids of scenes that have passed as strict
 
-    def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
-        made = bundle(source, files)
-        summary = (self._known(made.id) if made.id else None) or self._send(made)
-        again = (lambda: made) if isinstance(source, bytes) else (lambda: bundle(source, files))
+    def upload(self, source: Source, files: Mapping[str, Source] = {}, strict: bool = False,
+               allow_outside_files: bool = False) -> Scene:
+        read = lambda: bundle(source, files, strict, allow_outside_files)
+        made = read()
+        # One that the server has may have been repaired.
+        is_judged = not strict or made.id in self._conforming
+        summary = (self._known(made.id) if made.id and is_judged else None) or self._send(made)
         with self._lock:
-            self._sources[summary["id"]] = again
+            self._sources[summary["id"]] = (lambda: made) if isinstance(source, bytes) else read
+            if strict:
+                self._conforming.add(summary["id"])
         self._warned.of_scene(summary["id"], summary.get("warnings", []))
         return Scene(summary["id"], summary)
 
@@ -77,8 +87,8 @@ class SceneCalls:
         """A scene's id. A path or bytes are uploaded, once for as long as the files stay as they are."""
         if isinstance(scene, Scene):
             return scene.id
-        if isinstance(scene, str) and re.fullmatch("[0-9a-f]{64}", scene):
-            return scene
+        if is_scene_id(scene):
+            return cast(str, scene)
         if isinstance(scene, bytes):
             name = Bundle(scene, {}).id
             return name if name in self._sources else self.upload(scene).id
@@ -150,4 +160,6 @@ class SceneCalls:
     def _send(self, made: Bundle) -> SceneSummary:
         content_type, content = upload_body(made)
         method, path = ("PUT", f"/v1/scenes/{made.id}") if made.id else ("POST", "/v1/scenes")
-        return cast(SceneSummary, json.loads(self._http.request(method, path, content, Content_Type=content_type).body))
+        query = "?strict=true" if made.strict else ""
+        reply = self._http.request(method, path + query, content, Content_Type=content_type)
+        return cast(SceneSummary, json.loads(reply.body))

@@ -62,10 +62,12 @@ class Session:
         if self._own is not None:
             self._own.close()
 
-    def upload(self, source: Source, files: Mapping[str, Source] = {}) -> Scene:
+    def upload(self, source: Source, files: Mapping[str, Source] = {}, *, strict: bool = False,
+               allow_outside_files: bool = False) -> Scene:
         """Stores a scene, unless the server has it: a .glb or .gltf by its path (with what it names beside it) or its
-        bytes, and further files by name."""
-        return self._scenes.upload(source, files)
+        bytes, and further files by name. `strict` refuses a model that violates glTF, instead of repairing it.
+        `allow_outside_files` sends also what a model names outside of its folder."""
+        return self._scenes.upload(source, files, strict, allow_outside_files)
 
     def scene(self, scene: SceneLike) -> SceneSummary:
         """What a scene holds."""

@@ -47,7 +47,7 @@ void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::
     const Int x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
     const Int y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
     const SeenVolumes seen = volumesAt(job, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
-    const Float3 own = pictureOf(job.scene.frame, maskOf(0xffffu), seen.color, job.toneMapping, job.encoded).rgb;
+    const Float3 own = pictureOf(job.scene.frame, seen.color, job.toneMapping, job.encoded);
     const auto at = static_cast<std::size_t>(first);
     store(own.x + seen.through * Float(background.x), &colors.channels[0][at]);
     store(own.y + seen.through * Float(background.y), &colors.channels[1][at]);
@@ -58,12 +58,18 @@ void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::
 
 HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
   const Surface surface = surfaceOf(job, packet);
-  Float3 radiance = radianceOf(job, packet, surface);
-  if (!job.volumes.empty()) {
+  const Float3 radiance = radianceOf(job, packet, surface);
+  const auto toned = [&](const Float3& color) HWY_ATTR {
+    return pictureOf(job.scene.frame, color, job.toneMapping, job.encoded);
+  };
+  Float3 shown;
+  if (job.volumes.empty()) {
+    shown = select(surface.unlit, radiance, toned(radiance));
+  } else { // what is unlit shows as it is, as the background does; the volumes before it do not
     const SeenVolumes seen = volumesAt(job, packet.fragments.x, packet.fragments.y);
-    radiance = seen.color + radiance * seen.through;
+    shown = select(surface.unlit, toned(seen.color) + radiance * seen.through,
+                   toned(seen.color + radiance * seen.through));
   }
-  const Float3 shown = pictureOf(job.scene.frame, packet.fragments.shown, radiance, job.toneMapping, job.encoded).rgb;
   const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
   if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);
   if (job.view != View::cascades) return shown;

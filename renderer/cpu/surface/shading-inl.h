@@ -84,20 +84,14 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   return select(surface.unlit, surface.emission, sum);
 }
 
-/// A picture's color, linear; `a`: 1 on surfaces.
-struct PictureColor {
-  Float3 rgb;
-  Float a;
-};
-
-/// `encoded`: for 8 bits a channel; else linear numbers, whatever the tone mapping.
-HWY_INLINE PictureColor pictureOf(const shared::FrameData& frame, const Mask& shown, const Float3& radiance,
-                                  ToneMapping toneMapping, bool encoded) {
+/// The color that a radiance has in a picture, linear. `encoded`: for 8 bits a channel; else linear numbers, whatever
+/// the tone mapping.
+HWY_INLINE Float3 pictureOf(const shared::FrameData& frame, const Float3& radiance, ToneMapping toneMapping,
+                            bool encoded) {
   const Float3 exposed = radiance * Float(frame.depthRange.z);
-  const Float3 toned = !encoded                           ? exposed
-                       : toneMapping == ToneMapping::aces ? acesToneMapped(exposed)
-                                                          : clippedTone(exposed);
-  return {select(shown, toned, Float3(glm::vec3(frame.background))), select(shown, Float(1.0f), frame.background.w)};
+  return !encoded                           ? exposed
+         : toneMapping == ToneMapping::aces ? acesToneMapped(exposed)
+                                            : clippedTone(exposed);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -47,67 +47,89 @@ std::size_t morphTargetsOf(const gltf::Model& model, const gltf::Node& node) {
 class Reading {
  public:
   explicit Reading(const LoadContext& load)
-      : model_(load.document.model), accessors_(load.accessors), limits_(load.limits), findings_(load.findings) {}
+      : model_(load.document.model), accessors_(load.accessors), limits_(load.limits), findings_(&load.findings) {}
 
   Animation read(const gltf::Animation& source, const std::string& pointer) {
     Animation animation;
-    animation.name = keptName(source.name, findings_);
-    std::set<std::string> moved;
-    std::map<std::pair<std::size_t, SamplerUse>, std::size_t> built;
-    const std::vector<gltf::AnimationChannel>& channels = source.channels;
-    for (std::size_t i = 0; i < channels.size() && !findings_.refused(); ++i) {
-      const std::string at = pointerTo(pointer + "/channels", i);
-      const auto target = targetOf(model_, channels[i]);
-      if (!target) {
-        findings_.warn("The animation channel that targets " + inQuotes(targetName(channels[i])) + " is ignored.");
-        continue;
-      }
-      if (!moved.insert(keyOf(*target)).second) {
-        findings_.invalid(at + "/target", "Another channel of the animation has the same target.");
-        return animation;
-      }
-      const auto use = useOf(*target, at + "/target");
-      if (!use) return animation;
-      const std::size_t index = channels[i].sampler;
-      const auto [place, isNew] = built.try_emplace({index, *use}, animation.samplers.size());
-      const std::string samplerAt = pointerTo(pointer + "/samplers", index);
-      if (isNew) {
-        animation.samplers.push_back(buildSampler(source.samplers[index], samplerAt, accessors_, *use,
-                                                  limits_.maxKeyframes - keyframes_, findings_));
-        const Sampler& sampler = animation.samplers.back();
-        keyframes_ += sampler.times.size() + sampler.values.size();
-        if (sampler.times.empty()) return animation;
-        animation.durationSeconds = std::max(animation.durationSeconds, double{sampler.times.back()});
-      }
-      if (const auto* node = std::get_if<NodeTarget>(&*target)) {
-        animation.channels.push_back({node->path, static_cast<int>(node->node), place->second});
-      } else {
-        const auto& property = std::get<PropertyTarget>(*target);
-        checkRange(property, animation.samplers[place->second], samplerAt + "/output");
-        animation.properties.push_back({property, place->second});
-      }
+    animation.name = keptName(source.name, *findings_);
+    moved_.clear();
+    built_.clear();
+    for (std::size_t i = 0; i < source.channels.size() && !findings_->refused(); ++i) {
+      Findings ofChannel;
+      Findings* const whole = std::exchange(findings_, &ofChannel);
+      readChannel(source, pointer, i, animation);
+      findings_ = whole;
+      findings_->leaveOut(std::move(ofChannel), "the animation's channel is left out");
     }
     return animation;
   }
 
  private:
+  /// Adds the channel, unless there is a problem with it.
+  void readChannel(const gltf::Animation& source, const std::string& pointer, std::size_t index, Animation& animation) {
+    const gltf::AnimationChannel& channel = source.channels[index];
+    const std::string at = pointerTo(pointer + "/channels", index) + "/target";
+    if (source.samplers[channel.sampler].faulty) return; // told by the schema check
+    const auto target = targetOf(model_, channel);
+    if (!target) {
+      findings_->warn("The animation channel that targets " + inQuotes(targetName(channel)) + " is ignored.");
+      return;
+    }
+    if (moved_.contains(keyOf(*target))) {
+      return findings_->invalid(at, "Another channel of the animation has the same target.");
+    }
+    const auto use = useOf(*target, at);
+    if (!use) return;
+    const std::string samplerAt = pointerTo(pointer + "/samplers", channel.sampler);
+    const auto place = samplerOf(source.samplers[channel.sampler], {channel.sampler, *use}, samplerAt, animation);
+    if (!place) return;
+    const Sampler& sampler = animation.samplers[*place];
+    if (const auto* node = std::get_if<NodeTarget>(&*target)) {
+      animation.channels.push_back({node->path, static_cast<int>(node->node), *place});
+    } else {
+      const auto& property = std::get<PropertyTarget>(*target);
+      if (!isInRange(property, sampler, samplerAt + "/output")) return;
+      animation.properties.push_back({property, *place});
+    }
+    moved_.insert(keyOf(*target));
+    animation.durationSeconds = std::max(animation.durationSeconds, double{sampler.times.back()});
+  }
+
+  /// Index into Animation::samplers; nothing where it is faulty, with a problem the first time.
+  std::optional<std::size_t> samplerOf(const gltf::AnimationSampler& source,
+                                       const std::pair<std::size_t, SamplerUse>& key, const std::string& pointer,
+                                       Animation& animation) {
+    const auto [place, isNew] = built_.try_emplace(key);
+    if (!isNew) return place->second;
+    Sampler sampler =
+        buildSampler(source, pointer, accessors_, key.second, limits_.maxKeyframes - keyframes_, *findings_);
+    keyframes_ += sampler.times.size() + sampler.values.size();
+    if (findings_->refused() || sampler.times.empty()) return std::nullopt;
+    place->second = animation.samplers.size();
+    animation.samplers.push_back(std::move(sampler));
+    return place->second;
+  }
+
   static std::string keyOf(const AnimationTarget& target) {
     if (const auto* property = std::get_if<PropertyTarget>(&target)) return property->pointer;
     const auto& node = std::get<NodeTarget>(target);
     return std::to_string(node.node) + ' ' + std::to_string(static_cast<int>(node.path));
   }
 
-  void checkRange(const PropertyTarget& property, const Sampler& sampler, const std::string& pointer) {
+  /// False, and a problem, where a keyframe is not.
+  bool isInRange(const PropertyTarget& property, const Sampler& sampler, const std::string& pointer) {
     for (std::size_t keyframe = 0; keyframe < sampler.times.size(); ++keyframe) {
       for (const float value : std::span(valueOf(sampler, keyframe), sampler.components)) {
         if (!(double{value} < property.min) && !(double{value} > property.max) &&
             !(property.minExcluded && double{value} == property.min)) {
           continue;
         }
-        return findings_.invalid(pointer, "A keyframe's value is out of range for " + inQuotes(property.pointer) + ".",
-                                 {}, std::to_string(value) + " at keyframe " + std::to_string(keyframe));
+        findings_->invalid(pointer, "A keyframe's value is out of range for " + inQuotes(property.pointer) + ".", {},
+                           std::to_string(value) + " at keyframe " + std::to_string(keyframe));
+        return false;
       }
     }
+    return true;
   }
 
   /// Nothing, and a problem, where the node does not have what the channel moves.
@@ -122,20 +144,23 @@ class Reading {
       const bool rotates = path == ChannelPath::rotation;
       const SamplerUse use{rotates ? ValueKind::rotation : ValueKind::vector, rotates ? 4u : 3u, 1};
       if (!node.matrix) return use;
-      findings_.invalid(pointer, "A node with a matrix can't be animated.");
+      findings_->invalid(pointer, "A node with a matrix can't be animated.");
       return std::nullopt;
     }
     const std::size_t targets = morphTargetsOf(model_, node);
     if (targets > 0) return SamplerUse{ValueKind::numbers, 1, targets};
-    findings_.invalid(pointer, "The node has no morph targets whose weights could be animated.");
+    findings_->invalid(pointer, "The node has no morph targets whose weights could be animated.");
     return std::nullopt;
   }
 
   const gltf::Model& model_;
   const std::vector<AccessorView>& accessors_;
   const Limits& limits_;
-  Findings& findings_;
+  Findings* findings_;        ///< of the channel that is read
   std::size_t keyframes_ = 0; ///< numbers read so far; <= maxKeyframes
+  // Of the animation that is read:
+  std::set<std::string> moved_;                                                    ///< targets
+  std::map<std::pair<std::size_t, SamplerUse>, std::optional<std::size_t>> built_; ///< nothing = it is faulty
 };
 
 } // namespace

@@ -144,9 +144,13 @@ Result<Properties> moveProperties(const Properties& rest, const Animation& anima
   Findings findings;
   checkCameras(moved.cameras, findings);
   checkLights(moved.lights, findings);
-  if (findings.refused()) {
-    const Problem broken = findings.takeProblems().front();
-    return disallowed(broken.pointer, timeSeconds, broken.detail);
+  for (std::size_t i = 0; i < moved.cameras.size(); ++i) {
+    if (moved.cameras[i].fault == rest.cameras[i].fault) continue;
+    return disallowed(pointerTo("/cameras", i), timeSeconds, moved.cameras[i].fault);
+  }
+  for (std::size_t i = 0; i < moved.lights.size(); ++i) {
+    if (moved.lights[i].fault == rest.lights[i].fault) continue;
+    return disallowed(pointerTo("/extensions/KHR_lights_punctual/lights", i), timeSeconds, moved.lights[i].fault);
   }
   return moved;
 }

@@ -9,7 +9,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kSupported{"EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 16> kSupported{"CESIUM_RTC",
+                                                      "EXT_mesh_gpu_instancing",
                                                       "EXT_meshopt_compression",
                                                       "EXT_texture_webp",
                                                       "KHR_animation_pointer",
@@ -25,12 +26,28 @@ constexpr std::array<std::string_view, 15> kSupported{"EXT_mesh_gpu_instancing",
                                                       "KHR_node_visibility",
                                                       "KHR_texture_transform"};
 
+/// What tells about a model and changes no pixel.
+constexpr std::array<std::string_view, 14> kMetadata{"AGI_articulations",
+                                                     "AGI_stk_metadata",
+                                                     "EXT_feature_metadata",
+                                                     "EXT_instance_features",
+                                                     "EXT_mesh_features",
+                                                     "EXT_structural_metadata",
+                                                     "KHR_audio_emitter",
+                                                     "KHR_interactivity",
+                                                     "KHR_node_hoverability",
+                                                     "KHR_node_selectability",
+                                                     "KHR_physics_rigid_bodies",
+                                                     "KHR_implicit_shapes",
+                                                     "KHR_xmp",
+                                                     "KHR_xmp_json_ld"};
+
 struct Consequence {
   std::string_view extension;
   std::string_view drawn;
 };
 
-/// What happens to a file that uses, but does not require, an extension.
+/// What happens to a file that uses an extension, and can be drawn without it.
 constexpr std::array kConsequences{
     Consequence{"KHR_materials_anisotropy", "highlights are as wide along the surface as across it"},
     Consequence{"KHR_materials_clearcoat", "surfaces have no clear coat"},
@@ -43,19 +60,25 @@ constexpr std::array kConsequences{
     Consequence{"KHR_texture_basisu", "the fallback image is used"},
 };
 
-bool supported(std::string_view name) {
-  return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+bool isMetadata(std::string_view name) {
+  return std::ranges::find(kMetadata, name) != kMetadata.end();
 }
 
-std::string consequenceOf(std::string_view name) {
+/// Whether a file that requires the extension is drawn without it: what it adds to a material is left out, as where it
+/// is optional.
+bool isNoObstacle(std::string_view name) {
+  return isMetadata(name) || name.starts_with("KHR_materials_");
+}
+
+std::string_view consequenceOf(std::string_view name) {
   for (const Consequence& row : kConsequences) {
-    if (row.extension == name) return std::string(row.drawn);
+    if (row.extension == name) return row.drawn;
   }
-  return "its additions are not drawn";
+  return isMetadata(name) ? "it changes no pixel" : "its additions are not drawn";
 }
 
-/// The strings of an array member; other values are left to the schema check.
-std::vector<std::pair<std::size_t, std::string>> namesIn(const nlohmann::json& document, const char* key) {
+/// With their places in it.
+std::vector<std::pair<std::size_t, std::string>> stringsIn(const nlohmann::json& document, const char* key) {
   std::vector<std::pair<std::size_t, std::string>> names;
   const auto member = document.find(key);
   if (member == document.end() || !member->is_array()) return names;
@@ -89,23 +112,45 @@ void checkVersion(const nlohmann::json& document, Findings& findings) {
   }
 }
 
+std::set<std::string> namesIn(const nlohmann::json& document, const char* key) {
+  std::set<std::string> names;
+  for (auto& [index, name] : stringsIn(document, key)) names.insert(std::move(name));
+  return names;
+}
+
+bool isSupported(std::string_view extension) {
+  return std::ranges::find(kSupported, extension) != kSupported.end();
+}
+
 void checkExtensions(const nlohmann::json& document, Findings& findings) {
-  const auto required = namesIn(document, "extensionsRequired");
-  for (const auto& [index, name] : required) {
-    if (supported(name)) continue;
-    findings.unsupported(pointerTo("/extensionsRequired", index),
-                         "The glTF requires the extension " + inQuotes(name) + ", which is not supported.");
+  const std::set<std::string> used = namesIn(document, "extensionsUsed");
+  std::set<std::string> told;
+  for (const auto& [index, name] : stringsIn(document, "extensionsRequired")) {
+    const std::string pointer = pointerTo("/extensionsRequired", index);
+    if (isSupported(name)) {
+      if (used.contains(name)) continue;
+      findings.repair({"An extension is required and not listed in `extensionsUsed`", "it is read"}, pointer, {},
+                      inQuotes(name));
+    } else if (isNoObstacle(name)) {
+      findings.repair({"The glTF requires the extension " + inQuotes(name) + ", which is not supported",
+                       std::string(consequenceOf(name))},
+                      pointer);
+      told.insert(name);
+    } else {
+      findings.unsupported(pointer, "The glTF requires the extension " + inQuotes(name) + ", which is not supported.");
+    }
   }
-  for (const auto& [index, name] : namesIn(document, "extensionsUsed")) {
-    if (!supported(name)) {
-      findings.warn("The extension " + inQuotes(name) + " is not supported: " + consequenceOf(name) + ".");
+  for (const auto& [index, name] : stringsIn(document, "extensionsUsed")) {
+    if (!isSupported(name) && !told.contains(name)) {
+      findings.warn("The extension " + inQuotes(name) + " is not supported: " + std::string(consequenceOf(name)) + ".");
     }
   }
 }
 
 std::vector<std::string> unsupportedOf(const std::vector<std::string>& names) {
   std::vector<std::string> left;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(left), [](const auto& name) { return !supported(name); });
+  std::copy_if(names.begin(), names.end(), std::back_inserter(left),
+               [](const auto& name) { return !isSupported(name); });
   return left;
 }
 

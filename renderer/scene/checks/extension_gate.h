@@ -1,7 +1,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renderer/scene/findings.h"
@@ -13,6 +15,12 @@ void checkVersion(const nlohmann::json& document, Findings& findings);
 
 /// Refuses every required extension that is not supported; warns of those that are used.
 void checkExtensions(const nlohmann::json& document, Findings& findings);
+
+/// The strings of an array member of the root; other values are left to the schema check.
+std::set<std::string> namesIn(const nlohmann::json& document, const char* key);
+
+/// Whether what an extension adds is read.
+bool isSupported(std::string_view extension);
 
 /// Of these names those that are not supported, in their order.
 std::vector<std::string> unsupportedOf(const std::vector<std::string>& names);

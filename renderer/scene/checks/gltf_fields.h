@@ -36,6 +36,7 @@ struct GltfField {
   bool minExcluded = false;
   std::size_t length = 0;
   std::string_view allowed = {}; ///< of integers and strings: the values, with a space between each two
+  bool noDefault = false;        ///< another value than those does not count as if the member were not there
 };
 
 /// Every member that is read, grouped by owner; the owner of the root's members is "root".

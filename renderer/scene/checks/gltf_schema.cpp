@@ -1,9 +1,14 @@
 #include "renderer/scene/checks/gltf_schema.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
+#include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_fields.h"
 
 namespace gnomon {
@@ -56,11 +61,55 @@ bool makeInteger(json& value) {
   return true;
 }
 
+/// Members that mean nothing without another one of the same object.
+struct Dependency {
+  std::string_view owner;
+  std::string_view key;
+  std::string_view needed;
+};
+constexpr std::array kDependencies{Dependency{"accessor", "byteOffset", "bufferView"},
+                                   Dependency{"node", "weights", "mesh"}, Dependency{"node", "skin", "mesh"}};
+
+/// Objects of which a faulty one is left out, and what comes of that. The others refuse the file.
+struct Part {
+  std::string_view owner;
+  const char* remedy;
+};
+constexpr const char* kPartLeftOut = "what needs it is left out";
+constexpr std::array kParts{Part{"accessor", kPartLeftOut},
+                            Part{"bufferView", kPartLeftOut},
+                            Part{"buffer", kPartLeftOut},
+                            Part{"camera", "the camera is left out"},
+                            Part{"light", "the light is left out"},
+                            Part{"animation", "the animation is left out"},
+                            Part{"channel", "the animation's channel is left out"},
+                            Part{"animation.sampler", "the animation's channels that use it are left out"}};
+
+/// Of a range; 1 where it has one end.
+constexpr double kNumberRounding = 1e-4;
+
+const Repair kRounded{"A number is beyond its limit by rounding", "it is brought to the limit"};
+const Repair kNotListed{"A value is in no list of glTF", "the default is used"};
+const Repair kTwice{"An index is listed twice", "it counts once"};
+const Repair kJointTwice{"A skin lists a joint twice", "both move what they move"};
+const Repair kEmptyArray{"An array has no elements, which glTF forbids", "it is read as if it were not there"};
+
+/// The limit that a number is beyond by no more than rounding.
+std::optional<double> limitRounded(const GltfField& field, double value) {
+  const double range = field.max - field.min;
+  const double most = kNumberRounding * (std::isfinite(range) ? range : 1);
+  if (value > field.max && value - field.max <= most) return field.max;
+  if (value < field.min && field.min - value <= most && !field.minExcluded) return field.min;
+  return std::nullopt;
+}
+
 class SchemaCheck {
  public:
-  SchemaCheck(const json& document, Findings& findings) : findings_(findings) {
+  SchemaCheck(const json& document, Findings& findings)
+      : findings_(&findings), used_(namesIn(document, "extensionsUsed")) {
     for (const GltfField& field : gltfFields()) {
       fieldsOf_[field.owner].push_back(&field);
+      if (field.owner.ends_with(".extensions")) placed_.insert(std::string(field.key));
       if (field.owner == "root" && field.kind == FieldKind::objects) sizes_[field.key] = sizeOf(document, field.key);
     }
     const auto extensions = document.find("extensions");
@@ -75,12 +124,15 @@ class SchemaCheck {
   void checkObject(json& object, std::string_view owner, const std::string& pointer) {
     if (!object.is_object()) return wrongType(pointer, "an object", object);
     if (owner == "animation") sizes_["animation.samplers"] = sizeOf(object, "samplers");
+    checkDependencies(object, owner, pointer);
+    checkExtensionsOf(object, owner, pointer);
     for (const GltfField* field : fieldsOf_[owner]) {
       const auto member = object.find(field->key);
       if (member != object.end()) {
         checkField(*field, *member, pointerTo(pointer, field->key));
+        if (member->is_null()) object.erase(member);
       } else if (field->required) {
-        findings_.invalid(pointerTo(pointer, field->key), "The required member is missing.");
+        findings_->invalid(pointerTo(pointer, field->key), "The required member is missing.");
       }
     }
   }
@@ -91,11 +143,50 @@ class SchemaCheck {
     return member != object.end() && member->is_array() ? member->size() : 0;
   }
 
-  void wrongType(const std::string& pointer, std::string_view expected, const json& value) {
-    findings_.invalid(pointer, "The value is not " + std::string(expected) + ".", std::string(expected), textOf(value));
+  void checkDependencies(const json& object, std::string_view owner, const std::string& pointer) {
+    for (const Dependency& each : kDependencies) {
+      if (each.owner != owner || !object.contains(each.key) || object.contains(each.needed)) continue;
+      const std::string member(each.key);
+      findings_->repair({'`' + member + "` is there without `" + std::string(each.needed) + '`', "it changes nothing"},
+                        pointerTo(pointer, member));
+    }
   }
 
+  /// Of those that are read: whether they stand where they mean something, and are listed.
+  void checkExtensionsOf(const json& object, std::string_view owner, const std::string& pointer) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return;
+    const std::vector<const GltfField*>& own = fieldsOf_[owner];
+    const auto row = std::ranges::find(own, std::string_view("extensions"), &GltfField::key);
+    const auto rows = row == own.end() ? fieldsOf_.end() : fieldsOf_.find((*row)->of);
+    for (const auto& [name, extension] : extensions->items()) {
+      const std::string at = pointerTo(pointer + "/extensions", name);
+      if (!used_.contains(name)) {
+        findings_->repair({"The extension " + inQuotes(name) + " is used and not listed in `extensionsUsed`",
+                           isSupported(name) ? "it is read" : "its additions are not drawn"},
+                          at);
+      }
+      const auto isNamed = [&name = name](const GltfField* field) { return field->key == name; };
+      const bool isRead = rows != fieldsOf_.end() && std::ranges::any_of(rows->second, isNamed);
+      if (placed_.contains(name) && !isRead) {
+        findings_->repair(
+            {"The extension " + inQuotes(name) + " stands where it means nothing", "it is not read there"}, at);
+      }
+    }
+  }
+
+  void wrongType(const std::string& pointer, std::string_view expected, const json& value) {
+    findings_->invalid(pointer, "The value is not " + std::string(expected) + ".", std::string(expected),
+                       textOf(value));
+  }
+
+  /// Leaves null where the value counts as if the member were not there.
   void checkField(const GltfField& field, json& value, const std::string& pointer) {
+    if (!field.allowed.empty() && !field.required && !field.noDefault && !isListed(field, value)) {
+      findings_->repair(kNotListed, pointer, rangeOf(field), textOf(value));
+      value = nullptr;
+      return;
+    }
     switch (field.kind) {
       case FieldKind::boolean:
         if (!value.is_boolean()) wrongType(pointer, "true or false", value);
@@ -125,13 +216,25 @@ class SchemaCheck {
     }
   }
 
-  void outOfRange(const GltfField& field, const json& value, const std::string& pointer) {
-    findings_.invalid(pointer, "glTF does not allow this value here.", rangeOf(field), textOf(value));
+  static bool isListed(const GltfField& field, json& value) {
+    if (field.kind == FieldKind::integer) return makeInteger(value) && isAllowed(field, value.dump());
+    return value.is_string() && isAllowed(field, value.get_ref<const std::string&>());
   }
 
-  void checkNumber(const GltfField& field, const json& value, const std::string& pointer) {
+  void outOfRange(const GltfField& field, const json& value, const std::string& pointer) {
+    findings_->invalid(pointer, "glTF does not allow this value here.", rangeOf(field), textOf(value));
+  }
+
+  void checkNumber(const GltfField& field, json& value, const std::string& pointer) {
     if (!value.is_number()) return wrongType(pointer, "a number", value);
-    if (!inRange(field, value.get<double>())) outOfRange(field, value, pointer);
+    const double number = value.get<double>();
+    if (inRange(field, number)) return;
+    if (const auto limit = limitRounded(field, number)) {
+      findings_->repair(kRounded, pointer, rangeOf(field), textOf(value));
+      value = *limit;
+    } else {
+      outOfRange(field, value, pointer);
+    }
   }
 
   void checkInteger(const GltfField& field, json& value, const std::string& pointer) {
@@ -146,8 +249,8 @@ class SchemaCheck {
                                                    : value.get<std::int64_t>() >= 0 &&
                                                          static_cast<std::uint64_t>(value.get<std::int64_t>()) < size;
     if (exists) return;
-    findings_.invalid(pointer, "The index is out of range of " + std::string(field.of) + ".",
-                      size == 0 ? "none" : "0.." + std::to_string(size - 1), textOf(value));
+    findings_->invalid(pointer, "The index is out of range of " + std::string(field.of) + ".",
+                       size == 0 ? "none" : "0.." + std::to_string(size - 1), textOf(value));
   }
 
   void checkReferenceMap(const GltfField& field, json& value, const std::string& pointer) {
@@ -163,9 +266,10 @@ class SchemaCheck {
   void checkArray(const GltfField& field, json& value, const std::string& pointer) {
     if (!value.is_array()) return wrongType(pointer, "an array", value);
     if (field.length != 0 && value.size() != field.length) {
-      findings_.invalid(pointer, "The array has the wrong length.", std::to_string(field.length),
-                        std::to_string(value.size()));
+      findings_->invalid(pointer, "The array has the wrong length.", std::to_string(field.length),
+                         std::to_string(value.size()));
     }
+    if (value.empty()) findings_->repair(kEmptyArray, pointer);
     std::set<json> seen;
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string at = pointerTo(pointer, i);
@@ -178,18 +282,43 @@ class SchemaCheck {
           break;
         case FieldKind::references:
           checkReference(field, value[i], at);
-          if (!seen.insert(value[i]).second) findings_.invalid(at, "The array contains the index twice.");
+          if (seen.insert(value[i]).second) break;
+          if (field.key == "joints") { // their numbers stand in the vertices
+            findings_->repair(kJointTwice, at, {}, textOf(value[i]));
+          } else {
+            findings_->repair(kTwice, at, {}, textOf(value[i]));
+            value[i] = nullptr;
+          }
           break;
         case FieldKind::referenceMaps:
           checkReferenceMap(field, value[i], at);
           break;
         default:
-          checkObject(value[i], field.of, at);
+          checkElement(value[i], field.of, at);
       }
+    }
+    if (field.kind == FieldKind::references) {
+      value.erase(std::remove(value.begin(), value.end(), nullptr), value.end());
     }
   }
 
-  Findings& findings_;
+  /// Puts into the place of a faulty part why it is left out, and its name.
+  void checkElement(json& value, std::string_view owner, const std::string& pointer) {
+    const auto part = std::ranges::find(kParts, owner, &Part::owner);
+    if (part == kParts.end()) return checkObject(value, owner, pointer);
+    Findings ofPart;
+    Findings* const whole = std::exchange(findings_, &ofPart);
+    checkObject(value, owner, pointer);
+    findings_ = whole;
+    const std::string why = findings_->leaveOut(std::move(ofPart), part->remedy);
+    if (why.empty()) return;
+    const auto name = value.find("name");
+    value = json::array({why, name != value.end() && name->is_string() ? *name : json("")});
+  }
+
+  Findings* findings_;           ///< of the part that is looked at
+  std::set<std::string> used_;   ///< extensions that the file lists
+  std::set<std::string> placed_; ///< extensions with members of their own that are read somewhere
   std::map<std::string_view, std::vector<const GltfField*>> fieldsOf_;
   std::map<std::string_view, std::size_t> sizes_; ///< of the arrays that indices point into
 };

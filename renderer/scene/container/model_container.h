@@ -7,6 +7,7 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
+#include "renderer/scene/findings.h"
 
 namespace gnomon {
 
@@ -16,7 +17,8 @@ struct ModelContainer {
   std::optional<std::span<const std::uint8_t>> binary; ///< the GLB's BIN chunk
 };
 
-/// Tells a GLB from glTF JSON by its first bytes and checks every length of a GLB.
-Result<ModelContainer> openContainer(const Bytes& model);
+/// Tells a GLB from glTF JSON by its first bytes and checks every length of a GLB. Chunks that are not padded and bytes
+/// after the end are repairs; other files are called by their names in the problem.
+Result<ModelContainer> openContainer(const Bytes& model, Findings& findings);
 
 } // namespace gnomon

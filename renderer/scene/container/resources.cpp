@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "protocol/base/bytes.h"
+#include "protocol/base/file_uri.h"
 #include "renderer/scene/decode/meshopt.h"
 #include "renderer/scene/findings.h"
 
@@ -13,15 +14,6 @@ namespace {
 
 Problem refused(ProblemCode code, const std::string& pointer, std::string detail, std::string_view uri) {
   return {code, pointer, std::move(detail), "data: or the name of an uploaded file", inQuotes(uri)};
-}
-
-bool climbs(std::string_view path) {
-  while (true) {
-    const std::size_t slash = path.find('/');
-    if (path.substr(0, slash) == "..") return true;
-    if (slash == std::string_view::npos) return false;
-    path.remove_prefix(slash + 1);
-  }
 }
 
 Result<ResourceBytes> resolveDataUri(std::string_view uri, const std::string& pointer) {
@@ -38,6 +30,8 @@ Result<ResourceBytes> resolveDataUri(std::string_view uri, const std::string& po
   if (const auto text = percentDecoded(payload)) return ResourceBytes(Bytes(text->begin(), text->end()));
   return refused(ProblemCode::invalidScene, pointer, "The data: URI has an invalid percent escape.", uri);
 }
+
+constexpr const char* kNeedsLeftOut = "what needs it is left out";
 
 using BytesView = std::span<const std::uint8_t>;
 
@@ -75,12 +69,11 @@ void checkStride(const gltf::BufferView& view, const std::string& pointer, Findi
   }
 }
 
-/// What a part of the file that has no bytes comes to; limits refuse the file.
+/// What a part of the file that has no bytes comes to.
 void leaveOut(Problem problem, Findings& findings) {
-  if (problem.code == ProblemCode::tooLarge) return findings.refuse(std::move(problem));
-  if (problem.detail.ends_with('.')) problem.detail.pop_back();
-  findings.repair({std::move(problem.detail), "what needs it is left out"}, problem.pointer, problem.limit,
-                  problem.actual);
+  Findings part;
+  part.refuse(std::move(problem));
+  findings.leaveOut(std::move(part), kNeedsLeftOut);
 }
 
 Bytes decoded(const gltf::BufferView& view, const Parts& parts, const std::vector<bool>& fallbacks,
@@ -95,7 +88,7 @@ Bytes decoded(const gltf::BufferView& view, const Parts& parts, const std::vecto
     const BytesView compressed = parts.at(meshopt.buffer, meshopt.byteOffset, meshopt.byteLength, at);
     bytes = decodeMeshopt(meshopt, at, compressed, budget, ofView);
   }
-  for (Problem& problem : ofView.takeProblems()) leaveOut(std::move(problem), findings);
+  findings.leaveOut(std::move(ofView), kNeedsLeftOut);
   return bytes;
 }
 
@@ -109,45 +102,57 @@ std::span<const std::uint8_t> ResourceBytes::view() const {
 Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle, const std::string& pointer) {
   const std::string scheme = schemeOf(uri);
   if (scheme == "data") return resolveDataUri(uri, pointer);
+  const auto named = fileUri(uri);
+  const auto file = named ? bundle.files.find(named->name) : bundle.files.end();
+  if (file != bundle.files.end()) return ResourceBytes(std::span<const std::uint8_t>(file->second));
   if (!scheme.empty()) {
     return refused(ProblemCode::unsupportedFeature, pointer,
-                   "The URI refers to something outside the upload, which is never opened.", uri);
+                   "The URI refers to something that is no file beside the model, which is never opened.", uri);
   }
-  const auto name = percentDecoded(uri);
-  if (!name) return refused(ProblemCode::invalidScene, pointer, "The URI has an invalid percent escape.", uri);
-  const bool control = std::any_of(name->begin(), name->end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
-  if (name->empty() || control) {
-    return refused(ProblemCode::invalidScene, pointer, "The URI is empty or contains control characters.", uri);
+  if (!named) {
+    return refused(ProblemCode::invalidScene, pointer,
+                   "The URI names no file, has an invalid percent escape or contains control characters.", uri);
   }
-  if (name->front() == '/' || name->find('\\') != std::string::npos || climbs(*name)) {
+  if (named->isOutside) {
     return refused(ProblemCode::invalidScene, pointer,
                    "The URI is an absolute path or leads out of the folder of the model.", uri);
   }
-  auto file = bundle.files.find(*name);
-  if (file == bundle.files.end() && name->starts_with("./")) file = bundle.files.find(name->substr(2));
-  if (file == bundle.files.end()) {
-    return Problem{ProblemCode::invalidScene,
-                   pointer,
-                   "The glTF refers to a file that was not uploaded with it.",
-                   {},
-                   inQuotes(*name)};
-  }
-  return ResourceBytes(std::span<const std::uint8_t>(file->second));
+  return Problem{
+      ProblemCode::invalidScene, pointer, "The glTF refers to a file that is not there.", {}, inQuotes(named->name)};
 }
+
+namespace {
+
+/// Nothing where it can't be had: what needs it is left out.
+std::optional<ResourceBytes> bytesAt(const std::string& uri, const SceneBundle& bundle, const std::string& pointer,
+                                     Findings& findings) {
+  auto bytes = resolveUri(uri, bundle, pointer);
+  if (!bytes) {
+    for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
+    return std::nullopt;
+  }
+  if (schemeOf(uri) == "data" && uri.substr(0, uri.find(',')).find(";;") != std::string::npos) {
+    findings.repair({"The media type of a data: URI is broken", "its data are read"}, pointer);
+  }
+  const auto named = fileUri(uri);
+  if (named && named->hasBackslash) {
+    findings.repair({"A file name has a backslash", "it is read as a slash"}, pointer, {}, inQuotes(uri));
+  }
+  return *std::move(bytes);
+}
+
+} // namespace
 
 std::vector<ResourceBytes> readBuffers(const gltf::Model& model, const std::vector<bool>& fallbacks,
                                        std::optional<BytesView> binary, const SceneBundle& bundle, Findings& findings) {
   const std::vector<gltf::Buffer>& buffers = model.buffers;
   std::vector<ResourceBytes> read(buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    if (fallbacks[i]) continue;
+    if (fallbacks[i] || buffers[i].faulty) continue;
     const std::string pointer = pointerTo("/buffers", i);
     if (const auto& uri = buffers[i].uri) {
-      auto bytes = resolveUri(*uri, bundle, pointer + "/uri");
-      if (!bytes) {
-        for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
-        continue;
-      }
+      auto bytes = bytesAt(*uri, bundle, pointer + "/uri", findings);
+      if (!bytes) continue;
       read[i] = *std::move(bytes);
     } else if (i == 0 && binary) {
       read[i] = ResourceBytes(*binary);
@@ -175,6 +180,7 @@ BufferViews readBufferViews(const gltf::Model& model, const std::vector<Resource
   BufferViews read{std::vector<BytesView>(views.size()), std::vector<Bytes>(views.size())};
   const Parts parts{model.buffers, buffers, findings};
   for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].faulty) continue;
     const std::string pointer = pointerTo("/bufferViews", i);
     checkStride(views[i], pointer + "/byteStride", findings);
     if (views[i].meshopt) {
@@ -207,10 +213,8 @@ std::vector<ResourceBytes> readImages(const gltf::Model& model, const std::vecto
       if (uri) findings.repair({"An image has a uri and a bufferView", "the bufferView is read"}, pointer);
     } else if (!uri) {
       leaveOut({ProblemCode::invalidScene, pointer, "An image has neither a uri nor a bufferView.", {}, {}}, findings);
-    } else if (auto bytes = resolveUri(*uri, bundle, pointer + "/uri")) {
+    } else if (auto bytes = bytesAt(*uri, bundle, pointer + "/uri", findings)) {
       read[i] = *std::move(bytes);
-    } else {
-      for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
     }
   }
   return read;

@@ -29,8 +29,8 @@ class ResourceBytes {
   std::variant<std::span<const std::uint8_t>, Bytes> bytes_;
 };
 
-/// What a glTF's `uri` stands for: a data: URI or a file of the bundle. Everything else is refused: other schemes,
-/// absolute paths, paths upwards. `pointer` is the URI's place in the glTF, for the problem.
+/// What a glTF's `uri` stands for: a data: URI or a file of the bundle, by the name that fileUri() gives it. Nothing
+/// else is ever opened. `pointer` is the URI's place in the glTF, for the problem.
 Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle, const std::string& pointer);
 
 // What could not be read is empty, with a problem in the findings.

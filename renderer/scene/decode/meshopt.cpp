@@ -108,7 +108,10 @@ void applyFilter(const gltf::Meshopt& view, Bytes& elements) {
 std::vector<bool> meshoptFallbacks(const gltf::Model& model, bool hasBinary) {
   std::vector<bool> plain(model.buffers.size(), false);
   std::vector<bool> compressed(model.buffers.size(), false);
-  for (const gltf::BufferView& view : model.bufferViews) (view.meshopt ? compressed : plain)[view.buffer] = true;
+  for (const gltf::BufferView& view : model.bufferViews) {
+    if (view.faulty) continue;
+    (view.meshopt ? compressed : plain)[view.buffer] = true;
+  }
   std::vector<bool> fallbacks(model.buffers.size(), false);
   for (std::size_t i = 0; i < fallbacks.size(); ++i) {
     const bool hasBytes = model.buffers[i].uri || (i == 0 && hasBinary);

@@ -9,6 +9,7 @@
 #include "renderer/scene/document/read_model.h"
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
+#include "renderer/scene/graph/scene_roots.h"
 
 namespace gnomon {
 
@@ -32,7 +33,7 @@ void checkCounts(const nlohmann::json& document, const Limits& limits, Findings&
 } // namespace
 
 Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, Findings& findings) {
-  auto container = openContainer(bundle.model);
+  auto container = openContainer(bundle.model, findings);
   if (!container) return std::move(container).problems();
   auto parsed = parseJsonText(container->json, limits);
   if (!parsed) return std::move(parsed).problems();
@@ -46,9 +47,10 @@ Result<GltfDocument> readGltf(const SceneBundle& bundle, const Limits& limits, F
 
   GltfDocument document;
   document.model = readModel(*std::move(parsed));
+  checkCameras(document.model.cameras, findings);
+  checkLights(document.model.lights, findings);
+  settleSceneRoots(document.model, limits, findings);
   const gltf::Model& model = document.model;
-  checkCameras(model.cameras, findings);
-  checkLights(model.lights, findings);
   checkTransforms(model.nodes, findings);
   const std::vector<bool> fallbacks = meshoptFallbacks(model, container->binary.has_value());
   document.buffers = readBuffers(model, fallbacks, container->binary, bundle, findings);

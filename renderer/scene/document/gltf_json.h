@@ -22,9 +22,14 @@ inline const nlohmann::json* extensionOf(const nlohmann::json& object, std::stri
   return extensions == nullptr ? nullptr : memberOf(*extensions, name);
 }
 
+/// Why the schema check leaves out a part of the file; empty = it is sound, and an object.
+inline std::string faultOf(const nlohmann::json& part) {
+  return part.is_array() ? part[0].get<std::string>() : std::string();
+}
+
 /// Its name; empty where it has none.
 inline std::string nameAt(const nlohmann::json& object) {
-  return object.value("name", std::string());
+  return object.is_array() ? object[1].get<std::string>() : object.value("name", std::string());
 }
 
 /// A member as a value; nothing where there is none.

@@ -92,6 +92,9 @@ struct Accessor {
   bool normalized = false;
   std::size_t count = 0;
   std::optional<Sparse> sparse;
+  std::vector<double> min; ///< one a component, as the file states it; empty = it does not
+  std::vector<double> max;
+  bool faulty = false; ///< it is left out, and the rest of it means nothing
 };
 
 /// EXT_meshopt_compression, or KHR_meshopt_compression.
@@ -114,12 +117,14 @@ struct BufferView {
   std::uint64_t byteLength = 0;
   std::optional<std::uint64_t> byteStride{}; ///< none = tightly packed
   std::optional<Meshopt> meshopt;
+  bool faulty = false; ///< it is left out, and the rest of it means nothing
 };
 
 struct Buffer {
   std::optional<std::string> uri;
   std::uint64_t byteLength = 0;
   bool fallback = false; ///< marked so by the meshopt extension
+  bool faulty = false;   ///< it is left out, and the rest of it means nothing
 };
 
 struct Image {
@@ -158,6 +163,7 @@ struct AnimationSampler {
   std::size_t input = 0;
   std::size_t output = 0;
   Interpolation interpolation = Interpolation::linear;
+  bool faulty = false; ///< it is left out, and the rest of it means nothing
 };
 
 struct Animation {
@@ -170,6 +176,7 @@ struct Model {
   int scene = -1; ///< the default one
   std::vector<Scene> scenes;
   std::vector<Node> nodes;
+  glm::dvec3 center{0}; ///< CESIUM_RTC: the root nodes are moved by it
   std::vector<Mesh> meshes;
   std::vector<Accessor> accessors;
   std::vector<BufferView> bufferViews;

@@ -78,6 +78,7 @@ struct OrthographicLens {
 
 struct Camera {
   std::string name;
+  std::string fault; ///< why it is left out; empty = it is sound
   bool isPerspective = true;
   std::optional<PerspectiveLens> perspective;
   std::optional<OrthographicLens> orthographic;
@@ -91,6 +92,7 @@ struct SpotCone {
 /// Of KHR_lights_punctual.
 struct PunctualLight {
   std::string name;
+  std::string fault; ///< why it is left out; empty = it is sound
   LightType type = LightType::directional;
   std::optional<glm::dvec3> color;
   double intensity = 1;

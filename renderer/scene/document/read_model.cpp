@@ -83,12 +83,16 @@ ElementType elementTypeOf(const std::string& name) {
 
 gltf::Accessor readAccessor(const json& source) {
   gltf::Accessor accessor;
+  accessor.faulty = !faultOf(source).empty();
+  if (accessor.faulty) return accessor;
   accessor.bufferView = source.value("bufferView", -1);
   accessor.byteOffset = source.value("byteOffset", std::size_t{0});
   accessor.componentType = componentTypeOf(source);
   accessor.type = elementTypeOf(source["type"].get_ref<const std::string&>());
   accessor.normalized = source.value("normalized", false);
   accessor.count = source["count"].get<std::size_t>();
+  accessor.min = source.value("min", std::vector<double>());
+  accessor.max = source.value("max", std::vector<double>());
   if (const json* sparse = memberOf(source, "sparse")) {
     const json& indices = (*sparse)["indices"];
     const json& values = (*sparse)["values"];
@@ -124,6 +128,8 @@ std::pair<const json*, std::string_view> meshoptOf(const json& object) {
 
 gltf::BufferView readBufferView(const json& source) {
   gltf::BufferView view;
+  view.faulty = !faultOf(source).empty();
+  if (view.faulty) return view;
   view.buffer = source["buffer"].get<std::size_t>();
   view.byteOffset = source.value("byteOffset", std::uint64_t{0});
   view.byteLength = source["byteLength"].get<std::uint64_t>();
@@ -149,6 +155,7 @@ std::optional<std::string> takeUri(json& object) {
 }
 
 gltf::Buffer readBuffer(json& source) {
+  if (!faultOf(source).empty()) return {{}, 0, false, true};
   const json* meshopt = meshoptOf(source).first;
   return {takeUri(source), source["byteLength"].get<std::uint64_t>(),
           meshopt != nullptr && meshopt->value("fallback", false)};
@@ -161,6 +168,8 @@ gltf::Image readImage(json& source) {
 gltf::Camera readCamera(const json& source) {
   gltf::Camera camera;
   camera.name = nameAt(source);
+  camera.fault = faultOf(source);
+  if (!camera.fault.empty()) return camera;
   camera.isPerspective = source["type"] == "perspective";
   if (const json* lens = memberOf(source, "perspective")) {
     camera.perspective = gltf::PerspectiveLens{(*lens)["yfov"].get<double>(), (*lens)["znear"].get<double>()};
@@ -176,6 +185,8 @@ gltf::Camera readCamera(const json& source) {
 gltf::PunctualLight readLight(const json& source) {
   gltf::PunctualLight light;
   light.name = nameAt(source);
+  light.fault = faultOf(source);
+  if (!light.fault.empty()) return light;
   light.type = source["type"] == "point"  ? LightType::point
                : source["type"] == "spot" ? LightType::spot
                                           : LightType::directional;
@@ -209,11 +220,20 @@ Interpolation interpolationOf(std::string_view name) {
   return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
 }
 
+gltf::AnimationSampler readSampler(const json& source) {
+  if (!faultOf(source).empty()) return {.faulty = true};
+  return {source["input"].get<std::size_t>(), source["output"].get<std::size_t>(),
+          interpolationOf(source.value("interpolation", "LINEAR"))};
+}
+
 gltf::Animation readAnimation(const json& source) {
-  return {nameAt(source), listAt(source, "channels", readChannel), listAt(source, "samplers", [](const json& sampler) {
-            return gltf::AnimationSampler{sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
-                                          interpolationOf(sampler.value("interpolation", "LINEAR"))};
-          })};
+  gltf::Animation animation{nameAt(source), {}, {}};
+  if (!faultOf(source).empty()) return animation;
+  for (const json& channel : source["channels"]) {
+    if (faultOf(channel).empty()) animation.channels.push_back(readChannel(channel));
+  }
+  animation.samplers = listAt(source, "samplers", readSampler);
+  return animation;
 }
 
 } // namespace
@@ -223,6 +243,7 @@ gltf::Model readModel(json document) {
   model.scene = document.value("scene", -1);
   model.scenes = listAt(document, "scenes", [](const json& scene) { return gltf::Scene{indicesAt(scene, "nodes")}; });
   model.nodes = listAt(document, "nodes", readNode);
+  if (const json* rtc = extensionOf(document, "CESIUM_RTC")) model.center = *vectorAt<3>(*rtc, "center");
   model.meshes = listAt(document, "meshes", readMesh);
   model.accessors = listAt(document, "accessors", readAccessor);
   model.bufferViews = listAt(document, "bufferViews", readBufferView);

@@ -116,6 +116,7 @@ std::size_t strideOf(const gltf::BufferView& view, std::size_t elementBytes, con
 
 AccessorView viewAccessor(const GltfDocument& document, const gltf::Accessor& accessor, const std::string& pointer,
                           Findings& findings) {
+  if (accessor.faulty) return kFaultyAccessor;
   AccessorView view;
   view.componentType = accessor.componentType;
   view.normalized = accessor.normalized && view.componentType != ComponentType::float32;

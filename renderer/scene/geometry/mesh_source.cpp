@@ -17,6 +17,7 @@ struct AttributeShape {
   bool wideIntegers = false; ///< 32 bits of an integer have a meaning
 };
 
+const Repair kNoBounds{"The positions of a primitive have no min and max", "they are found from its vertices"};
 const Repair kAttributeUnread{"A vertex attribute has an accessor that can't be read", "it is left out"};
 const Repair kWrongType{"A vertex attribute has a type that it can't have", "it is left out"};
 const Repair kTooWide{"A vertex attribute has more components than glTF allows", "those beyond are not used"};
@@ -35,7 +36,11 @@ class PrimitiveGathering {
  public:
   PrimitiveGathering(const LoadContext& load, const gltf::Primitive& primitive, const DracoPrimitive* draco,
                      std::string pointer)
-      : primitive_(primitive), views_(load.accessors), draco_(draco), findings_(load.findings) {
+      : primitive_(primitive),
+        accessors_(load.document.model.accessors),
+        views_(load.accessors),
+        draco_(draco),
+        findings_(load.findings) {
     source_.pointer = std::move(pointer);
   }
 
@@ -45,6 +50,8 @@ class PrimitiveGathering {
     source_.variantMaterials = std::move(variantMaterials);
     source_.mode = primitive_.mode;
     source_.positions = attribute("POSITION", {3, 3});
+    checkBounds(primitive_.attributes, source_.pointer + "/attributes");
+    checkOwnAttributes();
     if (!source_.positions) {
       findings_.repair(kNoPositions, source_.pointer + "/attributes/POSITION");
       return std::nullopt;
@@ -67,6 +74,25 @@ class PrimitiveGathering {
   }
 
  private:
+  void checkBounds(const gltf::Attributes& attributes, const std::string& pointer) {
+    const auto found = attributes.find("POSITION");
+    if (found == attributes.end()) return;
+    const gltf::Accessor& accessor = accessors_[static_cast<std::size_t>(found->second)];
+    if (!accessor.faulty && (accessor.min.empty() || accessor.max.empty())) {
+      findings_.repair(kNoBounds, pointer + "/POSITION");
+    }
+  }
+
+  /// Those of the application are not read.
+  void checkOwnAttributes() {
+    for (const auto& [name, accessor] : primitive_.attributes) {
+      const gltf::Accessor& own = accessors_[static_cast<std::size_t>(accessor)];
+      if (!name.starts_with('_') || own.faulty || own.componentType != ComponentType::uint32) continue;
+      findings_.repair({"A vertex attribute of the application's own has 32-bit integers", "it is not used"},
+                       pointerOf(name));
+    }
+  }
+
   std::string pointerOf(const std::string& name) const { return source_.pointer + "/attributes/" + name; }
 
   const AccessorView* attribute(const std::string& name, AttributeShape shape) {
@@ -133,6 +159,7 @@ class PrimitiveGathering {
 
   void gatherTarget(std::size_t index) {
     const std::string pointer = pointerTo(source_.pointer + "/targets", index);
+    checkBounds(primitive_.targets[index], pointer);
     MorphSource target;
     for (const auto& [name, accessor] : primitive_.targets[index]) {
       const AccessorView** member = name == "POSITION"  ? &target.positions
@@ -164,6 +191,7 @@ class PrimitiveGathering {
   }
 
   const gltf::Primitive& primitive_;
+  const std::vector<gltf::Accessor>& accessors_;
   const std::vector<AccessorView>& views_;
   const DracoPrimitive* draco_; ///< nullptr = not compressed
   Findings& findings_;
@@ -189,6 +217,14 @@ void evenTargets(const gltf::Mesh& mesh, PrimitiveSource& source, Findings& find
   findings.repair({"A primitive has fewer morph targets than another of its mesh", "what it lacks moves nothing"},
                   source.pointer + "/targets", std::to_string(most), std::to_string(source.targets.size()));
   source.targets.resize(most);
+}
+
+void checkWeights(const gltf::Mesh& mesh, const std::string& pointer, Findings& findings) {
+  if (!mesh.weights) return;
+  std::size_t targets = 0;
+  for (const gltf::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+  if (mesh.weights->size() == targets) return;
+  findings.repair(kOtherWeights, pointer + "/weights", std::to_string(targets), std::to_string(mesh.weights->size()));
 }
 
 /// `morphed` counts the vertices of all.
@@ -228,6 +264,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, 
   std::size_t morphed = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const gltf::Mesh& mesh = model.meshes[m];
+    checkWeights(mesh, pointerTo("/meshes", m), findings);
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const gltf::Primitive& primitive = mesh.primitives[p];
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);

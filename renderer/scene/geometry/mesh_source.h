@@ -11,6 +11,10 @@
 
 namespace gnomon {
 
+/// Of a mesh or a node.
+inline const Repair kOtherWeights{"The number of weights differs from the number of morph targets",
+                                  "missing ones are 0, and those beyond are not used"};
+
 /// What a morph target adds to each vertex. Absent attributes are nullptr.
 struct MorphSource {
   const AccessorView* positions = nullptr;

@@ -39,17 +39,20 @@ void checkOrthographic(const gltf::OrthographicLens& lens, const std::string& po
 
 } // namespace
 
-void checkCameras(const std::vector<gltf::Camera>& cameras, Findings& findings) {
+void checkCameras(std::vector<gltf::Camera>& cameras, Findings& findings) {
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const gltf::Camera& camera = cameras[i];
+    gltf::Camera& camera = cameras[i];
+    if (!camera.fault.empty()) continue;
     const std::string pointer = pointerTo("/cameras", i) + (camera.isPerspective ? "/perspective" : "/orthographic");
+    Findings found;
     if (camera.isPerspective && camera.perspective) {
-      checkPerspective(*camera.perspective, pointer, findings);
+      checkPerspective(*camera.perspective, pointer, found);
     } else if (!camera.isPerspective && camera.orthographic) {
-      checkOrthographic(*camera.orthographic, pointer, findings);
+      checkOrthographic(*camera.orthographic, pointer, found);
     } else {
-      findings.invalid(pointer, "The camera has no lens of its type.");
+      found.invalid(pointer, "The camera has no lens of its type.");
     }
+    camera.fault = findings.leaveOut(std::move(found), "the camera is left out");
   }
 }
 
@@ -72,13 +75,27 @@ SceneCamera withLens(const gltf::Camera& source, SceneCamera camera) {
 
 std::optional<FileCamera> cameraAt(const gltf::Model& model, std::size_t node, Findings& findings) {
   const gltf::Node& holder = model.nodes[node];
-  if (holder.camera < 0) return std::nullopt;
+  if (holder.camera < 0 || !model.cameras[static_cast<std::size_t>(holder.camera)].fault.empty()) return std::nullopt;
   FileCamera camera{{}, static_cast<std::size_t>(holder.camera)};
   const gltf::Camera& source = model.cameras[camera.source];
   camera.camera.node = static_cast<int>(node);
   camera.camera.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
   camera.camera = withLens(source, std::move(camera.camera));
   return camera;
+}
+
+std::vector<LeftOutCamera> leftOutCameras(const gltf::Model& model) {
+  std::vector<LeftOutCamera> cameras;
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    const gltf::Node& holder = model.nodes[node];
+    if (holder.camera < 0) continue;
+    const gltf::Camera& source = model.cameras[static_cast<std::size_t>(holder.camera)];
+    if (source.fault.empty()) continue;
+    Findings said; // where it is found at fault
+    const std::string& name = holder.name.empty() ? source.name : holder.name;
+    cameras.push_back({static_cast<int>(node), keptName(name, said), source.fault});
+  }
+  return cameras;
 }
 
 std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera) {
@@ -92,7 +109,8 @@ std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCa
 
 namespace {
 
-constexpr double kWidestConeDegrees = 89.9; // a cone of 90 has no picture plane
+constexpr double kConeRounding = 1e-4 * std::numbers::pi / 2; // of the range of a cone's angle, radians
+constexpr double kWidestConeDegrees = 89.9;                   // a cone of 90 has no picture plane
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
@@ -105,19 +123,35 @@ double brightest(const gltf::PunctualLight& light) {
 
 } // namespace
 
-void checkLights(const std::vector<gltf::PunctualLight>& lights, Findings& findings) {
+namespace {
+
+void checkCone(gltf::SpotCone& cone, const std::string& pointer, Findings& findings) {
+  if (cone.inner < cone.outer) return;
+  if (cone.inner - cone.outer > kConeRounding) {
+    return findings.invalid(pointer, "The inner cone of a spot light is wider than the outer one.");
+  }
+  findings.repair({"The inner cone of a spot light is as wide as the outer one", "the edge of its light is sharp"},
+                  pointer);
+  cone.inner = cone.outer;
+}
+
+} // namespace
+
+void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const std::string light = pointerTo("/extensions/KHR_lights_punctual/lights", i);
-    if (!std::isfinite(lights[i].intensity * brightest(lights[i]))) {
-      findings.invalid(light + "/intensity", "Multiplied by the color it is no finite number.");
+    gltf::PunctualLight& light = lights[i];
+    if (!light.fault.empty()) continue;
+    const std::string pointer = pointerTo("/extensions/KHR_lights_punctual/lights", i);
+    Findings found;
+    if (!std::isfinite(light.intensity * brightest(light))) {
+      found.invalid(pointer + "/intensity", "Multiplied by the color it is no finite number.");
     }
-    if (lights[i].type != LightType::spot) continue;
-    const std::string pointer = light + "/spot";
-    if (!lights[i].spot) {
-      findings.invalid(pointer, "A spot light needs the member spot.");
-    } else if (!(lights[i].spot->inner < lights[i].spot->outer)) {
-      findings.invalid(pointer + "/innerConeAngle", "The inner cone is not narrower than the outer cone.");
+    if (light.type == LightType::spot && light.spot) {
+      checkCone(*light.spot, pointer + "/spot/innerConeAngle", found);
+    } else if (light.type == LightType::spot) {
+      found.invalid(pointer + "/spot", "A spot light needs the member spot.");
     }
+    light.fault = findings.leaveOut(std::move(found), "the light is left out");
   }
 }
 
@@ -146,7 +180,7 @@ Light lightFrom(const gltf::PunctualLight& source) {
 
 std::optional<FileLight> lightAt(const gltf::Model& model, std::size_t node, Findings& findings) {
   const gltf::Node& holder = model.nodes[node];
-  if (holder.light < 0) return std::nullopt;
+  if (holder.light < 0 || !model.lights[static_cast<std::size_t>(holder.light)].fault.empty()) return std::nullopt;
   FileLight light{{}, static_cast<std::size_t>(holder.light)};
   const gltf::PunctualLight& source = model.lights[light.source];
   light.light.node = static_cast<int>(node);

@@ -23,14 +23,18 @@ struct FileCamera {
   std::size_t source = 0; ///< index into the file's cameras
 };
 
-/// Checks what the schema can't: the lens that the type asks for, and far beyond near.
-void checkCameras(const std::vector<gltf::Camera>& cameras, Findings& findings);
+/// Checks what the schema can't: the lens that the type asks for, and far beyond near. Those that are faulty are
+/// marked, with a repair.
+void checkCameras(std::vector<gltf::Camera>& cameras, Findings& findings);
 
 /// `camera` with the lens of one of the file's cameras, which has passed checkCameras().
 SceneCamera withLens(const gltf::Camera& source, SceneCamera camera);
 
-/// The camera that hangs on a node, if there is one.
+/// The camera that hangs on a node, if there is one that is sound.
 std::optional<FileCamera> cameraAt(const gltf::Model& model, std::size_t node, Findings& findings);
+
+/// Those that hang on a node and are faulty.
+std::vector<LeftOutCamera> leftOutCameras(const gltf::Model& model);
 
 /// Nothing where the matrix leaves it no direction.
 std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCamera camera);
@@ -41,13 +45,14 @@ struct FileLight {
   std::size_t source = 0; ///< index into the file's lights
 };
 
-/// Checks what the schema can't: that a spot light has a cone, wider outside than inside.
-void checkLights(const std::vector<gltf::PunctualLight>& lights, Findings& findings);
+/// Checks what the schema can't: that a spot light has a cone, which is not wider inside than outside. Those that are
+/// faulty are marked, with a repair.
+void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings);
 
 /// One of the file's lights, without a place. It has passed checkLights().
 Light lightFrom(const gltf::PunctualLight& source);
 
-/// The light that hangs on a node, if there is one.
+/// The light that hangs on a node, if there is one that is sound.
 std::optional<FileLight> lightAt(const gltf::Model& model, std::size_t node, Findings& findings);
 
 /// Nothing where it needs a direction and the matrix leaves it none.

@@ -56,28 +56,28 @@ std::vector<int> readParents(const gltf::Model& model, Findings& findings) {
   return parents;
 }
 
-void checkSceneRoots(const gltf::Model& model, const std::vector<int>& parents, Findings& findings) {
-  for (std::size_t scene = 0; scene < model.scenes.size(); ++scene) {
-    const std::vector<int>& roots = model.scenes[scene].nodes;
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-      const int parent = parents[static_cast<std::size_t>(roots[i])];
-      if (parent < 0) continue;
-      findings.invalid(pointerTo(pointerTo("/scenes", scene) + "/nodes", i), "A scene may list only root nodes.", {},
-                       "a child of node " + std::to_string(parent));
-    }
+/// The matrix with the last row 0 0 0 1, which it has but for rounding; nothing where it is not affine.
+std::optional<glm::dmat4> affine(glm::dmat4 matrix) {
+  constexpr double kMatrixRounding = 1e-4;
+  for (int column = 0; column < 4; ++column) {
+    const double right = column < 3 ? 0 : 1;
+    if (!(std::abs(matrix[column].w - right) <= kMatrixRounding)) return std::nullopt;
+    matrix[column].w = right;
   }
+  return matrix;
 }
 
 /// The matrix is affine and the rotation has a length, or there is a problem in the findings.
 LocalTransform readTransform(const gltf::Node& node, const std::string& pointer, Findings& findings) {
   LocalTransform local;
   if (node.matrix) {
-    const glm::dmat4& m = *node.matrix;
-    if (m[0].w != 0 || m[1].w != 0 || m[2].w != 0 || m[3].w != 1) {
+    local.matrix = affine(*node.matrix);
+    if (!local.matrix) {
       findings.invalid(pointer + "/matrix", "The matrix is not affine: its last row is not 0 0 0 1.");
-      return {};
+    } else if (*local.matrix != *node.matrix) {
+      findings.repair({"The last row of a matrix is 0 0 0 1 but for rounding", "it is read as 0 0 0 1"},
+                      pointer + "/matrix");
     }
-    local.matrix = m;
     return local;
   }
   if (node.rotation) {
@@ -116,9 +116,14 @@ glm::dvec3 withThickness(const glm::dvec3& scale) {
 }
 
 NodeTransform transformOf(const LocalTransform& local) {
-  if (local.matrix) return {withThickness(*local.matrix), *local.matrix};
+  const glm::dvec4 origin(local.origin, 0);
+  if (local.matrix) {
+    glm::dmat4 matrix = *local.matrix;
+    matrix[3] += origin;
+    return {withThickness(matrix), matrix};
+  }
   glm::dmat4 rigid = glm::mat4_cast(local.rotation);
-  rigid[3] = glm::dvec4(local.translation, 1);
+  rigid[3] = glm::dvec4(local.translation, 1) + origin;
   glm::dmat4 scaled = rigid;
   const glm::dvec3 scale = withThickness(local.scale);
   for (int axis = 0; axis < 3; ++axis) scaled[axis] *= scale[axis];
@@ -188,7 +193,6 @@ std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector
 NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
   NodeTree tree;
   tree.parents = readParents(model, findings);
-  checkSceneRoots(model, tree.parents, findings);
   if (findings.refused()) return tree;
 
   for (std::size_t node = 0; node < model.nodes.size(); ++node) {
@@ -201,6 +205,7 @@ NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
     const auto node = static_cast<std::size_t>(tree.order[i]);
     reached[node] = true;
     tree.locals[node] = readTransform(model.nodes[node], pointerTo("/nodes", node), findings);
+    if (tree.parents[node] < 0) tree.locals[node].origin = model.center;
     tree.visible[node] = model.nodes[node].visible;
     const std::vector<int>& children = model.nodes[node].children;
     tree.order.insert(tree.order.end(), children.begin(), children.end());

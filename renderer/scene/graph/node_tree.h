@@ -17,6 +17,7 @@ struct LocalTransform {
   glm::dvec3 translation{0};
   glm::dquat rotation{1, 0, 0, 0}; ///< of length 1
   glm::dvec3 scale{1};
+  glm::dvec3 origin{0}; ///< what the node is moved by in its parent, wherever it is: CESIUM_RTC
 };
 
 /// A node's own transform as matrices.

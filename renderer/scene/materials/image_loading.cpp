@@ -32,15 +32,19 @@ std::string imageName(const GltfDocument& document, int index) {
 
 const char* const kLeftOut = "the textures that use it are left out";
 
-/// Limits refuse the file; what can't be read otherwise is left out.
 void leaveOut(Problems problems, const std::string& pointer, Findings& findings) {
-  for (Problem& problem : locatedImageProblems(std::move(problems), pointer)) {
-    if (problem.code == ProblemCode::tooLarge) {
-      findings.refuse(std::move(problem));
-      continue;
-    }
-    if (problem.detail.ends_with('.')) problem.detail.pop_back();
-    findings.repair({std::move(problem.detail), kLeftOut}, pointer, problem.limit, problem.actual);
+  Findings image;
+  image.take(locatedImageProblems(std::move(problems), pointer));
+  findings.leaveOut(std::move(image), kLeftOut);
+}
+
+/// What no material uses is not drawn, and told all the same where it can't be read.
+void checkUnused(const GltfDocument& document, const std::map<int, int>& used, Findings& findings) {
+  for (std::size_t i = 0; i < document.images.size(); ++i) {
+    const Encoded bytes = document.images[i].view();
+    if (bytes.empty() || used.contains(static_cast<int>(i)) || !unsupportedFormat(bytes).empty()) continue;
+    auto size = imageSize(bytes);
+    if (!size) leaveOut(std::move(size).problems(), pointerTo("/images", i), findings);
   }
 }
 
@@ -107,6 +111,7 @@ std::string imageContent(Encoded bytes, const std::string& pointer) {
 SceneImages loadImages(const GltfDocument& document, const Limits& limits, std::vector<Material>& materials,
                        Findings& findings, KnownContent* known) {
   std::map<int, int> slots = usedImages(document, materials, findings);
+  checkUnused(document, slots, findings);
   checkSizes(document, slots, limits, findings);
   SceneImages images;
   if (findings.refused()) return images;

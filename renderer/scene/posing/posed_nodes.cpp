@@ -7,6 +7,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/stop.h"
 #include "renderer/scene/animation/animations.h"
+#include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/posing/pose.h"
 
 namespace gnomon {
@@ -46,13 +47,11 @@ class Posing {
     const bool own = model_.nodes[node].weights.has_value();
     std::vector<double> weights =
         (own ? model_.nodes[node].weights : model_.meshes[mesh].weights).value_or(std::vector<double>(targets, 0.0));
-    if (weights.size() != targets) {
-      const std::string pointer = own ? pointerTo("/nodes", node) : pointerTo("/meshes", mesh);
-      findings_.repair({"The number of weights differs from the number of morph targets",
-                        "missing ones are 0, and those beyond are not used"},
-                       pointer + "/weights", std::to_string(targets), std::to_string(weights.size()));
-      weights.resize(targets, 0.0);
+    if (own && weights.size() != targets) { // of meshes it is told where they are read
+      findings_.repair(kOtherWeights, pointerTo("/nodes", node) + "/weights", std::to_string(targets),
+                       std::to_string(weights.size()));
     }
+    weights.resize(targets, 0.0);
     return weights;
   }
 

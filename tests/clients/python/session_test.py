@@ -205,6 +205,33 @@ class Scenes(SessionTest):
                     model = write_gltf(Path(folder) / f"a model {number}.gltf", uri, name)
                     np.testing.assert_array_equal(self.session.frame(model, **SMALL).color, expected.color)
 
+    def test_a_model_that_violates_gltf_is_repaired_or_refused(self):
+        conforming = SCENES / "cameras.glb"
+        longer = conforming.read_bytes() + b"past the end"
+        with self.assertWarnsRegex(gnomon.GnomonWarning, "after its end"):
+            scene = self.session.upload(longer)
+        self.assertEqual(self.session.frame(scene, **SMALL).report["warnings"][0], scene.summary["warnings"][0])
+        for _ in range(2):
+            with self.assertRaisesRegex(gnomon.BadRequest, "after its end"):
+                self.session.upload(longer, strict=True)
+            self.assertEqual(self.session.upload(conforming, strict=True).summary["warnings"], [])
+        with self.assertRaisesRegex(gnomon.BadRequest, "after its end"):
+            gnomon.render(longer, strict=True, server=self.url, **SMALL)
+        with self.assertRaisesRegex(ValueError, "strict"):
+            gnomon.render(scene, strict=True, server=self.url, **SMALL)
+        self.assertEqual(gnomon.render(conforming, strict=True, server=self.url, **SMALL).color.shape, (48, 64, 3))
+
+    def test_files_outside_of_a_models_folder_are_sent_where_that_is_allowed(self):
+        expected = self.session.frame(BOX, **SMALL)
+        with TemporaryDirectory() as folder:
+            (Path(folder) / "model").mkdir()
+            model = write_gltf(Path(folder) / "model" / "box.gltf", "..\\data\\box.bin", "../data/box.bin")
+            with self.assertRaisesRegex(ValueError, "allow_outside_files"):
+                self.session.upload(model)
+            with self.assertWarnsRegex(gnomon.GnomonWarning, "backslash"):
+                scene = self.session.upload(model, allow_outside_files=True)
+        np.testing.assert_array_equal(self.session.frame(scene, **SMALL).color, expected.color)
+
     def test_a_file_beside_a_gltf_that_changes_is_seen(self):
         with TemporaryDirectory() as folder:
             model = write_gltf(Path(folder) / "box.gltf", "maps/box.bin", "maps/box.bin")

@@ -181,7 +181,7 @@ class Bundles(unittest.TestCase):
         with TemporaryDirectory() as folder:
             (Path(folder) / "my data.bin").write_bytes(b"1234")
             (Path(folder) / "secret").write_bytes(b"secret")
-            named = ["my%20data.bin", "data:;base64,AAAA", "../x", "%2e%2e/x", "/etc/hostname", "file:///etc/hostname",
+            named = ["my%20data.bin", "data:;base64,AAAA", "../x", "%2e%2e/x", "/nowhere/x", "http://a/x", "c:x",
                      "missing.png", "a%00b", "x" * 5000]
             model = Path(folder) / "a.gltf"
             model.write_text(json.dumps({"buffers": [{"uri": uri} for uri in named]}))
@@ -190,10 +190,29 @@ class Bundles(unittest.TestCase):
         self.assertEqual(made.id, "")
 
     def test_a_name_is_looked_up_as_the_server_does(self):
-        named = {"b.bin": "b.bin", "./c.bin": "c.bin", "a/../d": None, "maps/e%20f.png": "maps/e f.png", "maps/g h.png": "maps/g h.png"}
+        named = {"b.bin": "b.bin", "./c.bin": "c.bin", "a/../d": "d", "maps/e%20f.png": "maps/e f.png",
+                 "maps/g h.png": "maps/g h.png", "maps\\h.png": "maps/h.png", "../i.png": "_up/i.png",
+                 "a/../../../j.png": "_up/_up/j.png", "/k/../l.png": "_root/l.png", "file:///m%20n.png": "_root/m n.png",
+                 "http://a/o.png": None, "a%0Ab": None, "..": None}
         model = json.dumps({"images": [{"uri": uri} for uri in named]}).encode()
         found = bundle.files_beside("models/a.gltf", model)
-        self.assertEqual(found, {name: Path("models") / name for name in named.values() if name})
+        self.assertEqual(set(found), {name for name in named.values() if name})
+        self.assertEqual(found["maps/h.png"], Path("models/maps/h.png"))
+        self.assertEqual(found["_up/i.png"], Path("models/../i.png"))
+
+    def test_files_outside_of_the_models_folder_are_sent_only_where_that_is_allowed(self):
+        with TemporaryDirectory() as folder:
+            (Path(folder) / "models").mkdir()
+            outside = Path(folder) / "outside.png"
+            outside.write_bytes(b"1234")
+            (Path(folder) / "models" / "link.png").symlink_to(outside)
+            model = Path(folder) / "models" / "a.gltf"
+            for uri, name in (("../outside.png", "_up/outside.png"), (f"file://{outside}", f"_root{outside}"),
+                              (str(outside), f"_root{outside}"), ("link.png", "link.png")):
+                model.write_text(json.dumps({"images": [{"uri": uri}]}))
+                with self.assertRaisesRegex(ValueError, "allow_outside_files"):
+                    bundle.bundle(model)
+                self.assertEqual(bundle.bundle(model, allow_outside_files=True).files, {name: b"1234"})
 
     def test_a_boundary_is_one_that_servers_take(self):
         made = bundle.upload_body(bundle.Bundle(b"{}", {"a.bin": b"1", 'b"c.bin': b"2"}))

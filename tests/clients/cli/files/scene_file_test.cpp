@@ -25,9 +25,9 @@ class SceneFile : public testing::Test {
 
   void write(const fs::path& name, const std::string& text) { std::ofstream(root_ / name, std::ios::binary) << text; }
 
-  Result<SceneBundle> readWithUri(const std::string& uri) {
+  Result<SceneBundle> readWithUri(const std::string& uri, const SceneFileOptions& options = {}) {
     write("model/a.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"uri": ")" + uri + R"("}]})");
-    return readSceneFile(root_ / "model" / "a.gltf");
+    return readSceneFile(root_ / "model" / "a.gltf", options);
   }
 
   fs::path root_;
@@ -49,14 +49,41 @@ TEST_F(SceneFile, ReadsTheFilesThatTheModelNames) {
             (std::map<std::string, Bytes>{{"a b.bin", bytesOf("buffer")}, {"textures/c.png", bytesOf("image")}}));
 }
 
-TEST_F(SceneFile, RefusesNamesThatLeadOutOfTheFolder) {
-  for (const std::string uri :
-       {"../secret.bin", "textures/../../secret.bin", "%2e%2e/secret.bin", "..%2fsecret.bin", "/etc/passwd",
-        "file:///etc/passwd", "http://127.0.0.1/x", "..\\\\secret.bin", "", "a%zz", "a%00b"}) {
+TEST_F(SceneFile, RefusesNamesThatLeadOutOfTheFolderAndSaysWhichFlagAllowsThem) {
+  for (const std::string uri : {"../secret.bin", "textures/../../secret.bin", "%2e%2e/secret.bin", "..%2fsecret.bin",
+                                "/etc/passwd", "file:///etc/passwd", "..\\\\secret.bin"}) {
     const auto bundle = readWithUri(uri);
     ASSERT_FALSE(bundle) << uri;
     EXPECT_EQ(bundle.problems().front().code, ProblemCode::invalidScene) << uri;
+    EXPECT_NE(bundle.problems().front().limit.find("--allow-outside-files"), std::string::npos) << uri;
+    const auto allowed = readWithUri(uri, {.allowOutsideFiles = true});
+    ASSERT_TRUE(allowed) << uri;
+    ASSERT_EQ(allowed->files.size(), 1u) << uri;
+    EXPECT_TRUE(allowed->files.begin()->first.starts_with(uri.find("passwd") == std::string::npos ? "_up/" : "_root/"));
   }
+}
+
+TEST_F(SceneFile, ReadsNamesWithBackslashesAndDetoursInTheFolder) {
+  write("model/textures/c.png", "image");
+  for (const std::string uri : {"textures\\\\c.png", ".\\\\textures/c.png", "textures/../textures//c.png"}) {
+    const auto bundle = readWithUri(uri);
+    ASSERT_TRUE(bundle) << uri;
+    EXPECT_EQ(bundle->files, (std::map<std::string, Bytes>{{"textures/c.png", bytesOf("image")}})) << uri;
+  }
+}
+
+TEST_F(SceneFile, LeavesWhatIsNoFileAndWhatIsMissingToTheLoader) {
+  for (const std::string uri : {"gone.bin", "../gone.bin", "/gone/x.bin", "textures", "http://127.0.0.1/x", "", "a%zz",
+                                "a%00b", "c:\\\\x.bin"}) {
+    const auto bundle = readWithUri(uri);
+    ASSERT_TRUE(bundle) << uri;
+    EXPECT_THAT(bundle->files, IsEmpty()) << uri;
+  }
+}
+
+TEST_F(SceneFile, AModelThatHasToConformSaysSo) {
+  EXPECT_FALSE(readWithUri("gone.bin")->strict);
+  EXPECT_TRUE(readWithUri("gone.bin", {.strict = true})->strict);
 }
 
 TEST_F(SceneFile, RefusesLinksThatLeadOutOfTheFolder) {
@@ -69,13 +96,6 @@ TEST_F(SceneFile, RefusesLinksThatLeadOutOfTheFolder) {
   EXPECT_TRUE(readWithUri("to_inside.bin"));
 }
 
-TEST_F(SceneFile, NamesTheFileThatIsMissing) {
-  const auto bundle = readWithUri("gone.bin");
-  ASSERT_FALSE(bundle);
-  EXPECT_EQ(bundle.problems().front().code, ProblemCode::notFound);
-  EXPECT_TRUE(bundle.problems().front().pointer.ends_with("model/gone.bin"));
-}
-
 TEST_F(SceneFile, HoldsEveryFileAgainstTheLimitTogether) {
   write("model/a.bin", std::string(60, 'a'));
   write("model/b.bin", std::string(60, 'b'));
@@ -83,14 +103,14 @@ TEST_F(SceneFile, HoldsEveryFileAgainstTheLimitTogether) {
   write("model/a.gltf", text);
   Limits limits;
   limits.maxSceneBytes = text.size() + 120;
-  EXPECT_TRUE(readSceneFile(root_ / "model" / "a.gltf", limits));
+  EXPECT_TRUE(readSceneFile(root_ / "model" / "a.gltf", {}, {}, limits));
   limits.maxSceneBytes -= 1;
-  const auto bundle = readSceneFile(root_ / "model" / "a.gltf", limits);
+  const auto bundle = readSceneFile(root_ / "model" / "a.gltf", {}, {}, limits);
   ASSERT_FALSE(bundle);
   EXPECT_EQ(bundle.problems().front().code, ProblemCode::tooLarge);
   limits = Limits{};
   limits.maxBundleFiles = 1;
-  EXPECT_FALSE(readSceneFile(root_ / "model" / "a.gltf", limits));
+  EXPECT_FALSE(readSceneFile(root_ / "model" / "a.gltf", {}, {}, limits));
 }
 
 TEST_F(SceneFile, AModelWithoutFilesIsItsBytes) {

@@ -58,11 +58,10 @@ void pictures(const FrameScene& scene, const LightInput& lights, const FragmentI
     const Fragments fragments = fragmentsAt(in, row);
     const Surface surface = any(fragments.shown) ? surfaceOf(scene, in.textures, fragments) : Surface{};
     const Float3 radiance = radianceToEye(scene, lighting, fragments, surface, visibility);
-    const PictureColor color = pictureOf(scene.frame, fragments.shown, radiance, ToneMapping::aces, lights.encoded);
-    store(color.rgb.x, out.column(0) + row);
-    store(color.rgb.y, out.column(1) + row);
-    store(color.rgb.z, out.column(2) + row);
-    store(color.a, out.column(3) + row);
+    const Float3 color = pictureOf(scene.frame, radiance, ToneMapping::aces, lights.encoded);
+    store(color.x, out.column(0) + row);
+    store(color.y, out.column(1) + row);
+    store(color.z, out.column(2) + row);
   }
 }
 
@@ -82,7 +81,7 @@ NumberTable surfacesByLanes(const FrameScene& scene, const FragmentInput& in) {
 }
 
 NumberTable picturesByLanes(const FrameScene& scene, const LightInput& lights, const FragmentInput& in) {
-  NumberTable out(in.triangles.size(), 4);
+  NumberTable out(in.triangles.size(), 3);
   GNOMON_KERNEL(pictures)(scene, lights, in, out);
   return out;
 }

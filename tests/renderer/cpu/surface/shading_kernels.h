@@ -42,7 +42,7 @@ struct LightInput {
   bool encoded = true;
 };
 
-/// Red, green, blue and alpha. Of lights with an odd number a quarter arrives.
+/// Red, green and blue. Of lights with an odd number a quarter arrives.
 NumberTable picturesByLanes(const FrameScene& scene, const LightInput& lights, const FragmentInput& in);
 
 } // namespace gnomon::cpu

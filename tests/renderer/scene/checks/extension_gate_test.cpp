@@ -5,6 +5,7 @@
 namespace gnomon {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -36,9 +37,7 @@ TEST(ExtensionGate, X30_NothingIsTranslucentSoThatNoThicknessIsEverAskedFor) {
     builder.json["extensionsUsed"] = {extension};
     EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr(extension)));
     builder.json["extensionsRequired"] = {extension};
-    const Problems problems = problemsOf(builder);
-    EXPECT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::unsupportedFeature, "/extensionsRequired/0")));
-    EXPECT_THAT(problems[0].detail, HasSubstr(extension));
+    EXPECT_THAT(load(builder).summary.warnings, ElementsAre(AllOf(HasSubstr("requires"), HasSubstr(extension))));
   }
 }
 
@@ -46,6 +45,38 @@ TEST(ExtensionGate, WarnsOfUsedExtensions) {
   testing::GlbBuilder builder = testing::cube();
   builder.json["extensionsUsed"] = {"KHR_materials_sheen", "ACME_nope"};
   EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("surfaces have no sheen"), HasSubstr("ACME_nope")));
+}
+
+TEST(ExtensionGate, DrawsWithoutRequiredExtensionsThatAreNoObstacle) {
+  for (const auto& [extension, consequence] : {std::pair{"KHR_materials_specular", "reflections of dielectrics"},
+                                               {"KHR_xmp_json_ld", "changes no pixel"},
+                                               {"EXT_structural_metadata", "changes no pixel"},
+                                               {"KHR_materials_nope", "not drawn"}}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.json["extensionsUsed"] = {extension};
+    builder.json["extensionsRequired"] = {extension};
+    EXPECT_THAT(load(builder).summary.warnings, ElementsAre(AllOf(HasSubstr(extension), HasSubstr(consequence))));
+    SceneBundle strict = builder.bundle();
+    strict.strict = true;
+    EXPECT_THAT(problemsOf(strict), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/extensionsRequired/0")));
+  }
+}
+
+TEST(ExtensionGate, TellsOfExtensionsThatAreNotListedOrStandWhereTheyMeanNothing) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", true}}}, {"ACME_nope", 1}};
+  builder.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+  EXPECT_THAT(load(builder).summary.warnings,
+              ElementsAre(AllOf(HasSubstr("ACME_nope"), HasSubstr("not listed")),
+                          AllOf(HasSubstr("KHR_node_visibility"), HasSubstr("/nodes/0/extensions"))));
+  builder = testing::cube();
+  builder.json["extensionsUsed"] = {"KHR_node_visibility"};
+  builder.json["meshes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
+  EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("means nothing")));
+  builder = testing::cube();
+  builder.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+  builder.json["extensionsRequired"] = {"KHR_node_visibility"};
+  EXPECT_THAT(load(builder).summary.warnings, ElementsAre(HasSubstr("required and not listed")));
 }
 
 TEST(ExtensionGate, RefusesOtherVersions) {

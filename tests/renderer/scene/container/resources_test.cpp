@@ -32,6 +32,9 @@ TEST(ResourceBytes, FindsFilesOfTheBundle) {
   EXPECT_EQ(contentOf("a%20b.bin", bundle), Bytes{7});
   EXPECT_EQ(contentOf("./a%20b.bin", bundle), Bytes{7});
   EXPECT_EQ(contentOf("textures/c.png", bundle), Bytes{8});
+  EXPECT_EQ(contentOf("textures\\c.png", bundle), Bytes{8});
+  EXPECT_EQ(contentOf(".\\textures%5Cc.png", bundle), Bytes{8});
+  EXPECT_EQ(contentOf("textures/../textures//./c.png", bundle), Bytes{8});
 }
 
 TEST(ResourceBytes, OpensNothingElse) {
@@ -50,6 +53,24 @@ TEST(ResourceBytes, OpensNothingElse) {
     EXPECT_THAT(resolveUri(uri, bundle, "/x").problems(), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/x")))
         << uri;
   }
+}
+
+TEST(ResourceBytes, TakesFilesOfOtherFoldersWhereTheBundleBringsThem) {
+  const SceneBundle bundle{{}, {{"_up/x.bin", {1}}, {"_up/_up/x.bin", {2}}, {"_root/a/x.bin", {3}}}};
+  EXPECT_EQ(contentOf("../x.bin", bundle), Bytes{1});
+  EXPECT_EQ(contentOf("a/../../../x.bin", bundle), Bytes{2});
+  EXPECT_EQ(contentOf("/a/x.bin", bundle), Bytes{3});
+  EXPECT_EQ(contentOf("file:///a/b/../x.bin", bundle), Bytes{3});
+}
+
+TEST(ResourceBytes, TellsOfBackslashes) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["buffers"] = {{{"byteLength", builder.binary.size()}, {"uri", "data\\cube.bin"}}};
+  SceneBundle bundle = bundleOf(builder.json.dump());
+  bundle.files["data/cube.bin"] = builder.binary;
+  EXPECT_THAT(load(bundle).summary.warnings, ElementsAre(::testing::HasSubstr("backslash")));
+  bundle.strict = true;
+  EXPECT_THAT(problemsOf(bundle), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/buffers/0/uri")));
 }
 
 TEST(ResourceBytes, UrisOfBuffersAndImagesAreToldWithTheirPlace) {

@@ -14,7 +14,8 @@ namespace {
 using ::testing::ElementsAre;
 
 gltf::Model ours(const Bytes& glb) {
-  const auto container = openContainer(glb);
+  Findings findings;
+  const auto container = openContainer(glb, findings);
   EXPECT_TRUE(container);
   auto json = parseJsonText(container->json, kLimits);
   EXPECT_TRUE(json);

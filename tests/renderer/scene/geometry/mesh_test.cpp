@@ -128,7 +128,7 @@ TEST(Mesh, ReplacesNormalsWithoutADirection) {
   builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = builder.addAccessor(normals, "VEC3", 5126, 4);
   const Scene scene = load(builder);
   for (const VertexAttributes& vertex : scene.attributes) EXPECT_EQ(vertex.normal, glm::vec3(0, 1, 0));
-  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("length 0")));
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("not finite"), HasSubstr("length 0")));
 }
 
 TEST(Mesh, ReadsTangentsOnlyBesideNormals) {
@@ -201,7 +201,7 @@ TEST(Mesh, DropsTrianglesThatAreNotFinite) {
   EXPECT_EQ(scene.summary.triangles, 1u);
   EXPECT_EQ(scene.scenes[0].bounds.max, glm::dvec3(1, 1, 0));
   EXPECT_THAT(scene.summary.warnings,
-              ElementsAre(HasSubstr("not finite; they are left out (/meshes/0/primitives/0: 2 triangles)")));
+              Contains(HasSubstr("not finite; they are left out (/meshes/0/primitives/0: 2 triangles)")));
 }
 
 TEST(Mesh, DropsTrianglesWithoutArea) {

@@ -10,6 +10,7 @@ namespace gnomon {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -75,21 +76,44 @@ TEST(Cameras, ReadsOrthographicLenses) {
   EXPECT_EQ(scene.summary.cameras[0].type, "orthographic");
 }
 
-TEST(Cameras, RefusesBrokenLenses) {
-  const auto problems = [](const json& camera) {
-    testing::GlbBuilder builder;
+Problems strictProblemsOf(const testing::GlbBuilder& builder) {
+  SceneBundle strict = builder.bundle();
+  strict.strict = true;
+  return problemsOf(strict);
+}
+
+TEST(Cameras, BrokenLensesAreLeftOutAndTellWhy) {
+  const auto expectLeftOut = [](const json& camera, const std::string& pointer) {
+    testing::GlbBuilder builder = testing::cube();
     builder.add("cameras", camera);
-    return problemsOf(builder);
+    builder.addRoot({{"camera", 0}, {"name", "Eye"}});
+    const Scene scene = load(builder);
+    EXPECT_THAT(scene.scenes[0].cameras, IsEmpty());
+    EXPECT_THAT(scene.summary.warnings, ElementsAre(AllOf(HasSubstr("the camera is left out"), HasSubstr(pointer))));
+    ASSERT_EQ(scene.leftOutCameras.size(), 1u);
+    EXPECT_EQ(scene.leftOutCameras[0].node, 1);
+    EXPECT_EQ(scene.leftOutCameras[0].name, "Eye");
+    EXPECT_THAT(scene.leftOutCameras[0].why, HasSubstr(pointer));
+    EXPECT_THAT(strictProblemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, pointer)));
   };
   json camera = perspective();
   camera["perspective"]["zfar"] = 0.5;
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/zfar")));
+  expectLeftOut(camera, "/cameras/0/perspective/zfar");
   camera["perspective"] = {{"yfov", 4}, {"znear", 1}};
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective/yfov")));
+  expectLeftOut(camera, "/cameras/0/perspective/yfov");
+  camera["perspective"] = {{"yfov", 3.1417}, {"znear", 1}};
+  const Scene wide = load([&] {
+    testing::GlbBuilder builder = testing::cube();
+    builder.add("cameras", camera);
+    return builder;
+  }());
+  EXPECT_THAT(wide.summary.warnings, ElementsAre(HasSubstr("rounding"), HasSubstr("180 degrees")));
   camera.erase("perspective");
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/perspective")));
+  expectLeftOut(camera, "/cameras/0/perspective");
   camera = {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 1.5e308}, {"znear", 0}, {"zfar", 9}}}};
-  EXPECT_THAT(problems(camera), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/cameras/0/orthographic/ymag")));
+  expectLeftOut(camera, "/cameras/0/orthographic/ymag");
+  camera = {{"type", "fisheye"}, {"name", "fish"}};
+  expectLeftOut(camera, "/cameras/0/type");
 }
 
 TEST(Cameras, ScaledToNothingAreLeftOut) {
@@ -193,17 +217,31 @@ TEST(Lights, HalfSphereConesAreNarrowedWithAWarning) {
   EXPECT_THAT(scene.summary.warnings, Contains(HasSubstr("90 degrees")));
 }
 
-TEST(Lights, RefusesBrokenLights) {
+TEST(Lights, BrokenOnesAreLeftOut) {
   const std::string lights = "/extensions/KHR_lights_punctual/lights/0";
-  EXPECT_THAT(problemsOf(lit({{"type", "spot"}})), ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/spot")));
-  EXPECT_THAT(problemsOf(lit({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.8}}}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/spot/innerConeAngle")));
-  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"range", 0}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/range")));
-  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"intensity", -1}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/intensity")));
-  EXPECT_THAT(problemsOf(lit({{"type", "point"}, {"intensity", 1e200}, {"color", {1, 1e200, 1}}})),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + "/intensity")));
+  const std::pair<json, const char*> faults[] = {
+      {{{"type", "spot"}}, "/spot"},
+      {{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.8}}}}, "/spot/innerConeAngle"},
+      {{{"type", "point"}, {"range", 0}}, "/range"},
+      {{{"type", "point"}, {"intensity", -1}}, "/intensity"},
+      {{{"type", "point"}, {"intensity", 1e200}, {"color", {1, 1e200, 1}}}, "/intensity"},
+      {{{"type", "ambient"}}, "/type"}};
+  for (const auto& [light, member] : faults) {
+    const Scene scene = load(lit(light));
+    EXPECT_THAT(scene.scenes[0].lights, IsEmpty()) << light;
+    EXPECT_THAT(scene.summary.warnings,
+                ElementsAre(AllOf(HasSubstr("the light is left out"), HasSubstr(lights + member))));
+    EXPECT_THAT(strictProblemsOf(lit(light)), ElementsAre(ProblemAt(ProblemCode::invalidScene, lights + member)));
+  }
+}
+
+TEST(Lights, ConesThatAreTheSameHaveASharpEdge) {
+  for (const double inner : {0.5, 0.50001}) {
+    const Scene scene = load(lit({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", 0.5}}}}));
+    const Light light = scene.scenes[0].lights.at(0).light;
+    EXPECT_EQ(light.innerConeDegrees, light.outerConeDegrees);
+    EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("sharp")));
+  }
 }
 
 } // namespace

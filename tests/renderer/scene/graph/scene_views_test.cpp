@@ -99,8 +99,73 @@ TEST(SceneViews, RefusesCyclesAndSharedChildren) {
       ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0"), ProblemAt(ProblemCode::invalidScene, "/nodes/1")));
   EXPECT_THAT(problems({{{"children", {2}}}, {{"children", {2}}}, json::object()}, {0, 1}),
               ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/1/children/0")));
-  EXPECT_THAT(problems({{{"children", {1}}}, json::object()}, {0, 1}),
-              ElementsAre(ProblemAt(ProblemCode::invalidScene, "/scenes/0/nodes/1")));
+}
+
+/// The x of each instance, by nodes that are moved by 1, 10, 100 and so on.
+std::vector<double> placesOf(const json& children, const json& scenes, std::vector<std::string>& warnings) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"] = json::array();
+  double step = 1;
+  for (const json& each : children) {
+    json node = {{"mesh", 0}, {"translation", {step, 0, 0}}};
+    if (!each.empty()) node["children"] = each;
+    builder.add("nodes", std::move(node));
+    step *= 10;
+  }
+  builder.json["scenes"] = json::array();
+  for (const json& roots : scenes) builder.add("scenes", {{"nodes", roots}});
+  const Scene scene = load(builder);
+  warnings = scene.summary.warnings;
+  std::vector<double> places;
+  for (const SceneView& view : scene.scenes) {
+    for (const Instance& instance : view.instances) places.push_back(instance.worldFromLocal[3].x);
+  }
+  return places;
+}
+
+TEST(SceneViews, ANodeThatASceneListsBesideItsParentIsDrawnOnce) {
+  std::vector<std::string> said;
+  const auto expectTold = [&] { EXPECT_THAT(said, ElementsAre(HasSubstr("child of another"))); };
+  const json none = json::array();
+  EXPECT_THAT(placesOf({{1}, none}, {{0, 1}}, said), ElementsAre(1, 11));
+  expectTold();
+  EXPECT_THAT(placesOf({{1}, {2}, none}, {{2, 1, 0}}, said), ElementsAre(1, 11, 111));
+  expectTold();
+  EXPECT_THAT(placesOf({{1}, {2}, none}, {{0, 2}}, said), ElementsAre(1, 11, 111));
+  expectTold();
+}
+
+TEST(SceneViews, AParentThatNoSceneListsMovesNothing) {
+  std::vector<std::string> said;
+  const json none = json::array();
+  EXPECT_THAT(placesOf({{1}, none}, {{1}}, said), ElementsAre(10));
+  EXPECT_THAT(said, ElementsAre(HasSubstr("child of another")));
+  EXPECT_THAT(placesOf({{1}, {2}, none}, {{1, 2}}, said), ElementsAre(10, 110));
+  EXPECT_THAT(placesOf({{1}, none}, {{0}, {1}}, said), ElementsAre(1, 11, 11)) << "another scene has it";
+}
+
+TEST(SceneViews, CesiumRtcMovesEverything) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["children"] = {1};
+  builder.add("nodes", {{"mesh", 0}, {"translation", {1, 0, 0}}});
+  builder.addRoot({{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1}}});
+  builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"CESIUM_RTC"};
+  builder.json["extensions"]["CESIUM_RTC"]["center"] = {6378137.5, 10, -3};
+  const Scene scene = load(builder);
+  EXPECT_THAT(scene.summary.warnings, IsEmpty());
+  const std::vector<Instance>& instances = scene.scenes[0].instances;
+  ASSERT_EQ(instances.size(), 3u);
+  expectNear(glm::dvec3(instances[0].worldFromLocal[3]), {6378137.5, 10, -3});
+  expectNear(glm::dvec3(instances[1].worldFromLocal[3]), {6378138.5, 10, -3});
+  expectNear(glm::dvec3(instances[2].worldFromLocal[3]), {6378137.5, 12, -3});
+}
+
+TEST(SceneViews, TheLastRowOfAMatrixMayBeRounded) {
+  testing::GlbBuilder builder = testing::cube();
+  builder.json["nodes"][0]["matrix"] = {2, 0, 0, 1e-6, 0, 2, 0, 0, 0, 0, 2, 0, 4, 0, 0, 0.99999994};
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.scenes[0].instances.at(0).worldFromLocal, glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 4, 0, 0, 1));
+  EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("/nodes/0/matrix")));
 }
 
 TEST(SceneViews, DeepTreesNeedNoStack) {

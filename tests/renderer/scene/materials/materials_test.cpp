@@ -133,7 +133,8 @@ TEST(Materials, LeavesOutTexturesInOtherFormats) {
 
 TEST(Materials, UsesTheFallbackOfATexture) {
   testing::GlbBuilder builder = textured(png(2, 2, 10));
-  builder.add("images", {{"bufferView", builder.addView(Bytes(16, 0))}});
+  const std::string_view signature("\xABKTX 20\xBB\r\n\x1A\n", 12);
+  builder.add("images", {{"bufferView", builder.addView(Bytes(signature.begin(), signature.end()))}});
   builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
   builder.json["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 1}}}};
   const Scene scene = load(builder);
