@@ -194,7 +194,8 @@ inline constexpr auto kRows<FrameReport> = rows(
                    "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
     field("warnings", &FrameReport::warnings,
-          {.says = "What the scene's file holds that is drawn differently, and what else is not as it was asked."}));
+          {.says = "What the file holds that is drawn differently, what of the request was, and what the picture is "
+                   "likely to lack: each a sentence, with what to set."}));
 static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
@@ -212,7 +213,7 @@ inline constexpr auto kRows<PlanReport> = rows(
     field("predictedError", &PlanReport::predictedError,
           {.says = "Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn."}),
     field("warnings", &PlanReport::warnings,
-          {.says = "What the scene's file holds that is drawn differently, and what else would not be as it was asked."}));
+          {.says = "What the frame's report would warn of, as far as it can be told without drawing."}));
 static_assert(kRowsAreComplete<PlanReport>);
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "renderer/frame/plan_frame.h"
 
+#include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/frame_geometry.h"
@@ -64,6 +65,9 @@ Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const R
   report.predictedError = errors.all;
   report.warnings = loaded.summary.warnings;
   report.warnings.insert(report.warnings.end(), frame->warnings.begin(), frame->warnings.end());
+  for (std::string& warning : frameWarnings({scene, view, *frame, receivers, plan, errors, layered}, WarnedBy::plan)) {
+    report.warnings.push_back(std::move(warning));
+  }
   return report;
 }
 

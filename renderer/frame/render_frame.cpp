@@ -1,12 +1,14 @@
 #include "renderer/frame/render_frame.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/baked_lights.h"
 #include "renderer/frame/caster_view.h"
 #include "renderer/frame/frame_views.h"
+#include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/motion_view.h"
 #include "renderer/frame/predicted_displacement.h"
@@ -137,9 +139,12 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
   FrameReport report = makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
-  const std::vector<std::string>& ofFile = loaded->summary.warnings;
-  report.warnings.insert(report.warnings.begin(), ofFile.begin(), ofFile.end());
-  for (std::string& damage : damageOf(scene->images)) report.warnings.push_back(std::move(damage));
+  const auto warn = [&](std::vector<std::string> warnings) {
+    std::move(warnings.begin(), warnings.end(), std::back_inserter(report.warnings));
+  };
+  report.warnings.insert(report.warnings.begin(), loaded->summary.warnings.begin(), loaded->summary.warnings.end());
+  warn(damageOf(scene->images));
+  warn(frameWarnings({*scene, view, *resolved, *receivers, plan, errors, layered}, WarnedBy::drawing, baked));
   return Frame{std::move(report), std::move(images)};
 }
 

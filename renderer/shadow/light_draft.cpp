@@ -35,6 +35,7 @@ void noteEmptyCascades(LightDraft& draft) {
   }
   if (drawn == 0) {
     draft.tiles.clear();
+    draft.planned.noTexels = NoTexels::outOfRange;
     addNote(draft.planned, "nothing in view within the depth range");
   } else if (!indices.empty()) {
     addNote(draft.planned, "not drawn, no receiver in view: cascades " + indices);

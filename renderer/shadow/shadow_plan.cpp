@@ -87,6 +87,7 @@ void shareAtlas(std::vector<LightDraft>& drafts, const PlanInput& input) {
     planned.grantedTileSize = sizes[i];
     if (sizes[i] == 0) {
       draft.tiles.clear();
+      planned.noTexels = NoTexels::atlasFull;
       addNote(planned, "no room in the atlas of " + texels(side));
     } else if (sizes[i] < planned.askedTileSize) {
       addNote(planned, "tiles of " + texels(sizes[i]) + " instead of " + texels(planned.askedTileSize) +

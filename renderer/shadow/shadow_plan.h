@@ -88,6 +88,9 @@ inline bool isBlurred(const ShadowTile& tile) {
   return tile.rect.width > 0 && tile.filter.moments;
 }
 
+/// Why a light that casts shadows on what is in view has no tiles for them.
+enum class NoTexels { none, atlasFull, outOfRange };
+
 struct PlannedLight {
   int light = 0;
   int firstTile = 0; ///< into ShadowPlan::tiles
@@ -98,6 +101,7 @@ struct PlannedLight {
   /// that end before the range does).
   bool fadeOut = false;
   std::optional<DepthInterval> depthRange{}; ///< directional: the base of its depth range, see PlannedRange
+  NoTexels noTexels = NoTexels::none;
   std::string note;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
@@ -135,6 +136,18 @@ std::string serverTiming(const std::vector<StageTime>& stages) {
   return text;
 }
 
+std::string warningsField(const std::vector<std::string>& warnings) {
+  const auto text = [](const Json& list) { return list.dump(-1, ' ', true, Json::error_handler_t::replace); };
+  Json list = Json::array();
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    list.push_back(warnings[i]);
+    if (text(list).size() <= kMostWarningBytes) continue;
+    list.back() = std::to_string(warnings.size() - i) + " more warnings are in the frame's report.";
+    break;
+  }
+  return text(list);
+}
+
 std::optional<std::string> bodyOf(TaskResult& result) {
   Problems& problems = result.outcome.problems;
   if (!problems.empty()) return std::nullopt;
@@ -161,6 +174,7 @@ HttpReply replyOf(TaskResult result, std::string_view requestId) {
     reply.headers.emplace_back("Server-Timing", serverTiming(reply.stages));
     reply.headers.emplace_back("Timing-Allow-Origin", "*");
   }
+  if (!outcome.warnings.empty()) reply.headers.emplace_back("Gnomon-Warnings", warningsField(outcome.warnings));
   return reply;
 }
 

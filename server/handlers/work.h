@@ -52,6 +52,11 @@ void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline
 /// room, but that of a sequence's frame, for which its sequence takes it (SequenceFrames).
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
+/// The value of a Gnomon-Warnings header: a JSON array of strings, in ASCII. Of warnings that would make it longer than
+/// kMostWarningBytes, it says only how many there are.
+inline constexpr std::size_t kMostWarningBytes = 4096;
+std::string warningsField(const std::vector<std::string>& warnings);
+
 /// The body of a result; nothing where the result has problems, or gets one because there is no body to read.
 std::optional<std::string> bodyOf(TaskResult& result);
 
@@ -59,7 +64,8 @@ std::optional<std::string> bodyOf(TaskResult& result);
 HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle,
                     bool strict = false);
 
-/// The result as a reply: the body with its type and room, stages in Server-Timing, or the problems.
+/// The result as a reply: the body with its type and room, stages in Server-Timing, warnings in Gnomon-Warnings, or the
+/// problems.
 HttpReply replyOf(TaskResult result, std::string_view requestId);
 
 /// Does the work, given who asks whether it is still wanted and who is told of events.

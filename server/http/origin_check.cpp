@@ -14,7 +14,8 @@ namespace gnomon {
 namespace {
 
 /// What a page may read of a reply beside its body, and what it may send.
-constexpr const char* kExposed = "ETag, Location, Retry-After, Server-Timing, X-Request-ID, traceresponse";
+constexpr const char* kExposed =
+    "ETag, Gnomon-Warnings, Location, Retry-After, Server-Timing, X-Request-ID, traceresponse";
 constexpr const char* kAccepted =
     "Accept, Authorization, Content-Type, If-None-Match, X-Request-ID, traceparent, tracestate";
 constexpr const char* kPreflightSeconds = "600";

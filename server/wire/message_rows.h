@@ -96,6 +96,7 @@ inline constexpr auto kRows<Outcome> =
          field("damaged", &Outcome::damaged, {.says = "The bundle is not the one that the id names."}),
          field("contentType", &Outcome::contentType, {.says = "Of the result."}),
          field("stages", &Outcome::stages, {.says = "What took how long.", .unit = "milliseconds"}),
+         field("warnings", &Outcome::warnings, {.says = "Of a frame's report."}),
          field("note", &Outcome::note, {.says = "For the log alone."}));
 static_assert(kRowsAreComplete<Outcome>);
 

@@ -98,7 +98,8 @@ struct Outcome {
   bool damaged = false;      ///< the bundle is not the one that the scene's id names
   std::string contentType{};
   std::vector<StageTime> stages{};
-  std::string note{}; ///< for the log alone
+  std::vector<std::string> warnings{}; ///< of a frame's report
+  std::string note{};                  ///< for the log alone
 };
 
 /// A server-sent event of an order.

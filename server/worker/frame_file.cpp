@@ -48,7 +48,7 @@ Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view me
   if (!pictures) return pictures.problems();
   if (pictures->empty()) return Problem{ProblemCode::internal, "", "The frame has no picture.", "", ""};
   frame.report.stages.push_back({"encode", millisecondsSince(start)});
-  FrameFile file{std::string(mediaType), {}, frame.report.stages};
+  FrameFile file{std::string(mediaType), {}, frame.report.stages, frame.report.warnings};
   if (isPicture) {
     file.body = asText(pictures->front().file);
   } else if (mediaType == mediaTypeOf({ReplyForm::multipart, format})) {

@@ -12,7 +12,8 @@ namespace gnomon {
 struct FrameFile {
   std::string contentType;
   std::string body;
-  std::vector<StageTime> stages; ///< of the frame, with `encode`
+  std::vector<StageTime> stages;       ///< of the frame, with `encode`
+  std::vector<std::string> warnings{}; ///< of its report
 };
 
 /// Encodes the frame and adds the stage `encode` to its report. `format`: of its pictures. `mediaType`: theirs, for one

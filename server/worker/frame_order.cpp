@@ -25,7 +25,8 @@ Result<FrameFile> sensorFile(const ScenePtr& scene, Frame frame, const Order& or
   }();
   if (!file) return std::move(file).problems();
   frame.report.stages.push_back({"encode", millisecondsSince(start)});
-  return FrameFile{order.mediaType, std::string(asText(*file)), std::move(frame.report.stages)};
+  return FrameFile{order.mediaType, std::string(asText(*file)), std::move(frame.report.stages),
+                   std::move(frame.report.warnings)};
 }
 
 /// What the order wants of the frame.
@@ -74,7 +75,10 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
   }
   if (!*file) return {.problems = call.goOn() ? file->problems() : Problems{stoppedProblem("the frame", call)}};
   FrameFile& made = **file;
-  return {.contentType = std::move(made.contentType), .body = std::move(made.body), .stages = std::move(made.stages)};
+  return {.contentType = std::move(made.contentType),
+          .body = std::move(made.body),
+          .stages = std::move(made.stages),
+          .warnings = std::move(made.warnings)};
 }
 
 } // namespace gnomon

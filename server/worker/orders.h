@@ -42,6 +42,7 @@ struct Answer {
   std::string contentType{};
   std::string body{};
   std::vector<StageTime> stages{};
+  std::vector<std::string> warnings{};
 };
 
 Answer loadOrder(WorkContext& context, const OrderCall& call);

@@ -46,6 +46,8 @@ std::string messageOf(Outcome outcome) {
   ToFront message{.outcome = std::move(outcome)};
   std::string text = textOf(message);
   if (Channel::fits(text)) return text;
+  message.outcome->warnings.clear(); // the body has them, too
+  if (std::string shorter = textOf(message); Channel::fits(shorter)) return shorter;
   constexpr std::size_t kFirst = 100;
   auto& problems = message.outcome->problems;
   if (problems.size() > kFirst) {
@@ -193,7 +195,8 @@ class Worker {
                     .problems = std::move(answer.problems),
                     .damaged = answer.damaged,
                     .contentType = std::move(answer.contentType),
-                    .stages = std::move(answer.stages)};
+                    .stages = std::move(answer.stages),
+                    .warnings = std::move(answer.warnings)};
     std::optional<FileDescriptor> body;
     const bool wasTold = outcome.contentType == kEventStream && answer.body.empty();
     if (outcome.problems.empty() && !outcome.damaged && !wasTold) {

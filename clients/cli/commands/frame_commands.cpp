@@ -184,6 +184,7 @@ int runPlan(const PlanOptions& options) {
   const auto plan = planScene(options, *spec, progress);
   progress.finish();
   if (!plan) return printProblems(ofScene(options.scene, plan.problems()), origins);
+  printWarnings(warningsOf(*plan));
   std::cout << *plan;
   return kExitOk;
 }

@@ -1,5 +1,6 @@
 #include "server/handlers/work.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -30,6 +31,21 @@ FileDescriptor hollowFile(std::size_t bytes) {
 TEST(ServerTiming, TellsTheStages) {
   EXPECT_EQ(serverTiming({{"queue", 0.1234}, {"load", 12}}), "queue;dur=0.123, load;dur=12.000");
   EXPECT_EQ(serverTiming({}), "");
+}
+
+TEST(WarningsField, IsJsonInAsciiOfALengthThatProxiesPass) {
+  EXPECT_EQ(warningsField({"Too \"coarse\"", "caf\u00e9\r\nX: y"}), R"(["Too \"coarse\"","caf\u00e9\r\nX: y"])");
+  const std::string many = warningsField(std::vector<std::string>(100, std::string(200, 'w')));
+  EXPECT_LT(many.size(), kMostWarningBytes + 100);
+  EXPECT_NE(many.find(" more warnings are in the frame's report.\"]"), std::string::npos) << many;
+}
+
+TEST(ReplyOf, APictureCarriesItsWarnings) {
+  TaskResult result = resultOf(hollowFile(4));
+  result.outcome.warnings = {"The picture shows nothing."};
+  const HttpReply reply = replyOf(std::move(result), "id");
+  const std::pair<std::string, std::string> wanted{"Gnomon-Warnings", R"(["The picture shows nothing."])"};
+  EXPECT_NE(std::find(reply.headers.begin(), reply.headers.end(), wanted), reply.headers.end());
 }
 
 TEST(TaskFor, EndsWhenTheServerOrTheClientSays) {
