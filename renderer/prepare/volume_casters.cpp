@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "renderer/core/camera_view.h"
+#include "renderer/core/cofactors.h"
 
 namespace gnomon {
 namespace {
@@ -99,7 +100,7 @@ std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& vie
     }
     VolumeCaster caster{static_cast<std::uint32_t>(i), {VolumeCaps::all}};
     const auto primitive = static_cast<std::size_t>(instance.primitive);
-    if (scene.primitives[primitive].solid && glm::determinant(glm::dmat3(instance.worldFromLocal)) != 0) {
+    if (scene.primitives[primitive].solid && !flattens(glm::dmat3(instance.worldFromLocal))) {
       caster.caps = capsOfPieces(edges[primitive], geometry.instances[i].relativeFromLocal,
                                  node.visible ? std::optional(nearest) : std::nullopt, relativeLight);
     }
