@@ -65,7 +65,9 @@ class SceneCalls:
 
     def upload(self, source: Source, files: Mapping[str, Source] = {}, strict: bool = False,
                allow_outside_files: bool = False) -> Scene:
-        read = lambda: bundle(source, files, strict, allow_outside_files)
+        def read() -> Bundle:
+            return bundle(source, files, strict, allow_outside_files)
+
         made = read()
         # One that the server has may have been repaired.
         is_judged = not strict or made.id in self._conforming
