@@ -231,7 +231,8 @@ TEST(Filters, D4_FourSamplesATexelAreComparedOneByOne) {
     sumFour += 1 - v;
   }
   EXPECT_GT(between, 40) << "edges are finer than a texel";
-  EXPECT_NEAR(sumFour, sumOne, 0.02 * sumOne);
+  EXPECT_NEAR(sumFour, sumOne, 0.04 * sumOne)
+      << "along three straight edges, whole texels round the area by some percent";
 }
 
 TEST(Filters, D4_H4_FourSamplesShowNoAcne) {
