@@ -59,16 +59,15 @@ void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::
 HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
   const Surface surface = surfaceOf(job, packet);
   const Float3 radiance = radianceOf(job, packet, surface);
-  const auto toned = [&](const Float3& color) HWY_ATTR {
-    return pictureOf(job.scene.frame, color, job.toneMapping, job.encoded);
-  };
+  const auto toned = [&](const Float3& color)
+                         HWY_ATTR { return pictureOf(job.scene.frame, color, job.toneMapping, job.encoded); };
   Float3 shown;
   if (job.volumes.empty()) {
     shown = select(surface.unlit, radiance, toned(radiance));
   } else { // what is unlit shows as it is, as the background does; the volumes before it do not
     const SeenVolumes seen = volumesAt(job, packet.fragments.x, packet.fragments.y);
-    shown = select(surface.unlit, toned(seen.color) + radiance * seen.through,
-                   toned(seen.color + radiance * seen.through));
+    shown =
+        select(surface.unlit, toned(seen.color) + radiance * seen.through, toned(seen.color + radiance * seen.through));
   }
   const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
   if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);

@@ -89,9 +89,7 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
 HWY_INLINE Float3 pictureOf(const shared::FrameData& frame, const Float3& radiance, ToneMapping toneMapping,
                             bool encoded) {
   const Float3 exposed = radiance * Float(frame.depthRange.z);
-  return !encoded                           ? exposed
-         : toneMapping == ToneMapping::aces ? acesToneMapped(exposed)
-                                            : clippedTone(exposed);
+  return !encoded ? exposed : toneMapping == ToneMapping::aces ? acesToneMapped(exposed) : clippedTone(exposed);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE
