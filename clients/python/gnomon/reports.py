@@ -393,7 +393,8 @@ class FrameReport(TypedDict, total=False):
         Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, shade, predict
         (with `debug.predictEdges`), reference (if a view asks for rays), readback, encode. Unit: milliseconds.
     warnings:
-        What the scene's file holds that is drawn differently, and what else is not as it was asked.
+        What the file holds that is drawn differently, what of the request was, and what the picture is likely to
+        lack: each a sentence, with what to set.
     """
 
     spec: Dict[str, Any]
@@ -426,7 +427,7 @@ class PlanReport(TypedDict, total=False):
     predictedError:
         Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn.
     warnings:
-        What the scene's file holds that is drawn differently, and what else would not be as it was asked.
+        What the frame's report would warn of, as far as it can be told without drawing.
     """
 
     spec: Dict[str, Any]
