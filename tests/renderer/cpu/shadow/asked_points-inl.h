@@ -44,6 +44,7 @@ inline PointPacket pointPacket(std::span<const AskedPoint> points, std::size_t f
   std::uint32_t triangle[kLanes] = {};
   float weights[2][kLanes] = {};
   PointPacket packet;
+  packet.receiver.smooth = noSmoothPlace();
   packet.count = std::min(points.size() - first, kLanes);
   for (std::size_t i = 0; i < packet.count; ++i) {
     const AskedPoint& point = points[first + i];
