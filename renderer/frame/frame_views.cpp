@@ -11,6 +11,7 @@
 #include "renderer/frame/view_words.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
+#include "renderer/resolve/plan_input.h"
 #include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
@@ -20,7 +21,8 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
   const FrameSpec& spec = frame.spec;
   std::vector<int> lights;
   int samples = kReferenceSamples;
-  if (light >= 0) {
+  const std::vector<int> shadowing = shadowingLights(frame);
+  if (std::find(shadowing.begin(), shadowing.end(), light) != shadowing.end()) {
     lights.push_back(light);
     samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
   }

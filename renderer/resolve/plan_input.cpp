@@ -8,13 +8,22 @@
 
 namespace gnomon {
 
+namespace {
+
+/// A light that gives off nothing has no shadow to be seen.
+bool shines(const Light& light) {
+  return light.intensity > 0 && (light.temperatureKelvin || light.color.value_or(Vec3{1, 1, 1}) != Vec3{0, 0, 0});
+}
+
+} // namespace
+
 std::vector<int> shadowingLights(const ResolvedFrame& frame) {
   std::vector<int> lights;
   const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
   for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
     const Light& light = (*frame.spec.lights)[i];
     if (firstOnly && light.type != LightType::directional) continue;
-    if (light.shadow->enabled && light.intensity > 0) lights.push_back(static_cast<int>(i));
+    if (light.shadow->enabled && shines(light)) lights.push_back(static_cast<int>(i));
     if (firstOnly) break; // the first is the first, with a shadow or without
   }
   return lights;
