@@ -7,6 +7,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/frame/warned_number.h"
+#include "renderer/shadow/depth_range.h"
 
 namespace gnomon {
 namespace {
@@ -94,10 +95,11 @@ double nearestDepthWithin(const Frustum& region, const Corners& corners, const g
 
 /// What lies between the eye and the near plane; before an orthographic one, all that is ahead of the eye.
 std::optional<Frustum> cutRegion(const CameraView& camera) {
-  if (!(camera.near > 0)) return std::nullopt;
+  const double near = camera.near + camera.ahead;
+  if (!(near > 0)) return std::nullopt;
   Frustum region = frustumOf(camera);
-  region.planes[4] = glm::dvec4(camera.forward, 0.0);
-  region.planes[5] = glm::dvec4(-camera.forward, camera.near * (1.0 - 1e-9));
+  region.planes[4] = glm::dvec4(camera.forward, camera.ahead);
+  region.planes[5] = glm::dvec4(-camera.forward, camera.near - 1e-9 * near);
   return region;
 }
 
@@ -152,9 +154,9 @@ std::optional<std::string> warningOfNearPlane(const Scene& scene, const SceneVie
   }
   if (!(nearest < camera.near)) return std::nullopt;
   const std::string field = camera.perspective ? "near" : "camera.orthographic.near";
-  return "The near plane at " + warnedNumber(camera.near) + " m cuts away surfaces that are in view from " +
-         warnedNumber(nearest) + " m on. Lower " + field +
-         (camera.perspective ? " of the camera's lens, or leave it out." : ", or move the eye back.");
+  return "The near plane at " + warnedNumber(camera.near + camera.ahead) +
+         " m cuts away surfaces that are in view from " + warnedNumber(nearest + camera.ahead) + " m on. Lower " +
+         field + (camera.perspective ? " of the camera's lens, or leave it out." : ", or move the eye back.");
 }
 
 namespace {
@@ -203,7 +205,7 @@ class Uncovered {
     const glm::dvec3 way = pointAt(camera_, ndc, 1.0) - start;
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double along = glm::dot(normal, corners[0] - start) / glm::dot(normal, way);
-    if (!std::isfinite(along) || along <= 0) return std::nullopt;
+    if (!std::isfinite(along) || (camera_.perspective && along <= 0)) return std::nullopt;
     const glm::dvec3 point = start + way * along;
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3 inwards = glm::cross(normal, corners[(i + 1) % 3] - corners[i]);
@@ -220,7 +222,8 @@ class Uncovered {
     const int column = static_cast<int>((ndc.x + 1) * 0.5 * seen_.width) / seen_.blockSize;
     const int row = static_cast<int>((1 - ndc.y) * 0.5 * seen_.height) / seen_.blockSize;
     const DepthSpan& span = seen_.blocks[static_cast<std::size_t>(row * seen_.columns + column)];
-    return span.empty() || depth < double{span.nearest} * (1.0 - 1e-4);
+    const double nearest = span.nearest;
+    return span.empty() || depth < nearest - std::max(1e-4 * std::abs(nearest), 10.0 * depthSlack(camera_, nearest));
   }
 
   const CameraView& camera_;

@@ -47,6 +47,9 @@ Depths depthsIn(const CameraView& view, const Aabb& box, const BlockStrip& colum
   return depths;
 }
 
+/// A little wider than the picture, for what rasterizers round.
+constexpr double kWider = 1.01;
+
 void widen(DepthSpan& span, const CameraView& view, const Depths& depths) {
   const auto nearest = static_cast<float>(depths.least - depthSlack(view, depths.least));
   const auto farthest = static_cast<float>(depths.greatest + depthSlack(view, depths.greatest));
@@ -92,6 +95,18 @@ ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::spa
                                                 std::max(grid.range.farthest, span.farthest)};
   }
   return grid;
+}
+
+std::optional<DepthInterval> depthsOf(const CameraView& view, const Aabb& box) {
+  if (box.empty()) return std::nullopt;
+  CameraView open = view;
+  open.near = -HUGE_VAL;
+  open.far = HUGE_VAL;
+  const auto strip = [](const glm::dvec3& half) { return BlockStrip{-glm::abs(half), glm::abs(half)}; };
+  const Depths depths =
+      depthsIn(open, box, strip(view.right * (view.halfSize.x * kWider)), strip(view.up * (view.halfSize.y * kWider)));
+  if (!(depths.least <= depths.greatest)) return std::nullopt;
+  return DepthInterval{depths.least, depths.greatest};
 }
 
 std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepths& depths, const Aabb& box) {
