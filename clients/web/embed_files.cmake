@@ -1,11 +1,16 @@
 # Writes OUTPUT, a C++ source that defines gnomon::webFiles() from the files in FILES (names relative to SOURCE_DIR).
 # Run as: cmake -DOUTPUT=... -DSOURCE_DIR=... -DFILES=a,b,c -P embed_files.cmake
 
-# Without indentation and lines that only comment: a seventh less for browsers to fetch.
+# Without indentation, lines that only comment and a style's spaces: a sixth less for browsers to fetch.
 function(slim variable)
   string(REGEX REPLACE "(^|\n)[ \t]+" "\\1" text "${${variable}}")
   if(name MATCHES "\\.mjs$")
     string(REGEX REPLACE "(^|\n)//[^\n]*" "\\1" text "${text}")
+  endif()
+  if(name MATCHES "\\.css$")
+    string(REGEX REPLACE "(^|\n)/\\*[^*]*\\*/" "\\1" text "${text}")
+    string(REGEX REPLACE "([;:,{]) +" "\\1" text "${text}")
+    string(REGEX REPLACE " +{" "{" text "${text}")
   endif()
   string(REGEX REPLACE "\n\n+" "\n" text "${text}")
   set(${variable} "${text}" PARENT_SCOPE)
