@@ -255,6 +255,7 @@ class Watch(CommandLine):
         first = self.watch(scene, *SMALL)
         self.replace(bytes(len(whole)), buffer)  # every corner in one place: nothing is left to see
         self.assertNotEqual(self.next(), first)
+        self.assertIn(b"gnomon: warning: The min and max of an accessor", self.process.stderr.readline())
         buffer.unlink()
         self.assertIn(b"buffer 0.bin", self.process.stderr.readline())
         self.replace(whole, buffer)
