@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -15,13 +14,6 @@ inline glm::dmat3 cofactors(const glm::dmat3& m) {
 /// What turns normals: the same, its sign undone where the matrix mirrors.
 inline glm::dmat3 normalMatrix(const glm::dmat3& m) {
   return glm::determinant(m) < 0 ? -1.0 * cofactors(m) : cofactors(m);
-}
-
-/// Whether `m` leaves so little of one direction (less than 1e-15 of the longest) that rounding decides which side is
-/// which: what it turns is a sheet.
-inline bool flattens(const glm::dmat3& m) {
-  const double longest = std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])}));
-  return !(std::abs(glm::determinant(m)) > 1e-15 * longest * longest * longest);
 }
 
 /// The unit vector along `v`; `otherwise` where it has no direction.

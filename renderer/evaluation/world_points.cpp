@@ -79,8 +79,7 @@ std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const 
   const std::vector<std::uint8_t> reached = facesLight(input, light, points);
   const SceneView& view = input.traced.view();
   return filtered(points, [&](std::size_t i) {
-    const auto node = static_cast<std::size_t>(view.instances[points[i].instance].node);
-    return reached[i] != 0 && (input.nodes.empty() || input.nodes[node].receiveShadow);
+    return reached[i] != 0 && switchesOf(input.nodes, view.instances[points[i].instance].node).receiveShadow;
   });
 }
 

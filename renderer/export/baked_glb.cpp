@@ -190,9 +190,7 @@ Problem tooLarge(std::size_t most) {
 Result<Bytes> bakedGlb(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes,
                        const LightMapLayout& layout, const IrradianceMap& map, std::size_t mostBytes) {
   constexpr int kPngLevel = 2;
-  const auto isVisible = [&](const Instance& instance) {
-    return nodes.empty() || nodes[static_cast<std::size_t>(instance.node)].visible;
-  };
+  const auto isVisible = [&](const Instance& instance) { return switchesOf(nodes, instance.node).visible; };
   GlbWriter writer(scene, layout);
   const float highest = highestOf(map);
   const auto picture = encodePng(pictureOf(map, highest), kPngLevel);

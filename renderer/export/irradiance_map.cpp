@@ -126,7 +126,7 @@ IrradianceMap irradianceMap(const Scene& scene, const SceneView& view, std::span
   forEach(layout.charts.size(), [&](std::size_t c) {
     const PlacedChart& chart = layout.charts[c];
     const Instance& instance = view.instances[chart.instance];
-    const NodeSwitches node = nodes.empty() ? NodeSwitches{} : nodes[static_cast<std::size_t>(instance.node)];
+    const NodeSwitches node = switchesOf(nodes, instance.node);
     const ChartLight light(scene, instance, node, lights);
     for (const std::uint32_t triangle : chart.triangles) {
       const FlatTriangle flat = layout.flat({chart.instance, triangle});

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/core/cofactors.h"
+#include "renderer/core/flat_transform.h"
 
 namespace gnomon {
 namespace {
@@ -92,7 +92,7 @@ std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& vie
   std::vector<VolumeCaster> casters;
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const Instance& instance = view.instances[i];
-    const NodeSwitches node = nodes.empty() ? NodeSwitches{} : nodes[static_cast<std::size_t>(instance.node)];
+    const NodeSwitches node = switchesOf(nodes, instance.node);
     const Aabb box = boundsOf(geometry, i);
     if (!castsFrom(light, node) || box.empty() || !shadowMayIntersect(frustum, box, relativeLight)) continue;
     if (place.w > 0 && light.range && squaredDistance(box, glm::dvec3(relativeLight)) > *light.range * *light.range) {
@@ -100,7 +100,7 @@ std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& vie
     }
     VolumeCaster caster{static_cast<std::uint32_t>(i), {VolumeCaps::all}};
     const auto primitive = static_cast<std::size_t>(instance.primitive);
-    if (scene.primitives[primitive].solid && !flattens(glm::dmat3(instance.worldFromLocal))) {
+    if (scene.primitives[primitive].solid && !isFlat(instance.worldFromLocal)) {
       caster.caps = capsOfPieces(edges[primitive], geometry.instances[i].relativeFromLocal,
                                  node.visible ? std::optional(nearest) : std::nullopt, relativeLight);
     }

@@ -9,8 +9,7 @@
 namespace gnomon {
 
 inline NodeSwitches switchesOf(const TraceInput& input, std::uint32_t instance) {
-  if (input.nodes.empty()) return {};
-  return input.nodes[static_cast<std::size_t>(input.traced.view().instances[instance].node)];
+  return switchesOf(input.nodes, input.traced.view().instances[instance].node);
 }
 
 /// One an instance: 1 where its node's switches pass.

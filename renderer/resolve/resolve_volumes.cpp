@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/flat_transform.h"
 #include "renderer/scene/found_nodes.h"
 #include "renderer/scene/graph/node_tree.h"
 
@@ -40,7 +41,7 @@ Result<std::size_t> nodeOfName(const std::string& name, const Scene& scene, cons
 
 VolumePlace placeAt(std::size_t node, const Scene& scene, std::span<const NodeSwitches> nodes) {
   const PlacedNode placed = scene.placedNodes.empty() ? PlacedNode{} : scene.placedNodes[node];
-  const NodeSwitches switches = nodes.empty() ? NodeSwitches{} : nodes[node];
+  const NodeSwitches switches = switchesOf(nodes, static_cast<int>(node));
   const bool there = !placed.hidden && !isFlat(placed.worldFromNode);
   return {placed.worldFromNode, there && switches.visible, there && switches.castShadow, switches.receiveShadow};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
@@ -17,6 +18,11 @@ struct NodeSwitches {
 
   bool operator==(const NodeSwitches&) const = default;
 };
+
+/// Of a node of the file. `nodes`: one a node of the file; empty = every node has the defaults.
+inline NodeSwitches switchesOf(std::span<const NodeSwitches> nodes, int node) {
+  return nodes.empty() ? NodeSwitches{} : nodes[static_cast<std::size_t>(node)];
+}
 
 /// A light lights the nodes that share a layer with it, and only they cast from it.
 inline bool isLitBy(const Light& light, const NodeSwitches& node) {

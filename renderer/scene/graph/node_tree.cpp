@@ -12,21 +12,8 @@ namespace {
 
 constexpr double kSmallestSine = 1e-9; ///< below it, two axes count as parallel
 
-/// Volume of the unit cube's image per volume of a box with the same edges: below this, a transform is flat.
-constexpr double kFlatVolume = 1e-12;
-
 /// Of an axis whose scale is 0: nothing that is added to a coordinate, and yet a number with a sign for determinants.
 constexpr double kThickness = 1e-30;
-
-/// Shortest edge of the unit cube's image by the longest: below this, a transform is flat.
-constexpr double kFlatEdge = 1e-15;
-
-/// Area of the largest face of the unit cube's image by the square of its longest edge: below this, it is a line.
-constexpr double kLeastArea = 1e-12;
-
-double longestOf(const glm::dmat3& m) {
-  return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
-}
 
 /// The matrix with its column of zeros, if it has one, as in withThickness.
 glm::dmat4 withThickness(glm::dmat4 matrix) {
@@ -128,24 +115,6 @@ NodeTransform transformOf(const LocalTransform& local) {
   const glm::dvec3 scale = withThickness(local.scale);
   for (int axis = 0; axis < 3; ++axis) scaled[axis] *= scale[axis];
   return {scaled, rigid};
-}
-
-bool isFlat(const glm::dmat4& matrix) {
-  const glm::dmat3 linear(matrix);
-  double volume = glm::determinant(linear);
-  const double longest = longestOf(linear);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double edge = glm::length(linear[axis]);
-    if (!(edge > kFlatEdge * longest) || !std::isfinite(edge)) return true;
-    volume /= edge;
-  }
-  return !(std::abs(volume) > kFlatVolume);
-}
-
-bool hasNoArea(const glm::dmat4& matrix) {
-  const glm::dmat3 linear(matrix);
-  const double longest = longestOf(linear);
-  return !(longestOf(cofactors(linear / longest)) > kLeastArea) || !std::isfinite(longest);
 }
 
 NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,

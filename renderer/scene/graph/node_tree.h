@@ -35,12 +35,6 @@ glm::dvec3 withThickness(const glm::dvec3& scale);
 /// Refuses nodes that have a matrix beside a translation, rotation or scale.
 void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings);
 
-/// Whether a transform leaves nothing of a body's volume; so does one that is not finite.
-bool isFlat(const glm::dmat4& matrix);
-
-/// Whether a transform leaves not even a surface, but a line or a point; so does one that is not finite.
-bool hasNoArea(const glm::dmat4& matrix);
-
 /// Where every node stands, whichever scene it belongs to.
 struct NodePlaces {
   std::vector<glm::dmat4> worldFromNode;
