@@ -1,7 +1,9 @@
 #include "protocol/base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdio>
 
 namespace gnomon {
 namespace {
@@ -100,6 +102,12 @@ std::vector<std::string> splitTrimmed(std::string_view text, char separator) {
   std::vector<std::string> parts = split(text, separator);
   for (std::string& part : parts) part = std::string(trimmed(part));
   return parts;
+}
+
+std::string shortNumber(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
 }
 
 std::string oneOf(std::span<const std::string_view> names) {

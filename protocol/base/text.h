@@ -34,6 +34,9 @@ std::vector<std::string> split(std::string_view text, char separator);
 /// The same, each part trimmed; an empty text gives none.
 std::vector<std::string> splitTrimmed(std::string_view text, char separator);
 
+/// Three significant digits of a number: "7.07", "0.00012", "1.23e+05".
+std::string shortNumber(double value);
+
 /// What may be chosen, for a problem: "one of a, b and 3 more", with at most 20 names. REQUIRES: a name.
 std::string oneOf(std::span<const std::string_view> names);
 

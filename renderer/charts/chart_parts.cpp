@@ -30,12 +30,6 @@ std::string number(double value) {
   return text;
 }
 
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -8,8 +8,7 @@
 /// The pieces that charts are made of.
 namespace gnomon::svg {
 
-std::string number(double value);      ///< four significant digits
-std::string shortNumber(double value); ///< three
+std::string number(double value); ///< four significant digits
 std::string escaped(std::string_view text);
 
 /// `anchor`: start, middle or end. `more`: further attributes, with a space in front.

@@ -1,5 +1,6 @@
 #include "renderer/frame/frame_warnings.h"
 
+#include "renderer/frame/faces_away.h"
 #include "renderer/frame/shadow_warnings.h"
 #include "renderer/frame/view_warnings.h"
 

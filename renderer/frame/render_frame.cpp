@@ -82,6 +82,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (!subject) return subject.problems();
   const bool layerDecides = std::find(layered.begin(), layered.end(), subject->light) != layered.end();
   const FrameViews views(effective, layerDecides);
+  std::vector<std::string> warnings =
+      frameWarnings({*scene, view, *resolved, *receivers, plan, errors, layered}, WarnedBy::drawing, baked);
   const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
   drawing.endStage("plan");
 
@@ -139,12 +141,12 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
   FrameReport report = makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
-  const auto warn = [&](std::vector<std::string> warnings) {
-    std::move(warnings.begin(), warnings.end(), std::back_inserter(report.warnings));
+  const auto warn = [&](std::vector<std::string> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(report.warnings));
   };
   report.warnings.insert(report.warnings.begin(), loaded->summary.warnings.begin(), loaded->summary.warnings.end());
   warn(damageOf(scene->images));
-  warn(frameWarnings({*scene, view, *resolved, *receivers, plan, errors, layered}, WarnedBy::drawing, baked));
+  warn(std::move(warnings));
   return Frame{std::move(report), std::move(images)};
 }
 

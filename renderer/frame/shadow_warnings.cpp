@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/frame/warned_number.h"
+#include "protocol/base/text.h"
 #include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
@@ -43,8 +43,8 @@ std::optional<std::string> warningOfCoarseTexels(const ResolvedFrame& frame, con
   if (!error || !(error->p95 > kCoarseMapTexel) || containsLight(layered, planned.light)) return std::nullopt;
   const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
   const std::string fewer = planned.grantedTileSize < planned.askedTileSize ? "raise atlas.size" : "raise shadow.size";
-  return lightName(planned.light) + "'s shadow is coarse: a texel of its map spans up to " + warnedNumber(error->p95) +
-         " pixels (over " + warnedNumber(kCoarseMapTexel) + " is warned of). " +
+  return lightName(planned.light) + "'s shadow is coarse: a texel of its map spans up to " + shortNumber(error->p95) +
+         " pixels (over " + shortNumber(kCoarseMapTexel) + " is warned of). " +
          (light.type == LightType::directional ? "Raise shadow.cascadeCount, " : "Move the light nearer, ") + fewer +
          " or take shadow.technique rayTraced.";
 }
@@ -60,8 +60,8 @@ std::optional<std::string> warningOfCoarseLightMap(const CameraView& view, const
   }
   const auto error = errorOf(std::move(extents));
   if (!error || !(error->p95 > kCoarseLightMapTexel)) return std::nullopt;
-  return lightName(light) + "'s light map is coarse: its texels of " + warnedNumber(1.0 / layout.texelsPerMetre) +
-         " m span up to " + warnedNumber(error->p95) + " pixels (over " + warnedNumber(kCoarseLightMapTexel) +
+  return lightName(light) + "'s light map is coarse: its texels of " + shortNumber(1.0 / layout.texelsPerMetre) +
+         " m span up to " + shortNumber(error->p95) + " pixels (over " + shortNumber(kCoarseLightMapTexel) +
          " is warned of). Raise shadow.lightMap.texelsPerMetre or shadow.lightMap.size.";
 }
 

@@ -7,7 +7,6 @@
 
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/scene.h"
-#include "renderer/shadow/shadow_plan.h"
 
 /// Warnings about what a camera does not show although the scene has it. Nothing where a rule does not apply.
 namespace gnomon {
@@ -24,11 +23,5 @@ std::optional<std::string> warningOfNothingInView(const ResolvedFrame& frame, co
 
 /// A part of a surface lies within the picture's sides and in front of the eye, but nearer than the near plane.
 std::optional<std::string> warningOfNearPlane(const Scene& scene, const SceneView& view, const ResolvedFrame& frame);
-
-/// Single-sided surfaces of which every triangle shows the camera its back, where the picture would show them: in front
-/// of all that is seen in a block of the survey, or where something else than surfaces is seen. `seen`: of all
-/// surfaces.
-std::optional<std::string> warningOfFacesAway(const Scene& scene, const SceneView& view, const CameraView& camera,
-                                              const ReceiverDepths& seen, const std::vector<std::uint32_t>& inView);
 
 } // namespace gnomon
