@@ -43,7 +43,7 @@ std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, 
 
 std::variant<LoadedScene, LoadFailure> SceneLoader::get(const std::string& id, const BundleFile& bundle,
                                                         const GoOn& goOn) {
-  if (bundle.strict) { // for the sake of the answer, whoever else has it
+  if (bundle.strict) { // loaded again, as a cached scene may have been repaired
     auto loaded = load(id, bundle, goOn);
     if (const auto* scene = std::get_if<LoadedScene>(&loaded)) cache_.put(*scene);
     return loaded;

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Tells of accessors whose elements are not what glTF allows, whoever reads them: floats that are not finite, and a
+/// Repairs accessors whose elements violate glTF, also those that nothing uses: floats that are not finite, and a
 /// stated min or max that the elements do not have.
 void checkContents(const LoadContext& load);
 
