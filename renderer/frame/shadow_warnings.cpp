@@ -42,11 +42,11 @@ std::optional<std::string> warningOfCoarseTexels(const ResolvedFrame& frame, con
                                                  std::span<const int> layered) {
   if (!error || !(error->p95 > kCoarseMapTexel) || containsLight(layered, planned.light)) return std::nullopt;
   const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
-  const std::string fewer = planned.grantedTileSize < planned.askedTileSize ? "raise atlas.size" : "raise shadow.size";
+  const std::string size = planned.grantedTileSize < planned.askedTileSize ? "atlas.size" : "shadow.size";
   return lightName(planned.light) + "'s shadow is coarse: a texel of its map spans up to " + shortNumber(error->p95) +
          " pixels (over " + shortNumber(kCoarseMapTexel) + " is warned of). " +
-         (light.type == LightType::directional ? "Raise shadow.cascadeCount, " : "Move the light nearer, ") + fewer +
-         " or take shadow.technique rayTraced.";
+         (light.type == LightType::directional ? "Raise shadow.cascadeCount or " : "Move the light nearer, raise ") +
+         size + ", or take shadow.technique rayTraced.";
 }
 
 std::optional<std::string> warningOfCoarseLightMap(const CameraView& view, const ReceiverDepths& seen, int light,
