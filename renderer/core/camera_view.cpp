@@ -19,9 +19,9 @@ glm::dmat4 clipFromView(const CameraView& view) {
   matrix[1][1] = 1.0 / view.halfSize.y;
   if (!view.perspective) {
     // z = (far - depth) / (far - near), with depth = -z of view space.
-    const double scale = 1.0 / (view.far - view.near);
+    const double scale = 1.0 / (drawnFar(view) - drawnNear(view));
     matrix[2][2] = scale;
-    matrix[3][2] = view.far * scale;
+    matrix[3][2] = drawnFar(view) * scale;
     matrix[3][3] = 1.0;
     return matrix;
   }

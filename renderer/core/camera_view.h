@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "renderer/core/aabb.h"
@@ -24,7 +25,20 @@ struct CameraView {
   glm::dvec2 center{0, 0};
   double near = 0.1;                                    ///< view depth, metres; > 0 for perspective
   double far = std::numeric_limits<double>::infinity(); ///< view depth; infinite only for perspective
+  /// Orthographic: metres by which `eye` lies ahead of the eye that was asked for. All view depths here are from `eye`;
+  /// those that a caller gives or gets are so much more.
+  double ahead = 0;
+  /// Orthographic: the planes between which all lies that is drawn; absent = near and far.
+  std::optional<std::array<double, 2>> drawnDepths{};
 };
+
+/// The planes between which depths are stored: no coarser than they have to be.
+inline double drawnNear(const CameraView& view) {
+  return view.drawnDepths ? (*view.drawnDepths)[0] : view.near;
+}
+inline double drawnFar(const CameraView& view) {
+  return view.drawnDepths ? (*view.drawnDepths)[1] : view.far;
+}
 
 /// The way through the middle of the picture, world axes: one metre of view depth long.
 inline glm::dvec3 wayToMiddle(const CameraView& view) {

@@ -48,14 +48,16 @@ DepthSpan spanOf(const CameraView& camera, const DepthEnds& ends) {
   return {depthOf(ends.nearest), depthOf(ends.farthest), ends.least == 0};
 }
 
-ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) {
+/// `ends`: as depthEnds gives them, of the rows from one to another.
+template <class Ends>
+ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer, const Ends& endsOf) {
   static_assert(kSurveyBlock % kBlockSide == 0);
   ReceiverDepths grid = emptyDepths(buffer.width, buffer.height);
   grid.blocks.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
   forEach(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
     const int highest = buffer.height - 1 - static_cast<int>(row) * grid.blockSize; // rows count from the top
     const int lowest = std::max(highest + 1 - grid.blockSize, 0);
-    const std::vector<DepthEnds> ends = depthEnds(buffer, lowest, highest, grid.blockSize);
+    const std::vector<DepthEnds> ends = endsOf(lowest, highest, grid.blockSize);
     for (std::size_t i = 0; i < ends.size(); ++i) grid.blocks[row * ends.size() + i] = spanOf(camera, ends[i]);
   });
   for (const DepthSpan& span : grid.blocks) {
@@ -65,6 +67,18 @@ ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) 
     grid.range.farthest = std::max(grid.range.farthest, span.farthest);
   }
   return grid;
+}
+
+ReceiverDepths depthBlocks(const CameraView& camera, const DepthBuffer& buffer) {
+  return depthBlocks(camera, buffer, [&](int y0, int y1, int side) { return depthEnds(buffer, y0, y1, side); });
+}
+
+/// What is seen of the surfaces of some receiver groups.
+ReceiverDepths depthsOfPart(const CameraRaster& camera, const Survey& survey, std::uint32_t groups) {
+  const std::vector<std::uint8_t> slots = slotsOfGroups(camera.scene.geometry, groups, survey.visible);
+  if (slots == survey.visible) return survey.seen.all;
+  return depthBlocks(camera.camera, survey.buffer,
+                     [&](int y0, int y1, int side) { return depthEnds(survey.buffer, y0, y1, side, slots); });
 }
 
 /// `fresh`: as RasterInput's.
@@ -81,7 +95,7 @@ void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, bo
 
 } // namespace
 
-Survey surveyScene(const CameraRaster& camera, int samples, DepthBuffer storage) {
+Survey surveyScene(const CameraRaster& camera, int samples, std::span<const std::uint32_t> parts, DepthBuffer storage) {
   const FrameScene& scene = camera.scene;
   const SurveyInput input{scene.scene, scene.view, scene.geometry, camera.camera, camera.nodes};
   const std::vector<std::uint8_t> inView = slotsInView(input);
@@ -89,15 +103,16 @@ Survey surveyScene(const CameraRaster& camera, int samples, DepthBuffer storage)
   Survey survey;
   survey.buffer = unfilledBuffer(scene.width, scene.height, samples, true, std::move(storage));
   addSlots(camera, drawn, true, survey.buffer, survey.triangles);
-  survey.receivers = depthBlocks(camera.camera, survey.buffer);
+  survey.seen.all = depthBlocks(camera.camera, survey.buffer);
   if (drawn != inView) {
     const std::vector<std::uint8_t> rest =
-        unhiddenBoxes(camera.camera, survey.receivers, scene.geometry.slotBounds, without(inView, drawn));
+        unhiddenBoxes(camera.camera, survey.seen.all, scene.geometry.slotBounds, without(inView, drawn));
     addSlots(camera, rest, false, survey.buffer, survey.triangles);
     std::transform(drawn.begin(), drawn.end(), rest.begin(), drawn.begin(), std::bit_or<>());
-    survey.receivers = depthBlocks(camera.camera, survey.buffer);
+    survey.seen.all = depthBlocks(camera.camera, survey.buffer);
   }
-  survey.visible = visibleBoxes(camera.camera, survey.receivers, scene.geometry.slotBounds, drawn);
+  survey.visible = visibleBoxes(camera.camera, survey.seen.all, scene.geometry.slotBounds, drawn);
+  for (const std::uint32_t groups : parts) survey.seen.parts.push_back(depthsOfPart(camera, survey, groups));
   return survey;
 }
 

@@ -12,7 +12,7 @@ namespace gnomon::cpu {
 
 /// What the camera sees.
 struct Survey {
-  ReceiverDepths receivers;
+  SeenDepths seen;
   std::vector<std::uint8_t> visible; ///< one a slot of the geometry: not surely hidden behind others
   DepthBuffer buffer;                ///< numbered
   std::uint64_t triangles = 0;       ///< drawn
@@ -30,8 +30,9 @@ struct CameraRaster {
 
 /// Rasters everything in view that is not surely hidden. Of many triangles the nearest are rastered first, so that what
 /// they hide need not be. `samples`: 1 or 4 a pixel; `storage`: a buffer that nothing needs any more, whose memory is
-/// used.
-Survey surveyScene(const CameraRaster& raster, int samples, DepthBuffer storage = {});
+/// used. `parts`: as FrameWork's.
+Survey surveyScene(const CameraRaster& raster, int samples, std::span<const std::uint32_t> parts = {},
+                   DepthBuffer storage = {});
 
 /// The same surfaces at another number of samples; adds the triangles drawn.
 DepthBuffer rasterVisible(const CameraRaster& raster, const Survey& survey, int samples, std::uint64_t& triangles);

@@ -82,18 +82,18 @@ const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
   return found->second;
 }
 
-Result<ReceiverDepths> CpuFrame::survey() {
+Result<SeenDepths> CpuFrame::survey() {
   if (const Status made = needHoles(); !made) return made.problems();
   passStart_ = Clock::now();
   const int samples = work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
-  survey_ = surveyScene(camera(), samples, std::exchange(shared_.storage[samples], {}));
-  if (!survey_.receivers.range.empty()) {
-    scene_.frame.depthRange.x = survey_.receivers.range.nearest;
-    scene_.frame.depthRange.y = survey_.receivers.range.farthest;
+  survey_ = surveyScene(camera(), samples, work_.parts, std::exchange(shared_.storage[samples], {}));
+  if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {
+    scene_.frame.depthRange.x = range.nearest;
+    scene_.frame.depthRange.y = range.farthest;
   }
   facts_.surveyedTriangles = survey_.triangles;
   endPass("survey", survey_.triangles);
-  return survey_.receivers;
+  return survey_.seen;
 }
 
 DepthBuffer& CpuFrame::surfaces(int samples) {

@@ -36,7 +36,7 @@ class CpuFrame : public FrameDrawing {
   CpuFrame(Shared& shared, const FrameWork& work);
   ~CpuFrame() override;
 
-  Result<ReceiverDepths> survey() override;
+  Result<SeenDepths> survey() override;
   Status cast(const ShowInput& input, TileUse tiles) override;
   Status show(const ShowInput& input) override;
   Result<std::vector<PlacedTriangle>> shownTriangles() override;

@@ -29,6 +29,7 @@ struct FrameWork {
   /// What was baked for a light whose technique says so; asked after the survey.
   std::function<std::shared_ptr<const BakedLight>(int light)> baked;
   const FrameVolumes* volumes = nullptr; ///< filled when the survey begins; null or empty = none
+  std::vector<std::uint32_t> parts{};    ///< what the survey tells by itself: receiver groups, a bit each
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
@@ -78,8 +79,8 @@ class FrameDrawing {
  public:
   virtual ~FrameDrawing() = default;
 
-  /// What the camera sees.
-  virtual Result<ReceiverDepths> survey() = 0;
+  /// What the camera sees, of all and of each part that the work asks for.
+  virtual Result<SeenDepths> survey() = 0;
   /// The tiles of `input.plan`, drawn or taken over from an earlier frame: at least what the views of `input` read of
   /// them.
   virtual Status cast(const ShowInput& input, TileUse tiles) = 0;

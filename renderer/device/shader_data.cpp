@@ -176,7 +176,7 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.lens = glm::vec4(clip[2][2], clip[3][2], 2.0 / frame.spec.width, 2.0 / frame.spec.height);
   data.background = glm::vec4(toVector(background.color), background.alpha);
   data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
-  data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), 0);
+  data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), view.ahead);
   return data;
 }
 

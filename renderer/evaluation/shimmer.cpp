@@ -113,13 +113,19 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
   const FrameSpec& spec = frame.spec;
-  const auto begun = device.begin({.scene = scene, .frame = frame, .layered = {}, .traced = {}, .baked = {}});
+  const std::vector<int> mapped = mappedLights(frame);
+  const auto begun = device.begin({.scene = scene,
+                                   .frame = frame,
+                                   .layered = {},
+                                   .traced = {},
+                                   .baked = {},
+                                   .parts = receiverParts(frame, mapped)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
-  const auto receivers = drawing.survey();
-  if (!receivers) return receivers.problems();
+  auto seen = drawing.survey();
+  if (!seen) return seen.problems();
   ProbedFrame probed;
-  probed.plan = planShadows(planInput(frame, view, *receivers, mappedLights(frame), device.info().maxTextureSize));
+  probed.plan = planShadows(planInput(frame, view, *std::move(seen), mapped, device.info().maxTextureSize));
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
   const auto lights = litLights(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
   const ShowInput nothing{.plan = probed.plan, .lights = lights};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/core/vec3.h"
+#include "renderer/reference/frame_nodes.h"
 
 namespace gnomon {
 
@@ -77,10 +78,9 @@ void keepInSight(const TraceInput& input, std::vector<SurfacePoint>& points) {
 
 std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const std::vector<SurfacePoint>& points) {
   const std::vector<std::uint8_t> reached = facesLight(input, light, points);
-  const SceneView& view = input.traced.view();
-  return filtered(points, [&](std::size_t i) {
-    return reached[i] != 0 && switchesOf(input.nodes, view.instances[points[i].instance].node).receiveShadow;
-  });
+  const Light& of = input.lights[static_cast<std::size_t>(light)];
+  return filtered(points,
+                  [&](std::size_t i) { return reached[i] != 0 && receivesFrom(input, of, points[i].instance); });
 }
 
 std::vector<Camera> camerasAlong(const CameraPath& path, const Camera& start) {

@@ -25,7 +25,7 @@ LightMapReport lightMapReport(const LightMapCache::Found& found) {
 namespace {
 
 std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
-  auto lights = lightReports(outcome.frame.spec, outcome.plan, outcome.errors, outcome.frame.view.eye, outcome.layered);
+  auto lights = lightReports(outcome.frame.spec, outcome.plan, outcome.errors, outcome.frame.view, outcome.layered);
   for (const PlannedLight& planned : outcome.plan.lights) {
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
     for (std::size_t i = 0; i < light.tiles.size(); ++i) {
@@ -68,7 +68,7 @@ FrameCounts countsOf(const FrameOutcome& outcome) {
 FrameReport makeReport(FrameOutcome outcome) {
   FrameReport report;
   report.spec = outcome.frame.spec;
-  if (!outcome.depths.empty()) report.depthRange = {outcome.depths.nearest, outcome.depths.farthest};
+  report.depthRange = askedDepths(outcome.frame.view, outcome.depths);
   report.atlasSize = {outcome.plan.atlasWidth, outcome.plan.atlasHeight};
   report.lights = drawnLights(outcome);
   report.volumes.assign(outcome.volumes.begin(), outcome.volumes.end());
@@ -107,17 +107,18 @@ void addBias(const ShadowTile& tile, const Bias& bias, TileReport& report) {
   report.depthBiasMetres = report.depthBias / zPerMetre;
 }
 
-TileReport tileReport(const ShadowTile& tile, const Bias& bias, const std::optional<PredictedError>& error,
-                      const glm::dvec3& eye) {
+TileReport tileReport(const ShadowTile& tile, LightType type, const Bias& bias,
+                      const std::optional<PredictedError>& error, const CameraView& view) {
   TileReport report;
-  report.near = tile.near;
-  report.far = tile.far;
+  const double ahead = type == LightType::directional ? view.ahead : 0.0;
+  report.near = tile.near + ahead;
+  report.far = tile.far + ahead;
   if (tile.rect.width == 0) return report;
   const glm::dvec2 texelSize = tile.space.fit.texelSize * (tile.space.fit.perspective ? tile.far : 1.0);
   report.tile = {tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height};
   report.border = tile.border;
   report.texelSize = {texelSize.x, texelSize.y};
-  report.matrix = clipFromWorld(tile, eye);
+  report.matrix = clipFromWorld(tile, view.eye);
   addBias(tile, bias, report);
   report.predictedError = error;
   return report;
@@ -143,8 +144,13 @@ std::string sharpNote(const Light& light) {
 
 } // namespace
 
+std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths) {
+  if (depths.empty()) return {};
+  return {depths.nearest + view.ahead, depths.farthest + view.ahead};
+}
+
 std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const glm::dvec3& eye, std::span<const int> layeredLights) {
+                                      const CameraView& view, std::span<const int> layeredLights) {
   std::vector<LightReport> reports;
   for (std::size_t i = 0; i < spec.lights->size(); ++i) {
     LightReport report;
@@ -182,7 +188,8 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
     if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
     for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
       const auto index = static_cast<std::size_t>(tile);
-      report.tiles.push_back(tileReport(plan.tiles[index], shadow->bias, errors.tiles[index], eye));
+      report.tiles.push_back(tileReport(plan.tiles[index], (*spec.lights)[static_cast<std::size_t>(planned.light)].type,
+                                        shadow->bias, errors.tiles[index], view));
     }
   }
   return reports;

@@ -35,7 +35,10 @@ FrameReport makeReport(FrameOutcome outcome);
 /// What a plan decided about the spec's lights: everything but counts and times. `layeredLights`: those whose shadow
 /// comes from rays or shadow volumes, or also does.
 std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const glm::dvec3& eye, std::span<const int> layeredLights);
+                                      const CameraView& view, std::span<const int> layeredLights);
+
+/// From the eye that was asked for; 0 0 = nothing in view.
+std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths);
 
 /// Fills in the sums over a light's tiles.
 void addSums(LightReport& light);

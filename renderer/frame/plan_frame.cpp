@@ -4,6 +4,7 @@
 #include "renderer/frame/make_report.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/frame_geometry.h"
+#include "renderer/prepare/survey_slots.h"
 #include "renderer/prepare/tile_casters.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
@@ -33,6 +34,22 @@ void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene&
   }
 }
 
+/// What a survey may find at most.
+SeenDepths boxesSeen(const ResolvedFrame& frame, const SceneView& view, const FrameGeometry& geometry,
+                     std::span<const int> mapped) {
+  std::vector<std::uint8_t> visible(geometry.slotCount(), 1);
+  keepNodes(
+      frame.nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, visible);
+  const auto depthsOf = [&](std::span<const std::uint8_t> slots) {
+    return boxDepths(frame.view, frame.spec.width, frame.spec.height, geometry.slotBounds, slots);
+  };
+  SeenDepths seen{depthsOf(visible), {}};
+  for (const std::uint32_t groups : receiverParts(frame, mapped)) {
+    seen.parts.push_back(depthsOf(slotsOfGroups(geometry, groups, visible)));
+  }
+  return seen;
+}
+
 } // namespace
 
 Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const RendererInfo& device) {
@@ -43,29 +60,28 @@ Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const R
   if (!frame) return frame.problems();
   if (const Status able = checkDevice(spec, device); !able) return able.problems();
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
-  const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye);
-  std::vector<std::uint8_t> seen(geometry.slotCount(), 1);
-  keepNodes(
-      frame->nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, seen);
-  const ReceiverDepths receivers =
-      boxDepths(frame->view, frame->spec.width, frame->spec.height, geometry.slotBounds, seen);
+  const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye, frame->groups.ofInstance);
   const std::vector<int> layered = layeredLights(*frame);
-  const ShadowPlan plan = planShadows(planInput(*frame, view, receivers, mappedLights(*frame), device.maxTextureSize));
+  const std::vector<int> mapped = mappedLights(*frame);
+  const PlanInput input =
+      planInput(*frame, view, boxesSeen(*frame, view, geometry, mapped), mapped, device.maxTextureSize);
+  const ShadowPlan plan = planShadows(input);
   if (const auto subject = debugSubject(frame->spec, plan, layered); !subject) return subject.problems();
   if (const Status fits = checkAtlas(plan, frame->spec.atlas.samples); !fits) return fits.problems();
-  const PredictedErrors errors = predictErrors(frame->view, receivers, plan);
+  const PredictedErrors errors = predictErrors(input, plan);
 
   PlanReport report;
   report.spec = frame->spec;
   report.spec.device = device.device;
-  if (!receivers.range.empty()) report.depthRange = {receivers.range.nearest, receivers.range.farthest};
+  report.depthRange = askedDepths(frame->view, input.receivers.range);
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame->spec, plan, errors, frame->view.eye, layered);
+  report.lights = lightReports(frame->spec, plan, errors, frame->view, layered);
   addCasters(plan, *frame, scene, geometry, report.lights);
   report.predictedError = errors.all;
   report.warnings = loaded.summary.warnings;
   report.warnings.insert(report.warnings.end(), frame->warnings.begin(), frame->warnings.end());
-  for (std::string& warning : frameWarnings({scene, view, *frame, receivers, plan, errors, layered}, WarnedBy::plan)) {
+  for (std::string& warning :
+       frameWarnings({scene, view, *frame, input.receivers, plan, errors, layered}, WarnedBy::plan)) {
     report.warnings.push_back(std::move(warning));
   }
   return report;

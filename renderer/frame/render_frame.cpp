@@ -53,8 +53,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
   MadeVolumes made;
-  const auto begun =
-      device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight, &made.volumes});
+  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight,
+                                   &made.volumes, receiverParts(*resolved, mapped)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
@@ -68,22 +68,23 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   made = *std::move(volumes);
   if (!made.volumes.empty()) drawing.endStage("volume");
 
-  const auto receivers = drawing.survey();
-  if (!receivers) return receivers.problems();
+  auto seen = drawing.survey();
+  if (!seen) return seen.problems();
   drawing.endStage("survey");
 
-  const ShadowPlan plan = planShadows(planInput(*resolved, view, *receivers, mapped, device.info().maxTextureSize));
+  const PlanInput planned = planInput(*resolved, view, *std::move(seen), mapped, device.info().maxTextureSize);
+  const ShadowPlan plan = planShadows(planned);
   if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
-  PredictedErrors errors = predictErrors(resolved->view, *receivers, plan);
+  PredictedErrors errors = predictErrors(planned, plan);
   const auto lights = litLights(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);
-  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, *receivers, lights)
+  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, planned.receivers, lights)
                                                          : std::vector<std::uint32_t>{};
   const auto subject = debugSubject(effective, plan, layered);
   if (!subject) return subject.problems();
   const bool layerDecides = std::find(layered.begin(), layered.end(), subject->light) != layered.end();
   const FrameViews views(effective, layerDecides);
   std::vector<std::string> warnings =
-      frameWarnings({*scene, view, *resolved, *receivers, plan, errors, layered}, WarnedBy::drawing, baked);
+      frameWarnings({*scene, view, *resolved, planned.receivers, plan, errors, layered}, WarnedBy::drawing, baked);
   const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
   drawing.endStage("plan");
 
@@ -139,7 +140,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
-  FrameReport report = makeReport({*resolved, view.triangles, receivers->range, plan, errors, layered, baked,
+  FrameReport report = makeReport({*resolved, view.triangles, planned.receivers.range, plan, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));

@@ -52,10 +52,11 @@ double nearestDepthWithin(const Frustum& region, const std::array<glm::dvec3, 3>
 
 /// What lies between the eye and the near plane; before an orthographic one, all that is ahead of the eye.
 std::optional<Frustum> cutRegion(const CameraView& camera) {
-  if (!(camera.near > 0)) return std::nullopt;
+  const double near = camera.near + camera.ahead;
+  if (!(near > 0)) return std::nullopt;
   Frustum region = frustumOf(camera);
-  region.planes[4] = glm::dvec4(camera.forward, 0.0);
-  region.planes[5] = glm::dvec4(-camera.forward, camera.near * (1.0 - 1e-9));
+  region.planes[4] = glm::dvec4(camera.forward, camera.ahead);
+  region.planes[5] = glm::dvec4(-camera.forward, camera.near - 1e-9 * near);
   return region;
 }
 

@@ -50,16 +50,16 @@ GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
   endStage("upload");
 }
 
-Result<ReceiverDepths> GlFrame::survey() {
-  auto survey = surveyScene(inputs_, work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1);
+Result<SeenDepths> GlFrame::survey() {
+  auto survey = surveyScene(inputs_, work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1, work_.parts);
   if (!survey) return survey.problems();
   survey_ = std::move(*survey);
-  if (!survey_.receivers.range.empty()) {
-    data_.depthRange.x = survey_.receivers.range.nearest;
-    data_.depthRange.y = survey_.receivers.range.farthest;
+  if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {
+    data_.depthRange.x = range.nearest;
+    data_.depthRange.y = range.farthest;
     frame_.update(0, gl::bytesOfValue(data_));
   }
-  return survey_.receivers;
+  return survey_.seen;
 }
 
 Status GlFrame::cast(const ShowInput& input, TileUse tiles) {

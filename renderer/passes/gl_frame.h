@@ -24,7 +24,7 @@ class GlFrame : public FrameDrawing {
  public:
   GlFrame(GlShared& shared, const FrameWork& work);
 
-  Result<ReceiverDepths> survey() override;
+  Result<SeenDepths> survey() override;
   Status cast(const ShowInput& input, TileUse tiles) override;
   Status show(const ShowInput& input) override;
   Result<std::vector<PlacedTriangle>> shownTriangles() override;

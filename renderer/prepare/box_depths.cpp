@@ -47,6 +47,9 @@ Depths depthsIn(const CameraView& view, const Aabb& box, const BlockStrip& colum
   return depths;
 }
 
+/// A little wider than the picture, for what rasterizers round.
+constexpr double kWider = 1.01;
+
 void widen(DepthSpan& span, const CameraView& view, const Depths& depths) {
   const auto nearest = static_cast<float>(depths.least - depthSlack(view, depths.least));
   const auto farthest = static_cast<float>(depths.greatest + depthSlack(view, depths.greatest));
@@ -94,6 +97,18 @@ ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::spa
   return grid;
 }
 
+std::optional<DepthInterval> possibleDepths(const CameraView& view, const Aabb& box) {
+  if (box.empty()) return std::nullopt;
+  CameraView open = view;
+  open.near = -HUGE_VAL;
+  open.far = HUGE_VAL;
+  const auto strip = [](const glm::dvec3& half) { return BlockStrip{-glm::abs(half), glm::abs(half)}; };
+  const Depths depths =
+      depthsIn(open, box, strip(view.right * (view.halfSize.x * kWider)), strip(view.up * (view.halfSize.y * kWider)));
+  if (!(depths.least <= depths.greatest)) return std::nullopt;
+  return DepthInterval{depths.least, depths.greatest};
+}
+
 std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepths& depths, const Aabb& box) {
   glm::dvec2 low(HUGE_VAL);
   glm::dvec2 high(-HUGE_VAL);
@@ -125,9 +140,9 @@ namespace {
 
 /// True where `shows` holds for any block of the footprint, told the block and the box's least depth.
 template <class Shows>
-bool anyBlock(const ReceiverDepths& depths, const Footprint& footprint, Shows shows) {
+bool anyBlock(const CameraView& view, const ReceiverDepths& depths, const Footprint& footprint, Shows shows) {
   // Surveyed depths are floats, linearized: they may lie a few roundings nearer than the surface.
-  const double nearest = footprint.nearest * (1 - 1e-5) - 1e-30;
+  const double nearest = footprint.nearest - depthSlack(view, footprint.nearest) - 1e-30;
   for (int row = footprint.firstRow; row <= footprint.lastRow; ++row) {
     const DepthSpan* blocks = depths.blocks.data() + static_cast<std::size_t>(row) * depths.columns;
     for (int column = footprint.firstColumn; column <= footprint.lastColumn; ++column) {
@@ -145,7 +160,7 @@ std::vector<std::uint8_t> boxesThatShow(const CameraView& view, const ReceiverDe
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (wanted[i] == 0) continue;
     const auto footprint = footprintOf(view, depths, boxes[i]);
-    visible[i] = static_cast<std::uint8_t>(!footprint || anyBlock(depths, *footprint, shows));
+    visible[i] = static_cast<std::uint8_t>(!footprint || anyBlock(view, depths, *footprint, shows));
   }
   return visible;
 }

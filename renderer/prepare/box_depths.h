@@ -21,6 +21,10 @@ ReceiverDepths emptyDepths(int width, int height);
 ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::span<const Aabb> boxes,
                          std::span<const std::uint8_t> drawn);
 
+/// The view depths at which the picture may show a part of the box (eye-relative), whatever the planes; none where it
+/// shows none. REQUIRES: an orthographic view.
+std::optional<DepthInterval> possibleDepths(const CameraView& view, const Aabb& box);
+
 /// A box on the picture: the blocks that it may touch, and its least view depth.
 struct Footprint {
   int firstColumn = 0, lastColumn = -1;

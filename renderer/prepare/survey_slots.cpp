@@ -63,6 +63,15 @@ std::vector<std::uint8_t> firstToDraw(const SurveyInput& input, const std::vecto
   return first;
 }
 
+std::vector<std::uint8_t> slotsOfGroups(const FrameGeometry& geometry, std::uint32_t groups,
+                                        std::vector<std::uint8_t> marked) {
+  for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
+    if ((groups >> geometry.instances[i].group & 1u) != 0) continue;
+    std::fill(marked.begin() + geometry.firstSlot[i], marked.begin() + geometry.firstSlot[i + 1], std::uint8_t{0});
+  }
+  return marked;
+}
+
 std::vector<std::uint8_t> without(std::span<const std::uint8_t> marked, std::span<const std::uint8_t> done) {
   std::vector<std::uint8_t> rest(marked.size());
   std::transform(marked.begin(), marked.end(), done.begin(), rest.begin(),

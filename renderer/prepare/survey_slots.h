@@ -25,6 +25,10 @@ std::vector<std::uint8_t> slotsInView(const SurveyInput& input);
 /// triangles in view; every one where there are few triangles.
 std::vector<std::uint8_t> firstToDraw(const SurveyInput& input, const std::vector<std::uint8_t>& inView);
 
+/// The marked slots whose instances belong to one of these receiver groups, a bit each.
+std::vector<std::uint8_t> slotsOfGroups(const FrameGeometry& geometry, std::uint32_t groups,
+                                        std::vector<std::uint8_t> marked);
+
 /// The marked slots that `done` does not mark.
 std::vector<std::uint8_t> without(std::span<const std::uint8_t> marked, std::span<const std::uint8_t> done);
 

@@ -49,7 +49,7 @@ Aabb nearBox(const CameraView& camera) {
   Aabb box;
   if (camera.perspective) box.add(glm::dvec3(0.0));
   for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) box.add(pointAt(camera, {x, y}, camera.near));
+    for (const double y : {-1.0, 1.0}) box.add(pointAt(camera, {x, y}, drawnNear(camera)));
   }
   return box;
 }

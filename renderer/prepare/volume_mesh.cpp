@@ -143,7 +143,7 @@ std::vector<std::uint8_t> beyondFar(const Scene& scene, const Primitive& primiti
   const double deepest =
       depth(instance.bounds.center()) + glm::dot(glm::abs(camera.forward), instance.bounds.halfExtent());
   // A little before the plane is also well: floats may see it there.
-  const double plane = camera.far - 1e-5 * std::abs(camera.far - camera.near);
+  const double plane = drawnFar(camera) - 1e-5 * std::abs(drawnFar(camera) - drawnNear(camera));
   if (std::isinf(camera.far) || deepest < plane - 1e-5 * std::abs(deepest)) return {};
   std::vector<std::uint8_t> beyond(primitive.vertexCount);
   for (std::uint32_t i = 0; i < primitive.vertexCount; ++i) {

@@ -39,11 +39,12 @@ float pixelWidth(const TraceInput& input, const SurfacePoint& point) {
 /// Adds the next pixels to what is known of a light.
 void traceLight(const TraceInput& input, std::span<const SurfacePoint> points, std::span<const float> widths,
                 int samples, LightReference& light) {
+  const Light& of = input.lights[static_cast<std::size_t>(light.light)];
   const std::vector<float> visibility = lightVisibility(input, light.light, points, samples);
   std::vector<std::uint8_t> receiver = facesLight(input, light.light, points);
   std::vector<SurfacePoint> hidden(points.begin(), points.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (receiver[i] != 0 && !switchesOf(input, points[i].instance).receiveShadow) receiver[i] = 0;
+    if (receiver[i] != 0 && !receivesFrom(input, of, points[i].instance)) receiver[i] = 0;
     if (visibility[i] >= 0.5f) hidden[i] = {};
   }
   std::vector<float> distance = blockerDistances(input, light.light, hidden);

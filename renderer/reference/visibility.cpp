@@ -103,9 +103,10 @@ TracedLight::TracedLight(const TraceInput& input, int index, int rays) {
   const Light& light = input.lights[static_cast<std::size_t>(index)];
   const TracedScene::Tree& tree = input.traced.tree();
   const Shadow shadow = light.shadow.value_or(Shadow{});
-  const auto isShadowed = [&](const NodeSwitches& node) {
-    return shadow.enabled && node.receiveShadow && isLitBy(light, node);
-  };
+  std::vector<std::uint8_t> shadowed(input.traced.view().instances.size());
+  for (std::uint32_t i = 0; i < shadowed.size(); ++i) {
+    shadowed[i] = shadow.enabled && receivesFrom(input, light, i) ? 1 : 0;
+  }
   std::vector<Opacity> opacity = opacities(input, light);
   LightAndCasters key{lightSource(light, tree.anchor), std::vector<std::uint8_t>(opacity.size())};
   std::transform(opacity.begin(), opacity.end(), key.casts.begin(),
@@ -113,7 +114,7 @@ TracedLight::TracedLight(const TraceInput& input, int index, int rays) {
   const bool through = letThrough(tree, opacity, shadow.blendedCasters);
   state_ = std::unique_ptr<const State>(new State{
       key,
-      instancesWhere(input, isShadowed),
+      std::move(shadowed),
       {tree, input.camera.eye - tree.anchor, std::move(opacity), shadow.blendedCasters, roundingIn(tree), through},
       input,
       Interleaved(static_cast<std::uint32_t>(rays)),

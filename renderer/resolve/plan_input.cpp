@@ -1,6 +1,8 @@
 #include "renderer/resolve/plan_input.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "renderer/core/light.h"
@@ -51,17 +53,67 @@ bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped) {
   return false;
 }
 
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
-                    std::span<const int> mapped, int maxTextureSize) {
+namespace {
+
+constexpr std::uint32_t kAllGroups = ~0u;
+
+std::uint32_t receivingGroups(const ResolvedFrame& frame, int light) {
+  return frame.groups.ofLight[static_cast<std::size_t>(light)].shadowed;
+}
+
+/// What casts or receives shadows of lights, by their layers and the groups that receive. The scene's where that is
+/// all.
+class TakingPart {
+ public:
+  TakingPart(const ResolvedFrame& frame, const SceneView& view) : frame_(frame), view_(view) {}
+
+  const Aabb& in(int light) {
+    const Light& of = (*frame_.spec.lights)[static_cast<std::size_t>(light)];
+    const std::uint32_t receiving = receivingGroups(frame_, light);
+    const auto [found, isNew] = bounds_.try_emplace({of.cullingMask, receiving});
+    if (!isNew) return found->second;
+    for (std::size_t i = 0; i < view_.instances.size(); ++i) {
+      const Instance& instance = view_.instances[i];
+      const NodeSwitches node =
+          frame_.nodes.empty() ? NodeSwitches{} : frame_.nodes[static_cast<std::size_t>(instance.node)];
+      const std::uint32_t group = frame_.groups.ofInstance.empty() ? 0u : frame_.groups.ofInstance[i];
+      const bool receives = node.visible && (receiving >> group & 1u) != 0;
+      if (receives || castsFrom(of, node)) found->second.add(instance.bounds);
+    }
+    return found->second;
+  }
+
+ private:
+  const ResolvedFrame& frame_;
+  const SceneView& view_;
+  std::map<std::pair<int, std::uint32_t>, Aabb> bounds_;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame, std::span<const int> mapped) {
+  std::vector<std::uint32_t> parts;
+  for (const int light : mapped) {
+    const std::uint32_t groups = receivingGroups(frame, light);
+    if (groups != kAllGroups && std::find(parts.begin(), parts.end(), groups) == parts.end()) parts.push_back(groups);
+  }
+  return parts;
+}
+
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, std::span<const int> mapped,
+                    int maxTextureSize) {
   PlanInput input;
   input.view = frame.view;
-  input.receivers = receivers;
+  input.receivers = std::move(seen.all);
+  input.parts = std::move(seen.parts);
   input.sceneBounds = scene.bounds;
   input.anchor = anchorOf(scene);
   input.atlas = frame.spec.atlas;
   input.maxTextureSize = maxTextureSize;
   input.frameWidth = frame.spec.width;
   input.frameHeight = frame.spec.height;
+  const std::vector<std::uint32_t> parts = receiverParts(frame, mapped);
+  TakingPart takingPart(frame, scene);
   for (const int index : mapped) {
     const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
     ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
@@ -77,6 +129,10 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const Re
     caster.outerCone = glm::radians(light.outerConeDegrees);
     caster.casts = (light.cullingMask & frame.layers.casting) != 0;
     caster.shadows = (light.cullingMask & frame.layers.receiving) != 0;
+    if (const std::uint32_t groups = receivingGroups(frame, index); groups != kAllGroups) {
+      caster.part = static_cast<int>(std::find(parts.begin(), parts.end(), groups) - parts.begin());
+    }
+    if (!frame.nodes.empty() || caster.part >= 0) caster.bounds = takingPart.in(index);
     input.casters.push_back(caster);
   }
   return input;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/resolve_frame.h"
@@ -26,8 +28,13 @@ std::vector<int> mappedLights(const ResolvedFrame& frame);
 /// Whether some light's technique needs the edges of the casters' meshes. `mapped`: as mappedLights gives them.
 bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped);
 
-/// What the shadow maps of a frame are planned from: those of the lights `mapped`. `receivers`: what the camera sees.
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, const ReceiverDepths& receivers,
-                    std::span<const int> mapped, int maxTextureSize);
+/// The parts of what is seen that a survey tells by themselves, because a light of `mapped` throws shadows on them
+/// alone: receiver groups, a bit each. No part twice, and none for lights that throw shadows on all.
+std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame, std::span<const int> mapped);
+
+/// What the shadow maps of a frame are planned from: those of the lights `mapped`. `seen`: what the camera sees, its
+/// parts those of receiverParts.
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, std::span<const int> mapped,
+                    int maxTextureSize);
 
 } // namespace gnomon

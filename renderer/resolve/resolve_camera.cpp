@@ -48,11 +48,14 @@ void setExtent(Intrinsics& lens, const glm::dvec2& size, CameraView& view) {
   view.center = glm::dvec2(middle.x - *lens.cx, *lens.cy - middle.y) / focal; // rows count downwards
 }
 
+/// Reversed float depth keeps its relative precision however small near is, so it only has to be out of the way: of
+/// whatever stands a millimetre before the eye.
+constexpr double kNearestDrawn = 5e-4;
+
 /// `radius`: of the scene, metres.
 template <class Lens>
 void setDepths(Lens& lens, double radius, CameraView& view) {
-  // Reversed float depth keeps its relative precision however small near is, so it only has to be out of the way.
-  if (!lens.near) lens.near = std::min(radius * 1e-4, lens.far.value_or(HUGE_VAL) * 1e-3);
+  if (!lens.near) lens.near = std::min({radius * 1e-4, kNearestDrawn, lens.far.value_or(HUGE_VAL) * 1e-3});
   view.near = *lens.near;
   if (lens.far) view.far = *lens.far;
 }

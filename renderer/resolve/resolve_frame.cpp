@@ -6,6 +6,7 @@
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
 #include "renderer/resolve/check_frame.h"
+#include "renderer/resolve/move_to_scene.h"
 #include "renderer/resolve/resolve_camera.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"
@@ -105,10 +106,11 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   auto volumes = resolveVolumes(spec.volumes, scene, view, frame.nodes);
   if (!volumes) return volumes.problems();
   frame.volumes = *std::move(volumes);
-  frame.layers = layersInUse(view, frame.nodes);
-  auto groups = resolveReceiverGroups(view, frame.nodes, *frame.spec.lights);
+  frame.layers = layersInUse(scene, view, frame.nodes);
+  auto groups = resolveReceiverGroups(scene, view, frame.nodes, *frame.spec.lights);
   if (!groups) return groups.problems();
   frame.groups = std::move(*groups);
+  frame.view = movedToScene(frame.view, view, receivingInstances(scene, view, frame.nodes));
   if (const Status able = checkTechniques(spec, scene, frame); !able) return able.problems();
   return frame;
 }

@@ -79,42 +79,77 @@ Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entr
   return nodes;
 }
 
-LayersInUse layersInUse(const SceneView& view, std::span<const NodeSwitches> nodes) {
-  if (nodes.empty()) return {};
+namespace {
+
+NodeSwitches switchesOf(const Instance& instance, std::span<const NodeSwitches> nodes) {
+  return nodes.empty() ? NodeSwitches{} : nodes[static_cast<std::size_t>(instance.node)];
+}
+
+bool receivesShadows(const Scene& scene, const Instance& instance, const NodeSwitches& node) {
+  return receivesShadows(node, scene.materials[static_cast<std::size_t>(materialOf(scene, instance))]);
+}
+
+/// No node of it differs from another, and no material from the usual ones.
+bool isOneGroup(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes) {
+  return nodes.empty() && std::all_of(view.instances.begin(), view.instances.end(), [&](const Instance& instance) {
+           return receivesShadows(scene, instance, NodeSwitches{});
+         });
+}
+
+} // namespace
+
+LayersInUse layersInUse(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes) {
+  if (view.instances.empty()) return {};
   LayersInUse used{0, 0};
   for (const Instance& instance : view.instances) {
-    const NodeSwitches& node = nodes[static_cast<std::size_t>(instance.node)];
+    const NodeSwitches node = switchesOf(instance, nodes);
     if (node.castShadow) used.casting |= node.layers;
-    if (node.visible && node.receiveShadow) used.receiving |= node.layers;
+    if (node.visible && receivesShadows(scene, instance, node)) used.receiving |= node.layers;
   }
   return used;
 }
 
-Result<ReceiverGroups> resolveReceiverGroups(const SceneView& view, std::span<const NodeSwitches> nodes,
-                                             std::span<const Light> lights) {
+std::vector<std::uint8_t> receivingInstances(const Scene& scene, const SceneView& view,
+                                             std::span<const NodeSwitches> nodes) {
+  std::vector<std::uint8_t> receiving;
+  receiving.reserve(view.instances.size());
+  for (const Instance& instance : view.instances) {
+    const NodeSwitches node = switchesOf(instance, nodes);
+    receiving.push_back(node.visible && receivesShadows(scene, instance, node) ? 1 : 0);
+  }
+  return receiving;
+}
+
+Result<ReceiverGroups> resolveReceiverGroups(const Scene& scene, const SceneView& view,
+                                             std::span<const NodeSwitches> nodes, std::span<const Light> lights) {
   ReceiverGroups groups;
   std::map<std::pair<int, bool>, std::size_t> members;
-  if (nodes.empty()) members.try_emplace({NodeSwitches{}.layers, NodeSwitches{}.receiveShadow}, 0);
-  if (!nodes.empty()) groups.ofInstance.resize(view.instances.size());
+  if (isOneGroup(scene, view, nodes)) {
+    members.try_emplace({NodeSwitches{}.layers, NodeSwitches{}.receiveShadow}, 0);
+  } else {
+    groups.ofInstance.resize(view.instances.size());
+  }
   for (std::size_t i = 0; i < groups.ofInstance.size(); ++i) {
-    const NodeSwitches& node = nodes[static_cast<std::size_t>(view.instances[i].node)];
+    const NodeSwitches node = switchesOf(view.instances[i], nodes);
     if (!node.visible) continue;
-    const auto group = members.try_emplace({node.layers, node.receiveShadow}, members.size()).first->second;
+    const bool receives = receivesShadows(scene, view.instances[i], node);
+    const auto group = members.try_emplace({node.layers, receives}, members.size()).first->second;
     groups.ofInstance[i] = static_cast<std::uint8_t>(group);
   }
   if (members.size() > static_cast<std::size_t>(kLimits.maxReceiverGroups)) {
     return Problem{ProblemCode::invalidValue, "/nodes",
-                   "Visible nodes differ in more pairs of layers and receiveShadow than one frame can distinguish.",
+                   "Visible surfaces differ in more pairs of layers and of whether they receive shadows than one frame "
+                   "can distinguish.",
                    std::to_string(kLimits.maxReceiverGroups), std::to_string(members.size())};
   }
   for (const Light& light : lights) {
     LitGroups of;
     for (const auto& [pair, group] : members) {
-      const auto& [layers, receiveShadow] = pair;
+      const auto& [layers, receives] = pair;
       const std::uint32_t bit = 1u << group;
       const bool lit = (light.cullingMask & layers) != 0;
       if (!lit) of.lit &= ~bit;
-      if (!lit || !receiveShadow) of.shadowed &= ~bit;
+      if (!lit || !receives) of.shadowed &= ~bit;
     }
     groups.ofLight.push_back(of);
   }

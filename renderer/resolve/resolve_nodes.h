@@ -15,11 +15,16 @@ namespace gnomon {
 /// finds no node is a problem at /nodes/i/node.
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene);
 
-/// The layers that some instance of a scene casts or receives in. `nodes`: as resolveNodes gives them.
-LayersInUse layersInUse(const SceneView& view, std::span<const NodeSwitches> nodes);
+/// The layers that some instance of a scene casts or receives in. `view`: one of the scene's; `nodes`: as resolveNodes
+/// gives them.
+LayersInUse layersInUse(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes);
+
+/// One an instance of the view: 1 where it is seen and receives shadows.
+std::vector<std::uint8_t> receivingInstances(const Scene& scene, const SceneView& view,
+                                             std::span<const NodeSwitches> nodes);
 
 /// The receiver groups of what is visible in a scene. More than there may be are a problem at /nodes.
-Result<ReceiverGroups> resolveReceiverGroups(const SceneView& view, std::span<const NodeSwitches> nodes,
-                                             std::span<const Light> lights);
+Result<ReceiverGroups> resolveReceiverGroups(const Scene& scene, const SceneView& view,
+                                             std::span<const NodeSwitches> nodes, std::span<const Light> lights);
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
 
@@ -32,6 +33,15 @@ inline bool castsFrom(const Light& light, const NodeSwitches& node) {
   return node.castShadow && isLitBy(light, node);
 }
 
+/// Whether a surface shows shadows at all: one that is unlit shows its base color, whatever the light.
+inline bool receivesShadows(const NodeSwitches& node, const Material& material) {
+  return node.receiveShadow && !material.unlit;
+}
+/// Whether it shows those of a light. What does not decides nothing about the light's shadow, and is not measured.
+inline bool receivesFrom(const Light& light, const NodeSwitches& node, const Material& material) {
+  return receivesShadows(node, material) && isLitBy(light, node);
+}
+
 /// The layers of what casts, and of what is seen and receives.
 struct LayersInUse {
   int casting = 1;
@@ -46,7 +56,8 @@ struct LitGroups {
   bool operator==(const LitGroups&) const = default;
 };
 
-/// Visible nodes that agree in layers and receiveShadow are one group, so that a pixel only has to know its group.
+/// Visible surfaces that agree in layers and in whether they receive shadows are one group, so that a pixel only has to
+/// know its group.
 struct ReceiverGroups {
   std::vector<std::uint8_t> ofInstance; ///< index of the group, one an instance of the view; empty = one group for all
   std::vector<LitGroups> ofLight;       ///< one a light; empty = every light lights and shadows all

@@ -163,7 +163,7 @@ vec4 data(Sample seen) {
   float span = max(frame.depthRange.y - frame.depthRange.x, 1e-6);
   return vec4(vec3(1.0 - 0.9 * clamp((seen.viewDepth - frame.depthRange.x) / span, 0.0, 1.0)), 1.0);
 #else
-  return vec4(seen.viewDepth);
+  return vec4(seen.viewDepth + frame.depthRange.w);
 #endif
 #elif defined(VIEW_NORMAL)
   vec3 n = unpackedSurface(seen.bits).normal;

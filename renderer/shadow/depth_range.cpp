@@ -23,8 +23,9 @@ constexpr double kInwards = 2.0;
 /// A range thinner than this share of its own depth can't be cut into cascades that floats tell apart.
 constexpr double kThinnest = 1e-5;
 
-DepthInterval widened(DepthInterval range) {
-  const double magnitude = std::max({std::abs(range.near), std::abs(range.far), 1e-6});
+/// `view`: depths are told apart from its eye, not from the one that was asked for (CameraView::ahead).
+DepthInterval widened(const CameraView& view, DepthInterval range) {
+  const double magnitude = std::max({std::abs(range.near - view.ahead), std::abs(range.far - view.ahead), 1e-6});
   const double missing = kThinnest * magnitude - (range.far - range.near);
   if (missing > 0.0) range.far += missing;
   return range;
@@ -59,11 +60,13 @@ double loweredTo(double start, double target, double factor) {
 
 /// With the guard, but no farther than surfaces can lie: between the camera's planes, with room for rounding.
 DepthInterval guarded(const CameraView& view, const DepthInterval& base, double guard) {
-  return {std::max(base.near - guard, view.near - 3.0 * depthSlack(view, view.near)),
-          std::min(base.far + guard, std::isinf(view.far) ? view.far : view.far + 3.0 * depthSlack(view, view.far))};
+  const double near = view.near + view.ahead;
+  const double far = view.far + view.ahead;
+  return {std::max(base.near - guard, near - 3.0 * depthSlack(view, view.near)),
+          std::min(base.far + guard, std::isinf(far) ? far : far + 3.0 * depthSlack(view, view.far))};
 }
 
-/// REQUIRES: both intervals lie in front of the eye.
+/// REQUIRES: both intervals lie in front of the eye of a perspective view, where what is farther appears smaller.
 DepthInterval movedByFactors(const DepthInterval& previous, const DepthInterval& covered,
                              const DepthInterval& surfaces) {
   DepthInterval moved = previous;
@@ -80,8 +83,10 @@ DepthInterval movedByFactors(const DepthInterval& previous, const DepthInterval&
   return moved;
 }
 
-DepthInterval moved(const DepthInterval& previous, const DepthInterval& covered, const DepthInterval& surfaces) {
-  if (previous.near > 0.0 && surfaces.near > 0.0) return movedByFactors(previous, covered, surfaces);
+DepthInterval moved(const CameraView& view, const DepthInterval& previous, const DepthInterval& covered,
+                    const DepthInterval& surfaces) {
+  if (view.perspective && previous.near > 0.0 && surfaces.near > 0.0)
+    return movedByFactors(previous, covered, surfaces);
   const bool outside = surfaces.near < covered.near || surfaces.far > covered.far;
   const bool tooLong = kInwards * (surfaces.far - surfaces.near) <= previous.far - previous.near;
   return outside || tooLong ? surfaces : previous;
@@ -99,7 +104,7 @@ PlannedRange heldOrMoved(const CameraView& view, const DepthInterval& surfaces, 
                          double guard) {
   const DepthInterval held = guarded(view, previous, guard);
   const bool outside = surfaces.near < held.near || surfaces.far > held.far;
-  DepthInterval base = moved(previous, held, surfaces);
+  DepthInterval base = moved(view, previous, held, surfaces);
   if (!(base.near < base.far)) base = surfaces;
   const DepthInterval covered = guarded(view, base, guard);
   if (!outside && covered.near == held.near && covered.far == held.far) return {previous, held, {}};
@@ -110,20 +115,22 @@ PlannedRange heldOrMoved(const CameraView& view, const DepthInterval& surfaces, 
 
 double depthSlack(const CameraView& view, double depth) {
   const double slack = 1e-5 * std::abs(depth);
-  return view.perspective ? slack : slack + 2e-7 * (view.far - view.near);
+  return view.perspective ? slack : slack + 2e-7 * (drawnFar(view) - drawnNear(view));
 }
 
 std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverDepths& receivers,
                                          const DepthRange& options) {
   if (receivers.range.empty()) return std::nullopt;
+  const double near = view.near + view.ahead;
   if (options.mode == DepthRangeMode::manual) {
     const DepthInterval asked =
-        widened({view.near + options.min.value_or(kDefaultMin), view.near + options.max.value_or(kDefaultMax)});
+        widened(view, {near + options.min.value_or(kDefaultMin), near + options.max.value_or(kDefaultMax)});
     return PlannedRange{asked, asked, {}};
   }
   const double nearest = receivers.range.nearest;
   const double farthest = receivers.range.farthest;
-  const DepthInterval surfaces = widened({nearest - depthSlack(view, nearest), farthest + depthSlack(view, farthest)});
+  const DepthInterval surfaces = widened(
+      view, {nearest - depthSlack(view, nearest) + view.ahead, farthest + depthSlack(view, farthest) + view.ahead});
   if (!options.previous) return PlannedRange{surfaces, surfaces, {}};
   return heldOrMoved(view, surfaces, {options.previous->near, options.previous->far},
                      options.guardDistance.value_or(kDefaultGuard));
@@ -135,10 +142,12 @@ constexpr double kBlendShare = 0.2;
 
 /// Where the logarithm begins for a range that reaches the eye or lies behind it, as a share of the range's length.
 constexpr double kSubstituteNear = 1e-3;
+/// Where it begins at the nearest, likewise: else most cascades would lie within centimetres of the eye.
+constexpr double kLeastNear = 1e-4;
 
 double logarithmicSplit(const DepthInterval& range, double fraction) {
   const double length = range.far - range.near;
-  const double near = range.near > 0.0 ? range.near : kSubstituteNear * length;
+  const double near = range.near > 0.0 ? std::max(range.near, kLeastNear * length) : kSubstituteNear * length;
   return range.near + near * (std::pow((near + length) / near, fraction) - 1.0);
 }
 

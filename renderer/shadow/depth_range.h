@@ -30,7 +30,8 @@ struct PlannedRange {
   std::string note;      ///< why a previous range was not kept; empty = it was, or there was none
 };
 
-/// The view depths that the cascades of a light cover. Empty where nothing is in view.
+/// The view depths that the cascades of a light cover, from the eye that was asked for (CameraView::ahead). Empty where
+/// nothing is in view.
 /// Automatic: from the nearest to the farthest surface, widened by depthSlack. Manual: min and max beyond the camera's
 /// near plane (absent: 0 and 50 m), as asked. A range too thin to be cut is widened.
 /// Automatic with a previous range: that range and the guard on both ends, within the camera's near and far planes. An
@@ -46,8 +47,9 @@ std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverD
 /// last is range.far, except in mode manual where the last fraction is less than 1: the rest is uncovered by choice.
 /// Manual: range.near + fraction * length, one cascade for each fraction (cascadeCount is not looked at).
 /// Logarithmic: Zhang et al., "Parallel-Split Shadow Maps for Large-scale Virtual Environments", 2006, with
-/// pssmFactor = 1 - lambda. Where range.near <= 0, which only an orthographic camera gives, the distances are laid out
-/// as if the range began at a thousandth of its length.
+/// pssmFactor = 1 - lambda. A range that begins nearer than a ten-thousandth of its length, as a manual one does at a
+/// near plane, is laid out as if it began there; one with range.near <= 0, which only an orthographic camera gives, as
+/// if at a thousandth.
 std::vector<double> splitDistances(const Partition& partition, int cascadeCount, const DepthInterval& range);
 
 /// What one cascade serves.

@@ -77,6 +77,21 @@ Sphere sliceSphere(const CameraView& view, const DepthInterval& depths) {
   return {wayToMiddle(view) * center, std::hypot(far - center, std::hypot(aside.x, aside.y))};
 }
 
+CameraView steppedLens(const CameraView& view) {
+  constexpr double kAtStep = 1e-9; // a lens that is as wide as a step but for rounding is not wider
+  const double t = glm::length(view.halfSize);
+  const double step = std::exp2(0.5 * std::ceil(2.0 * std::log2(t) - kAtStep));
+  CameraView stepped = view;
+  if (view.center == glm::dvec2(0.0)) {
+    stepped.halfSize = glm::dvec2(step * std::sqrt(0.5)); // of a centred picture only the length counts
+    return stepped;
+  }
+  const double grid = step / 16.0;
+  stepped.center = glm::round(view.center / grid) * grid;
+  stepped.halfSize = glm::ceil(view.halfSize * (step / t) / grid + 0.5) * grid;
+  return stepped;
+}
+
 Fit tightFit(const Aabb& receiversLs, const FitTarget& target) {
   const int inner = innerTexels(target);
   const glm::dvec3 length = receiversLs.max - receiversLs.min;
@@ -140,7 +155,7 @@ Aabb tangentsOf(const std::vector<Aabb>& receiversLs, double tanHalf) {
 Fit punctualFit(const Aabb& seen, double tanHalf, const FitTarget& target) {
   const int inner = innerTexels(target);
   const double reach = biasReach(target.kernel);
-  const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(16 * finestTexel(1.0) * inner));
+  const glm::dvec2 extent = glm::max(glm::dvec2(seen.max - seen.min), glm::dvec2(target.finestTangent * inner));
 
   // What a length in metres spans, seen from the light, at the nearest receiver; a blur is one for the whole tile.
   const auto tangent = [&](double metres) { return std::min(metres / seen.min.z, kWidestTangent); };

@@ -64,14 +64,20 @@ struct Fit {
 struct FitTarget {
   int tileSize = 0; ///< texels along a side, border included; at least kSmallestTile (tile_size.h)
   FilterKernel kernel;
-  double reach = 0;                      ///< metres from the eye to the farthest receiver
-  double magnitude = 0;                  ///< metres from the eye to the farthest thing drawn, see depthRounding
-  std::optional<double> nearestCaster{}; ///< pcss: light space z; no caster's depth is clamped
-  std::optional<double> manualOffset{};  ///< metres along the normal that were asked for, instead of the analytic ones
+  double reach = 0;                             ///< metres from the eye to the farthest receiver
+  double magnitude = 0;                         ///< metres from the eye to the farthest thing drawn, see depthRounding
+  double finestTangent = 16 * finestTexel(1.0); ///< light from a point: no texel is smaller
+  std::optional<double> nearestCaster{};        ///< pcss: light space z; no caster's depth is clamped
+  std::optional<double> manualOffset{}; ///< metres along the normal that were asked for, instead of the analytic ones
 };
 
 /// The widest radius of a filter as light from a point sees it, a tangent: nearer to the light, softness shrinks.
 inline constexpr double kWidestTangent = 0.5;
+
+/// What a stable fit sees of a view: its lens widened to the next of the steps that divide an octave in two, so that
+/// texels keep their size while the lens zooms, but for the frame that passes a step. A picture that is not centred is
+/// taken as one that lies on a grid of a sixteenth of the step.
+CameraView steppedLens(const CameraView& view);
 
 /// The tight fit: the tile without its border is the box of the receivers, room for their normal offset and for the
 /// filter's radius, each axis with its own texel size. z runs from the receiver nearest the light to the farthest, and

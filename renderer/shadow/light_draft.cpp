@@ -88,8 +88,9 @@ LightBasis turnedTo(const std::vector<glm::dvec3>& samples, const ShadowCaster& 
 /// All that a face can serve: its pyramid as far as the light or the scene reaches, whatever the camera sees of it.
 Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDraft& tile) {
   constexpr double kRoom = 2; // surfaces are seen as boxes, which reach beyond the scene
-  const Aabb scene{input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
-  double far = kRoom * transformed(lightFromRelative(tile.basis, anchoredOrigin(input, tile)), scene).max.z;
+  double far =
+      kRoom *
+      transformed(lightFromRelative(tile.basis, anchoredOrigin(input, tile)), anchoredBounds(input, caster)).max.z;
   for (const Aabb& piece : tile.receivers) far = std::max(far, piece.max.z);
   far = std::min(endOf(caster), far);
   const double side = tile.tanHalf * far;
@@ -101,6 +102,11 @@ Aabb wholeFace(const ShadowCaster& caster, const PlanInput& input, const TileDra
 glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile) {
   constexpr double kStep = 0x1p-32; // metres: far above the rounding of differences, far below anything seen
   return glm::round((tile.origin + (input.view.eye - input.anchor)) / kStep) * kStep;
+}
+
+Aabb anchoredBounds(const PlanInput& input, const ShadowCaster& caster) {
+  const Aabb& bounds = caster.bounds ? *caster.bounds : input.sceneBounds;
+  return {bounds.min - input.anchor, bounds.max - input.anchor};
 }
 
 void addNote(PlannedLight& light, const std::string& note) {
@@ -128,12 +134,14 @@ std::vector<LightFace> facesOf(const ShadowCaster& light) {
 
 void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraft& draft) {
   const Shadow& shadow = caster.shadow;
+  const ReceiverDepths& receivers = receiversOf(input, caster);
   const bool manual = shadow.depthRange.mode == DepthRangeMode::manual;
-  const PlannedRange planned = *depthRangeOf(input.view, input.receivers, shadow.depthRange);
+  const PlannedRange planned = *depthRangeOf(input.view, receivers, shadow.depthRange);
   const DepthInterval& range = planned.covered;
   draft.planned.depthRange = planned.base;
-  const std::vector<double> splits = splitDistances(shadow.partition, shadow.cascadeCount, range);
+  std::vector<double> splits = splitDistances(shadow.partition, shadow.cascadeCount, range);
   draft.planned.fadeOut = manual || splits.back() < range.far;
+  for (double& split : splits) split -= input.view.ahead;
   const bool held = manual || shadow.depthRange.previous.has_value(); // not this frame's alone
   draft.stable = held && shadow.stabilization != Stabilization::none;
   const LightBasis basis = lightBasis(caster.direction);
@@ -142,9 +150,9 @@ void draftCascades(const ShadowCaster& caster, const PlanInput& input, LightDraf
   forEach(cascades.size(), [&](std::size_t i) {
     TileDraft& tile = draft.tiles[i];
     tile.cascade = cascades[i];
-    tile.basis = draft.stable ? basis : tightBasis(input.view, input.receivers, basis, cascades[i]);
+    tile.basis = draft.stable ? basis : tightBasis(input.view, receivers, basis, cascades[i]);
     tile.origin = input.anchor - input.view.eye;
-    tile.receivers = receiverPieces(input.view, input.receivers, tile.basis, cascades[i]);
+    tile.receivers = receiverPieces(input.view, receivers, tile.basis, cascades[i]);
     const glm::dvec3 fromOrigin = tile.basis.lightFromWorld() * -tile.origin;
     for (Aabb& piece : tile.receivers) piece = {piece.min + fromOrigin, piece.max + fromOrigin};
   });

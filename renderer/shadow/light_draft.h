@@ -42,6 +42,9 @@ struct LightDraft {
 /// lights have equal origins, to the bit, whatever camera sees them.
 glm::dvec3 anchoredOrigin(const PlanInput& input, const TileDraft& tile);
 
+/// What takes part in a light's shadows, relative to the anchor.
+Aabb anchoredBounds(const PlanInput& input, const ShadowCaster& caster);
+
 void addNote(PlannedLight& light, const std::string& note);
 
 /// A directional light's cascades; `draft.planned` gets the notes.

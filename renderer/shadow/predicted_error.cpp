@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 #include "renderer/core/parallel.h"
 
@@ -96,17 +97,25 @@ std::optional<PredictedError> errorOf(std::vector<float> extents) {
   return PredictedError{atShare(0.5), atShare(0.95), atShare(1.0)};
 }
 
-PredictedErrors predictErrors(const CameraView& view, const ReceiverDepths& receivers, const ShadowPlan& plan) {
+PredictedErrors predictErrors(const PlanInput& input, const ShadowPlan& plan) {
   PredictedErrors errors;
   errors.tiles.resize(plan.tiles.size());
   if (plan.tiles.empty()) {
     errors.lights.resize(plan.lights.size());
     return errors;
   }
-  const SeenBlocks seen = seenBlocks(view, receivers);
+  std::map<int, SeenBlocks> seen;
+  std::vector<const SeenBlocks*> seenOf(plan.tiles.size());
+  for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+    const ShadowCaster& caster = input.casters[i];
+    if (plan.lights[i].tileCount == 0) continue;
+    const auto [found, isNew] = seen.try_emplace(caster.part);
+    if (isNew) found->second = seenBlocks(input.view, receiversOf(input, caster));
+    std::fill_n(seenOf.begin() + plan.lights[i].firstTile, plan.lights[i].tileCount, &found->second);
+  }
   std::vector<std::vector<float>> extents(plan.tiles.size());
   forEach(extents.size(), [&](std::size_t tile) {
-    extents[tile] = texelExtents(view, seen, plan.tiles[tile]);
+    extents[tile] = texelExtents(input.view, *seenOf[tile], plan.tiles[tile]);
     errors.tiles[tile] = errorOf(extents[tile]);
   });
   std::vector<float> all;

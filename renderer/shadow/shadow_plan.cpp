@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 
 #include "renderer/core/parallel.h"
@@ -30,21 +32,29 @@ std::optional<std::string> reasonToSkip(const ShadowCaster& caster, const PlanIn
   if (input.sceneBounds.empty()) return "nothing in the scene casts a shadow";
   if (!caster.casts) return "nothing that it lights casts a shadow";
   if (!caster.shadows) return "nothing that it lights receives a shadow";
+  if (receiversOf(input, caster).range.empty()) return "nothing in view receives its shadow";
   return std::nullopt;
 }
 
-/// What lights from a point ask for; nothing where there are none.
-SeenSurfaces seenSurfaces(const PlanInput& input) {
-  const bool wanted = std::any_of(input.casters.begin(), input.casters.end(),
-                                  [](const ShadowCaster& caster) { return caster.type != LightType::directional; });
-  if (!wanted || input.receivers.range.empty()) return {};
-  const DepthSpan& range = input.receivers.range;
+SeenSurfaces seenSurfaces(const CameraView& view, const ReceiverDepths& receivers) {
+  const DepthSpan& range = receivers.range;
   const LightBasis worldAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  return {receiverPieces(input.view, input.receivers, worldAxes, {range.nearest, range.farthest, range.farthest}),
-          sampledReceivers(input.view, input.receivers, {range.nearest, range.farthest})};
+  return {receiverPieces(view, receivers, worldAxes, {range.nearest, range.farthest, range.farthest}),
+          sampledReceivers(view, receivers, {range.nearest, range.farthest})};
 }
 
-LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const SeenSurfaces& seen) {
+/// What lights from a point ask for, by their part of what is seen (ShadowCaster::part).
+std::map<int, SeenSurfaces> surfacesOfParts(const PlanInput& input) {
+  std::map<int, SeenSurfaces> seen;
+  for (const ShadowCaster& caster : input.casters) {
+    if (caster.type == LightType::directional || seen.contains(caster.part)) continue;
+    const ReceiverDepths& receivers = receiversOf(input, caster);
+    seen[caster.part] = receivers.range.empty() ? SeenSurfaces{} : seenSurfaces(input.view, receivers);
+  }
+  return seen;
+}
+
+LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const std::map<int, SeenSurfaces>& seen) {
   LightDraft draft;
   draft.planned.light = caster.light;
   if (caster.shadow.enabled && caster.shadow.strength > 0) {
@@ -59,7 +69,7 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
   } else if (caster.type == LightType::directional) {
     draftCascades(caster, input, draft);
   } else {
-    draftFaces(caster, input, seen, draft);
+    draftFaces(caster, input, seen.at(caster.part), draft);
   }
   return draft;
 }
@@ -119,27 +129,30 @@ ReceiverMask maskOf(const TileDraft& draft, const LightDraft& light, const Shado
 /// An orthographic depth buffer rounds by a share of its whole length, not of the depth. What this adds to the
 /// magnitude of which depthRounding is a share: two steps of 2^-24.
 double orthographicReach(const CameraView& view) {
-  return view.perspective ? 0.0 : 0.1 * (view.far - view.near);
+  return view.perspective ? 0.0 : 0.1 * (drawnFar(view) - drawnNear(view));
 }
 
 glm::dmat4 lightFromAnchored(const TileDraft& draft, const PlanInput& input) {
   return lightFromRelative(draft.basis, anchoredOrigin(input, draft));
 }
 
-Aabb anchoredScene(const PlanInput& input) {
-  return {input.sceneBounds.min - input.anchor, input.sceneBounds.max - input.anchor};
+/// Metres: no two points of what takes part in a light's shadows are farther apart, and none is from the anchor.
+double extentOf(const PlanInput& input, const ShadowCaster& caster) {
+  const Aabb bounds = anchoredBounds(input, caster);
+  return std::max(glm::length(bounds.max - bounds.min),
+                  glm::length(glm::max(glm::abs(bounds.min), glm::abs(bounds.max))));
 }
 
 /// The reach of a search for casters. A stable fit's is one for every place of the camera: between the scene's two ends
 /// along the light, and what a slice of the view may lie beyond them.
-void addPenumbra(const TileDraft& draft, const LightDraft& light, const PlanInput& input, const DepthInterval& depths,
-                 FitTarget& target) {
-  const Aabb scene = anchoredScene(input);
+void addPenumbra(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster, const PlanInput& input,
+                 double sliceRadius, FitTarget& target) {
+  const Aabb scene = anchoredBounds(input, caster);
   const glm::dmat4 toLight = lightFromAnchored(draft, input);
   if (light.stable) {
     const Aabb box = transformed(toLight, scene);
     target.nearestCaster = box.min.z;
-    target.kernel.radius = target.kernel.lightRadius * (box.max.z - box.min.z + sliceSphere(input.view, depths).radius);
+    target.kernel.radius = target.kernel.lightRadius * (box.max.z - box.min.z + sliceRadius);
     return;
   }
   const PenumbraReach reach = penumbraReach(boxAround(draft.receivers), scene, toLight, target.kernel.lightRadius);
@@ -151,26 +164,52 @@ Fit cascadeFit(const TileDraft& draft, const LightDraft& light, const ShadowCast
                FitTarget& target) {
   const DepthInterval depths{draft.cascade.near - depthSlack(input.view, draft.cascade.near),
                              draft.cascade.far + depthSlack(input.view, draft.cascade.far)};
-  // No term of these moves with the camera, so that a stable fit keeps its extents.
-  target.reach = sliceReach(input.view, depths);
-  target.magnitude =
-      target.reach + glm::length(input.sceneBounds.max - input.sceneBounds.min) + orthographicReach(input.view);
-  if (target.kernel.kind == MapReadingKind::pcss) addPenumbra(draft, light, input, depths, target);
+  // No term of these moves with the camera or the lens, so that a stable fit keeps its extents.
+  const CameraView lens = light.stable ? steppedLens(input.view) : input.view;
+  const Sphere slice = sliceSphere(lens, depths);
+  target.reach = sliceReach(lens, depths);
+  // The eye of an orthographic view may be moved along its axis.
+  if (light.stable && !lens.perspective) target.reach = std::exp2(std::ceil(std::log2(target.reach)));
+  target.magnitude = target.reach + extentOf(input, caster) + orthographicReach(input.view);
+  if (target.kernel.kind == MapReadingKind::pcss) addPenumbra(draft, light, caster, input, slice.radius, target);
   const int snapTexels = caster.shadow.stabilization == Stabilization::viewSnapping ? 4 : 1;
-  return light.stable ? stableFit(sliceSphere(input.view, depths), draft.basis, input.view.eye - input.anchor,
-                                  snapTexels, target)
+  return light.stable ? stableFit(slice, draft.basis, input.view.eye - input.anchor, snapTexels, target)
                       : tightFit(boxAround(draft.receivers), target);
 }
 
-Fit faceFit(const TileDraft& draft, const LightDraft& light, const PlanInput& input, FitTarget& target) {
-  const Aabb seen = tangentsOf(draft.receivers, draft.tanHalf);
+/// A face's magnitude (FitTarget), and the finest texel that it leaves. What a tile computes of a place is a sum of
+/// products with the place relative to the eye, or to the anchor, and of an offset that takes it to the tile: none is
+/// larger than the way from there to the tile's far corners. So a light that is far from all that it is seen to light
+/// counts no more than they do.
+void addMagnitude(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster, const PlanInput& input,
+                  const Aabb& seen, FitTarget& target) {
+  constexpr double kRoom = 4; // for the roundings of a quotient
   const double fromAnchor = glm::length(anchoredOrigin(input, draft));
-  const double fromEye = light.stable ? glm::length(input.sceneBounds.max - input.sceneBounds.min)
-                                      : glm::length(draft.origin); // a stable fit knows no eye
-  target.magnitude = std::max(fromEye, fromAnchor) + seen.max.z * (1.0 + std::sqrt(2.0) * draft.tanHalf) +
-                     orthographicReach(input.view);
+  const double extent = extentOf(input, caster);
+  const double fromEye = light.stable ? extent : glm::length(draft.origin); // a stable fit knows no eye
+  target.magnitude = std::max(fromEye, fromAnchor) + seen.max.z * (1.0 + std::sqrt(2.0) * draft.tanHalf);
+  if (!light.stable) {
+    const glm::dvec3 eye = draft.basis.lightFromWorld() * -draft.origin;
+    double farthest = 0;
+    for (const Aabb& piece : draft.receivers) {
+      farthest = std::max(farthest, glm::length(glm::max(glm::abs(piece.min - eye), glm::abs(piece.max - eye))));
+    }
+    const double across = seen.max.z * glm::length(glm::dvec2(seen.max - seen.min));
+    const double byPlaces = farthest + extent + across;
+    if (byPlaces < target.magnitude) {
+      target.magnitude = byPlaces;
+      target.finestTangent = std::min(target.finestTangent, kRoom * finestTexel(byPlaces) / seen.min.z);
+    }
+  }
+  target.magnitude += orthographicReach(input.view);
+}
+
+Fit faceFit(const TileDraft& draft, const LightDraft& light, const ShadowCaster& caster, const PlanInput& input,
+            FitTarget& target) {
+  const Aabb seen = tangentsOf(draft.receivers, draft.tanHalf);
+  addMagnitude(draft, light, caster, input, seen, target);
   if (target.kernel.kind == MapReadingKind::pcss) {
-    target.nearestCaster = nearestCasterInPyramid(seen, anchoredScene(input), lightFromAnchored(draft, input),
+    target.nearestCaster = nearestCasterInPyramid(seen, anchoredBounds(input, caster), lightFromAnchored(draft, input),
                                                   target.kernel.lightRadius, kWidestTangent);
   }
   return punctualFit(seen, draft.tanHalf, target);
@@ -191,7 +230,8 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   target.kernel = tile.filter;
   target.manualOffset = manualOffset(caster.shadow.bias);
   const bool parallel = caster.type == LightType::directional;
-  const Fit fit = parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, light, input, target);
+  const Fit fit =
+      parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, light, caster, input, target);
 
   tile.rect.width = tile.rect.height = target.tileSize;
   tile.border = target.kernel.border;
@@ -234,7 +274,7 @@ void placeTiles(ShadowPlan& plan) {
 
 ShadowPlan planShadows(const PlanInput& input) {
   std::vector<LightDraft> drafts;
-  const SeenSurfaces seen = seenSurfaces(input);
+  const std::map<int, SeenSurfaces> seen = surfacesOfParts(input);
   for (const ShadowCaster& caster : input.casters) drafts.push_back(draftLight(caster, input, seen));
   shareAtlas(drafts, input);
 

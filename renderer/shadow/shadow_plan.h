@@ -38,31 +38,45 @@ struct ReceiverDepths {
   DepthSpan range; ///< over all blocks; empty = nothing in view
 };
 
+/// What the camera sees of all surfaces, and of parts of them.
+struct SeenDepths {
+  ReceiverDepths all;
+  std::vector<ReceiverDepths> parts;
+};
+
 /// A light that asks for a shadow.
 struct ShadowCaster {
   int light = 0;                  ///< index into the effective spec's lights
   glm::dvec3 direction{0, -1, 0}; ///< where the light travels; unit length; directional and spot
   Shadow shadow;                  ///< an absent size is Large
   LightType type = LightType::directional;
-  glm::dvec3 position{0}; ///< relative to the eye; spot and point
-  double range = 0;       ///< metres; spot and point; 0 = no end
-  double outerCone = 0;   ///< half angle, radians, less than a quarter turn; spot
-  double lightRadius = 0; ///< of the light itself, see radiusOf in renderer/core/light.h
-  bool casts = true;      ///< something of its layers throws shadows
-  bool shadows = true;    ///< something of its layers that the camera may see receives them
+  glm::dvec3 position{0};       ///< relative to the eye; spot and point
+  double range = 0;             ///< metres; spot and point; 0 = no end
+  double outerCone = 0;         ///< half angle, radians, less than a quarter turn; spot
+  double lightRadius = 0;       ///< of the light itself, see radiusOf in renderer/core/light.h
+  bool casts = true;            ///< something of its layers throws shadows
+  bool shadows = true;          ///< something of its layers that the camera may see receives them
+  int part = -1;                ///< of what is seen, which it throws shadows on: index into SeenDepths::parts; -1 = all
+  std::optional<Aabb> bounds{}; ///< in the world: of what casts or receives its shadows; absent = the scene's
 };
 
 struct PlanInput {
   CameraView view;
-  ReceiverDepths receivers;
-  Aabb sceneBounds;     ///< of all casters, in the world
-  glm::dvec3 anchor{0}; ///< in the world: casters are placed by it, whatever the camera
+  ReceiverDepths receivers;          ///< all that the camera sees
+  std::vector<ReceiverDepths> parts; ///< as SeenDepths has them
+  Aabb sceneBounds;                  ///< of all that casts or receives, in the world
+  glm::dvec3 anchor{0};              ///< in the world: casters are placed by it, whatever the camera
   std::vector<ShadowCaster> casters;
   Atlas atlas;
   int maxTextureSize = 16384; ///< of the device
   int frameWidth = 0;         ///< pixels
   int frameHeight = 0;
 };
+
+/// What the camera sees of the surfaces on which a light throws its shadows. Nothing else decides about them.
+inline const ReceiverDepths& receiversOf(const PlanInput& input, const ShadowCaster& caster) {
+  return caster.part < 0 ? input.receivers : input.parts[static_cast<std::size_t>(caster.part)];
+}
 
 /// One cascade, or one face of a spot or point light: a rectangle of the atlas with its own matrix.
 struct ShadowTile {

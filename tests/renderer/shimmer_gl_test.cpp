@@ -119,6 +119,34 @@ TEST(Shimmer, H6_FacesHoldStillInTheLightOfSpotsAndPoints) {
   }
 }
 
+/// The lens widens by a quarter of a percent a frame.
+Shimmer zoomed(const Json& light, double fovYDegrees) {
+  Json json = light;
+  json["width"] = 320;
+  json["height"] = 180;
+  std::vector<Camera> path;
+  for (int i = 0; i < 12; ++i) {
+    json["camera"] = {{"eye", {0, 3, 4}},
+                      {"target", {0, 2.2, -20}},
+                      {"perspective", {{"fovYDegrees", fovYDegrees * std::pow(1.0025, i)}, {"near", 0.1}}}};
+    path.push_back(decoded(json).camera);
+  }
+  const auto shimmer = testing::sharedRenderer().shimmer(testing::generatedScene("long_row"), decoded(json), path);
+  EXPECT_TRUE(shimmer) << shimmer.problems().front().detail;
+  return shimmer ? *shimmer : Shimmer{};
+}
+
+TEST(Shimmer, H6_X24_SnappedCascadesHoldStillWhileTheLensZooms) {
+  for (const char* stabilization : kSnapped) {
+    for (const double fov : {40.0, 50.0, 62.0}) {
+      const Shimmer shimmer = zoomed(sunned(stabilization, "hard", 4), fov);
+      EXPECT_GT(shimmer.points, 500u);
+      EXPECT_EQ(shimmer.flips, 0u) << stabilization << fov;
+    }
+  }
+  EXPECT_GT(zoomed(sunned("none", "hard", 4), 40).flips, 0u);
+}
+
 TEST(Shimmer, H6_TightCascadesShimmer) {
   const ScenePtr scene = testing::generatedScene("long_row");
   const Shimmer shimmer = measured(scene, sunned("none", "hard", 1), kForwards);

@@ -64,7 +64,7 @@ class Perspective:
     fovYDegrees:
         Full vertical angle of view. Unit: degrees. Default: 45.0.
     near:
-        Nearest depth that is drawn; absent = chosen from the scene's bounds. Unit: metres.
+        Nearest depth that is drawn; absent = half a millimetre, less where the scene is small. Unit: metres.
     far:
         Farthest depth that is drawn, more than `near`; absent = no limit. Unit: metres.
     """
@@ -88,7 +88,7 @@ class Intrinsics:
     cy:
         Principal point, from the top; absent = the middle. Unit: pixels.
     near:
-        Nearest depth that is drawn; absent = chosen from the scene's bounds. Unit: metres.
+        Nearest depth that is drawn; absent = half a millimetre, less where the scene is small. Unit: metres.
     far:
         Farthest depth that is drawn, more than `near`; absent = no limit. Unit: metres.
     """

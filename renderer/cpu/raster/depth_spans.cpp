@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/cpu/lanes/lanes-inl.h"
+#include "renderer/prepare/draw_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -54,6 +55,26 @@ GNOMON_EXPORT_KERNEL(depthEndsOn);
 std::vector<DepthEnds> depthEnds(const DepthBuffer& buffer, int y0, int y1, int side) {
   std::vector<DepthEnds> ends(static_cast<std::size_t>((buffer.width + side - 1) / side));
   GNOMON_KERNEL(depthEndsOn)(buffer, y0, y1, side, ends);
+  return ends;
+}
+
+std::vector<DepthEnds> depthEnds(const DepthBuffer& buffer, int y0, int y1, int side,
+                                 std::span<const std::uint8_t> slots) {
+  std::vector<DepthEnds> ends(static_cast<std::size_t>((buffer.width + side - 1) / side));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = 0; x < buffer.width; ++x) {
+      DepthEnds& of = ends[static_cast<std::size_t>(x / side)];
+      for (int s = 0; s < buffer.samples; ++s) {
+        const std::size_t at = buffer.at(x, y, s);
+        const std::uint32_t triangle = buffer.triangles[at];
+        const bool counts = triangle != kNoNumber && slots[triangle / kClusterTriangles] != 0;
+        const float depth = counts ? buffer.depths[at] : 0.0f;
+        of.nearest = std::max(of.nearest, depth);
+        of.least = std::min(of.least, depth);
+        if (depth > 0.0f) of.farthest = std::min(of.farthest, depth);
+      }
+    }
+  }
   return ends;
 }
 

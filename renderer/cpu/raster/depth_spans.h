@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/cpu/raster/depth_buffer.h"
@@ -16,5 +18,10 @@ struct DepthEnds {
 /// Of each square of `side` pixels, a multiple of kBlockSide, from left to right; of the rows from y0 to y1, which
 /// belongs to them.
 std::vector<DepthEnds> depthEnds(const DepthBuffer& buffer, int y0, int y1, int side);
+
+/// The same of the surfaces of some slots, `slots` (a byte each): whatever else is shown counts as nothing. REQUIRES: a
+/// numbered buffer.
+std::vector<DepthEnds> depthEnds(const DepthBuffer& buffer, int y0, int y1, int side,
+                                 std::span<const std::uint8_t> slots);
 
 } // namespace gnomon::cpu

@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// What the camera sees.
 struct Survey {
-  ReceiverDepths receivers;
+  SeenDepths seen;
   std::vector<std::uint8_t> inView;  ///< one a slot: inside the view, hidden or not
   std::vector<std::uint8_t> visible; ///< one a slot: not surely hidden behind others
   gl::Texture depth;                 ///< D32F, reversed
@@ -22,10 +22,7 @@ struct Survey {
 };
 
 /// Draws the depth of everything in view that is not surely hidden, and reduces it. Of many triangles the nearest are
-/// drawn first, so that what they hide need not be. `samples`: 1 or 4.
-Result<Survey> surveyScene(const PassInputs& inputs, int samples);
-
-/// Reduces a reversed depth buffer of the frame (`samples` a pixel: 1 or 4) to what each block of pixels shows.
-Result<ReceiverDepths> depthBlocks(const PassInputs& inputs, const gl::Texture& depth, int samples);
+/// drawn first, so that what they hide need not be. `samples`: 1 or 4. `parts`: as FrameWork's.
+Result<Survey> surveyScene(const PassInputs& inputs, int samples, std::span<const std::uint32_t> parts = {});
 
 } // namespace gnomon

@@ -122,7 +122,8 @@ struct FrameData {
   vec4 lens;       // xy: terms 2 2 and 3 2 of the projection; zw: 2 / width, 2 / height
   vec4 background; // where there is no surface, as it shows
   vec4 ambient;    // rgb: radiance of the surroundings
-  vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure
+  vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure; w: metres to
+                   // be added to a depth that is told, as the eye is moved ahead
 };
 
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.

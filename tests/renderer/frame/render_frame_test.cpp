@@ -22,12 +22,13 @@ class FakeDrawing : public FrameDrawing {
   FakeDrawing(const FrameWork& work, Asked& asked, Status end) : work_(work), asked_(asked), end_(std::move(end)) {}
 
   /// Boxes stand in for surfaces.
-  Result<ReceiverDepths> survey() override {
+  Result<SeenDepths> survey() override {
     asked_.calls.emplace_back("survey");
     const SceneView& view = work_.scene->scenes[0];
     const FrameGeometry geometry = frameGeometry(*work_.scene, view, work_.frame.view.eye);
     const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-    return boxDepths(work_.frame.view, work_.frame.spec.width, work_.frame.spec.height, geometry.slotBounds, all);
+    return SeenDepths{
+        boxDepths(work_.frame.view, work_.frame.spec.width, work_.frame.spec.height, geometry.slotBounds, all), {}};
   }
 
   Status cast(const ShowInput& input, TileUse) override {

@@ -11,6 +11,9 @@ namespace {
 Scene town() {
   Scene scene;
   scene.nodes = {{"town", -1}, {"house", 0}, {"lamp", 1}, {"lamp", 1}, {"", -1}};
+  scene.materials.resize(2);
+  scene.materials[1].unlit = true;
+  scene.primitives.resize(1);
   return scene;
 }
 
@@ -112,12 +115,12 @@ TEST(ResolveNodes, X14_GroupsMatterOnlyWhereALightTellsThemApart) {
   const auto nodes = resolveNodes(std::vector{second}, scene);
   ASSERT_TRUE(nodes);
   Light sun;
-  const auto alike = resolveReceiverGroups(placing(scene), *nodes, std::vector{sun, sun});
+  const auto alike = resolveReceiverGroups(scene, placing(scene), *nodes, std::vector{sun, sun});
   ASSERT_TRUE(alike);
   EXPECT_FALSE(alike->matter());
   Light lamp;
   lamp.cullingMask = 2;
-  const auto apart = resolveReceiverGroups(placing(scene), *nodes, std::vector{sun, lamp});
+  const auto apart = resolveReceiverGroups(scene, placing(scene), *nodes, std::vector{sun, lamp});
   ASSERT_TRUE(apart);
   EXPECT_TRUE(apart->matter());
   EXPECT_EQ(apart->ofLight[0], LitGroups{});
@@ -126,11 +129,51 @@ TEST(ResolveNodes, X14_GroupsMatterOnlyWhereALightTellsThemApart) {
   EXPECT_TRUE(lit(1));
   EXPECT_TRUE(lit(2));
   EXPECT_FALSE(lit(4));
-  EXPECT_TRUE(resolveReceiverGroups(placing(scene), {}, std::vector{lamp})->matter()) << "all nodes are of layer 1";
+  EXPECT_TRUE(resolveReceiverGroups(scene, placing(scene), {}, std::vector{lamp})->matter())
+      << "all nodes are of layer 1";
+}
+
+TEST(ResolveNodes, D2_WhatReceivesNoShadowIsToldFromTheRest) {
+  const Scene scene = town();
+  SceneView view = placing(scene);
+  view.instances[3].material = 1; // unlit
+  NodeOptions plain = entry("house");
+  plain.receiveShadow = false;
+  NodeOptions apart = entry("");
+  apart.layers = 2;
+  const auto nodes = resolveNodes(std::vector{plain, apart}, scene);
+  ASSERT_TRUE(nodes);
+  Light sun;
+  sun.cullingMask = 1;
+  const auto groups = resolveReceiverGroups(scene, view, *nodes, std::vector{sun});
+  ASSERT_TRUE(groups);
+  const bool expected[] = {true, false, false, false, false};
+  for (std::size_t i = 0; i < view.instances.size(); ++i) {
+    const int material = materialOf(scene, view.instances[i]);
+    EXPECT_EQ((groups->ofLight[0].shadowed >> groups->ofInstance[i] & 1u) != 0, expected[i]) << i;
+    EXPECT_EQ(receivesFrom(sun, (*nodes)[i], scene.materials[static_cast<std::size_t>(material)]), expected[i]) << i;
+  }
+}
+
+TEST(ResolveNodes, D2_WhatIsUnlitReceivesNothingWithoutAnyEntryForItsNode) {
+  const Scene scene = town();
+  SceneView view = placing(scene);
+  EXPECT_TRUE(resolveReceiverGroups(scene, view, {}, std::vector{Light{}})->ofInstance.empty());
+  view.instances[2].material = 1;
+  const auto groups = resolveReceiverGroups(scene, view, {}, std::vector{Light{}});
+  ASSERT_TRUE(groups);
+  EXPECT_NE(groups->ofInstance[2], groups->ofInstance[1]);
+  EXPECT_EQ(groups->ofLight[0].lit >> groups->ofInstance[2] & 1u, 1u) << "lights still reach it";
+  EXPECT_EQ(groups->ofLight[0].shadowed >> groups->ofInstance[2] & 1u, 0u);
+  EXPECT_EQ(layersInUse(scene, view, {}).receiving, 1);
+  for (Instance& instance : view.instances) instance.material = 1;
+  EXPECT_EQ(layersInUse(scene, view, {}).receiving, 0);
+  EXPECT_EQ(layersInUse(scene, view, {}).casting, 1);
 }
 
 TEST(ResolveNodes, X14_MoreGroupsThanAFrameTellsApartAreAProblem) {
-  Scene scene;
+  Scene scene = town();
+  scene.nodes.clear();
   std::vector<NodeOptions> entries;
   for (int i = 0; i <= kLimits.maxReceiverGroups; ++i) {
     scene.nodes.push_back({"", -1});
@@ -138,13 +181,14 @@ TEST(ResolveNodes, X14_MoreGroupsThanAFrameTellsApartAreAProblem) {
     entries.back().layers = i + 1;
   }
   const SceneView view = placing(scene);
-  const auto tooMany = resolveReceiverGroups(view, *resolveNodes(entries, scene), {});
+  const auto tooMany = resolveReceiverGroups(scene, view, *resolveNodes(entries, scene), {});
   ASSERT_FALSE(tooMany);
   EXPECT_EQ(tooMany.problems()[0].pointer, "/nodes");
   EXPECT_EQ(tooMany.problems()[0].limit, "32");
   EXPECT_EQ(tooMany.problems()[0].actual, "33");
   entries.back().visible = false;
-  EXPECT_TRUE(resolveReceiverGroups(view, *resolveNodes(entries, scene), {})) << "what isn't seen receives nothing";
+  EXPECT_TRUE(resolveReceiverGroups(scene, view, *resolveNodes(entries, scene), {}))
+      << "what isn't seen receives nothing";
 }
 
 } // namespace

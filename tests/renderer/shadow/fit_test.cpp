@@ -55,6 +55,30 @@ TEST(Slice, X24_TheSphereIsSmallerThanTheOneAroundTheCornersMean) {
   EXPECT_LT(ratio, 1.16);
 }
 
+TEST(Slice, X24_ASteppedLensHoldsTheLensAndKeepsItsSizeWhileItZooms) {
+  EXPECT_TRUE(rc::check([](const RandomView& random) {
+    const CameraView stepped = steppedLens(random.view);
+    const glm::dvec2 low = random.view.center - random.view.halfSize;
+    const glm::dvec2 high = random.view.center + random.view.halfSize;
+    if (random.view.center == glm::dvec2(0)) {
+      const double wider = glm::length(stepped.halfSize) / glm::length(random.view.halfSize);
+      RC_ASSERT(wider > 1 - 1e-8 && wider < std::sqrt(2.0) * (1 + 1e-8));
+    } else {
+      RC_ASSERT(glm::all(glm::lessThanEqual(stepped.center - stepped.halfSize, low)));
+      RC_ASSERT(glm::all(glm::greaterThanEqual(stepped.center + stepped.halfSize, high)));
+    }
+  }));
+  CameraView view;
+  view.halfSize = {0.647, 0.364};
+  const CameraView wide = steppedLens(view);
+  for (int i = 0; i < 12; ++i) {
+    view.halfSize *= 1.0025;
+    const Sphere zoomed = sliceSphere(steppedLens(view), {1, 10});
+    EXPECT_EQ(zoomed.radius, sliceSphere(wide, {1, 10}).radius) << i;
+    EXPECT_EQ(zoomed.center, sliceSphere(wide, {1, 10}).center) << i;
+  }
+}
+
 TEST(Slice, ReachIsTheFarthestCorner) {
   EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& unit) {
     const DepthInterval depths{random.view.near, random.view.near + 100 * unit.value + 0.1};

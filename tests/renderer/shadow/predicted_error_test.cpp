@@ -82,7 +82,7 @@ TEST(PredictedError, H2_PercentilesAreNearestRanks) {
 TEST(PredictedError, H2_EveryTileWithReceiversHasOneAndHalfTheTexelsDoubleIt) {
   EXPECT_TRUE(rc::check([](const RandomPlan& random) {
     const ShadowPlan plan = planShadows(random.input);
-    const PredictedErrors errors = predictErrors(random.input.view, random.input.receivers, plan);
+    const PredictedErrors errors = predictErrors(random.input, plan);
     RC_ASSERT(errors.tiles.size() == plan.tiles.size());
     RC_ASSERT(errors.lights.size() == plan.lights.size());
     for (const auto& error : errors.tiles) {
