@@ -17,6 +17,9 @@ inline bool hasSize(const Light& light) {
   return radiusOf(light) > 0;
 }
 
+/// It gives off something: else it has no shadow to be seen.
+bool shines(const Light& light);
+
 /// The color of a black body's glow as linear sRGB of luminance 1, so that it changes no lux and no candela: components
 /// may exceed 1. What lies outside of sRGB is brought to its edge. `kelvin`: 1000..15000.
 glm::dvec3 blackBodyColor(double kelvin);

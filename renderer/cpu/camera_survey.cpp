@@ -87,7 +87,9 @@ void addSlots(const CameraRaster& camera, std::span<const std::uint8_t> keep, bo
   const std::vector<glm::mat4> clip =
       clipFromLocal(camera.scene, clipFromView(camera.camera) * viewFromRelative(camera.camera));
   const std::vector<RasterDraw> draws = rasterDraws(camera.scene, DrawUse::survey, keep);
-  const MaterialHoles material({camera.scene, camera.textures, clip, glm::ivec2(buffer.width, buffer.height)});
+  HolesInput seen{camera.scene, camera.textures, clip, glm::ivec2(buffer.width, buffer.height)};
+  seen.masks = &camera.masks;
+  const MaterialHoles material(seen);
   const Holes* holes = camera.coverage != nullptr ? camera.coverage : &material;
   triangles += raster({camera.scene.scene, camera.scene.slots, clip, draws, holes, nullptr, fresh},
                       DepthRange::reversed, buffer, camera.scratch);

@@ -6,6 +6,7 @@
 
 #include "renderer/cpu/raster/raster.h"
 #include "renderer/cpu/surface/textures.h"
+#include "renderer/scene/mask_coverage.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {
@@ -24,7 +25,8 @@ struct CameraRaster {
   const CameraView& camera;
   std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
   const Textures& textures;
-  Holes* coverage = nullptr; ///< asked instead of the materials where they have holes
+  const MaskCoverages& masks; ///< one a material
+  Holes* coverage = nullptr;  ///< asked instead of the materials where they have holes
   RasterScratch& scratch;
 };
 

@@ -54,7 +54,7 @@ CpuFrame::~CpuFrame() {
 }
 
 CameraRaster CpuFrame::camera() const {
-  return {scene_, work_.frame.view, work_.frame.nodes, *cached_.textures, nullptr, shared_.scratch};
+  return {scene_, work_.frame.view, work_.frame.nodes, *cached_.textures, masks_, nullptr, shared_.scratch};
 }
 
 CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
@@ -65,7 +65,9 @@ CastInput CpuFrame::castInput(const ShadowPlan& plan) const {
 Status CpuFrame::needHoles() {
   std::vector<ReadTexture> holes;
   for (const int image : alphaImages(*work_.scene, view_)) holes.push_back({{image, true}});
-  return cached_.textures->need(holes);
+  if (const Status made = cached_.textures->need(holes); !made) return made.problems();
+  masks_ = cached_.coverages->of(*work_.scene, view_);
+  return Done{};
 }
 
 const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {

@@ -71,6 +71,7 @@ class CpuFrame : public FrameDrawing {
   const SceneView& view_;
   FrameGeometry geometry_;
   FrameScene scene_;
+  MaskCoverages masks_; ///< once there are holes: needHoles
   Survey survey_;
   CastTiles cast_;
   std::map<int, DepthBuffer> otherSurfaces_;        ///< by samples a pixel, where they aren't the survey's

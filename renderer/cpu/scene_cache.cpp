@@ -23,19 +23,21 @@ CachedScene& SceneCache::of(const std::shared_ptr<const Scene>& scene) {
     entries_.splice(entries_.begin(), entries_, like);
     return entries_.front().cached;
   }
-  auto textures = texturesOf(*scene);
+  CachedScene cached = made(*scene);
   entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
-  entries_.push_front({scene, {++scenes_, std::move(textures)}});
+  entries_.push_front({scene, std::move(cached)});
   return entries_.front().cached;
 }
 
 /// Scenes that share their images are poses of one.
-std::shared_ptr<Textures> SceneCache::texturesOf(const Scene& scene) const {
+CachedScene SceneCache::made(const Scene& scene) {
   for (const Entry& entry : entries_) {
     const auto other = entry.scene.lock();
-    if (other && !scene.images.empty() && other->images == scene.images) return entry.cached.textures;
+    if (other && !scene.images.empty() && other->images == scene.images) {
+      return {++scenes_, entry.cached.textures, entry.cached.coverages};
+    }
   }
-  return std::make_shared<Textures>(scene.images);
+  return {++scenes_, std::make_shared<Textures>(scene.images), std::make_shared<KeptCoverages>()};
 }
 
 } // namespace gnomon::cpu

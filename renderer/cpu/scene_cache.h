@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "renderer/cpu/surface/textures.h"
+#include "renderer/scene/mask_coverage.h"
 
 namespace gnomon::cpu {
 
@@ -11,6 +12,7 @@ namespace gnomon::cpu {
 struct CachedScene {
   std::uint64_t id = 0; ///< no other scene's but of the same surfaces
   std::shared_ptr<Textures> textures;
+  std::shared_ptr<KeptCoverages> coverages; ///< as long as these
 };
 
 /// Of the scenes drawn lately; those with the same surfaces are one. What belongs to a scene that is gone goes with the
@@ -25,7 +27,8 @@ class SceneCache {
     std::weak_ptr<const Scene> scene;
     CachedScene cached;
   };
-  std::shared_ptr<Textures> texturesOf(const Scene& scene) const;
+  /// What it shares with others that are alike, under a number of its own.
+  CachedScene made(const Scene& scene);
 
   std::list<Entry> entries_; ///< most recently used first
   std::uint64_t scenes_ = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "protocol/spec/format_traits.h"
+#include "renderer/core/light.h"
 #include "renderer/device/view_image.h"
 #include "renderer/frame/caster_view.h"
 #include "renderer/frame/view_words.h"
@@ -20,7 +21,7 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
   const FrameSpec& spec = frame.spec;
   std::vector<int> lights;
   int samples = kReferenceSamples;
-  if (light >= 0) {
+  if (light >= 0 && shines((*spec.lights)[static_cast<std::size_t>(light)])) {
     lights.push_back(light);
     samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
   }

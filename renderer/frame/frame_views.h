@@ -21,7 +21,7 @@ inline constexpr int kReferenceSamples = 256;
 
 /// One light's shadow, and what rays say about it.
 struct MeasuredShadow {
-  Reference truth;          ///< of that light alone; of none where the frame has no light
+  Reference truth;          ///< of that light alone; of none where there is none, or it gives off nothing
   std::vector<float> shown; ///< S: the share of it that the technique lets through, full strength; a value a pixel
   ErrorMetrics errors;      ///< without shimmer and predicted
 };

@@ -7,6 +7,7 @@
 #include "renderer/device/shader_data.h"
 #include "renderer/prepare/frame_geometry.h"
 #include "renderer/scene/texture_images.h"
+#include "renderer/shaders/shared/mask_coverage.h"
 
 namespace gnomon {
 namespace {
@@ -89,10 +90,29 @@ class TextureUpload {
   std::map<std::tuple<Wrap, Wrap, bool, MinFilter>, int> samplers_;
 };
 
+/// The tables of materials, one behind the other.
+class CoverageTables {
+ public:
+  void add(const MaskCoverage& coverage, shared::MaterialData& material) {
+    static_assert(MaskCoverage::kRow == GNOMON_COVERAGE_ROW);
+    const auto [found, isNew] = firstRows_.try_emplace(&coverage, numbers_.size() / MaskCoverage::kRow);
+    if (isNew) numbers_.insert(numbers_.end(), coverage.table().begin(), coverage.table().end());
+    material.passing.y = static_cast<float>(found->second);
+    material.passing.z = static_cast<float>(coverage.rows() - 1);
+    material.passing.w = coverage.mixesLevels() ? 1.0f : 0.0f;
+  }
+  const std::vector<float>& numbers() const { return numbers_; }
+
+ private:
+  std::map<const MaskCoverage*, std::size_t> firstRows_;
+  std::vector<float> numbers_;
+};
+
 } // namespace
 
 std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene) {
   auto gpu = std::make_shared<GpuTextures>();
+  gpu->coverages = std::make_shared<KeptCoverages>();
   TextureUpload upload(scene, *gpu);
   for (const Material& material : scene.materials) {
     GpuMaterial made;
@@ -124,10 +144,16 @@ GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuMeshes> meshes
   gpu.bytes += meshes->bytes;
   gpu.meshes = std::move(meshes);
 
+  CoverageTables tables;
   std::vector<shared::MaterialData> data;
-  for (const Material& material : scene.materials) data.push_back(materialData(material));
+  const MaskCoverages coverages = textures->coverages->of(scene);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    data.push_back(materialData(scene.materials[i]));
+    if (coverages[i] != nullptr) tables.add(*coverages[i], data.back());
+  }
   gpu.materialData = gl::Buffer(gl::bytesOf(data), "materials");
-  gpu.bytes += textures->bytes;
+  gpu.coverage = gl::Buffer(gl::bytesOf(tables.numbers()), "coverage");
+  gpu.bytes += textures->bytes + gpu.coverage.bytes();
   gpu.textures = std::move(textures);
   return gpu;
 }

@@ -8,6 +8,7 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"
+#include "renderer/scene/mask_coverage.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -28,7 +29,8 @@ struct GpuTextures {
   std::vector<GpuMaterial> materials;
   std::vector<gl::Texture> textures;
   std::vector<gl::Sampler> samplers;
-  std::size_t bytes = 0; ///< of device memory, about
+  std::shared_ptr<KeptCoverages> coverages; ///< of the same images
+  std::size_t bytes = 0;                    ///< of device memory, about
 };
 
 /// A scene's triangles, on the device.
@@ -45,6 +47,7 @@ struct GpuScene {
   std::uint64_t id = 0;                        ///< of the upload: no two have the same
   std::shared_ptr<const GpuMeshes> meshes;     ///< scenes of the same meshes share them
   gl::Buffer materialData;                     ///< shared::MaterialData
+  gl::Buffer coverage;                         ///< float: the tables of MaskCoverage, each once
   std::shared_ptr<const GpuTextures> textures; ///< scenes that read the same images in the same way share them
   std::vector<gl::Buffer> anchored;            ///< shared::InstanceData relative to anchorOf, one a glTF scene
   std::size_t bytes = 0;                       ///< of device memory, about

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "renderer/shaders/shared/mask_coverage.h"
+
 namespace gnomon {
 
 void bindInputs(const PassInputs& inputs) {
   inputs.frame.bindUniform(GNOMON_FRAME_BUFFER);
   inputs.gpu.materialData.bindStorage(GNOMON_MATERIAL_BUFFER);
+  inputs.gpu.coverage.bindStorage(GNOMON_COVERAGE_BUFFER);
 }
 
 Status drawGroups(const PassInputs& inputs, const SceneVertices& vertices, const DrawBatch& batch,

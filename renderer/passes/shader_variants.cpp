@@ -9,7 +9,8 @@
 namespace gnomon {
 namespace {
 
-/// How a texture is read, and how far its coordinates go in a step: `TEXEL(map)` and `STEP(derivative)`.
+/// How a texture is read, and where that matters its coordinates and how far they go in a step: `TEXEL(map)`, `PLACE`
+/// and `STEP(derivative)`.
 void addTextureDefines(const std::string& name, const TextureUse& use, std::size_t unit,
                        std::vector<std::string>& defines) {
   const std::string uv = use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
@@ -17,9 +18,10 @@ void addTextureDefines(const std::string& name, const TextureUse& use, std::size
   defines.push_back(name + "_TEXTURE");
   defines.push_back(name + "_TEXEL(map) " +
                     (use.transform ? "movedTexel(map, " + uv + at : "texture(map, " + uv + ")"));
-  if (name != "NORMAL") return;
+  if (name != "NORMAL" && name != "BASE_COLOR") return;
   const std::string step = "derivative(" + uv + ")";
-  defines.push_back("NORMAL_STEP(derivative) " + (use.transform ? "movedStep(" + step + at : step));
+  defines.push_back(name + "_STEP(derivative) " + (use.transform ? "movedStep(" + step + at : step));
+  if (name == "BASE_COLOR") defines.push_back("BASE_COLOR_PLACE " + (use.transform ? "movedPlace(" + uv + at : uv));
 }
 
 /// VIEW_ and the view's name in capitals: texelGrid is VIEW_TEXEL_GRID.

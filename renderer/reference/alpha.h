@@ -14,18 +14,8 @@ struct SeenPlace {
   Barycentric at, right, below;
 };
 
-/// The same as a picture shows it: of a texture the level whose texels are as large as pixels.
-double alphaSeen(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const SeenPlace& place);
-
-/// A place of a texture, and how it moves from a pixel to the one right of it and below.
-struct TexturePlace {
-  glm::dvec2 uv{0}, right{0}, below{0};
-};
-
-/// 0..1, of the largest level.
-double textureAlpha(const AlphaPlane& alpha, const TextureUse& use, const glm::dvec2& uv);
-
-/// 0..1, of the levels that OpenGL reads there (4.5, 8.14 and 8.15).
-double textureAlpha(const AlphaLevels& alpha, const TextureUse& use, const TexturePlace& place);
+/// Whether a picture shows the surface of a material with alpha there, and not a hole in it: of a texture it reads the
+/// level whose texels are as large as pixels, of which as much shows as of the texture (MaskCoverage).
+bool isFilled(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const SeenPlace& place);
 
 } // namespace gnomon

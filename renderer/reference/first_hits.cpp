@@ -60,7 +60,7 @@ bool isSeen(const Eye& eye, const PlacedTriangle& hit, const glm::vec2& place, c
   const Material& material = eye.tree.material(hit.instance);
   if (!material.doubleSided && away() != (eye.tree.mirrored[hit.instance] != 0)) return false;
   if (material.alphaMode == AlphaMode::opaque) return true;
-  return alphaSeen(eye.tree, hit.instance, hit.triangle, seenPlace(eye, hit, place, at())) >= material.alphaCutoff;
+  return isFilled(eye.tree, hit.instance, hit.triangle, seenPlace(eye, hit, place, at()));
 }
 
 void keepSeen(const RTCFilterFunctionNArguments* call) {

@@ -89,8 +89,8 @@ std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm:
 void pointsOn(const TraceInput& input, std::span<const glm::vec2> places, std::span<const PlacedTriangle> triangles,
               std::span<SurfacePoint> points);
 
-/// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, and lies in its
-/// range and its cone.
+/// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, also by the normal
+/// that it is shaded by, and lies in its range and its cone.
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points);
 
 /// Share of light `light` that each point sees, 0..1, whatever the shadow's strength: 1 where there is no surface,

@@ -112,6 +112,7 @@ Result<TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene, int i
       const auto image = static_cast<std::size_t>(masks[i]);
       tree->masks[image] = scene->images[image]->alpha();
     });
+    tree->coverages = KeptCoverages().of(*scene, view);
     tree->view = &scene->scenes[static_cast<std::size_t>(index)];
     tree->scene = std::move(scene);
     tree->anchor = anchorOf(*tree->view);

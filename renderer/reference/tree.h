@@ -13,6 +13,7 @@
 #include "renderer/reference/traced_scene.h"
 #include "renderer/reference/triangle.h"
 #include "renderer/reference/triangle_boxes.h"
+#include "renderer/scene/mask_coverage.h"
 
 namespace gnomon {
 
@@ -44,6 +45,7 @@ struct TracedScene::Tree {
   std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
   /// By the image; none where no hole depends on it.
   std::vector<std::shared_ptr<const AlphaLevels>> masks;
+  MaskCoverages coverages;
   Aabb bounds; ///< of the placed triangles, metres
   TriangleBoxes boxes;
   mutable KeptFronts fronts;
@@ -64,6 +66,10 @@ struct TracedScene::Tree {
   }
   const Material& material(std::uint32_t instanceIndex) const {
     return scene->materials[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))];
+  }
+  /// Null where no coverage is lost.
+  const MaskCoverage* coverage(std::uint32_t instanceIndex) const {
+    return coverages[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))].get();
   }
   /// How packets of rays that lie close together are traced. Embree 3.13 follows them as one bundle, but there, with
   /// instances in the scene, it may never end.

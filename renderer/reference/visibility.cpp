@@ -5,6 +5,7 @@
 #include "renderer/core/parallel.h"
 #include "renderer/reference/frame_nodes.h"
 #include "renderer/reference/light_source.h"
+#include "renderer/reference/shading_normal.h"
 #include "renderer/reference/shadow_rays.h"
 #include "renderer/reference/traced_light.h"
 
@@ -94,7 +95,8 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
   std::transform(points.begin(), points.end(), reached.begin(), [&](const SurfacePoint& point) -> std::uint8_t {
     if (point.instance == kNoSurface || lit[point.instance] == 0) return 0;
     const WayToLight way = wayTo(source, point.position);
-    return reaches(source, way) && faces(point.normal, way) ? 1 : 0;
+    if (!reaches(source, way) || !faces(point.normal, way)) return 0;
+    return faces(glm::vec3(shadingNormal(input.traced.tree(), point)), way) ? 1 : 0;
   });
   return reached;
 }

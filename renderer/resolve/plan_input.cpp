@@ -16,7 +16,7 @@ std::vector<int> shadowingLights(const ResolvedFrame& frame) {
   for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
     const Light& light = (*frame.spec.lights)[i];
     if (firstOnly && light.type != LightType::directional) continue;
-    if (light.shadow->enabled && light.intensity > 0) lights.push_back(static_cast<int>(i));
+    if (light.shadow->enabled && shines(light)) lights.push_back(static_cast<int>(i));
     if (firstOnly) break; // the first is the first, with a shadow or without
   }
   return lights;

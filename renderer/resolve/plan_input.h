@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// The lights that throw shadows in a frame, by their index.
+/// The lights that throw shadows in a frame, by their index: none that gives off nothing.
 std::vector<int> shadowingLights(const ResolvedFrame& frame);
 
 /// How the shadow of a light is found, which throws one.

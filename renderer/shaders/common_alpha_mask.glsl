@@ -1,6 +1,7 @@
 // What a surface with alpha leaves out: where alpha is too low for the eye and for the light, unless the light dithers.
 // The light reads the texture itself, as rays do. Smaller levels are means: where their texels are as large as the map's,
-// finer holes close or open all alike, and what lies aslant to the light is smeared over many texels.
+// finer holes close or open all alike, and what lies aslant to the light is smeared over many texels. The eye reads them,
+// and common_mask_coverage.glsl keeps as much of the surface as the texture has.
 #ifdef ALPHA_MASK
 layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };
 layout(binding = GNOMON_BASE_COLOR_UNIT) uniform sampler2D baseColorTexture;
@@ -53,16 +54,31 @@ float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
 #define MASK_TEXEL texture(baseColorTexture, mask.uv)
 #endif
 
+#if defined(BASE_COLOR_TEXTURE) && !defined(SEEN_BY_LIGHT)
+#include "common_mask_coverage.glsl"
+#ifdef TEXTURE_TRANSFORM
+#define MASK_STEP(step) movedStep(step, GNOMON_BASE_COLOR_UNIT)
+#else
+#define MASK_STEP(step) (step)
+#endif
+#endif
+
 void discardMasked() {
   MaterialData material = materials[materialIndex];
   float alpha = material.baseColorFactor.a;
 #ifdef VERTEX_COLORS
   alpha *= mask.alpha;
 #endif
+#if defined(BASE_COLOR_TEXTURE) && !defined(SEEN_BY_LIGHT)
+  vec2 right = MASK_STEP(dFdx(mask.uv));
+  vec2 up = MASK_STEP(dFdy(mask.uv));
+  if (!isFilled(material, alpha, MASK_TEXEL.a, MASK_PLACE, right, up)) discard;
+#else
 #ifdef BASE_COLOR_TEXTURE
   alpha *= MASK_TEXEL.a;
 #endif
   if (alpha < leastAlpha(material)) discard;
+#endif
 }
 #else
 void discardMasked() {}

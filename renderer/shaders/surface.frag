@@ -13,6 +13,9 @@ layout(post_depth_coverage) in;
 #include "shared/normal_map.h"
 #include "shared/specular_glossiness.h"
 #include "common_material.glsl"
+#if defined(ALPHA_MASK) && defined(BASE_COLOR_TEXTURE)
+#include "common_mask_coverage.glsl"
+#endif
 
 layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
 layout(location = 0) out uvec4 surfaceBits;
@@ -52,7 +55,17 @@ void main() {
   MaterialData material = materials[materialIndex];
   vec4 color = baseColor(material);
 #ifdef ALPHA_MASK
+#ifdef BASE_COLOR_TEXTURE
+  float factor = material.baseColorFactor.a;
+#ifdef VERTEX_COLORS
+  factor *= surface.color.a;
+#endif
+  vec2 right = BASE_COLOR_STEP(dFdx);
+  vec2 up = BASE_COLOR_STEP(dFdy);
+  if (!isFilled(material, factor, BASE_COLOR_TEXEL(baseColorTexture).a, BASE_COLOR_PLACE, right, up)) discard;
+#else
   if (color.a < material.emissiveFactor.w) discard;
+#endif
 #endif
   // The pixel's centre: at an edge it may lie just off the surface, in its plane.
   vec3 toEye = frame.forward.w > 0.0 ? -surface.relative : -frame.forward.xyz;

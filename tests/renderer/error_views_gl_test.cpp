@@ -249,6 +249,50 @@ TEST(ErrorViews, ALightThatThrowsNoShadowHasNoError) {
   for (const float distance : floatsOf(frame, 2)) ASSERT_EQ(distance, -1.0f);
 }
 
+TEST(ErrorViews, H1_ALightThatGivesNothingHasNoReceivers) {
+  for (const Json& dark : {Json{{"intensity", 0}}, Json{{"color", {0, 0, 0}}}}) {
+    for (const char* technique : {"shadowMap", "rayTraced"}) {
+      Json spec = specOf({"reference", "error", "shadow"});
+      spec["lights"][0].update(dark);
+      spec["shadow"]["technique"] = technique;
+      const Frame frame = renderJson(generatedScene("box_on_plane"), spec.dump());
+      EXPECT_EQ(frame.report.error->receivers, 0u) << dark << technique;
+      EXPECT_EQ(frame.report.error->misclassified, 0.0) << dark << technique;
+      for (const std::size_t view : {0u, 2u}) {
+        for (const float lit : floatsOf(frame, view)) ASSERT_EQ(lit, 1.0f) << dark << technique;
+      }
+    }
+  }
+}
+
+/// A flat disc whose vertices' normals are those given, the same for all, seen from above in a light from straight
+/// above.
+ErrorMetrics errorsOfDisc(const glm::vec3& normal, bool unlit) {
+  testing::GlbBuilder builder = testing::plane();
+  auto& primitive = builder.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["NORMAL"] =
+      builder.addPoints(std::vector<std::array<float, 3>>(4, {normal.x, normal.y, normal.z}));
+  Json material = Json::object();
+  if (unlit) material["extensions"]["KHR_materials_unlit"] = Json::object();
+  builder.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  primitive["material"] = builder.add("materials", material);
+  const Json spec = {{"width", 32},
+                     {"height", 32},
+                     {"camera", {{"eye", {0, 3, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}}},
+                     {"lights", {{{"direction", {0, -1, 0}}}}},
+                     {"shadow", {{"technique", "rayTraced"}}},
+                     {"views", {"error"}},
+                     {"output", {{"format", "exr"}}}};
+  return *renderJson(testing::sceneOf(builder), spec.dump()).report.error;
+}
+
+TEST(ErrorViews, H1_WhatTheNormalOfShadingTurnsFromTheLightOrIsUnlitIsNoReceiver) {
+  EXPECT_GT(errorsOfDisc({0, 1, 0}, false).receivers, 400u);
+  EXPECT_GT(errorsOfDisc(glm::normalize(glm::vec3(1, 0.1f, 0)), false).receivers, 400u);
+  EXPECT_EQ(errorsOfDisc(glm::normalize(glm::vec3(1, -0.1f, 0)), false).receivers, 0u);
+  EXPECT_EQ(errorsOfDisc({0, 1, 0}, true).receivers, 0u);
+}
+
 TEST(ErrorViews, WithoutLightsOrSurfacesNothingIsWrong) {
   for (const char* format : {"png", "exr"}) {
     Json dark = specOf({"reference", "error", "edgeDistance"}, format);

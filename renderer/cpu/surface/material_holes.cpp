@@ -19,11 +19,29 @@ unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, const 
   // The others have a triangle of the instance, too.
   const auto any = static_cast<std::int32_t>(places.number[std::countr_zero(asked)]);
   const Int triangle = select(where, load(places.number), Int(any)) - Int(static_cast<std::int32_t>(first));
-  const Float alpha =
+  const ReadAlpha alpha =
       alphaOf(input.scene, input.textures, places.instance, input.clipFromLocal[places.instance], triangle,
               glm::vec2(input.size), Float2(toFloat(load(places.x)) + 0.5f, toFloat(load(places.y)) + 0.5f),
               input.byLight, where);
-  return asked & bitsOf(alpha >= load(least));
+  const Slot& slot = input.scene.slots[input.scene.geometry.firstSlot[places.instance]];
+  const MaskCoverage* mask =
+      input.masks != nullptr ? (*input.masks)[static_cast<std::size_t>(slot.material)].get() : nullptr;
+  unsigned filled = asked & bitsOf(alpha.factor * alpha.texel >= load(least));
+  if (mask == nullptr) return filled;
+  const unsigned smaller = asked & bitsOf(alpha.halvings > 0.0f);
+  if (smaller == 0) return filled;
+  alignas(64) float factor[kLanes], texel[kLanes], halvings[kLanes], u[kLanes], v[kLanes];
+  store(alpha.factor, factor);
+  store(alpha.texel, texel);
+  store(alpha.halvings, halvings);
+  store(alpha.uv.x, u);
+  store(alpha.uv.y, v);
+  for (unsigned left = smaller; left != 0; left &= left - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(left));
+    const bool keeps = mask->keeps({{u[i], v[i]}, halvings[i], texel[i]}, factor[i], least[i]);
+    filled = keeps ? filled | 1u << i : filled & ~(1u << i);
+  }
+  return filled;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

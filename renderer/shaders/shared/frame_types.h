@@ -39,7 +39,7 @@ using glm::vec4;
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
 
-// Storage buffer bindings.
+// Storage buffer bindings; 4 is in mask_coverage.h.
 #define GNOMON_MATERIAL_BUFFER 0
 #define GNOMON_LIGHT_BUFFER 1
 #define GNOMON_TILE_BUFFER 2
@@ -137,7 +137,7 @@ struct MaterialData {
   vec4 emissiveFactor;     // rgb; w: alpha cutoff
   vec4 surface;            // metallic, roughness, normal scale, occlusion strength
   vec4 specularGlossiness; // rgb: specular factor; w: glossiness factor
-  vec4 passing;            // x: transmission
+  vec4 passing;            // x: transmission; yzw: as mask_coverage.h says
   vec4 uvAxes[5];          // of each texture unit: columns of the matrix from a vertex's coordinates
   vec4 uvOffsets[5];       // xy: added to that
 };

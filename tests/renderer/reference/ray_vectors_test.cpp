@@ -21,7 +21,7 @@ class With {
   With& operator=(const With&) = delete;
 };
 
-constexpr int kSide = 48;
+constexpr int kPictureSide = 48;
 constexpr std::uint32_t kRays = 8;
 
 /// Balls over a ground, so many that their tree is shared, or one.
@@ -36,7 +36,7 @@ Traced balls(int count, RayVectors vectors) {
   }
   const With with(vectors);
   Traced traced(builder);
-  traced.width = traced.height = kSide;
+  traced.width = traced.height = kPictureSide;
   traced.camera = testing::perspectiveView(traced.anchor() + glm::dvec3(2, 7, 9), traced.anchor(), 80);
   traced.lights = {testing::sunAlong({0.4, -1, 0.2}), testing::sunAlong({0.4, -1, 0.2}, 8)};
   return traced;
@@ -51,8 +51,8 @@ std::vector<float> drawnShares(const Traced& traced, int light, const std::vecto
     DrawnPlaces places;
     for (std::size_t i = 0; i < DrawnPlaces::kCount; ++i) {
       const std::size_t pixel = first + i;
-      places.x[i] = float(pixel % kSide) + 0.5f;
-      places.y[i] = float(pixel / kSide) + 0.5f;
+      places.x[i] = float(pixel % kPictureSide) + 0.5f;
+      places.y[i] = float(pixel / kPictureSide) + 0.5f;
       places.shown[i] = {pixel % 3 != 0 ? points[pixel].instance : kNoSurface, points[pixel].triangle};
     }
     std::array<float, DrawnPlaces::kCount> seen{};

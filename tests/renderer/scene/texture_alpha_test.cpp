@@ -1,4 +1,4 @@
-#include "renderer/reference/alpha.h"
+#include "renderer/scene/texture_alpha.h"
 
 #include <algorithm>
 #include <cmath>
