@@ -9,20 +9,23 @@
 namespace gnomon {
 namespace {
 
-/// How a texture is read, and where that matters its coordinates and how far they go in a step: `TEXEL(map)`, `PLACE`
-/// and `STEP(derivative)`.
-void addTextureDefines(const std::string& name, const TextureUse& use, std::size_t unit,
-                       std::vector<std::string>& defines) {
-  const std::string uv = use.texCoord == 0 ? "surface.uv0" : "surface.uv1";
-  const std::string at = ", " + std::to_string(unit) + ")";
-  defines.push_back(name + "_TEXTURE");
-  defines.push_back(name + "_TEXEL(map) " +
-                    (use.transform ? "movedTexel(map, " + uv + at : "texture(map, " + uv + ")"));
-  if (name != "NORMAL" && name != "BASE_COLOR") return;
-  const std::string step = "derivative(" + uv + ")";
-  defines.push_back(name + "_STEP(derivative) " + (use.transform ? "movedStep(" + step + at : step));
-  if (name == "BASE_COLOR") defines.push_back("BASE_COLOR_PLACE " + (use.transform ? "movedPlace(" + uv + at : uv));
-}
+/// How a texture is read, at coordinates `uv` of a vertex, moved by the transform of its unit.
+struct TextureReading {
+  std::string name, uv, unit;
+  bool moved;
+
+  std::string of(const std::string& function, const std::string& before, const std::string& still) const {
+    return moved ? function + "(" + before + uv + ", " + unit + ")" : still;
+  }
+  std::string texture() const { return name + "_TEXTURE"; }
+  std::string texel() const { return name + "_TEXEL(map) " + of("movedTexel", "map, ", "texture(map, " + uv + ")"); }
+  std::string place() const { return name + "_PLACE " + of("movedPlace", "", uv); }
+  /// How far the coordinates go in a step.
+  std::string step() const {
+    const std::string still = "derivative(" + uv + ")";
+    return name + "_STEP(derivative) " + (moved ? "movedStep(" + still + ", " + unit + ")" : still);
+  }
+};
 
 /// VIEW_ and the view's name in capitals: texelGrid is VIEW_TEXEL_GRID.
 std::string viewDefine(View view) {
@@ -96,12 +99,19 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   std::vector<std::string> defines;
   std::array<bool, 2> uvs{};
   bool moved = false;
+  const bool masked = material.alphaMode != AlphaMode::opaque && !material.uniformAlpha;
   for (std::size_t unit = 0; unit < slots.size(); ++unit) {
     const Slot& slot = slots[unit];
     if (!*slot.use) continue;
     const TextureUse& use = **slot.use;
     moved = moved || use.transform;
-    addTextureDefines(slot.name, use, unit, defines);
+    const TextureReading reading{slot.name, use.texCoord == 0 ? "surface.uv0" : "surface.uv1", std::to_string(unit),
+                                 use.transform.has_value()};
+    defines.push_back(reading.texture());
+    defines.push_back(reading.texel());
+    const bool isHoled = slot.use == &material.baseColor && masked;
+    if (isHoled || slot.use == &material.normal) defines.push_back(reading.step());
+    if (isHoled) defines.push_back(reading.place());
     uvs[use.texCoord == 0 ? 0 : 1] = true;
   }
   if (moved) defines.emplace_back("TEXTURE_TRANSFORM");
@@ -110,7 +120,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (variant.tangents) defines.emplace_back("TANGENTS");
   if (material.doubleSided) defines.emplace_back("DOUBLE_SIDED");
-  if (material.alphaMode != AlphaMode::opaque && !material.uniformAlpha) defines.emplace_back("ALPHA_MASK");
+  if (masked) defines.emplace_back("ALPHA_MASK");
   if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
   if (material.unlit) defines.emplace_back("UNLIT");
   if (material.transmission > 0) defines.emplace_back("TRANSMISSION");

@@ -11,7 +11,9 @@ namespace gnomon::testing {
 inline std::shared_ptr<const Scene> squares() {
   Scene scene;
   scene.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
-  scene.attributes = std::vector<VertexAttributes>(4);
+  VertexAttributes up;
+  up.normal = {0, 1, 0};
+  scene.attributes = std::vector<VertexAttributes>(4, up);
   scene.indices = {0, 1, 2, 0, 2, 3};
   scene.welded = scene.indices;
   scene.materials.resize(1);
