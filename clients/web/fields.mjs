@@ -184,6 +184,7 @@ export const kSections = [
       { path: 'shadow.bias.slope', label: 'Slope', unit: 'm', says: 'Times the tangent of the angle between normal and light', needs: one('shadow.bias.mode', 'manual'), keeps: true },
       { path: 'shadow.bias.normalOffsetScale', label: 'Normal', says: 'Distance along the normal, as a multiple of the depth', needs: one('shadow.bias.mode', 'manual'), keeps: true },
       { path: 'shadow.blendedCasters', label: 'Glass casts', choices: [['dither', 'Dither', 'As much shadow as its alpha says'], ['threshold', 'Threshold', 'All or nothing']] },
+      { path: 'shadow.terminator', label: 'Terminator', choices: [['smooth', 'Smooth', 'Curved as shading shows it'], ['flat', 'Flat', 'Along the edges of triangles']] },
     ],
   },
   {

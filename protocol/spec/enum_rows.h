@@ -110,6 +110,13 @@ inline constexpr std::array kSpellings<BlendedCasters>{
 static_assert(spellsAll<BlendedCasters>());
 
 template <>
+inline constexpr std::array kSpellings<Terminator>{
+    spelling(Terminator::smooth, "smooth", "the curved surface that the normals of vertices show"),
+    spelling(Terminator::flat, "flat", "the triangles, which end the light along their edges"),
+};
+static_assert(spellsAll<Terminator>());
+
+template <>
 inline constexpr std::array kSpellings<View>{
     spelling(View::color, "color", "the shaded scene"),
     spelling(View::depth, "depth", "distance along the view axis: metres in EXR, near-to-far grey in PNG"),

@@ -16,6 +16,7 @@ enum class Stabilization { none, projectionSnapping, viewSnapping };
 enum class FilterType { hard, pcf, vsm, evsm, msm, pcss };
 enum class BiasMode { automatic, manual };
 enum class BlendedCasters { dither, threshold };
+enum class Terminator { smooth, flat };
 
 /// How the depth range is cut into cascades.
 struct Partition {
@@ -93,6 +94,7 @@ struct Shadow {
   Filter filter;
   Bias bias;
   BlendedCasters blendedCasters = BlendedCasters::dither;
+  Terminator terminator = Terminator::smooth; ///< of meshes with normals at their vertices
   LightMapOptions lightMap;
   int raySamples = 16; ///< rayTraced, hybrid: most rays a pixel towards a light that has a size; 1..1024
 

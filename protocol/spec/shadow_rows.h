@@ -153,6 +153,10 @@ inline constexpr auto kRows<Shadow> = rows(
     field("bias", &Shadow::bias, {.says = "How surfaces are kept from shadowing themselves."}),
     field("blendedCasters", &Shadow::blendedCasters,
           {.says = "How materials of alphaMode BLEND, and transmissive ones, cast shadows."}),
+    field(
+        "terminator", &Shadow::terminator,
+        {.says = "Where the triangles of a curved surface turn away from the light: what a shadow is found for there. "
+                 "Techniques shadowVolume and lightMap always take the triangles."}),
     field("lightMap", &Shadow::lightMap,
           {.says = "Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces."}),
     field(

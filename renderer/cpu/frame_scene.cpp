@@ -1,8 +1,11 @@
 #include "renderer/cpu/frame_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "protocol/spec/limits.h"
+#include "protocol/spec/traits.h"
+#include "renderer/core/light.h"
 #include "renderer/prepare/draw_list.h"
 
 namespace gnomon::cpu {
@@ -33,6 +36,24 @@ std::vector<shared::MaterialData> materialsOf(const Scene& scene) {
   return materials;
 }
 
+SmoothAsked smoothAsked(const ResolvedFrame& frame) {
+  constexpr std::size_t kMostSuns = 4; // more take longer to ask about than to be ready for
+  SmoothAsked smooth;
+  bool anywhere = false;
+  for (const Light& light : *frame.spec.lights) {
+    const Shadow& shadow = *light.shadow;
+    const bool asks = shadow.enabled && shadow.terminator == Terminator::smooth && traitsOf(shadow.technique).mapped;
+    if (!asks) continue;
+    smooth.asked = true;
+    anywhere = anywhere || light.type != LightType::directional || smooth.suns.size() == kMostSuns;
+    if (anywhere) continue;
+    const double radius = std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
+    smooth.suns.emplace_back(glm::vec3(-directionOf(light)), static_cast<float>(std::max(radius, 1e-4) + 1e-5));
+  }
+  if (anywhere) smooth.suns.clear();
+  return smooth;
+}
+
 } // namespace
 
 FrameScene frameScene(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
@@ -45,7 +66,8 @@ FrameScene frameScene(const Scene& scene, const SceneView& view, const FrameGeom
           materialsOf(scene),
           frameData(frame),
           frame.spec.width,
-          frame.spec.height};
+          frame.spec.height,
+          smoothAsked(frame)};
 }
 
 } // namespace gnomon::cpu

@@ -18,6 +18,15 @@ struct Slot {
   int material = 0; ///< index into Scene::materials
 };
 
+/// What is asked of the curved surfaces that shading shows (renderer/shaders/shared/smooth_surface.h), by the lights
+/// that look up maps.
+struct SmoothAsked {
+  bool asked = false;
+  /// Where those lights are that are far away: toward them, and the cosine of a plane up to which it leaves some of the
+  /// light behind it. Empty = they are, or may be, anywhere.
+  std::vector<glm::vec4> suns;
+};
+
 /// What a frame's kernels read: the scene, and how it is placed as seen from the eye. All positions are floats relative
 /// to the eye. A triangle's number is slot * kClusterTriangles + its place in the slot; kNoNumber is none.
 struct FrameScene {
@@ -30,6 +39,7 @@ struct FrameScene {
   shared::FrameData frame;
   int width = 0; ///< of the picture, pixels
   int height = 0;
+  SmoothAsked smooth;
 };
 
 FrameScene frameScene(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,

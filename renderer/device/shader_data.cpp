@@ -20,7 +20,7 @@ static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNO
 static_assert(GNOMON_STEEPEST == kSteepest);
 // As std140 and std430 lay them out: a vec3 and the scalar behind it share 16 bytes. Each offset is compared with the
 // driver's by a test (shared_structs_gl_test.cpp).
-static_assert(sizeof(shared::LightData) == 8 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
+static_assert(sizeof(shared::LightData) == 9 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
 static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData, depthRange) == 11 * 16);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
@@ -98,6 +98,7 @@ shared::LightData packed(const LitLight& light) {
   out.layerOmitsTurnedFaces = light.layerOmitsTurnedFaces ? 1 : 0;
   out.litGroups = light.groups.lit;
   out.shadowedGroups = light.groups.shadowed;
+  out.smoothTerminator = light.smoothTerminator ? 1 : 0;
   if (light.manualBias) {
     out.manualDepthBias = static_cast<float>(light.manualBias->depth);
     out.manualSlopeBias = static_cast<float>(light.manualBias->slope);

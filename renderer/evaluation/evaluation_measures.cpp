@@ -32,6 +32,7 @@ FrameSpec truthKey(const Subject& subject) {
     shadow.enabled =
         std::find(subject.lights.begin(), subject.lights.end(), static_cast<int>(i)) != subject.lights.end();
     shadow.blendedCasters = light.shadow->blendedCasters;
+    shadow.terminator = light.shadow->terminator;
     light.shadow = shadow;
     light.color.reset();
     light.temperatureKelvin.reset();

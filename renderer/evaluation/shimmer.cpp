@@ -57,6 +57,7 @@ Result<std::vector<Watched>> watchedPoints(const TracedScene& traced, const std:
   const std::vector<int> casting = measuredLights(frames.front());
   for (const int light : casting) {
     std::vector<SurfacePoint> points = receiversOf(first, light, seen);
+    for (SurfacePoint& point : points) point = shadedPoint(first, light, point);
     if (!points.empty()) watched.push_back({light, std::move(points), {}});
   }
   if (!watched.empty()) return watched;

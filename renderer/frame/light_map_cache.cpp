@@ -23,6 +23,7 @@ Light shadowOf(const Light& light) {
   Shadow kept;
   kept.lightMap = light.shadow->lightMap;
   kept.blendedCasters = light.shadow->blendedCasters;
+  kept.terminator = Terminator::flat; // whichever side of a triangle a map serves
   shadow.shadow = kept;
   return shadow;
 }

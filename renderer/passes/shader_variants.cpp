@@ -127,6 +127,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   int location = variant.emission ? 2 : 1;
+  if (variant.smoothPlaces) defines.push_back("SMOOTH_PLACES " + std::to_string(location++));
   if (variant.bakedLights > 0) {
     defines.push_back("BAKED_LIGHTS " + std::to_string(variant.bakedLights));
     defines.push_back("BAKED_SHARES " + std::to_string(location++));
@@ -147,6 +148,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.tiles > 0) defines.push_back("TILE_COUNT " + std::to_string(variant.tiles));
   if (variant.punctual) defines.emplace_back("PUNCTUAL");
   addShadowDefines(variant.shadows, defines);
+  if (variant.smoothPlaces) defines.emplace_back("SMOOTH_PLACES");
   if (variant.visibilityLayers) defines.emplace_back("VISIBILITY_LAYERS");
   if (variant.bakedLights > 0) {
     defines.push_back("BAKED_LIGHTS " + std::to_string(variant.bakedLights));
@@ -178,6 +180,7 @@ gl::ProgramSource probeProgram(const ViewVariant& variant) {
 gl::ProgramSource displacementProgram(const ViewVariant& variant) {
   gl::ProgramSource source = probeProgram(variant);
   source.fragment = "displacement.frag";
+  if (variant.smoothPlaces) source.defines.emplace_back("SMOOTH_PLACES");
   return source;
 }
 

@@ -27,6 +27,7 @@ struct SurfaceVariant {
       false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
   bool numbered = false;       ///< says which triangle shows (prepare/draw_list.h)
+  bool smoothPlaces = false;   ///< says where the surface lies that shading shows (shaders/shared/smooth_surface.h)
   int bakedLights = 0;         ///< whose light maps are read, 0 to GNOMON_LIGHT_MAPS
   int shownSamples = 0;        ///< of a pixel, where depth says which of them show a triangle; else 0
 };
@@ -57,6 +58,7 @@ struct ViewVariant {
   int tiles = 0;           ///< of the light that has most
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
+  bool smoothPlaces = false;     ///< as in SurfaceVariant: some light asks for them
   bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
   int bakedLights = 0;           ///< as in SurfaceVariant
   int firstBaked = 0;            ///< the visibility layer of the first of them

@@ -50,6 +50,7 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
     light.filter = kernelOf(shadow.filter, radiusOf(lights[index]));
     light.manualBias = manualBias(shadow.bias);
     light.fadesOut = planned.fadeOut;
+    light.smoothTerminator = shadow.terminator == Terminator::smooth;
     light.strength = shadow.strength;
     light.shadowColor = toVector(shadow.color);
   }

@@ -38,6 +38,7 @@ struct LitLight {
   FilterKernel filter;
   std::optional<ManualBias> manualBias; ///< none = each tile's automatic one
   bool fadesOut = false;                ///< at the far end of its last cascade
+  bool smoothTerminator = false;        ///< receivers may stand on the surface that shading shows
 
   // What an exact technique says of it, sample by sample.
   int visibilityLayer = -1;           ///< index among the lights that have one; -1 = none

@@ -159,6 +159,26 @@ void sort(const DrawnPoints& points, const Lanes& asked, Lanes& lit, Lanes& unsu
   }
 }
 
+/// Of the lanes that are told without the surface that shading shows: leaves to the exact points those where that may
+/// stand in for a triangle that leaves some of the light behind its plane.
+void leaveSmooth(const TracedLight::State& of, const DrawnPlaces& places, const DrawnPoints& points, const Lanes& asked,
+                 Lanes& lit, Lanes& unsure) {
+  Lanes low;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const float whole = of.light.directional ? of.light.radius : of.light.radius / points.length[i];
+    const float cosine = glm::dot(laneOf(points.normal, i), laneOf(points.toward, i));
+    const int cut = of.light.radius > 0 && cosine <= whole + points.turn[i] + 0x1p-12f ? -1 : 0;
+    low.active[i] = asked.active[i] & ~unsure.active[i] & (~points.faces[i] | cut);
+  }
+  if (!low.any()) return;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    if (low.active[i] == 0) continue;
+    if (!mayFace(of.casters.tree, of.from.light, places.shown[i], glm::dvec3(laneOf(points.normal, i)))) continue;
+    lit.active[i] = 0;
+    unsure.active[i] = -1;
+  }
+}
+
 } // namespace
 
 void TracedLight::exactVisibility(const DrawnPlaces& places, const Lanes& lanes, const LightSamples& samples,
@@ -204,6 +224,7 @@ void TracedLight::visibility(const DrawnPlaces& places, std::uint32_t first, std
   Lanes unsure;
   Lanes lit;
   sort(points, asked, lit, unsure, shares.data(), turnedAway.data());
+  if (of.from.smooth) leaveSmooth(of, places, points, asked, lit, unsure);
   if (lit.any()) {
     DrawnQuery query{{}, &of.casters, &of.from.light, &of.input, &places, &points};
     const std::array<float, kLanes> found =

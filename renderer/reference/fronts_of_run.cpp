@@ -8,6 +8,7 @@
 #include "renderer/reference/lit_fronts.h"
 #include "renderer/reference/shadow_rays.h"
 #include "renderer/reference/shaft.h"
+#include "renderer/reference/smooth_surface.h"
 #include "renderer/reference/tree.h"
 
 namespace gnomon {
@@ -102,7 +103,9 @@ RunFronts frontsOf(const TracedScene::Tree& tree, const LightAndCasters& of, con
     const glm::dvec3 normal = frontNormal(triangle, tree.mirrored[run.first.instance] != 0);
     const FlatBlock front{{triangle.a, triangle.b, triangle.c, triangle.c}, normal};
     const Turn turn = turnOf(of.light, front);
-    found.set(i, turn == Turn::away ? Front::dark : Front::mixed);
+    const PlacedTriangle placed{run.first.instance, run.first.triangle + i};
+    const bool dark = turn == Turn::away && !(of.smooth && mayFace(tree, of.light, placed, normal));
+    found.set(i, dark ? Front::dark : Front::mixed);
     if (turn == Turn::towards && isOver(of.light, front)) turned.add(i, front, leastRise(normal, triangle));
   }
   if (turned.count == 0) return found;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "renderer/reference/crossings.h"
+#include "renderer/reference/smooth_surface.h"
 #include "renderer/reference/traced_light.h"
 
 namespace gnomon {
@@ -62,7 +63,11 @@ LightAcross TracedLight::across(const DrawnBlock& block) const {
   const auto flat = blockOn(own, of.sight, block);
   if (!flat) return LightAcross::unsure;
   const Turn turn = turnOf(of.from.light, *flat);
-  if (turn != Turn::towards) return turn == Turn::away ? LightAcross::turnedAway : LightAcross::unsure;
+  if (turn == Turn::unsure) return LightAcross::unsure;
+  if (turn == Turn::away) {
+    const bool lit = of.from.smooth && mayFace(tree, of.from.light, shown, flat->normal);
+    return lit ? LightAcross::unsure : LightAcross::turnedAway;
+  }
   const auto shaft = shaftTo(of.from.light, *flat, tree.scale);
   if (!shaft) return LightAcross::unsure;
   const double rise = leastRise(flat->normal, own);

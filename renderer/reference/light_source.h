@@ -81,11 +81,13 @@ inline bool reaches(const LightSource& light, const WayToLight& way) {
   return light.type == LightType::point || glm::dot(light.axis, -way.direction) > light.cosOuter;
 }
 
+/// A surface faces a light from this cosine on. As in renderer/shaders/common_shadow.glsl.
+inline constexpr double kFacingCosine = 1e-4;
+
 /// Whether a surface of this normal (unit length, on the eye's side) takes light from there. A face along the light to
 /// within the renderer's stored normals is turned away, as it is when frames are shaded.
 inline bool faces(const glm::vec3& normal, const WayToLight& way) {
-  constexpr double kLeastCosine = 1e-4; // as in renderer/shaders/common_shadow.glsl
-  return glm::dot(glm::dvec3(normal), way.direction) > kLeastCosine;
+  return glm::dot(glm::dvec3(normal), way.direction) > kFacingCosine;
 }
 
 /// Number `index` of `count` places in the unit disc, spread evenly over its area for any count. `seed` shifts them.

@@ -16,11 +16,12 @@ namespace gnomon {
 struct LightAndCasters {
   LightSource light;
   std::vector<std::uint8_t> casts; ///< one an instance
+  bool smooth = false;             ///< Terminator::smooth
   bool operator==(const LightAndCasters&) const = default;
 };
 
 /// What the front of a triangle sees of a light. lit: all of it, from everywhere; dark: nothing, since it is turned
-/// away from everywhere; mixed: neither, or it takes long to find out.
+/// away from everywhere, and so is the surface that shading shows there; mixed: neither, or it takes long to find out.
 enum class Front : std::uint8_t { unknown, lit, dark, mixed };
 
 /// What the fronts of a run of triangles see, two bits each.

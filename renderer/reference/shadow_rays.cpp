@@ -25,7 +25,7 @@ struct LightQuery {
 };
 
 bool meetsCaster(const Casters& casters, const RayToLight& ray, const Triangle& caster) {
-  if (surelyMeets(ray, caster, casters.rounding)) return true;
+  if (!ray.from->smooth && surelyMeets(ray, caster, casters.rounding)) return true;
   const Receiver receiver = receiverAt(casters.tree, casters.eye, *ray.from);
   return meets({receiver, ray.way.direction, ray.way.length}, caster).has_value();
 }
@@ -101,11 +101,11 @@ double opacityAt(const Casters& casters, const PlacedTriangle& caster, const Bar
 
 Receiver receiverAt(const TracedScene::Tree& tree, const glm::dvec3& eye, const SurfacePoint& point) {
   const Triangle triangle = tree.triangle(point.instance, point.triangle);
-  const glm::dvec3 normal = unitAlong(triangle.area());
-  const double side = glm::dot(normal, glm::dvec3(point.normal)) < 0 ? -1.0 : 1.0;
+  const glm::dvec3 own = point.smooth ? glm::dvec3(point.normal) : unitAlong(triangle.area());
+  const double side = glm::dot(own, glm::dvec3(point.normal)) < 0 ? -1.0 : 1.0;
   // The ray began at the eye, or where it came near the scene.
   const double sight = std::min(glm::length(point.position - eye), glm::length(2.0 * tree.bounds.halfExtent()));
-  return {point.position, side * normal, triangle, 4 * kHalfUnit * sight, point.instance, point.triangle};
+  return {point.position, side * own, triangle, 4 * kHalfUnit * sight, point.instance, point.triangle};
 }
 
 std::optional<double> meets(const ShadowRay& ray, const Triangle& caster) {

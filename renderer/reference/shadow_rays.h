@@ -17,7 +17,7 @@ inline constexpr double kHalfUnit = 0x1p-24; ///< what rounding to a float chang
 /// A point of a triangle as the start of rays.
 struct Receiver {
   glm::dvec3 position{0};
-  glm::dvec3 normal{0}; ///< unit length, on the eye's side; zero where the triangle has no area
+  glm::dvec3 normal{0}; ///< of the triangle, or of shading; unit length, on the eye's side; zero = it has no area
   Triangle corners;     ///< of the triangle
   double unsure = 0;    ///< metres: of two surfaces as close as this, the ray that found it may have met either
   std::uint32_t instance = kNoSurface;
@@ -122,7 +122,8 @@ std::optional<double> meets(const ShadowRay& ray, const Triangle& caster);
 double roundingIn(const TracedScene::Tree& tree);
 
 /// True only where `meets` finds a distance: the caster's plane and the receiver's lie farther off each other than
-/// rounding (roundingIn) moves either. Needs neither the receiver's triangle nor a unit normal.
+/// rounding (roundingIn) moves either. Needs neither the receiver's triangle nor a unit normal. REQUIRES: the ray
+/// starts on that triangle.
 bool surelyMeets(const RayToLight& ray, const Triangle& caster, double rounding);
 
 } // namespace gnomon

@@ -32,6 +32,7 @@ struct SurfacePoint {
   glm::vec3 normal{0};                 ///< of the triangle itself, on the eye's side; unit length
   std::uint32_t instance = kNoSurface; ///< index into SceneView::instances; kNoSurface = the ray meets nothing
   std::uint32_t triangle = 0;          ///< of its primitive
+  bool smooth = false; ///< it stands off the triangle, on the surface that shading shows; so does the normal
 };
 
 /// Sixteen places of a picture and the triangle that was drawn at each. Fastest where they lie close together.
@@ -88,6 +89,11 @@ std::vector<SurfacePoint> pointsOn(const TraceInput& input, std::span<const glm:
 /// The same, on the calling thread. REQUIRES: as many of each as places.
 void pointsOn(const TraceInput& input, std::span<const glm::vec2> places, std::span<const PlacedTriangle> triangles,
               std::span<SurfacePoint> points);
+
+/// The point where rays from `point` to light `light` start: on the surface that shading shows, where
+/// Shadow::terminator asks for that and the point's own triangle is turned away from it, or from part of it; else the
+/// point.
+SurfacePoint shadedPoint(const TraceInput& input, int light, const SurfacePoint& point);
 
 /// Whether light `light` is able to reach each point: the surface shares a layer with it, faces it, also by the normal
 /// that it is shaded by, and lies in its range and its cone.
@@ -160,8 +166,9 @@ class TracedLight {
 
   bool hasSize() const; ///< several rays go to it from a point
 
+  struct State; ///< for the files of this folder
+
  private:
-  struct State;
   void visibility(std::span<const SurfacePoint> points, const LightSamples& samples, std::span<float> shares,
                   std::span<std::uint8_t> turnedAway) const;
   /// Of the places of some lanes, by their exact points.

@@ -8,6 +8,7 @@
 #include "renderer/reference/light_source.h"
 #include "renderer/reference/lit_fronts.h"
 #include "renderer/reference/shadow_rays.h"
+#include "renderer/reference/smooth_surface.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {
@@ -27,6 +28,12 @@ struct TracedLight::State {
   /// What whole triangles of a run see of the light; nothing where that is not known yet, and the frame has spent on
   /// finding out as much as it may: at most half of what it takes otherwise.
   std::optional<RunFronts> frontsOf(std::size_t run) const;
+
+  /// Where the rays of a point start that does not start them itself.
+  std::optional<SurfacePoint> smoothStart(const SurfacePoint& point, const WayToLight& way) const {
+    if (!from.smooth || point.instance == kNoSurface || shadowed[point.instance] == 0) return std::nullopt;
+    return smoothPoint(casters.tree, from.light, point, way);
+  }
 
   /// What a point sees of the light where that takes no rays.
   std::optional<float> withoutRays(const SurfacePoint& point, const WayToLight& way) const {

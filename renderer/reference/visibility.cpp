@@ -84,7 +84,45 @@ void addSamples(const LightSource& source, const Casters& casters, const Surface
   }
 }
 
+/// Points, moved to where their rays start. They stay where they are in memory.
+class Starts {
+ public:
+  Starts(const TracedLight::State& of, std::span<const SurfacePoint> points) : of_(of), points_(points) {}
+
+  struct Start {
+    const SurfacePoint* point;
+    WayToLight way;
+  };
+
+  /// REQUIRES: asked of each point once.
+  Start of(std::size_t i) {
+    const WayToLight way = wayTo(of_.from.light, points_[i].position);
+    const auto smooth = of_.smoothStart(points_[i], way);
+    if (!smooth) return {&points_[i], way};
+    if (moved_.empty()) moved_.reserve(points_.size());
+    moved_.push_back(*smooth);
+    return {&moved_.back(), wayTo(of_.from.light, smooth->position)};
+  }
+
+ private:
+  const TracedLight::State& of_;
+  std::span<const SurfacePoint> points_;
+  std::vector<SurfacePoint> moved_;
+};
+
+bool isSmooth(const Light& light) {
+  return light.shadow.value_or(Shadow{}).terminator == Terminator::smooth;
+}
+
 } // namespace
+
+SurfacePoint shadedPoint(const TraceInput& input, int light, const SurfacePoint& point) {
+  const Light& of = input.lights[static_cast<std::size_t>(light)];
+  if (!isSmooth(of) || point.instance == kNoSurface) return point;
+  const TracedScene::Tree& tree = input.traced.tree();
+  const LightSource source = lightSource(of, tree.anchor);
+  return smoothPoint(tree, source, point, wayTo(source, point.position)).value_or(point);
+}
 
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
   const Light& of = input.lights[static_cast<std::size_t>(light)];
@@ -95,8 +133,8 @@ std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::sp
   std::transform(points.begin(), points.end(), reached.begin(), [&](const SurfacePoint& point) -> std::uint8_t {
     if (point.instance == kNoSurface || lit[point.instance] == 0) return 0;
     const WayToLight way = wayTo(source, point.position);
-    if (!reaches(source, way) || !faces(point.normal, way)) return 0;
-    return faces(glm::vec3(shadingNormal(input.traced.tree(), point)), way) ? 1 : 0;
+    if (!reaches(source, way) || !faces(glm::vec3(shadingNormal(input.traced.tree(), point)), way)) return 0;
+    return faces(point.normal, way) || shadedPoint(input, light, point).smooth ? 1 : 0;
   });
   return reached;
 }
@@ -110,7 +148,7 @@ TracedLight::TracedLight(const TraceInput& input, int index, int rays) {
     shadowed[i] = shadow.enabled && receivesFrom(input, light, i) ? 1 : 0;
   }
   std::vector<Opacity> opacity = opacities(input, light);
-  LightAndCasters key{lightSource(light, tree.anchor), std::vector<std::uint8_t>(opacity.size())};
+  LightAndCasters key{lightSource(light, tree.anchor), std::vector<std::uint8_t>(opacity.size()), isSmooth(light)};
   std::transform(opacity.begin(), opacity.end(), key.casts.begin(),
                  [](Opacity of) -> std::uint8_t { return of == Opacity::none ? 0 : 1; });
   const bool through = letThrough(tree, opacity, shadow.blendedCasters);
@@ -140,10 +178,11 @@ void TracedLight::visibility(std::span<const SurfacePoint> points, const LightSa
                              std::span<std::uint8_t> turnedAway) const {
   const std::uint32_t rays = hasSize() ? samples.last - samples.first : 1u;
   std::fill(turnedAway.begin(), turnedAway.end(), std::uint8_t{0});
+  Starts starts(*state_, points);
   RayQueue queue(state_->casters, shares);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SurfacePoint& point = points[i];
-    const WayToLight way = wayTo(state_->from.light, point.position);
+    const auto [from, way] = starts.of(i);
+    const SurfacePoint& point = *from;
     if (const auto plain = state_->withoutRays(point, way)) {
       shares[i] = *plain * static_cast<float>(rays);
       if (*plain == 0 && !turnedAway.empty()) turnedAway[i] = 1;
@@ -183,6 +222,7 @@ void TracedLight::airVisibility(std::span<const glm::dvec3> places, std::span<fl
 
 void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::span<float> distances) const {
   const TracedScene::Tree& tree = state_->casters.tree;
+  Starts starts(*state_, points);
   RaysToLight rays;
   std::array<std::size_t, kLanes> of{};
   const auto trace = [&] {
@@ -191,13 +231,13 @@ void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::sp
     for (std::size_t k = 0; k < count; ++k) distances[of[k]] = found[k];
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const WayToLight way = wayTo(state_->from.light, points[i].position);
-    if (const auto plain = state_->withoutRays(points[i], way)) {
+    const auto [from, way] = starts.of(i);
+    if (const auto plain = state_->withoutRays(*from, way)) {
       distances[i] = *plain == 0 ? 0 : std::numeric_limits<float>::infinity();
       continue;
     }
     of[rays.count] = i;
-    rays.add(tree, points[i], startOf(tree, points[i]), way);
+    rays.add(tree, *from, startOf(tree, *from), way);
     if (rays.count == kLanes) trace();
   }
   trace();
@@ -205,6 +245,7 @@ void TracedLight::blockerDistances(std::span<const SurfacePoint> points, std::sp
 
 void TracedLight::casters(std::span<const SurfacePoint> points, std::span<std::uint32_t> instances) const {
   const TracedScene::Tree& tree = state_->casters.tree;
+  Starts starts(*state_, points);
   RaysToLight rays;
   std::array<SurfacePoint, kLanes> from;
   std::array<std::size_t, kLanes> of{};
@@ -216,10 +257,10 @@ void TracedLight::casters(std::span<const SurfacePoint> points, std::span<std::u
     }
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    SurfacePoint point = points[i];
     instances[i] = kNoSurface;
-    if (point.instance == kNoSurface || state_->shadowed[point.instance] == 0) continue;
-    const WayToLight way = wayTo(state_->from.light, point.position);
+    if (points[i].instance == kNoSurface || state_->shadowed[points[i].instance] == 0) continue;
+    const auto [start, way] = starts.of(i);
+    SurfacePoint point = *start;
     if (!reaches(state_->from.light, way)) continue;
     if (!faces(point.normal, way)) {
       if (state_->casters.opacity[point.instance] != Opacity::none) instances[i] = point.instance;

@@ -39,9 +39,16 @@ float verdictOf(Sample seen) {
   receiver.relative = seen.relative;
   receiver.normal = unpackedSurface(seen.bits).face;
   receiver.viewDepth = seen.viewDepth;
+#ifdef SMOOTH_PLACES
+  receiver.sampleIndex = seen.index;
+  receiver.lifted = false;
+#endif
   vec3 toLight;
   if (irradiance(lights[light], receiver.relative, toLight) == vec3(0.0)) return kLit;
   float cosine = dot(receiver.normal, toLight);
+#ifdef SMOOTH_PLACES
+  if (shadedReceiver(lights[light], receiver, toLight) != receiver) return kUnsure;
+#endif
   if (cosine < -1e-3) return kTurnedAway;
   if (cosine <= 1e-3) return kUnsure;
 

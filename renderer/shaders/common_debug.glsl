@@ -162,6 +162,8 @@ layout(binding = GNOMON_CASTER_DEPTH_UNIT) uniform sampler2D casterDepths;
 
 // The node in the texel that the receiver is looked up in; -1 where none stands before it.
 int casterNode(Receiver receiver) {
+  if (!hasTiles()) return -1;
+  receiver = shadedReceiver(lights[debugLight], receiver, towardsDebugLight(receiver));
   DebugTexel texel = debugTexel(receiver);
   if (!texel.found) return -1;
   Lookup at = lookupIn(lights[debugLight], texel.data, receiver, towardsDebugLight(receiver));

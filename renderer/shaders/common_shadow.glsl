@@ -113,6 +113,10 @@ float surfaceVisibility(int light, Receiver receiver, vec3 toLight, bool needed)
 #ifdef RECEIVER_GROUPS
   if ((lights[light].shadowedGroups & receiver.groupBit) == 0u) return 1.0;
 #endif
+#ifdef SMOOTH_PLACES
+  receiver = shadedReceiver(lights[light], receiver, toLight);
+  toLight = towards(lights[light], receiver);
+#endif
   TileChoice choice = chooseTile(light, receiver, toLight);
   if (!choice.covered) return 1.0;
   float strength = lights[light].strength;

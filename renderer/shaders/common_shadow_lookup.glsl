@@ -12,6 +12,10 @@ struct Receiver {
   vec3 relative;
   vec3 normal;     // of the surface itself, not of its shading; unit length
   float viewDepth; // metres
+#ifdef SMOOTH_PLACES
+  int sampleIndex; // of the pixel
+  bool lifted;     // to the surface that shading shows: as shadedReceiver gives it
+#endif
 #ifdef RECEIVER_GROUPS
   uint groupBit;
 #endif
@@ -19,6 +23,42 @@ struct Receiver {
   uint samples; // of the pixel that show it, a bit each
 #endif
 };
+
+#ifdef SMOOTH_PLACES
+#include "shared/smooth_surface.h"
+
+// A receiver as its shadow is looked up: where its triangle leaves some of the light behind its plane, the curved surface
+// that shading shows takes its place, if that faces more of the light.
+Receiver shadedReceiver(LightData light, Receiver receiver, vec3 toLight) {
+  if (light.smoothTerminator == 0u) return receiver;
+  float whole = 1e-4; // as isTurnedAway
+#ifdef FILTER_PCSS
+  if (light.filterKind == GNOMON_FILTER_PCSS) {
+    float distance = light.type == GNOMON_DIRECTIONAL ? 1.0 : length(light.position - receiver.relative);
+    whole = max(whole, light.filterRadius / distance);
+  }
+#endif
+  float cosine = dot(receiver.normal, toLight);
+  if (cosine > whole) return receiver;
+  uvec2 place = texelFetch(surfaceSmooth, ivec2(gl_FragCoord.xy), receiver.sampleIndex).xy;
+  float height = uintBitsToFloat(place.y);
+  vec3 normal = fromOctahedral(unpackSnorm2x16(place.x));
+  if (height < 0.0 || smoothGain(cosine, dot(normal, toLight)) <= 0.0) return receiver;
+  receiver.relative += normal * height;
+  receiver.normal = normal;
+  receiver.lifted = true;
+  return receiver;
+}
+
+vec3 towards(LightData light, Receiver receiver) {
+#ifdef PUNCTUAL
+  if (light.type != GNOMON_DIRECTIONAL) return normalize(light.position - receiver.relative);
+#endif
+  return light.direction;
+}
+#else
+#define shadedReceiver(light, receiver, toLight) (receiver)
+#endif
 
 // Where in the atlas a receiver is looked up in one tile.
 struct Lookup {
@@ -60,6 +100,13 @@ Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight)
   at.coordinate.z -= tile.depthBias + tile.depthBiasNear / (at.divisor * at.divisor);
 #else
   at.coordinate.z -= tile.depthBias;
+#endif
+#ifdef SMOOTH_PLACES
+  // Tiles have room for what is in view, not for how far it is lifted: what leaves one so is looked up at its rim, and
+  // just behind the casters that are drawn with their depth clamped.
+  if (receiver.lifted) {
+    at.coordinate = vec3(clamp(at.coordinate.xy, tile.lowest, tile.highest), max(at.coordinate.z, 1e-6));
+  }
 #endif
   if (any(lessThan(at.coordinate.xy, tile.lowest)) || any(greaterThan(at.coordinate.xy, tile.highest))) {
     at.inside = false;

@@ -11,6 +11,13 @@ struct Surface {
   float occlusion; // of the surroundings, 1 = open
 };
 
+// The place of the curved surface that shading shows, where the triangle bends outwards: its normal, of unit length and on
+// the eye's side, and its height over the triangle along that, metres.
+const uvec2 kNoSmoothPlace = uvec2(0u, 0xbf800000u); // a height of -1
+uvec2 packedSmoothPlace(vec3 normal, float height) {
+  return uvec2(packSnorm2x16(octahedral(normal)), floatBitsToUint(height));
+}
+
 // Base colors are kept as square roots, 11, 11 and 10 bits: finer than a quarter of an sRGB byte's step.
 const vec3 kColorSteps = vec3(2047.0, 2047.0, 1023.0);
 

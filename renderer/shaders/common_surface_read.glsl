@@ -10,6 +10,9 @@ layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData fr
 #endif
 layout(binding = GNOMON_DEPTH_UNIT) uniform SURFACE_FLOATS surfaceDepths;
 layout(binding = GNOMON_SURFACE_UNIT) uniform SURFACE_WORDS surfaceBits;
+#ifdef SMOOTH_PLACES
+layout(binding = GNOMON_SMOOTH_UNIT) uniform SURFACE_WORDS surfaceSmooth;
+#endif
 #ifdef EMISSION
 layout(binding = GNOMON_EMISSION_UNIT) uniform SURFACE_FLOATS surfaceEmission;
 #endif

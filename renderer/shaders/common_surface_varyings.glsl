@@ -7,6 +7,9 @@
 STAGE_IO SurfaceVaryings {
   vec3 relative;
   vec3 normal;
+#ifdef SMOOTH_PLACES
+  vec4 vertex; // xyz: the vertex's normal, unit length; w: its place along that
+#endif
 #ifdef TANGENTS
   vec4 tangent;
 #endif

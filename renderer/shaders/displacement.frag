@@ -39,12 +39,17 @@ void main() {
   receiver.relative = seen.relative;
   receiver.normal = unpackedSurface(seen.bits).face;
   receiver.viewDepth = seen.viewDepth;
+#ifdef SMOOTH_PLACES
+  receiver.sampleIndex = seen.index;
+  receiver.lifted = false;
+#endif
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
   if ((lights[debugLight].litGroups & lights[debugLight].shadowedGroups & receiver.groupBit) == 0u) return;
 #endif
   vec3 toLight;
   vec3 arriving = irradiance(lights[debugLight], receiver.relative, toLight);
+  receiver = shadedReceiver(lights[debugLight], receiver, toLight);
   if (arriving == vec3(0.0) || isTurnedAway(receiver, toLight)) return;
   place = uvec4(floatBitsToUint(seen.viewDepth), seen.bits.x, 0u, 0u);
   DebugTexel texel = debugTexel(receiver);

@@ -12,6 +12,7 @@ layout(post_depth_coverage) in;
 #include "shared/surroundings.h"
 #include "shared/normal_map.h"
 #include "shared/specular_glossiness.h"
+#include "shared/smooth_surface.h"
 #include "common_material.glsl"
 #if defined(ALPHA_MASK) && defined(BASE_COLOR_TEXTURE)
 #include "common_mask_coverage.glsl"
@@ -24,6 +25,9 @@ layout(location = 1) out vec4 emitted;
 #endif
 #ifdef TRIANGLE_NUMBERS
 layout(location = TRIANGLE_NUMBERS) out uint triangleNumber;
+#endif
+#ifdef SMOOTH_PLACES
+layout(location = SMOOTH_PLACES) out uvec2 smoothPlace;
 #endif
 #ifdef BAKED_LIGHTS
 layout(location = BAKED_SHARES) out vec4 bakedShares; // a channel a light
@@ -49,6 +53,23 @@ vec2 placeInMaps() {
 }
 #elif defined(BAKED_LIGHTS)
 vec2 placeInMaps() { return surface.mapPlace; }
+#endif
+
+#ifdef SMOOTH_PLACES
+// As packedSmoothPlace has it. The mean of places along normals less the place of the mean is what a sum over the sides
+// is: twice the height (heightOverTriangle of smooth_surface.h).
+uvec2 smoothPlaceHere(vec3 face) {
+  vec3 nx = dFdx(surface.vertex.xyz);
+  vec3 ny = dFdy(surface.vertex.xyz);
+  float side = dot(surface.vertex.xyz, face) < 0.0 ? -1.0 : 1.0;
+  vec3 between = side * normalize(surface.vertex.xyz);
+  // Less than what interpolation leaves of equal normals' difference is none.
+  bool differ = dot(nx, nx) + dot(ny, ny) > 1e-11;
+  bool bends = side * outwardBend(dFdx(surface.relative), dFdy(surface.relative), nx, ny) > 0.0;
+  if (!differ || !bends || dot(between, normalize(face)) <= kLeastLikeness) return kNoSmoothPlace;
+  float height = 0.5 * side * (surface.vertex.w - dot(surface.vertex.xyz, surface.relative));
+  return packedSmoothPlace(between, max(height, 0.0));
+}
 #endif
 
 void main() {
@@ -94,6 +115,9 @@ void main() {
 #endif
 #ifdef EMISSION
   emitted = glow;
+#endif
+#ifdef SMOOTH_PLACES
+  smoothPlace = smoothPlaceHere(face);
 #endif
 #ifdef BAKED_LIGHTS
   bakedShares = vec4(0.0);

@@ -23,6 +23,10 @@ void main() {
   gl_Position = frame.clipFromRelative * vec4(relative, 1.0);
   surface.relative = relative;
   surface.normal = turned(normal);
+#ifdef SMOOTH_PLACES
+  vec3 own = normalize(surface.normal);
+  surface.vertex = vec4(own, dot(own, relative));
+#endif
 #ifdef TANGENTS
   surface.tangent = vec4(relativeFromLocal(position + tangent.xyz) - relative, tangent.w);
 #endif

@@ -55,6 +55,10 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
   receiver.relative = seen.relative;
   receiver.normal = face;
   receiver.viewDepth = seen.viewDepth;
+#ifdef SMOOTH_PLACES
+  receiver.sampleIndex = seen.index;
+  receiver.lifted = false;
+#endif
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif

@@ -134,6 +134,20 @@ class KnownShadows(unittest.TestCase):
         ground = max(numpy.unique(ids), key=lambda node: (ids == node).sum())
         self.assertLessEqual(int(((ids == ground) & (pictures["shadow"] >= 0.5)).sum()), 1)
 
+    def test_a_ball_of_few_triangles_has_no_black_facets(self):
+        azimuth, elevation = numpy.radians((80, 15))
+        across = numpy.cos(elevation)
+        to_sun = (across * numpy.sin(azimuth), numpy.sin(elevation), -across * numpy.cos(azimuth))
+        for device in DEVICES:
+            for technique in ("shadowMap", "rayTraced"):
+                pictures = self.drawn("terminator", device, technique, ["shadow", "normal", "ids"])
+                ids, normals = pictures["ids"], pictures["normal"]
+                nodes = [node for node in numpy.unique(ids) if node >= 0]
+                ball = max(nodes, key=lambda node: normals[ids == node].std())
+                faces = (ids == ball) & (normals @ numpy.array(to_sun) > 0.1)
+                self.assertGreater(int(faces.sum()), 5000)
+                self.assertEqual(int((faces & (pictures["shadow"] < 0.5)).sum()), 0, (device, technique))
+
     def test_rays_name_the_caster(self):
         for device in DEVICES:
             for technique in ("rayTraced", "lightMap"):

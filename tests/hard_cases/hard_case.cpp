@@ -39,7 +39,10 @@ std::vector<Way> everyWay() {
   std::vector<Way> ways;
   for (const Spelling& technique : kSpellings<ShadowTechnique>) {
     if (technique.value != static_cast<int>(ShadowTechnique::shadowMap)) {
-      ways.push_back({std::string(technique.name), {{"technique", technique.name}}});
+      Json shadow{{"technique", technique.name}};
+      if (technique.value == static_cast<int>(ShadowTechnique::shadowVolume))
+        shadow["terminator"] = "flat"; // as it does
+      ways.push_back({std::string(technique.name), shadow});
       continue;
     }
     for (const char* filter : {"hard", "pcf"}) {

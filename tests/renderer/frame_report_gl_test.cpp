@@ -136,8 +136,8 @@ TEST(FrameReports, MemoryIsCountedInBytes) {
     EXPECT_EQ(memory.scene, 0u) << "without textures";
     return;
   }
-  // 4 samples of depth (4 bytes) and surface (16 bytes), and one picture of 4 bytes.
-  EXPECT_EQ(memory.targets, 96u * 64u * (4 * (4 + 16) + 4));
+  // 4 samples of depth (4 bytes), surface (16 bytes) and place on what shading shows (8), and one picture of 4 bytes.
+  EXPECT_EQ(memory.targets, 96u * 64u * (4 * (4 + 16 + 8) + 4));
   EXPECT_GT(memory.scene, 24u * 12u) << "the box's vertices alone";
 }
 

@@ -115,6 +115,7 @@ json chosenShadow(Choices& choices, double metres) {
                       {"normalOffsetScale", choices.within(1, 0)}};
   }
   if (choices.oneIn(3)) shadow["blendedCasters"] = "threshold";
+  if (choices.oneIn(3)) shadow["terminator"] = "flat";
   return shadow;
 }
 

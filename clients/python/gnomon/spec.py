@@ -355,6 +355,10 @@ class Shadow:
         How materials of alphaMode BLEND, and transmissive ones, cast shadows. dither = by a 4 x 4 pattern that
         blocks as much light as their alpha says; threshold = where their alpha is at least a half. Default:
         "dither".
+    terminator:
+        Where the triangles of a curved surface turn away from the light: what a shadow is found for there.
+        Techniques shadowVolume and lightMap always take the triangles. smooth = the curved surface that the normals
+        of vertices show; flat = the triangles, which end the light along their edges. Default: "smooth".
     lightMap:
         Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces.
     raySamples:
@@ -377,6 +381,7 @@ class Shadow:
     filter: Optional[Union["Filter", Json]] = None
     bias: Optional[Union["Bias", Json]] = None
     blendedCasters: Optional[Literal["dither", "threshold"]] = None
+    terminator: Optional[Literal["smooth", "flat"]] = None
     lightMap: Optional[Union["LightMapOptions", Json]] = None
     raySamples: Optional[int] = None
 

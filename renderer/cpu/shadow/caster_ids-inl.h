@@ -27,9 +27,11 @@ HWY_INLINE Int nodeAt(const DebugLight& debug, const TileMap& casters, const Int
 }
 
 /// In the texels that the receivers are looked up in; -1 where none stands before them.
-inline Int casterNodes(const DebugLight& debug, const Receiver& receiver) {
+inline Int casterNodes(const DebugLight& debug, const Receiver& shown) {
   Int nodes = -1;
   if (!hasTiles(debug)) return nodes;
+  const LightData& light = debug.maps.lights[debug.light];
+  const Receiver receiver = shadedReceiver(light, shown, towardsLight(light, shown.relative)).receiver;
   const ServedReceiver served = servedReceiver(debug, receiver);
   for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
     const DebugTexel texel = debugTexel(served, i);

@@ -115,13 +115,18 @@ HWY_INLINE ToldParts markCorners(const ShadowMaps& maps, const LightData& light,
   constexpr float kTurnedAway = 5e-5f; // where a corner is, isTurnedAway says so of all
   constexpr std::int32_t kWidest = 48; // a box around more than that holds much that no pixel reads
   const Float3 toLight(glm::vec3(light.direction));
-  const unsigned lit = bitsOf(receivesShadow(light, corners) & (dot(corners.normal, toLight) > kTurnedAway));
+  const Float cosine = dot(corners.normal, toLight);
+  const unsigned lit = bitsOf(receivesShadow(light, corners) & (cosine > kTurnedAway));
+  // Of what may stand on the surface that shading shows, each pixel has a place of its own.
+  const Mask faces = corners.smooth.bends & (cosine < 2e-4f) & (dot(corners.smooth.normal, toLight) > 0.0f);
+  const unsigned standsOff = light.smoothTerminator != 0u ? bitsOf(faces) : 0u;
   const TileSpans spans = tileSpans(maps, light, corners.viewDepth);
   alignas(64) std::int32_t triangles[kLanes];
   store(shown.triangle, triangles);
   ToldParts parts;
   for (unsigned left = covered; left != 0; left &= left - 1) {
     const auto part = static_cast<unsigned>(std::countr_zero(left));
+    if ((standsOff & lanesOf(part)) != 0) continue;
     if ((lit & lanesOf(part)) == 0) {
       parts.told |= 1u << part;
       continue;

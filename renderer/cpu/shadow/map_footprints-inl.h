@@ -44,7 +44,9 @@ inline Float penumbraTexels(const ServedReceiver& served, const DebugTexel& texe
 }
 
 /// Of the light of `debug`, which has tiles.
-inline Footprints footprintsOf(const DebugLight& debug, const Receiver& receiver) {
+inline Footprints footprintsOf(const DebugLight& debug, const Receiver& shown) {
+  const LightData& light = debug.maps.lights[debug.light];
+  const Receiver receiver = shadedReceiver(light, shown, towardsLight(light, shown.relative)).receiver;
   const ServedReceiver served = servedReceiver(debug, receiver);
   const std::uint32_t groups = served.light.litGroups & served.light.shadowedGroups;
   Float3 toLight;

@@ -45,6 +45,7 @@ inline Receiver receiverOf(const shared::FrameData& frame, std::span<const Probe
   receiver.samples = 1;
   receiver.triangle = -1;
   receiver.weights = Float2(Float(0.0f));
+  receiver.smooth = noSmoothPlace();
   return receiver;
 }
 

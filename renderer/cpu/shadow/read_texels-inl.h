@@ -65,9 +65,10 @@ inline void markAround(const Float2& place, const Float2& reach, const Mask& whe
 }
 
 /// Marks what mapVisibility reads for the receivers. `marks`: one a tile of the maps.
-inline void markMapReads(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
-                         const Float3& toLight, std::span<TexelMarks> marks) {
+inline void markMapReads(const ShadowMaps& maps, const LightData& light, const Receiver& shown,
+                         const Float3& shownToLight, std::span<TexelMarks> marks) {
   if (light.tileCount == 0u) return;
+  const auto [receiver, toLight] = shadedReceiver(light, shown, shownToLight);
   const MapReads reads = mapReads(maps, light, receiver, toLight, receiver.shown);
   for (int i = 0; i < static_cast<int>(light.tileCount) && any(reads.asked); ++i) {
     const int tileIndex = static_cast<int>(light.firstTile) + i;

@@ -63,6 +63,15 @@ HWY_INLINE Mask isWithin(const Float3& coordinate, const TileData& tile) {
          (coordinate.y <= tile.highest.y);
 }
 
+/// Tiles have room for what is in view, not for how far it is lifted: what leaves one so is looked up at its rim, and
+/// just behind the casters that are drawn with their depth clamped.
+HWY_INLINE void keepLifted(const Mask& lifted, const TileData& tile, Float3& coordinate) {
+  if (none(lifted)) return;
+  coordinate.x = select(lifted, clamp(coordinate.x, tile.lowest.x, tile.highest.x), coordinate.x);
+  coordinate.y = select(lifted, clamp(coordinate.y, tile.lowest.y, tile.highest.y), coordinate.y);
+  coordinate.z = select(lifted, max(coordinate.z, 1e-6f), coordinate.z);
+}
+
 HWY_INLINE Lookup lookupIn(const LightData& light, const TileData& tile, const Receiver& receiver,
                            const Float3& toLight) {
   const Float3 p = movedReceiver(light, tile, receiver, toLight);
@@ -71,6 +80,7 @@ HWY_INLINE Lookup lookupIn(const LightData& light, const TileData& tile, const R
   if (isParallel(tile)) {
     at.divisor = 1.0f;
     at.coordinate.z -= tile.depthBias + tile.depthBiasNear;
+    keepLifted(receiver.smooth.lifted, tile, at.coordinate);
     at.inside = isWithin(at.coordinate, tile);
     return at;
   }
@@ -79,6 +89,7 @@ HWY_INLINE Lookup lookupIn(const LightData& light, const TileData& tile, const R
   at.divisor = select(before, divisor, 1.0f);
   at.coordinate = at.coordinate / at.divisor;
   at.coordinate.z -= tile.depthBias + tile.depthBiasNear / (at.divisor * at.divisor);
+  keepLifted(receiver.smooth.lifted, tile, at.coordinate);
   at.inside = before & isWithin(at.coordinate, tile);
   return at;
 }

@@ -7,6 +7,7 @@
 #endif
 
 #include "renderer/cpu/lanes/gather-inl.h"
+#include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/shadow/baked_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_disc-inl.h"
 #include "renderer/cpu/shadow/shadow_filter-inl.h"
@@ -52,6 +53,36 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
 /// A face turned away from the light, or along it to within rounding, shadows itself.
 HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
   return dot(receiver.normal, toLight) <= 1e-4f;
+}
+
+/// Receivers as their shadows are looked up in a light's map, and where it is from there.
+struct ShadedReceiver {
+  Receiver receiver;
+  Float3 toLight; ///< unit length
+};
+
+/// Where a triangle leaves some of the light behind its plane, the curved surface that shading shows takes its place,
+/// if that faces more of it.
+HWY_INLINE ShadedReceiver shadedReceiver(const LightData& light, const Receiver& receiver, const Float3& toLight) {
+  ShadedReceiver shaded{receiver, toLight};
+  if (light.smoothTerminator == 0u || none(receiver.smooth.bends)) return shaded;
+  Float whole = 1e-4f; // as isTurnedAway
+  if (light.filterKind == GNOMON_FILTER_PCSS) {
+    Float radius = light.filterRadius;
+    if (light.type != GNOMON_DIRECTIONAL) radius = radius / length(Float3(light.position) - receiver.relative);
+    whole = max(whole, radius);
+  }
+  const Float cosine = dot(receiver.normal, toLight);
+  const SmoothPlace& smooth = receiver.smooth;
+  const Mask stands = smooth.bends & (cosine <= whole) & (smoothGain(cosine, dot(smooth.normal, toLight)) > 0.0f);
+  if (none(stands)) return shaded;
+  shaded.receiver.smooth.lifted = stands;
+  shaded.receiver.normal = select(stands, smooth.normal, receiver.normal);
+  shaded.receiver.relative = select(stands, receiver.relative + smooth.normal * smooth.height, receiver.relative);
+  if (light.type != GNOMON_DIRECTIONAL) {
+    shaded.toLight = select(stands, normalize(Float3(light.position) - shaded.receiver.relative), toLight);
+  }
+  return shaded;
 }
 
 /// The mean over the samples of each pixel that show the receiver. Lanes outside of `asked` hold anything.
@@ -115,9 +146,10 @@ HWY_INLINE MapReads mapReads(const ShadowMaps& maps, const LightData& light, con
 }
 
 /// By the light's tiles; 1 where it has none. Otherwise as shadowVisibility.
-inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& receiver,
-                           const Float3& toLight, const Mask& needed) {
-  if (light.tileCount == 0u || none(needed & receiver.shown)) return 1.0f;
+inline Float mapVisibility(const ShadowMaps& maps, const LightData& light, const Receiver& shown,
+                           const Float3& shownToLight, const Mask& needed) {
+  if (light.tileCount == 0u || none(needed & shown.shown)) return 1.0f;
+  const auto [receiver, toLight] = shadedReceiver(light, shown, shownToLight);
   const MapReads reads = mapReads(maps, light, receiver, toLight, needed);
   Float visibility = 0.0f;
   for (int i = 0; i < static_cast<int>(light.tileCount) && any(reads.asked); ++i) {

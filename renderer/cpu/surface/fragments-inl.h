@@ -43,6 +43,18 @@ HWY_INLINE OfInstance instanceShown(const FrameScene& scene, const Fragments& fr
   return of;
 }
 
+/// The place of the curved surface that shading shows where a triangle bends outwards.
+struct SmoothPlace {
+  Mask bends;    ///< lanes that have one; the others hold anything
+  Float3 normal; ///< unit length, on the eye's side
+  Float height;  ///< over the triangle, along that, metres
+  Mask lifted;   ///< lanes whose receivers stand there: as shadedReceiver gives them
+};
+
+HWY_INLINE SmoothPlace noSmoothPlace() {
+  return {maskOf(0), Float3(Float(0.0f)), 0.0f, maskOf(0)};
+}
+
 /// A point that light is asked for.
 struct Receiver {
   Mask shown;
@@ -54,6 +66,7 @@ struct Receiver {
   Int samples;     ///< of the pixel that show it, a bit each; 1 where a pixel has one
   Int triangle;    ///< that it lies in, FrameScene's number; -1 = it is not known
   Float2 weights;  ///< of that triangle's second and third corner
+  SmoothPlace smooth;
 };
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #endif
 
 #include "renderer/cpu/surface/fragments-inl.h"
+#include "renderer/cpu/surface/smooth_place-inl.h"
 #include "renderer/cpu/surface/vertices-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,6 +32,9 @@ inline HWY_NOINLINE Receiver instanceReceivers(const FrameScene& scene, const Of
   receiver.weights = {meeting.u, meeting.v};
   // As surfaces have it, to the bit: what is marked for these receivers is read for those.
   receiver.normal = corners.face(seen, towardsEye(sight, scene.frame));
+  receiver.smooth = mayStandOff(scene, receiver, own.lanes)
+                        ? smoothPlace(corners, placed.normalFromLocal, seen.triangle, meeting, receiver.normal)
+                        : noSmoothPlace();
   return receiver;
 }
 
@@ -40,6 +44,7 @@ HWY_INLINE void put(const Mask& where, const Receiver& from, Receiver& to) {
   to.viewDepth = select(where, from.viewDepth, to.viewDepth);
   to.groupBit = select(where, from.groupBit, to.groupBit);
   to.weights = select(where, from.weights, to.weights);
+  put(where, from.smooth, to.smooth);
 }
 
 /// Lanes that show one instance are worked on together; a packet mostly shows one. REQUIRES: some lane shows one.

@@ -8,6 +8,7 @@
 
 #include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/surface/fragments-inl.h"
+#include "renderer/cpu/surface/smooth_place-inl.h"
 #include "renderer/cpu/surface/texture_spots-inl.h"
 #include "renderer/cpu/surface/textures.h"
 
@@ -37,6 +38,8 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   s.receiver.place = no.receiver.place;
   s.receiver.triangle = no.receiver.triangle;
   s.receiver.weights = select(where, yes.receiver.weights, no.receiver.weights);
+  s.receiver.smooth = no.receiver.smooth;
+  put(where, yes.receiver.smooth, s.receiver.smooth);
   s.toEye = select(where, yes.toEye, no.toEye);
   s.normal = select(where, yes.normal, no.normal);
   s.baseColor = select(where, yes.baseColor, no.baseColor);
@@ -54,7 +57,8 @@ class InstanceSurface {
  public:
   HWY_INLINE InstanceSurface(const FrameScene& scene, const Textures& textures, const OfInstance& own,
                              const Fragments& fragments)
-      : frame_(scene.frame),
+      : scene_(scene),
+        frame_(scene.frame),
         textures_(textures),
         own_(own.lanes),
         slot_(scene.slots[scene.geometry.firstSlot[own.instance]]),
@@ -96,6 +100,9 @@ class InstanceSurface {
     s.receiver.triangle = fragments.triangle;
     s.toEye = towardsEye(sight, frame_);
     s.receiver.normal = corners_.face(seen_, s.toEye);
+    s.receiver.smooth = mayStandOff(scene_, s.receiver, own_)
+                            ? smoothPlace(corners_, placed_.normalFromLocal, seen_.triangle, meeting, s.receiver.normal)
+                            : noSmoothPlace();
     s.normal = shadingNormal(s.receiver.normal);
     addMaterial(s);
     return s;
@@ -211,6 +218,7 @@ class InstanceSurface {
     }
   }
 
+  const FrameScene& scene_;
   const shared::FrameData& frame_;
   const Textures& textures_;
   const Mask own_;

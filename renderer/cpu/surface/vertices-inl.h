@@ -101,6 +101,24 @@ class Corners {
     return directionOf(turned(rows, fields(offset).triple(m)), otherwise);
   }
 
+  /// Normals of the vertices, by the rows of a matrix, unit length. False where they are one in each lane's triangle.
+  HWY_INLINE bool normals(const glm::vec4 (&rows)[3], Float3 (&found)[3]) const {
+    constexpr std::size_t offset = offsetof(VertexAttributes, normal);
+    const Float3 nowhere(Float(0.0f));
+    if (same_) {
+      const glm::vec3 first = oneTriple(offset, 0);
+      if (first == oneTriple(offset, 1) && first == oneTriple(offset, 2)) return false;
+      for (int c = 0; c < 3; ++c) found[c] = Float3(directionOf(turned(rows, oneTriple(offset, c)), nowhere));
+      return true;
+    }
+    for (int c = 0; c < 3; ++c) {
+      Float own[4];
+      readFours(offset, c, own);
+      found[c] = directionOf(turned(rows, Float3(own[0], own[1], own[2])), nowhere);
+    }
+    return true;
+  }
+
   /// The normal of their planes, unit length, on the eye's side.
   HWY_INLINE Float3 face(const SeenTriangle& seen, const Float3& toEye) const {
     const Float3& n = seen.normal;

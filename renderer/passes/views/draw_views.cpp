@@ -85,7 +85,10 @@ class ViewDrawing {
 
   Status needSurfaces(int samples) {
     if (drawn_.surfaces.contains(samples)) return Done{};
-    const SurfaceAsks asks{needsTriangles(filled(), *shading_.spec.lights), shading_.baked.maps};
+    const bool smooth = std::any_of(shading_.lights.begin(), shading_.lights.end(), [](const LitLight& light) {
+      return light.tileCount > 0 && light.smoothTerminator;
+    });
+    const SurfaceAsks asks{needsTriangles(filled(), *shading_.spec.lights), smooth, shading_.baked.maps};
     auto surfaces = drawSurfaces(inputs_, shading_.survey, samples, asks);
     if (!surfaces) return surfaces.problems();
     drawn_.surfaces.emplace(samples, std::move(*surfaces));

@@ -19,6 +19,7 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const Shading
   std::vector<std::string> defines{"SAMPLES " + std::to_string(surfaces.samplePositions.size())};
   if (lit.type != LightType::directional) defines.emplace_back("PUNCTUAL");
   if (inputs.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
+  if (surfaces.smoothPlaces.id() != 0) defines.emplace_back("SMOOTH_PLACES");
   const auto program = inputs.programs.get({"fullscreen.vert", "certainty.frag", std::move(defines)});
   if (!program) return program.problems();
 
@@ -36,6 +37,7 @@ Result<std::vector<Verdict>> mapVerdicts(const PassInputs& inputs, const Shading
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
   bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  bindTexture(surfaces.smoothPlaces, texels, GNOMON_SMOOTH_UNIT);
   bindTexture(shading.atlas.textures->depth, texels, GNOMON_ATLAS_UNIT);
   bindTexture(shading.atlas.textures->outlines, texels, GNOMON_OUTLINES_UNIT);
   (*program)->set(GNOMON_DEBUG_LIGHT, light);
@@ -72,7 +74,9 @@ MapFootprint footprintOf(const glm::uvec4& lengths, const glm::uvec4& place) {
 
 Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const Shading& shading,
                                                 const Surfaces& surfaces) {
-  const auto program = inputs.programs.get(displacementProgram(lightVariant(inputs, shading, false)));
+  ViewVariant variant = lightVariant(inputs, shading, false);
+  variant.smoothPlaces = surfaces.smoothPlaces.id() != 0;
+  const auto program = inputs.programs.get(displacementProgram(variant));
   if (!program) return program.problems();
   const gl::Texture lengths({GL_RGBA32UI, inputs.width, inputs.height}, "footprint lengths");
   const gl::Texture places({GL_RGBA32UI, inputs.width, inputs.height}, "footprint places");
@@ -88,6 +92,7 @@ Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const 
   const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
   bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
+  bindTexture(surfaces.smoothPlaces, texels, GNOMON_SMOOTH_UNIT);
   const gl::Texture& atlas = shading.atlas.textures->depth;
   (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
   (*program)->set(GNOMON_ATLAS_SIZE, glm::vec2(atlas.width(), atlas.height()));

@@ -38,7 +38,8 @@ class LightMapBindings {
 } // namespace
 
 std::size_t Surfaces::bytes() const {
-  return bits.bytes() + emission.bytes() + ownDepth.bytes() + bakedShares.bytes() + triangleNumbers.bytes();
+  return bits.bytes() + emission.bytes() + smoothPlaces.bytes() + ownDepth.bytes() + bakedShares.bytes() +
+         triangleNumbers.bytes();
 }
 
 Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, const SurfaceAsks& asks) {
@@ -68,12 +69,14 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   };
   surfaces.bits = texture(GL_RGBA32UI, "surfaces");
   if (emission) surfaces.emission = texture(GL_RGBA16F, "surface emission");
+  if (asks.smoothPlaces) surfaces.smoothPlaces = texture(GL_RG32UI, "smooth places");
   if (mapped != nullptr) surfaces.bakedShares = texture(sharesFormat(asks.maps.size()), "baked shares");
   if (numbered) surfaces.triangleNumbers = texture(GL_R32UI, "triangle numbers");
   if (!reuse) surfaces.ownDepth = texture(GL_DEPTH_COMPONENT32F, "surface depth");
 
   gl::Attachments attachments{{{&surfaces.bits}}, {reuse ? &survey.depth : &surfaces.ownDepth}};
   if (emission) attachments.color.push_back({&surfaces.emission});
+  if (asks.smoothPlaces) attachments.color.push_back({&surfaces.smoothPlaces});
   if (mapped != nullptr) attachments.color.push_back({&surfaces.bakedShares});
   if (numbered) attachments.color.push_back({&surfaces.triangleNumbers});
   auto target = gl::Framebuffer::create(attachments, "surfaces");
@@ -93,6 +96,7 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   bindInputs(inputs);
   const LightMapBindings bound(asks.maps);
   SurfaceVariant variant{.emission = emission, .receiverGroups = inputs.receiverGroups, .numbered = numbered};
+  variant.smoothPlaces = asks.smoothPlaces;
   variant.bakedLights = static_cast<int>(asks.maps.size());
   if (mapped != nullptr && reuse && samples > 1) variant.shownSamples = samples;
   const auto programOf = [&](const DrawGroup& group, const Material* material) {

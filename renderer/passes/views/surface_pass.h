@@ -16,6 +16,7 @@ namespace gnomon {
 struct Surfaces {
   gl::Texture bits;                       ///< RGBA32UI: a packed Surface (shaders/common_surface.glsl)
   gl::Texture emission;                   ///< RGBA16F; empty where nothing in the scene glows
+  gl::Texture smoothPlaces;               ///< RG32UI: packedSmoothPlace; empty where no light asks for them
   gl::Texture ownDepth;                   ///< only where the survey has other samples
   gl::Texture bakedShares;                ///< R16, RG16 or RGBA16: a channel a light of SurfaceAsks; empty = none
   gl::Texture triangleNumbers;            ///< R32UI; empty where nothing asks which triangle shows
@@ -31,6 +32,7 @@ struct Surfaces {
 /// What is asked of surfaces, besides what they are made of.
 struct SurfaceAsks {
   bool numbered = false;                      ///< the triangle that each sample shows
+  bool smoothPlaces = false;                  ///< where the surface lies that shading shows
   std::span<const GpuLightMap* const> maps{}; ///< their shares there; GNOMON_LIGHT_MAPS at most, of one layout
 };
 

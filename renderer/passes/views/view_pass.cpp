@@ -29,6 +29,7 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.encoded = encoded;
   variant.toneMapping = shading.spec.toneMapping;
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
+  variant.smoothPlaces = surfaces.smoothPlaces.id() != 0 && (traits.shadowed || traits.oneLight);
   variant.emission = surfaces.emission.id() != 0;
   variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
                               [](const Material& material) { return material.unlit; });
@@ -99,6 +100,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
   bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
   bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
+  bindTexture(surfaces.smoothPlaces, texels, GNOMON_SMOOTH_UNIT);
   bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
   bindTexture(surfaces.bakedShares, texels, GNOMON_BAKED_UNIT);
   if (variant.volumes) bindTexture(sources.volumes->picture, texels, GNOMON_VOLUMES_UNIT);

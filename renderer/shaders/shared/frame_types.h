@@ -74,6 +74,7 @@ using glm::vec4;
 #define GNOMON_CASTER_DEPTH_UNIT 13
 #define GNOMON_VOLUMES_UNIT 14
 #define GNOMON_BAKED_UNIT 15
+#define GNOMON_SMOOTH_UNIT 0 // of views, which read no material
 
 // Light maps that surfaces are looked up in as they are drawn: as many units, of that pass alone.
 #define GNOMON_LIGHT_MAPS 4
@@ -167,6 +168,8 @@ struct LightData {
   uint hasManualBias;         // 1 = the manual bias counts, not the tile's
   vec3 shadowColor;           // the share of the light that a full shadow of strength 1 leaves
   uint hasShadowColor;        // 1 = that is not black
+  uint smoothTerminator;      // 1 = receivers may stand on the surface that shading shows (smooth_surface.h)
+  uint padding1, padding2, padding3;
 };
 
 struct TileData {

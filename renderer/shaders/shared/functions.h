@@ -42,6 +42,7 @@ T select(bool condition, const T& yes, const T& no) {
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
+#include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
 #include "renderer/shaders/shared/tone.h"
 #undef PUNCTUAL

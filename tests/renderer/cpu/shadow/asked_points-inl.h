@@ -68,7 +68,8 @@ inline PointPacket pointPacket(std::span<const AskedPoint> points, std::size_t f
                      {load(x), load(y)},
                      load(samples),
                      load(triangle),
-                     {load(weights[0]), load(weights[1])}};
+                     {load(weights[0]), load(weights[1])},
+                     noSmoothPlace()};
   packet.toLight = loadPoints(toLight);
   return packet;
 }
