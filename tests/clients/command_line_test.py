@@ -182,6 +182,8 @@ class Render(CommandLine):
         said = self.render("--sun", "135,40", scene=str(longer)).stderr.decode()
         self.assertRegex(said, "^gnomon: warning: The GLB has bytes after its end; [^\n]*\n$")
         self.assertEqual(self.output.read_bytes(), expected)
+        both = gnomon("render", str(longer), BOX, "-o", str(self.folder / "{scene}.png"), *SMALL)
+        self.assert_ends(both, OK, f"gnomon: warning: {longer}: The GLB has bytes after its end; ")
         for command in (["render", str(longer), "-o", str(self.output)], ["inspect", str(longer)], ["plan", str(longer)]):
             self.assert_ends(gnomon(*command, "--strict"), PROBLEM, "after its end")
         self.assert_ends(gnomon("inspect", BOX, "--strict"), OK)

@@ -71,11 +71,16 @@ Status writeWithReference(const BatchItem& item, const Rendered& rendered, Frame
   return Done{};
 }
 
-/// The pictures of one scene.
+/// What is told before the problems and warnings of one of several pictures.
+std::string nameOf(const BatchItem& item) {
+  return item.scene + (item.camera ? ", camera " + *item.camera : "");
+}
+
+/// The pictures of one scene. `several`: there are others, so that what is said of one names it.
 class SceneRun {
  public:
-  SceneRun(FrameMaker& maker, const RenderOptions& options, ProgressLine& progress)
-      : maker_(maker), options_(options), progress_(progress) {}
+  SceneRun(FrameMaker& maker, const RenderOptions& options, ProgressLine& progress, bool several)
+      : maker_(maker), options_(options), progress_(progress), several_(several) {}
 
   /// Opens the scene of the item unless it is open already, and makes its pictures.
   Status make(const BatchItem& item, const FrameSpec& spec) {
@@ -87,7 +92,9 @@ class SceneRun {
     const auto rendered = maker_.draw(spec, progress_);
     if (!rendered) return rendered.problems();
     progress_.finish();
-    printWarnings(warningsOf(rendered->reportJson));
+    std::vector<std::string> warnings = warningsOf(rendered->reportJson);
+    for (std::string& warning : warnings) warning.insert(0, several_ ? nameOf(item) + ": " : "");
+    printWarnings(warnings);
     if (options_.reference) return writeWithReference(item, *rendered, maker_, progress_);
     return writeAll(item, *rendered, progress_);
   }
@@ -107,20 +114,16 @@ class SceneRun {
   FrameMaker& maker_;
   const RenderOptions& options_;
   ProgressLine& progress_;
+  bool several_;
   std::string scene_;
   Status opened_ = Done{};
 };
-
-/// What is told before the problems of one of several pictures.
-std::string nameOf(const BatchItem& item) {
-  return item.scene + (item.camera ? ", camera " + *item.camera : "");
-}
 
 /// Every picture that can be made; those that can't be tell their problems.
 int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs,
                 const RenderOptions& options, FrameMaker& maker) {
   auto progress = ProgressLine::onTerminal();
-  SceneRun run(maker, options, progress);
+  SceneRun run(maker, options, progress, items.size() > 1);
   int exit = kExitOk;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items.size() > 1) {
