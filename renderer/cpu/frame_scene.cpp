@@ -40,8 +40,8 @@ SmoothAsked smoothAsked(const ResolvedFrame& frame) {
   constexpr std::size_t kMostSuns = 4; // more take longer to ask about than to be ready for
   SmoothAsked smooth;
   bool anywhere = false;
-  for (const Light& light : *frame.spec.lights) {
-    const Shadow& shadow = *light.shadow;
+  for (const Light& light : frame.spec.lights.value_or(std::vector<Light>{})) {
+    const Shadow shadow = light.shadow.value_or(Shadow{});
     const bool asks = shadow.enabled && shadow.terminator == Terminator::smooth && traitsOf(shadow.technique).mapped;
     if (!asks) continue;
     smooth.asked = true;

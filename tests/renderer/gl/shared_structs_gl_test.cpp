@@ -49,6 +49,8 @@ const std::vector<Member> kLight{
     MEMBER(LightData, manualDepthBias),    MEMBER(LightData, manualSlopeBias),
     MEMBER(LightData, manualNormalOffset), MEMBER(LightData, hasManualBias),
     MEMBER(LightData, shadowColor),        MEMBER(LightData, hasShadowColor),
+    MEMBER(LightData, smoothTerminator),   MEMBER(LightData, padding1),
+    MEMBER(LightData, padding2),           MEMBER(LightData, padding3),
 };
 const std::vector<Member> kTile{
     ARRAY(TileData, atlasFromRelative),
