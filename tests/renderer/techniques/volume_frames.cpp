@@ -39,7 +39,7 @@ Json volumeSpec(const Json& light, const Json& camera) {
           {"height", 160},
           {"camera", camera},
           {"lights", {light}},
-          {"shadow", {{"technique", "shadowVolume"}}},
+          {"shadow", {{"technique", "shadowVolume"}, {"terminator", "flat"}}}, // as volumes are
           {"antialiasing", "none"},
           {"views", {"shadow"}},
           {"output", {{"format", "exr"}}}};
