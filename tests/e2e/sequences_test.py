@@ -329,7 +329,7 @@ class LittleTime(SequenceTest):
     flags = ("--sequence-timeout", "1")
 
     def test_a_sequence_has_its_time(self):
-        with self.begin({"spec": SPEC | {"width": 480, "height": 270}, "frames": [{}] * 300}) as connection:
+        with self.begin({"spec": SPEC | {"width": 480, "height": 270}, "frames": [{}] * 1000}) as connection:
             received = receive_all(connection)
         self.assertIn(b"problem.json", received)
         self.assertIn(b"deadlineExceeded", received)

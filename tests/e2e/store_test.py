@@ -142,7 +142,7 @@ class Age(StoreCase):
         with Server(*self.flags) as server:
             scene = upload(server, padded(100, "worked on")).json()["id"]
         with Server(*self.flags, "--store-age", "1s") as server:
-            body = json.dumps({"spec": {"width": 960, "height": 540}, "sweep": "sizes", "repeats": 20})
+            body = json.dumps({"spec": {"width": 960, "height": 540}, "sweep": "sizes", "repeats": 40})
             replies = []
             thread = threading.Thread(
                 target=lambda: replies.append(

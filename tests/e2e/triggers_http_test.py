@@ -183,7 +183,7 @@ class LeavingClients(ServerTest):
             self.assertTrue(reply.startswith(b"HTTP/1.1 200 OK\r\n"), reply[:200])
 
     def test_the_log_says_that_a_client_left(self):
-        scene = self.server.upload("box_on_plane")
+        scene = self.server.upload("leaves")
         sizes = {"angularDiameterDegrees": 60}
         suns = [{"sun": {"azimuthDegrees": at, "elevationDegrees": 45}} | sizes for at in range(4)]
         shadow = {"technique": "rayTraced", "raySamples": 256}
