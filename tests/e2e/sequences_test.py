@@ -329,7 +329,10 @@ class LittleTime(SequenceTest):
     flags = ("--sequence-timeout", "1")
 
     def test_a_sequence_has_its_time(self):
-        with self.begin({"spec": SPEC | {"width": 480, "height": 270}, "frames": [{}] * 1000}) as connection:
+        # About 2.4 s by the estimate, which is doubted up to four times the time that there is.
+        slow = {"width": 480, "height": 270, "output": {"format": "png", "pngCompression": 9}}
+        with self.begin({"spec": SPEC | slow, "frames": [{}] * 120}) as connection:
+            connection.settimeout(20)
             received = receive_all(connection)
         self.assertIn(b"problem.json", received)
         self.assertIn(b"deadlineExceeded", received)
