@@ -1,7 +1,6 @@
 #include "renderer/cpu/frame_scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
@@ -47,8 +46,8 @@ SmoothAsked smoothAsked(const ResolvedFrame& frame) {
     smooth.asked = true;
     anywhere = anywhere || light.type != LightType::directional || smooth.suns.size() == kMostSuns;
     if (anywhere) continue;
-    const double radius = std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
-    smooth.suns.emplace_back(glm::vec3(-directionOf(light)), static_cast<float>(std::max(radius, 1e-4) + 1e-5));
+    smooth.suns.emplace_back(glm::vec3(-directionOf(light)),
+                             static_cast<float>(std::max(radiusOf(light), 1e-4) + 1e-5));
   }
   if (anywhere) smooth.suns.clear();
   return smooth;

@@ -18,7 +18,7 @@ struct Holed {
   const VertexAttributes &a, &b, &c;
 
   Holed(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle)
-      : Holed(tree, tree.primitive(instance), tree.material(instance), triangle) {}
+      : Holed(tree.material(instance), tree.vertices(instance, triangle)) {}
 
   /// What the texture's alpha is multiplied by, anywhere in the triangle's plane.
   double factor(const Barycentric& at) const {
@@ -37,11 +37,8 @@ struct Holed {
   }
 
  private:
-  Holed(const TracedScene::Tree& tree, const Primitive& primitive, const Material& of, std::uint32_t triangle)
-      : Holed(of, &tree.scene->attributes[primitive.baseVertex],
-              &tree.scene->indices[primitive.firstIndex + 3 * std::size_t{triangle}]) {}
-  Holed(const Material& of, const VertexAttributes* vertices, const std::uint32_t* corner)
-      : material(of), a(vertices[corner[0]]), b(vertices[corner[1]]), c(vertices[corner[2]]) {}
+  Holed(const Material& of, const std::array<const VertexAttributes*, 3>& corners)
+      : material(of), a(*corners[0]), b(*corners[1]), c(*corners[2]) {}
 };
 
 } // namespace

@@ -29,28 +29,16 @@ using Normals = std::array<glm::dvec3, 3>;
 
 /// In the world, unit length; nothing where they are all the same, or one has no direction.
 std::optional<Normals> normalsOf(const TracedScene::Tree& tree, const PlacedTriangle& triangle) {
-  const Primitive& primitive = tree.primitive(triangle.instance);
-  const std::uint32_t* corner = &tree.scene->indices[primitive.firstIndex + 3 * std::size_t{triangle.triangle}];
-  const VertexAttributes* vertices = &tree.scene->attributes[primitive.baseVertex];
-  const glm::vec3 own[] = {vertices[corner[0]].normal, vertices[corner[1]].normal, vertices[corner[2]].normal};
-  if (own[0] == own[1] && own[0] == own[2]) return std::nullopt;
+  const auto corners = tree.vertices(triangle.instance, triangle.triangle);
+  const glm::vec3& first = corners[0]->normal;
+  if (first == corners[1]->normal && first == corners[2]->normal) return std::nullopt;
   const glm::dmat3 turn = normalMatrix(glm::dmat3(tree.instance(triangle.instance).worldFromLocal));
   Normals normals;
   for (std::size_t i = 0; i < 3; ++i) {
-    normals[i] = unitOr(turn * glm::dvec3(own[i]), glm::dvec3(0));
+    normals[i] = unitOr(turn * glm::dvec3(corners[i]->normal), glm::dvec3(0));
     if (normals[i] == glm::dvec3(0)) return std::nullopt;
   }
   return normals;
-}
-
-/// The weights of the second and third corner of what lies in the triangle's plane, moved into the triangle.
-Barycentric weightsAt(const Triangle& triangle, const glm::dvec3& place) {
-  const glm::dvec3 area = triangle.area();
-  const glm::dvec3 from = place - triangle.a;
-  const double over = 1 / glm::dot(area, area);
-  const double u = std::clamp(glm::dot(glm::cross(from, triangle.c - triangle.a), area) * over, 0.0, 1.0);
-  const double v = std::clamp(glm::dot(glm::cross(triangle.b - triangle.a, from), area) * over, 0.0, 1.0 - u);
-  return {u, v};
 }
 
 /// As seen from a point: the cosine of a plane up to which it leaves some of the light behind it.
@@ -71,7 +59,7 @@ std::optional<SurfacePoint> smoothPoint(const TracedScene::Tree& tree, const Lig
   if (!normals || triangle.isSliver()) return std::nullopt;
   const auto& [a, b, c] = *normals;
   const glm::dvec3 p1 = triangle.b - triangle.a, p2 = triangle.c - triangle.a;
-  const Barycentric at = weightsAt(triangle, point.position);
+  const Barycentric at = crossing(triangle, point.position, triangle.area(), {});
   const glm::dvec3 between = unitAlong(at.mix(a, b, c));
   const double side = glm::dot(between, own) < 0 ? -1.0 : 1.0;
   const glm::dvec3 normal = side * between;

@@ -67,6 +67,13 @@ struct TracedScene::Tree {
   const Material& material(std::uint32_t instanceIndex) const {
     return scene->materials[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))];
   }
+  /// Of a triangle's corners.
+  std::array<const VertexAttributes*, 3> vertices(std::uint32_t instanceIndex, std::uint32_t triangleIndex) const {
+    const Primitive& of = primitive(instanceIndex);
+    const std::uint32_t* corner = &scene->indices[of.firstIndex + 3 * std::size_t{triangleIndex}];
+    const VertexAttributes* first = &scene->attributes[of.baseVertex];
+    return {first + corner[0], first + corner[1], first + corner[2]};
+  }
   /// Null where no coverage is lost.
   const MaskCoverage* coverage(std::uint32_t instanceIndex) const {
     return coverages[static_cast<std::size_t>(materialOf(*scene, instance(instanceIndex)))].get();

@@ -126,15 +126,17 @@ SurfacePoint shadedPoint(const TraceInput& input, int light, const SurfacePoint&
 
 std::vector<std::uint8_t> facesLight(const TraceInput& input, int light, std::span<const SurfacePoint> points) {
   const Light& of = input.lights[static_cast<std::size_t>(light)];
-  const LightSource source = lightSource(of, input.traced.tree().anchor);
+  const TracedScene::Tree& tree = input.traced.tree();
+  const LightSource source = lightSource(of, tree.anchor);
+  const bool smooth = isSmooth(of);
   const std::vector<std::uint8_t> lit =
       instancesWhere(input, [&](const NodeSwitches& node) { return isLitBy(of, node); });
   std::vector<std::uint8_t> reached(points.size());
   std::transform(points.begin(), points.end(), reached.begin(), [&](const SurfacePoint& point) -> std::uint8_t {
     if (point.instance == kNoSurface || lit[point.instance] == 0) return 0;
     const WayToLight way = wayTo(source, point.position);
-    if (!reaches(source, way) || !faces(glm::vec3(shadingNormal(input.traced.tree(), point)), way)) return 0;
-    return faces(point.normal, way) || shadedPoint(input, light, point).smooth ? 1 : 0;
+    if (!reaches(source, way) || !faces(glm::vec3(shadingNormal(tree, point)), way)) return 0;
+    return faces(point.normal, way) || (smooth && smoothPoint(tree, source, point, way)) ? 1 : 0;
   });
   return reached;
 }

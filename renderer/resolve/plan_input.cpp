@@ -74,8 +74,7 @@ class TakingPart {
     if (!isNew) return found->second;
     for (std::size_t i = 0; i < view_.instances.size(); ++i) {
       const Instance& instance = view_.instances[i];
-      const NodeSwitches node =
-          frame_.nodes.empty() ? NodeSwitches{} : frame_.nodes[static_cast<std::size_t>(instance.node)];
+      const NodeSwitches node = switchesOf(frame_.nodes, instance.node);
       const std::uint32_t group = frame_.groups.ofInstance.empty() ? 0u : frame_.groups.ofInstance[i];
       const bool receives = node.visible && (receiving >> group & 1u) != 0;
       if (receives || castsFrom(of, node)) found->second.add(instance.bounds);

@@ -81,10 +81,6 @@ Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entr
 
 namespace {
 
-NodeSwitches switchesOf(const Instance& instance, std::span<const NodeSwitches> nodes) {
-  return nodes.empty() ? NodeSwitches{} : nodes[static_cast<std::size_t>(instance.node)];
-}
-
 bool receivesShadows(const Scene& scene, const Instance& instance, const NodeSwitches& node) {
   return receivesShadows(node, scene.materials[static_cast<std::size_t>(materialOf(scene, instance))]);
 }
@@ -102,7 +98,7 @@ LayersInUse layersInUse(const Scene& scene, const SceneView& view, std::span<con
   if (view.instances.empty()) return {};
   LayersInUse used{0, 0};
   for (const Instance& instance : view.instances) {
-    const NodeSwitches node = switchesOf(instance, nodes);
+    const NodeSwitches node = switchesOf(nodes, instance.node);
     if (node.castShadow) used.casting |= node.layers;
     if (node.visible && receivesShadows(scene, instance, node)) used.receiving |= node.layers;
   }
@@ -114,7 +110,7 @@ std::vector<std::uint8_t> receivingInstances(const Scene& scene, const SceneView
   std::vector<std::uint8_t> receiving;
   receiving.reserve(view.instances.size());
   for (const Instance& instance : view.instances) {
-    const NodeSwitches node = switchesOf(instance, nodes);
+    const NodeSwitches node = switchesOf(nodes, instance.node);
     receiving.push_back(node.visible && receivesShadows(scene, instance, node) ? 1 : 0);
   }
   return receiving;
@@ -130,7 +126,7 @@ Result<ReceiverGroups> resolveReceiverGroups(const Scene& scene, const SceneView
     groups.ofInstance.resize(view.instances.size());
   }
   for (std::size_t i = 0; i < groups.ofInstance.size(); ++i) {
-    const NodeSwitches node = switchesOf(view.instances[i], nodes);
+    const NodeSwitches node = switchesOf(nodes, view.instances[i].node);
     if (!node.visible) continue;
     const bool receives = receivesShadows(scene, view.instances[i], node);
     const auto group = members.try_emplace({node.layers, receives}, members.size()).first->second;
