@@ -27,7 +27,7 @@ class SceneCache {
     std::weak_ptr<const Scene> scene;
     CachedScene cached;
   };
-  /// What it shares with others that are alike, under a number of its own.
+  /// With the textures and coverages of a scene that has the same images, and a new id.
   CachedScene made(const Scene& scene);
 
   std::list<Entry> entries_; ///< most recently used first

@@ -84,7 +84,7 @@ MaskCoverage::MaskCoverage(const AlphaLevels& levels, const TextureUse& use)
 bool MaskCoverage::keeps(const MaskPlace& place, double factor, double cutoff) const {
   const double halvings = mixesLevels_ ? place.halvings : std::ceil(place.halvings - 0.5);
   const std::size_t alpha = roundedAlpha(place.alpha);
-  // What has no hole near and what has nothing else are as they are.
+  // Where all texels read are empty, or all are filled, ranks say nothing new.
   if (!(halvings > 0) || alpha == 0 || alpha == 255) return place.alpha * factor >= cutoff;
   const double least = std::ceil(255 * cutoff / factor - kSlack);
   if (!(least <= 255)) return false; // nor where the factor is 0

@@ -58,8 +58,8 @@ class MaskCoverage {
 /// its levels are not read.
 using MaskCoverages = std::vector<std::shared_ptr<const MaskCoverage>>;
 
-/// Those of scenes that share their images, each made when it is first needed; any thread. Materials that read one
-/// image alike share one.
+/// Those of scenes that share their images, each made when it is first needed; any thread. Materials that filter one
+/// image in the same way share one.
 class KeptCoverages {
  public:
   /// For the materials of all that a view places. REQUIRES: the images that they read alpha of are decoded.

@@ -130,8 +130,7 @@ TEST(MaskedCasters, G2_WhatIsSeenOfASheetFromAfarIsNotShadedByIt) {
           int shaded = 0;
           for (std::size_t i = 0; i < lit.size(); ++i) shaded += ids[i] == 1 && lit[i] < 0.999f ? 1 : 0;
           EXPECT_LE(shaded, 0.003 * sheet)
-              << technique << camera << moved << view
-              << ": but where alpha is as good as the cutoff, rounding decides what is seen";
+              << technique << camera << moved << view << ": but near the cutoff rounding decides what is seen";
         }
         ASSERT_TRUE(frame.report.error);
         EXPECT_EQ(frame.report.error->misclassified, 0) << technique << camera;
