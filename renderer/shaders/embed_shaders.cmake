@@ -66,14 +66,17 @@ function(expand file result)
   set(shader_files "${shader_files}" PARENT_SCOPE)
 endfunction()
 
-set(code "// Made by embed_shaders.cmake.\n#include <array>\n\n#include \"renderer/shaders/shader_sources.h\"\n\n")
+# Clang counts a literal's length, and warns of more than 65,536 characters.
+set(code "// Made by embed_shaders.cmake.\n#include <array>\n\n#include \"renderer/shaders/shader_sources.h\"\n\n"
+         "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\n")
+list(JOIN code "" code)
 list(LENGTH shaders shader_count)
-string(APPEND code "namespace gnomon {\nnamespace {\n\nconstexpr std::array<ShaderSource, ${shader_count}> kSources{{\n")
+string(APPEND code "namespace gnomon {\nnamespace {\n\nusing namespace std::string_view_literals;\n\nconstexpr std::array<ShaderSource, ${shader_count}> kSources{{\n")
 foreach(shader IN LISTS shaders)
   set(shader_files "${shader}")
   expand("${shader}" text)
   set(text "// source 0: ${shader}\n#line 1 0\n${text}")
-  string(APPEND code "{\"${shader}\", R\"gnomon(${text})gnomon\"},\n")
+  string(APPEND code "{\"${shader}\", R\"gnomon(${text})gnomon\"sv},\n")
   file(WRITE "${EXPANDED}/${shader}" "#version 450 core\n${text}")
 endforeach()
 string(APPEND code "}};\n\n} // namespace\n\n"

@@ -9,8 +9,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kRow = ShareSquare::kSide; ///< pixels
-constexpr std::size_t kUp = ShareSquare::kWidth; ///< from a pixel to the one above
+constexpr std::size_t kRowLength = ShareSquare::kSide; ///< pixels
+constexpr std::size_t kUp = ShareSquare::kWidth;       ///< from a pixel to the one above
 
 constexpr float kFlat = 0.01f;       ///< squared sine of the steepest way from a pixel to one of the same surface
 constexpr float kLeastCosine = 0.9f; ///< of their normals
@@ -61,14 +61,14 @@ constexpr Reach kReaches[] = {{1, 3.0f}, {ShareSquare::kReach, 2.0f}};
 /// Sums over the pixels of one surface around each pixel of a row: of their weights, and of those times where they lie
 /// from the pixel and what share they have.
 struct RowSums {
-  alignas(64) float one[kRow], x[kRow], y[kRow], xx[kRow], xy[kRow], yy[kRow];
-  float share[kRow], shareX[kRow], shareY[kRow], squares[kRow];
+  alignas(64) float one[kRowLength], x[kRowLength], y[kRowLength], xx[kRowLength], xy[kRowLength], yy[kRowLength];
+  float share[kRowLength], shareX[kRowLength], shareY[kRowLength], squares[kRowLength];
 };
 
 /// The pixels of the row themselves, which have no slope.
 [[gnu::always_inline]] inline RowSums ownSums(const ShareSquare& square, std::size_t first) {
   RowSums sums{};
-  for (std::size_t i = 0; i < kRow; ++i) {
+  for (std::size_t i = 0; i < kRowLength; ++i) {
     const float own = square.share[first + i];
     sums.one[i] = 1;
     sums.xx[i] = kFewest;
@@ -85,7 +85,7 @@ struct RowSums {
   const auto to = static_cast<std::size_t>(up * ShareSquare::kWidth + right);
   const auto x = static_cast<float>(right);
   const auto y = static_cast<float>(up);
-  for (std::size_t i = 0; i < kRow; ++i) {
+  for (std::size_t i = 0; i < kRowLength; ++i) {
     const std::size_t pixel = first + i;
     const float share = square.share[pixel + to];
     const float one = isBeside(square, pixel + to, pixel) != 0 ? part : 0.0f;
@@ -119,7 +119,7 @@ struct RowSums {
 /// of a half, as rays explain it; `measured`: as neighbours show it.
 [[gnu::always_inline]] inline void fit(const RowSums& sums, const float* noise, const float* measured, float most,
                                        float* shares) {
-  for (std::size_t i = 0; i < kRow; ++i) {
+  for (std::size_t i = 0; i < kRowLength; ++i) {
     const float over = 1 / sums.one[i];
     const float x = sums.x[i] * over;
     const float y = sums.y[i] * over;
@@ -147,8 +147,8 @@ struct RowSums {
 
 GNOMON_FOR_EACH_INSTRUCTION_SET void evenRow(const ShareSquare& square, const Differences& differences,
                                              std::size_t first, float* shares) {
-  alignas(64) float measured[kRow];
-  for (std::size_t i = 0; i < kRow; ++i) {
+  alignas(64) float measured[kRowLength];
+  for (std::size_t i = 0; i < kRowLength; ++i) {
     float sum = 0;
     float count = 0;
     for (std::size_t row = first + i - kUp; row <= first + i + kUp; row += kUp) {
@@ -175,11 +175,11 @@ EvenSquare evenOut(const ShareSquare& square) {
   Differences differences;
   findDifferences(square, differences);
   EvenSquare even;
-  for (std::size_t row = 0; row < kRow; ++row) {
+  for (std::size_t row = 0; row < kRowLength; ++row) {
     const std::size_t first = (row + ShareSquare::kReach) * kUp + ShareSquare::kReach;
     const float* noise = square.noise + first;
-    if (std::all_of(noise, noise + kRow, [](float variance) { return variance == 0; })) continue;
-    evenRow(square, differences, first, even.share + row * kRow);
+    if (std::all_of(noise, noise + kRowLength, [](float variance) { return variance == 0; })) continue;
+    evenRow(square, differences, first, even.share + row * kRowLength);
   }
   return even;
 }
