@@ -131,7 +131,7 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findPoints(DrawnView view, const DrawnPlace
     points.unsure[i] = unsure;
     points.u[i] = u;
     points.v[i] = v;
-    put(position + normal * (lost + unsure), points.start, i);
+    put(position + normal * lost, points.start, i);
     put(relative, points.relative, i);
     put(normal, points.normal, i);
   }

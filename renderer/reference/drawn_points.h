@@ -39,15 +39,15 @@ struct alignas(64) DrawnPoints : TriangleLanes {
   float u[kLanes], v[kLanes]; ///< weights of the second and third corner, in the triangle
   float relative[3][kLanes];  ///< the point, from the eye
   float normal[3][kLanes];    ///< unit length, on the eye's side
-  float start[3][kLanes];     ///< of rays, lifted off the surface by what rounding may have lowered it
-  float unsure[kLanes];       ///< how far off the triangle's plane the point may lie
-  float turn[kLanes];         ///< how wrong a cosine of the normal may be
-  float toward[3][kLanes];    ///< the light, or a place on it; unit length
-  float length[kLanes];       ///< to the light; infinite for directional ones
-  int faces[kLanes];          ///< the surface is turned to the light
-  int reached[kLanes];        ///< the light shines as far as here, and in this direction
-  int leaves[kLanes];         ///< the way leads off the surface; of a light with a size some may not
-  int sure[kLanes];           ///< floats can tell all that; else nothing else means anything
+  float start[3][kLanes];  ///< of rays; lifted off the surface as startOf does: more would pass over rims close above
+  float unsure[kLanes];    ///< how far off the triangle's plane the point may lie
+  float turn[kLanes];      ///< how wrong a cosine of the normal may be
+  float toward[3][kLanes]; ///< the light, or a place on it; unit length
+  float length[kLanes];    ///< to the light; infinite for directional ones
+  int faces[kLanes];       ///< the surface is turned to the light
+  int reached[kLanes];     ///< the light shines as far as here, and in this direction
+  int leaves[kLanes];      ///< the way leads off the surface; of a light with a size some may not
+  int sure[kLanes];        ///< floats can tell all that; else nothing else means anything
 };
 
 /// Sets each lane's corners to those of what is drawn there.
