@@ -46,13 +46,14 @@ def render(scene, spec, *flags):
             return dict(views), ran.stderr
 
 
+def exporters_files():
+    for path in sorted((CASES / "gltf").rglob("*.gl*")):
+        if path.parent.name not in ("reference", "blend"):  # what blends is drawn as a mask
+            yield path
+
+
 @unittest.skipUnless(CASES.exists(), f"there are no cases at {CASES}")
 class ExportersFiles(ServerTest):
-    def files(self):
-        for path in sorted((CASES / "gltf").rglob("*.gl*")):
-            if path.parent.name not in ("reference", "blend"):  # what blends is drawn as a mask
-                yield path
-
     def drawn_by_server(self, path):
         """(picture or None, warnings)"""
         kind = "model/gltf-binary" if path.suffix == ".glb" else "model/gltf+json"
@@ -67,7 +68,7 @@ class ExportersFiles(ServerTest):
     def test_each_is_drawn_and_said_by_every_way(self):
         reference, _ = render(CASES / "gltf/reference/reference.glb", FRAME)
         count = 0
-        for path in self.files():
+        for path in exporters_files():
             with self.subTest(f"{path.parent.name}/{path.name}"):
                 count += 1
                 by_server, warnings = self.drawn_by_server(path)
