@@ -87,6 +87,15 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
   return untilStopped(goOn, [&] { return measureShimmer(**device, impl_->caches->traced, scene, spec, path, told); });
 }
 
+EvaluationTools evaluationTools(Renderer& renderer, const ScenePtr& scene) {
+  return {[&](const FrameSpec& spec) { return renderer.render(scene, spec, TileUse::drawnAnew); },
+          [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& progress) -> Result<double> {
+            const auto shimmer = renderer.shimmer(scene, spec, path, progress);
+            if (!shimmer) return shimmer.problems();
+            return shimmer->perThousand();
+          }};
+}
+
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();

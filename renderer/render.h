@@ -117,6 +117,9 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What an evaluation has `renderer` do for it. Refers to both.
+EvaluationTools evaluationTools(Renderer& renderer, const ScenePtr& scene);
+
 /// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread. REQUIRES: that the
 /// frame's spec asks for that format.
 Result<Bytes> encodePng(const Frame& frame, std::size_t index);

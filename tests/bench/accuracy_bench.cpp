@@ -49,8 +49,7 @@ std::vector<Variant> variantsOf(const nlohmann::json& spec) {
 /// times.
 std::vector<EvaluationRow> rowsOf(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec,
                                   const std::vector<Variant>& variants, int repeats) {
-  const EvaluationTools tools{
-      [&](const FrameSpec& variant) { return renderer.render(scene, variant, TileUse::drawnAnew); }, {}};
+  const EvaluationTools tools = evaluationTools(renderer, scene);
   const auto middle = std::find_if(variants.begin(), variants.end(),
                                    [](const Variant& variant) { return isPrefiltered(variant.spec); });
   Evaluation quick;

@@ -22,14 +22,7 @@ Evaluation evaluationOf(const std::string& rest, const std::string& spec = kSpec
 Result<EvaluationReport> evaluated(const ScenePtr& scene, const Evaluation& evaluation,
                                    const EvaluationListener& listener = {}) {
   Renderer& renderer = testing::sharedRenderer();
-  EvaluationTools tools;
-  tools.draw = [&](const FrameSpec& spec) { return renderer.render(scene, spec, TileUse::drawnAnew); };
-  tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
-    const auto shimmer = renderer.shimmer(scene, spec, path, goOn);
-    if (!shimmer) return shimmer.problems();
-    return shimmer->perThousand();
-  };
-  return evaluate(scene, evaluation, renderer.info(), tools, listener);
+  return evaluate(scene, evaluation, renderer.info(), evaluationTools(renderer, scene), listener);
 }
 
 const EvaluationRow& rowOf(const EvaluationReport& report, const std::string& name) {

@@ -19,9 +19,8 @@ struct Settled {
 Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Renderer& renderer, ProgressLine& progress) {
   if (!spec.quality) return Settled{spec, std::nullopt};
   progress.stage("finding settings");
-  const auto draw = [&](const FrameSpec& variant) { return renderer.render(scene, variant, TileUse::drawnAnew); };
   auto report = chooseQuality(spec, [&](const Evaluation& evaluation) {
-    return evaluate(scene, evaluation, renderer.info(), {draw, {}});
+    return evaluate(scene, evaluation, renderer.info(), evaluationTools(renderer, scene));
   });
   if (!report) return report.problems();
   FrameSpec chosen = withChoice(spec, *report);
@@ -59,14 +58,7 @@ Result<EvaluationReport> evaluateHere(Renderer& renderer, const ScenePtr& scene,
     progress.share(step.of > 0 ? static_cast<double>(step.done) / step.of : 0);
     return true;
   };
-  EvaluationTools tools;
-  tools.draw = [&](const FrameSpec& spec) { return renderer.render(scene, spec, TileUse::drawnAnew); };
-  tools.shimmer = [&](const FrameSpec& spec, std::span<const Camera> path, const Progress& goOn) -> Result<double> {
-    const auto shimmer = renderer.shimmer(scene, spec, path, goOn);
-    if (!shimmer) return shimmer.problems();
-    return shimmer->perThousand();
-  };
-  return evaluate(scene, evaluation, renderer.info(), tools, listener);
+  return evaluate(scene, evaluation, renderer.info(), evaluationTools(renderer, scene), listener);
 }
 
 Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluation& evaluation,
