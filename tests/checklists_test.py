@@ -130,13 +130,13 @@ class Checklists(unittest.TestCase):
         self.assertEqual(self.steps_of("To add a technique"), ["1", "2", "3"])
         rows = '#include "protocol/spec/traits.h"\n'
         # 1. Its name, what it is, and its row.
-        self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ shadowMap, hybrid, shadowVolume, rayTraced", ", scratch")
+        self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ shadowMap, shadowVolume, rayTraced", ", scratch")
         self.assert_refused(rows, "spellsAll<ShadowTechnique>")
         self.edit("protocol/spec/enum_rows.h", r"spelling\(ShadowTechnique::rayTraced,.*?\),\n",
                   '    spelling(ShadowTechnique::scratch, "scratch", "nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
         self.edit("protocol/spec/traits.h", r"TechniqueTraits\{ShadowTechnique::rayTraced,[^\n]*\n",
-                  "    TechniqueTraits{ShadowTechnique::scratch, false, true, true, false, false, true, false, false},\n")
+                  "    TechniqueTraits{ShadowTechnique::scratch, true, true, false, false, true, false},\n")
         # 2. What finds the shadow asks the row: nothing else names techniques.
         self.assert_fine('#include "renderer/resolve/plan_input.cpp"\n')
         # 3. Its place in the tables.

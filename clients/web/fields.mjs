@@ -11,7 +11,7 @@ const shadowed = (store) => store.effective('shadow.enabled') !== false;
 const showsOneLight = ({ state: { view } }) => ['cascades', 'shadow'].includes(view) || kDebugViews.some(([name]) => name === view);
 const one = (path, value) => (store) => store.effective(path) === value;
 const by = (...techniques) => (store) => shadowed(store) && techniques.includes(store.effective('shadow.technique'));
-const tiled = by('shadowMap', 'hybrid');
+const tiled = by('shadowMap');
 const soft = (store) => by('shadowMap')(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
 const lightHasSize = ({ state }) => (state.spec.lights ?? state.report?.spec.lights ?? []).some((light) => light.angularDiameterDegrees || light.radius);
 
@@ -105,14 +105,13 @@ export const kSections = [
         whole: true,
         choices: [
           ['shadowMap', 'Maps', 'Shadow maps: fast, as sharp as their texels'],
-          ['hybrid', 'Hybrid', 'Exact: a map where it is sure, rays elsewhere'],
           ['rayTraced', 'Rays', 'Exact: rays for every pixel in doubt'],
           ['shadowVolume', 'Volumes', 'Exact, by the stencil buffer; drawn by OpenGL alone'],
           ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move'],
         ],
         needs: shadowed,
       },
-      { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('hybrid', 'rayTraced')(store) && lightHasSize(store) },
+      { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('rayTraced')(store) && lightHasSize(store) },
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], choose: chooseCascades, needs: tiled },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },

@@ -133,10 +133,8 @@ bool isBlurred(const Filter& filter) {
   return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
 }
 
-/// Draws its shadow into a map, as far as a request tells.
 bool isMapped(const Light& light, bool tilesShown) {
-  const TechniqueTraits& technique = traitsOf(light.shadow->technique);
-  return technique.mapped && (!technique.layered || tilesShown);
+  return !traitsOf(light.shadow->technique).layered || tilesShown;
 }
 
 double bakedTexels(const LightMapOptions& options) {

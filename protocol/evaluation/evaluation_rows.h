@@ -18,7 +18,7 @@ inline constexpr CustomType kCustomType<SpecPatch>{decodePatch, encodePatch, pat
 
 template <>
 inline constexpr std::array kSpellings<Sweep>{
-    spelling(Sweep::techniques, "techniques", "hard and filtered shadow maps, hybrid, shadow volumes, rays"),
+    spelling(Sweep::techniques, "techniques", "hard and filtered shadow maps, shadow volumes, rays"),
     spelling(Sweep::filters, "filters", "shadow maps with every filter at every size in texels"),
     spelling(Sweep::sizes, "sizes", "hard shadow maps, XSmall to XLarge, with 1, 2 and 4 cascades"),
     spelling(Sweep::all, "all", "all of these"),

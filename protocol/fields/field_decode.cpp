@@ -117,6 +117,16 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
   return false;
 }
 
+/// What to write instead of a word that is none of a type's.
+std::string adviceFor(const std::string& text, const ValueType& type) {
+  for (const RetiredWord& word : type.retired) {
+    if (word.name == text) return "; it was removed: use " + std::string(word.successor) + ".";
+  }
+  std::vector<std::string> words;
+  for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
+  return suggestion(text, words);
+}
+
 bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
   const auto* text = std::get_if<std::string>(&node.value);
   std::string names;
@@ -132,11 +142,9 @@ bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems,
   if (!text) {
     addWrongType(node, names, place, problems);
   } else {
-    std::vector<std::string> words;
-    for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = place.pointer(),
-                  .detail = "This is not one of the possible values" + suggestion(*text, words),
+                  .detail = "This is not one of the possible values" + adviceFor(*text, type),
                   .limit = names,
                   .actual = shownNode(node)});
   }

@@ -161,6 +161,14 @@ inline constexpr std::array<Spelling, 0> kSpellings{};
 template <class T>
 concept Spelled = !kSpellings<T>.empty();
 
+/// A JSON word that an enumerator had once; it is refused with the word to use instead.
+struct RetiredWord {
+  std::string_view name, successor;
+};
+
+template <class Enum>
+inline constexpr std::array<RetiredWord, 0> kRetiredWords{};
+
 /// The enumerator's name as the compiler writes it; a number in parentheses where there is none.
 template <auto kValue>
 consteval std::string_view compilerName() {

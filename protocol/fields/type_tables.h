@@ -129,6 +129,7 @@ consteval ValueType makeValueType() {
   } else if constexpr (Spelled<T>) {
     return {.kind = Kind::word,
             .spellings = kSpellings<T>,
+            .retired = kRetiredWords<T>,
             .wordIndex = [](const void* word) { return static_cast<int>(valueAs<T>(word)); },
             .setWord = [](void* word, int index) { valueAs<T>(word) = static_cast<T>(index); }};
   } else if constexpr (std::same_as<T, bool>) {

@@ -77,9 +77,8 @@ struct LightReport {
   /// Directional: the view depths of its cascades without a guard, for the next frame's depthRange.previous.
   std::optional<PreviousRange> depthRange{};
   std::vector<TileReport> tiles{};
-  std::optional<std::uint64_t>
-      tracedPixels{}; ///< pixels that rays decided; techniques hybrid and rayTraced, not in a plan
-  std::optional<LightMapReport> lightMap{}; ///< technique lightMap, not in a plan
+  std::optional<std::uint64_t> tracedPixels{}; ///< pixels that rays decided; technique rayTraced, not in a plan
+  std::optional<LightMapReport> lightMap{};    ///< technique lightMap, not in a plan
   // Over its tiles:
   std::optional<PredictedError> predictedError{};
   std::uint64_t casterTriangles = 0;

@@ -114,7 +114,7 @@ inline constexpr auto kRows<LightReport> = replyRows(
     field("predictedError", &LightReport::predictedError,
           {.says = "How large the texels of its tiles appear; absent if none was drawn."}),
     field("tracedPixels", &LightReport::tracedPixels,
-          {.says = "Pixels that rays decided; techniques hybrid and rayTraced; absent in a plan.", .unit = "pixels"}),
+          {.says = "Pixels that rays decided; technique rayTraced; absent in a plan.", .unit = "pixels"}),
     field("lightMap", &LightReport::lightMap, {.says = "What was baked; technique lightMap alone; absent in a plan."}),
     field("casterTriangles", &LightReport::casterTriangles, {.says = "Triangles drawn into its tiles."}),
     field("drawCalls", &LightReport::drawCalls, {.says = "Draw calls into its tiles."}),

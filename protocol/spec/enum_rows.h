@@ -18,9 +18,6 @@ template <>
 inline constexpr std::array kSpellings<ShadowTechnique>{
     spelling(ShadowTechnique::shadowMap, "shadowMap",
              "depths seen from the light, filtered: fast, and as exact as its texels are fine"),
-    spelling(
-        ShadowTechnique::hybrid, "hybrid",
-        "rays, but for what a shadow map that a view shows is certain of: exact, and soft where the light has a size"),
     spelling(ShadowTechnique::shadowVolume, "shadowVolume",
              "stencilled shadow volumes: exact and sharp, drawn by the device"),
     spelling(ShadowTechnique::rayTraced, "rayTraced",
@@ -31,6 +28,9 @@ inline constexpr std::array kSpellings<ShadowTechnique>{
         "size, for scenes that stand still"),
 };
 static_assert(spellsAll<ShadowTechnique>());
+
+template <>
+inline constexpr std::array kRetiredWords<ShadowTechnique>{RetiredWord{"hybrid", "rayTraced"}};
 
 template <>
 inline constexpr std::array kSpellings<ShadowSize>{

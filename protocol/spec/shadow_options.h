@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-enum class ShadowTechnique { shadowMap, hybrid, shadowVolume, rayTraced, lightMap };
+enum class ShadowTechnique { shadowMap, shadowVolume, rayTraced, lightMap };
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
 enum class ShadowLightPolicy { all, first };
 enum class ShadowImportance { low, medium, high };
@@ -96,7 +96,7 @@ struct Shadow {
   BlendedCasters blendedCasters = BlendedCasters::dither;
   Terminator terminator = Terminator::smooth; ///< of meshes with normals at their vertices
   LightMapOptions lightMap;
-  int raySamples = 16; ///< rayTraced, hybrid: most rays a pixel towards a light that has a size; 1..1024
+  int raySamples = 16; ///< rayTraced: most rays a pixel towards a light that has a size; 1..1024
 
   bool operator==(const Shadow&) const = default;
 };

@@ -161,7 +161,7 @@ inline constexpr auto kRows<Shadow> = rows(
           {.says = "Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces."}),
     field(
         "raySamples", &Shadow::raySamples,
-        {.says = "Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only "
+        {.says = "Technique rayTraced: most rays for each pixel towards a light that has a size. Only "
                  "penumbras take so many; where a pixel and its neighbours agree, one ray does, or 4 beside materials "
                  "with alpha. Lights without a size take one ray.",
          .unit = "rays",

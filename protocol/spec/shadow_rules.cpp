@@ -138,15 +138,6 @@ void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::stri
   appendPreviousRangeRules(shadow.depthRange, pointer + "/depthRange", broken);
   appendFilterRules(shadow.filter, pointer + "/filter", broken);
   appendBiasRules(shadow.bias, pointer + "/bias", broken);
-  if (traitsOf(shadow.technique).oneDepthATexel && atlas.samples != 1) {
-    broken.push_back(
-        {{.code = ProblemCode::invalidValue,
-          .pointer = pointer + "/technique",
-          .detail = "Technique " + std::string(spell(shadow.technique)) + " needs an atlas of one depth a texel.",
-          .limit = "atlas.samples 1",
-          .actual = std::to_string(atlas.samples)},
-         {pointer + "/technique", "/atlas/samples"}});
-  }
   const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
   if (side > atlas.size && atlas.baseSize <= atlas.size) {
     broken.push_back({{.code = ProblemCode::invalidValue,

@@ -79,27 +79,21 @@ constexpr const ViewTraits& traitsOf(View view) {
 /// What a shadow technique is and needs: one row each, complete by static_assert.
 struct TechniqueTraits {
   ShadowTechnique technique;
-  bool mapped;             ///< draws shadow maps
-  bool layered;            ///< says of every sample what share of the light arrives; a map only helps to find it
+  bool layered;            ///< says of every sample what share of the light arrives; else shadow maps do
   bool traced;             ///< traces rays
   bool baked;              ///< looks the shadow up in a texture that was traced before, and traces no pixel
   bool needsEdges;         ///< needs to know the edges of the casters' meshes
   bool knowsSize;          ///< soft where the light has a size
   bool needsOpaqueCasters; ///< can't tell the holes of a masked or blended caster
-  bool oneDepthATexel;     ///< can't read an atlas of several samples
-
-  /// The map only spares rays: what it is sure of is not traced.
-  constexpr bool mapSparesRays() const { return mapped && layered; }
 };
 
 // clang-format off
 inline constexpr std::array kTechniqueTraits{
-    //               technique                    mapped layered traced baked  edges  size   opaque one depth
-    TechniqueTraits{ShadowTechnique::shadowMap,    true,  false, false, false, false, false, false, false},
-    TechniqueTraits{ShadowTechnique::hybrid,       true,  true,  true,  false, true,  true,  false, true},
-    TechniqueTraits{ShadowTechnique::shadowVolume, false, true,  false, false, true,  false, true,  false},
-    TechniqueTraits{ShadowTechnique::rayTraced,    false, true,  true,  false, false, true,  false, false},
-    TechniqueTraits{ShadowTechnique::lightMap,     false, true,  true,  true,  false, true,  false, false},
+    //               technique                    layered traced baked  edges  size   opaque
+    TechniqueTraits{ShadowTechnique::shadowMap,    false, false, false, false, false, false},
+    TechniqueTraits{ShadowTechnique::shadowVolume, true,  false, false, true,  false, true},
+    TechniqueTraits{ShadowTechnique::rayTraced,    true,  true,  false, false, true,  false},
+    TechniqueTraits{ShadowTechnique::lightMap,     true,  true,  true,  false, true,  false},
 };
 // clang-format on
 static_assert(rowsAreComplete(kTechniqueTraits, &TechniqueTraits::technique));

@@ -24,8 +24,7 @@ struct ExactLayers {
   std::vector<Layer> layers(const DepthBuffer& surfaces) const;
 };
 
-/// `surfaces`: numbered, and left as they are. What is baked is used in place. Rays decide all of it, those of
-/// technique hybrid too: on a processor they take less time than a map that spares some of them.
+/// `surfaces`: numbered, and left as they are. What is baked is used in place; rays decide the rest.
 Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,
                                 DepthBuffer& surfaces);
 

@@ -41,7 +41,7 @@ SmoothAsked smoothAsked(const ResolvedFrame& frame) {
   bool anywhere = false;
   for (const Light& light : frame.spec.lights.value_or(std::vector<Light>{})) {
     const Shadow shadow = light.shadow.value_or(Shadow{});
-    const bool asks = shadow.enabled && shadow.terminator == Terminator::smooth && traitsOf(shadow.technique).mapped;
+    const bool asks = shadow.enabled && shadow.terminator == Terminator::smooth && !traitsOf(shadow.technique).layered;
     if (!asks) continue;
     smooth.asked = true;
     anywhere = anywhere || light.type != LightType::directional || smooth.suns.size() == kMostSuns;

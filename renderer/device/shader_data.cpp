@@ -9,7 +9,6 @@
 #include "protocol/spec/limits.h"
 #include "renderer/core/vec3.h"
 #include "renderer/prepare/light_lists.h"
-#include "renderer/prepare/outlines.h"
 
 namespace gnomon {
 
@@ -17,7 +16,6 @@ static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // What shaders share with what is decided without them.
 static_assert(GNOMON_BLOCK_SIZE == kSurveyBlock);
 static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNOMON_BLOCK_SIZE == 0);
-static_assert(GNOMON_STEEPEST == kSteepest);
 // As std140 and std430 lay them out: a vec3 and the scalar behind it share 16 bytes. Each offset is compared with the
 // driver's by a test (shared_structs_gl_test.cpp).
 static_assert(sizeof(shared::LightData) == 9 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);

@@ -46,7 +46,7 @@ QualityTrial trialOf(const FrameSpec& spec, ShadowTechnique technique, MapSettin
   if (trial.shadow.partition.mode == PartitionMode::manual) trial.shadow.partition = Partition{};
   trial.atlas = Atlas{std::max(4096, spec.atlas.size), map.baseSize, 1};
   trial.settings = std::string(spell(technique));
-  if (traitsOf(technique).mapped)
+  if (!traitsOf(technique).layered)
     trial.settings += " " + std::to_string(map.cascades) + " x " + std::to_string(map.baseSize);
   return trial;
 }
@@ -69,8 +69,6 @@ bool betterBy(double a, double b, double nextA, double nextB) {
 std::vector<QualityTrial> qualityTrials(const FrameSpec& spec) {
   std::vector<QualityTrial> trials;
   for (const MapSettings& map : kMaps) trials.push_back(trialOf(spec, ShadowTechnique::shadowMap, map));
-  trials.push_back(trialOf(spec, ShadowTechnique::hybrid, {1, 1024}));
-  trials.push_back(trialOf(spec, ShadowTechnique::hybrid, {4, 1024}));
   trials.push_back(trialOf(spec, ShadowTechnique::shadowVolume, {4, 1024}));
   trials.push_back(trialOf(spec, ShadowTechnique::rayTraced, {4, 1024}));
   return trials;

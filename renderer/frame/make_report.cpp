@@ -132,7 +132,7 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
 std::string sharpNote(const Light& light) {
   const bool sized = hasSize(light);
   const TechniqueTraits& technique = traitsOf(light.shadow->technique);
-  if (technique.mapped && !technique.layered) {
+  if (!technique.layered) {
     const bool wanted = light.shadow->filter.type == FilterType::pcss;
     if (wanted == sized) return "";
     return wanted ? "it has no size: filter pcss draws its shadow sharp"
@@ -164,14 +164,7 @@ std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& p
   for (const int layered : layeredLights) {
     LightReport& report = reports[static_cast<std::size_t>(layered)];
     report.shadowed = true;
-    const Light& light = (*spec.lights)[static_cast<std::size_t>(layered)];
-    const std::string sharp = sharpNote(light);
-    const bool unmapped = traitsOf(light.shadow->technique).mapSparesRays();
-    report.note = !unmapped ? ""
-                  : hasSize(light)
-                      ? "rays alone decide: a map knows the middle of a light that has a size, not all of it"
-                      : "rays alone decide: a map would cost more than the rays that it saves";
-    report.note += (report.note.empty() || sharp.empty() ? "" : "; ") + sharp;
+    report.note = sharpNote((*spec.lights)[static_cast<std::size_t>(layered)]);
   }
   for (std::size_t i = 0; i < plan.lights.size(); ++i) {
     const PlannedLight& planned = plan.lights[i];

@@ -53,7 +53,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
   MadeVolumes made;
-  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved, mapped), tracedScene, bakedLight,
+  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved), tracedScene, bakedLight,
                                    &made.volumes, receiverParts(*resolved, mapped)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;

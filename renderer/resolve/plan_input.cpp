@@ -37,20 +37,14 @@ std::vector<int> mappedLights(const ResolvedFrame& frame) {
   const auto& views = frame.spec.views;
   const bool shown = std::any_of(views.begin(), views.end(), [](View view) { return traitsOf(view).tiles; });
   std::vector<int> lights = shadowingLights(frame);
-  std::erase_if(lights, [&](int light) {
-    const TechniqueTraits& technique = techniqueOf(frame, light);
-    return !technique.mapped || (technique.mapSparesRays() && !shown);
-  });
+  if (!shown) std::erase_if(lights, [&](int light) { return techniqueOf(frame, light).layered; });
   return lights;
 }
 
-bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped) {
-  for (int light = 0; light < static_cast<int>(frame.spec.lights->size()); ++light) {
-    const TechniqueTraits& technique = techniqueOf(frame, light);
-    if (!technique.needsEdges) continue;
-    if (!technique.mapped || std::find(mapped.begin(), mapped.end(), light) != mapped.end()) return true;
-  }
-  return false;
+bool needsEdges(const ResolvedFrame& frame) {
+  const auto& lights = *frame.spec.lights;
+  return std::any_of(lights.begin(), lights.end(),
+                     [](const Light& light) { return traitsOf(light.shadow->technique).needsEdges; });
 }
 
 namespace {
@@ -116,12 +110,6 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
   for (const int index : mapped) {
     const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
     ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
-    if (traitsOf(light.shadow->technique).mapSparesRays()) {
-      // Rays draw the edges: what the map needs is the nearest tile, sharp.
-      caster.shadow.filter = Filter{FilterType::hard};
-      caster.shadow.bias = Bias{};
-      caster.shadow.blendCascades = false;
-    }
     if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
     caster.range = light.range.value_or(0.0);
     caster.lightRadius = radiusOf(light);

@@ -20,13 +20,12 @@ const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light);
 /// baked stand behind the others.
 std::vector<int> layeredLights(const ResolvedFrame& frame);
 
-/// Of the lights that throw shadows, the ones that get a shadow map. A hybrid one gets it where a view shows it. Its
-/// shadow is the same either way, and frames of rays alone took 0.4 to 0.8 of the time on an H100 beside two cores, 0.9
-/// at 3840 x 2160; 0.4 and 0.5 by llvmpipe.
+/// Of the lights that throw shadows, the ones that get a shadow map: those whose technique reads one, and all of them
+/// where a view shows tiles.
 std::vector<int> mappedLights(const ResolvedFrame& frame);
 
-/// Whether some light's technique needs the edges of the casters' meshes. `mapped`: as mappedLights gives them.
-bool needsEdges(const ResolvedFrame& frame, std::span<const int> mapped);
+/// Whether some light's technique needs the edges of the casters' meshes.
+bool needsEdges(const ResolvedFrame& frame);
 
 /// The parts of what is seen that a survey tells by themselves, because a light of `mapped` throws shadows on them
 /// alone: receiver groups, a bit each. No part twice, and none for lights that throw shadows on all.

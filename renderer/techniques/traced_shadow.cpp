@@ -28,11 +28,11 @@ class ShadowTracing {
         places_(grid().samples()),
         known_(grid()) {}
 
-  /// Takes what the verdicts are sure of, and sends rays from the other points as they were drawn, but from blocks
-  /// that are lit or turned away as a whole. Gives how many pixels rays were sent from.
-  std::uint64_t traceDrawn(std::span<const Verdict> verdicts) {
+  /// Sends rays from the points as they were drawn, but from blocks that are lit or turned away as a whole. Gives how
+  /// many pixels rays were sent from.
+  std::uint64_t traceDrawn() {
     std::atomic<std::uint64_t> traced = 0;
-    forEachBlock(grid(), [&](const Rect& block) { traced += traceBlock(block, verdicts); });
+    forEachBlock(grid(), [&](const Rect& block) { traced += traceBlock(block); });
     return traced;
   }
 
@@ -114,27 +114,11 @@ class ShadowTracing {
   std::uint32_t numberOf(const glm::ivec2& pixel) const { return grid().numberOf(pixel); }
 
   /// What is lit, and what shows no surface, is left as it is: lit.
-  std::uint64_t traceBlock(const Rect& block, std::span<const Verdict> verdicts) {
+  std::uint64_t traceBlock(const Rect& block) {
     setLit(block);
     ShownSamples waiting;
-    const std::uint64_t traced =
-        verdicts.empty() ? traceWhereUnsure(block, waiting) : traceJudged(block, verdicts, waiting);
+    const std::uint64_t traced = traceWhereUnsure(block, waiting);
     traceDrawn(waiting);
-    return traced;
-  }
-
-  std::uint64_t traceJudged(const Rect& block, std::span<const Verdict> verdicts, ShownSamples& waiting) {
-    std::uint64_t traced = 0;
-    forEachPixel(grid(), block, [&](const glm::ivec2& pixel) {
-      const Verdict verdict = verdicts[numberOf(pixel)];
-      if (verdict == Verdict::unsure) {
-        traced += trace(pixel, points_.numberAt(pixel), waiting);
-      } else if (verdict == Verdict::turnedAway) {
-        setTurnedAway(pixel);
-      } else if (verdict != Verdict::lit) {
-        set(numberOf(pixel), 0);
-      }
-    });
     return traced;
   }
 
@@ -221,21 +205,13 @@ bool sendsRays(std::span<const int> layered, std::span<const Light> lights) {
   });
 }
 
-TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
-                          std::span<const Verdict> verdicts) {
+TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples) {
   ShadowTracing shadow(points, rays, light, samples);
-  std::uint64_t traced = shadow.traceDrawn(verdicts);
-  const auto countSure = [&](const Pixels& pixels) {
-    traced += static_cast<std::uint64_t>(std::count_if(pixels.begin(), pixels.end(), [&](std::uint32_t pixel) {
-      return !verdicts.empty() && verdicts[pixel] != Verdict::unsure;
-    }));
-  };
+  const std::uint64_t traced = shadow.traceDrawn();
   const Pixels doubtful = shadow.doubtful();
   shadow.tracePenumbras();
-  countSure(doubtful);
   shadow.traceExactly(doubtful);
   for (Pixels next = shadow.atEdges(); !next.empty();) {
-    countSure(next);
     next = shadow.atEdgesBeside(shadow.traceEdges(next));
   }
   return {shadow.takeValues(), traced};

@@ -9,14 +9,6 @@
 
 namespace gnomon {
 
-/// What a shadow map knows of a pixel.
-enum class Verdict : std::uint8_t {
-  shadow = 0,
-  turnedAway = 64, ///< in shadow, because the surface faces away from the light
-  unsure = 128,
-  lit = 255
-};
-
 /// One light's shadow over a picture.
 struct TracedShadow {
   UnfilledVector<std::uint16_t> values;      ///< share of the light at every sample, 0..65535, in the grid's order
@@ -26,13 +18,11 @@ struct TracedShadow {
 /// Whether any of these lights is traced when a frame is drawn. `layered`: indices of those that fill layers.
 bool sendsRays(std::span<const int> layered, std::span<const Light> lights);
 
-/// What arrives of light `light` of `rays`. A pixel that the verdicts leave unsure (all of them where there are none)
-/// is decided by rays from the point that was drawn there. What was drawn may differ from what a camera ray meets
-/// within rounding of a surface's rim, and an edge may pass between the samples of a pixel. So a camera ray finds the
-/// point of every sample next to masks, where a surface that is turned away from the light ends, and wherever a pixel's
-/// share differs from a neighbour's. `samples`: most rays a pixel towards a light that has a size, which takes them in
-/// penumbras alone (penumbras.h); REQUIRES: no verdicts there.
-TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples,
-                          std::span<const Verdict> verdicts = {});
+/// What arrives of light `light` of `rays`. Rays from the points that were drawn decide. What was drawn may differ from
+/// what a camera ray meets within rounding of a surface's rim, and an edge may pass between the samples of a pixel. So
+/// a camera ray finds the point of every sample next to masks, where a surface that is turned away from the light ends,
+/// and wherever a pixel's share differs from a neighbour's. `samples`: most rays a pixel towards a light that has a
+/// size, which takes them in penumbras alone (penumbras.h).
+TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples);
 
 } // namespace gnomon

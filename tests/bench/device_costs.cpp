@@ -95,7 +95,7 @@ CostRow cold(const DeviceRun& run, const BenchScene& scene) {
 
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = {
-      {"exact", {{"antialiasing", "none"}, {"shadow", {{"technique", "hybrid"}}}}, 1},
+      {"exact", {{"antialiasing", "none"}, {"shadow", {{"technique", "rayTraced"}}}}, 1},
       {"shadow map",
        {{"antialiasing", "none"},
         {"shadow", {{"cascadeCount", 4}, {"filter", {{"type", "pcf"}, {"size", 5}}}}},

@@ -110,7 +110,8 @@ std::string aboutText(const DeviceRun& run, const std::vector<std::string>& name
 }
 
 constexpr const char* kMeanings =
-    "`exact`: `hybrid`, no antialiasing. Where only the camera moves, `cpu` learns from frame to frame which triangles "
+    "`exact`: `rayTraced`, no antialiasing. Where only the camera moves, `cpu` learns from frame to frame which "
+    "triangles "
     "see all of the sun: not in demo and city, where it moves. `shadow map`: PCF 5, 4 tiles of 2048 x 2048 texels, no "
     "antialiasing. "
     "`defaults`: nothing but camera and sun, so 4x antialiasing. `cold`: `gnomon render` from the start of its process "

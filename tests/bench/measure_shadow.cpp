@@ -42,7 +42,6 @@ std::vector<Way> ways() {
   return {{"default settings", nlohmann::json::object()},
           {"hard map", {{"technique", "shadowMap"}, {"filter", hard}}},
           {"hard map, XLarge", {{"technique", "shadowMap"}, {"filter", hard}, {"size", "XLarge"}}},
-          {"hybrid", {{"technique", "hybrid"}}},
           {"rayTraced", {{"technique", "rayTraced"}}},
           {"shadowVolume", {{"technique", "shadowVolume"}}}};
 }

@@ -32,7 +32,6 @@ struct Way {
 /// All, or those of these names.
 std::vector<Way> waysCalled(const std::vector<std::string>& names) {
   std::vector<Way> ways{{"rayTraced", {{"technique", "rayTraced"}}},
-                        {"hybrid", {{"technique", "hybrid"}}},
                         {"lightMap", {{"technique", "lightMap"}}},
                         {"pcss", {{"filter", {{"type", "pcss"}}}}},
                         {"pcss, size XLarge", {{"filter", {{"type", "pcss"}}}, {"size", "XLarge"}}},

@@ -93,11 +93,11 @@ class ExportersFiles(ServerTest):
 # The pixels that show a node, and those of them in shadow; what may be missing, and the techniques that are asked.
 SHADOWS = (
     ("sky-dome-sun", 76415, 4545, 90, ("shadowMap",)),
-    ("sky-dome-sun", 76415, 4545, 2, ("hybrid", "rayTraced")),
-    ("near-plane-from-scene-size", 81120, 4545, 2, ("hybrid", "rayTraced")),
+    ("sky-dome-sun", 76415, 4545, 2, ("rayTraced",)),
+    ("near-plane-from-scene-size", 81120, 4545, 2, ("rayTraced",)),
     ("ortho-eye-far", 127620, 1747, 60, ("shadowMap",)),
-    ("ortho-eye-far", 127620, 1747, 2, ("hybrid", "rayTraced")),
-    ("node-flattened-on-one-axis", None, 813, 2, ("hybrid", "rayTraced")),
+    ("ortho-eye-far", 127620, 1747, 2, ("rayTraced",)),
+    ("node-flattened-on-one-axis", None, 813, 2, ("rayTraced",)),
 )
 
 

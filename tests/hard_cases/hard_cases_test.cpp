@@ -141,19 +141,13 @@ void expectWithin(const Json& metrics, const Json& bounds, double strays) {
   }
 }
 
-/// `error`, and of hybrid shadows a view of the map, too: then OpenGL lets it decide where it is sure.
-std::vector<std::string> judgedViews(const Way& way) {
-  if (way.name == "hybrid" && testing::testedDevice() == DeviceChoice::gl) return {"error", "cascades"};
-  return {"error"};
-}
-
 void judge(const ScenePtr& scene, const HardCase& hard, const Way& way) {
   const Json request = testing::requestOf(hard, way, {"color"});
   const Picture dark = picture(scene, request, 0);
   const Picture bright = picture(scene, request, 1);
   expectWhole(dark, bright);
 
-  auto frame = renderer().render(scene, decoded(testing::requestOf(hard, way, judgedViews(way))));
+  auto frame = renderer().render(scene, decoded(testing::requestOf(hard, way, {"error"})));
   ASSERT_TRUE(frame) << told(frame.problems());
   Json metrics = metricsOf(frame->report);
   if (hard.file.contains("path")) metrics["shimmer"] = shimmerOf(scene, hard, request);

@@ -12,7 +12,7 @@ import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SHARES = ("misclassified", "falseShadow", "falseLit", "acne", "leak", "edge", "interior", "meanAbsolute")
-TRACED = ("hybrid", "rayTraced")  # right but for one receiver in a hundred thousand
+TRACED = ("rayTraced",)  # right but for one receiver in a hundred thousand
 
 
 def rounded_up(value):

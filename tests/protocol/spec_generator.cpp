@@ -203,7 +203,6 @@ void mend(Shadow& shadow, const Atlas& atlas) {
   const FilterType filter = shadow.filter.type;
   if (filter == FilterType::hard || filter == FilterType::pcss) shadow.filter.radius.reset();
   if (shadow.bias.mode == BiasMode::automatic) shadow.bias = {};
-  if (atlas.samples != 1 && shadow.technique == ShadowTechnique::hybrid) shadow.technique = ShadowTechnique::rayTraced;
   while (shadow.size && tileSide(*shadow.size, atlas) > atlas.size) {
     shadow.size = static_cast<ShadowSize>(int(*shadow.size) - 1);
   }

@@ -243,7 +243,7 @@ TEST(DebugViews, H9_CastersAreNamedInTheFacesOfAPointLight) {
 }
 
 /// Techniques that need no map: rays say who throws the shadow.
-const char* const kByRays[] = {"rayTraced", "lightMap", "hybrid"};
+const char* const kByRays[] = {"rayTraced", "lightMap"};
 
 /// Where `shadow` (view 1) is full a node is named, and none where all light arrives; gives how many pixels show
 /// `node`.

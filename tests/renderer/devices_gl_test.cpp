@@ -221,10 +221,6 @@ TEST(Devices, PicturesOfExactShadowsAreTheSame) {
   expectSamePictures("rayTraced");
 }
 
-TEST(Devices, PicturesOfHybridShadowsAreTheSame) {
-  expectSamePictures("hybrid");
-}
-
 TEST(Devices, PicturesOfShadowMapsAreNearlyTheSame) {
   const Differences of(Json{{"shadow", {{"technique", "shadowMap"}}}});
   EXPECT_LE(median(of.over4), 0.5);

@@ -34,7 +34,7 @@ TEST(FarPlaces, AnOrthographicPictureDoesNotDependOnTheDistanceOfItsEye) {
   const auto expected = testing::shownOf(smallBox(), parallelFrom(1, 4000), {kTowardsSun, false});
   ASSERT_GT(testing::countsOf(expected).shadowed, 200);
   for (Json shadow : {Json::object(), Json{{"filter", {{"type", "hard"}}}}, Json{{"filter", {{"type", "vsm"}}}},
-                      Json{{"technique", "hybrid"}}}) {
+                      Json{{"technique", "rayTraced"}}}) {
     shadow["size"] = "XLarge";
     const Json spec = {{"lights", {sunOver()}}, {"shadow", shadow}};
     const auto nearby = testing::shownOf(testing::shadowFrame(scene, parallelFrom(1, 40), spec));

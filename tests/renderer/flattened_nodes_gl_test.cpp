@@ -62,7 +62,6 @@ Seen seenIn(const Frame& frame) {
 const std::vector<Json>& techniques() {
   static const std::vector<Json> all{{{"technique", "shadowMap"}, {"filter", {{"type", "hard"}}}},
                                      {{"technique", "shadowMap"}, {"filter", {{"type", "pcf"}, {"size", 3}}}},
-                                     {{"technique", "hybrid"}},
                                      {{"technique", "rayTraced"}},
                                      {{"technique", "lightMap"}, {"lightMap", {{"size", 1024}}}}};
   return all;

@@ -8,15 +8,15 @@ using testing::BoxOverGround;
 using testing::Sight;
 
 const glm::dvec3 kSunOverGround = glm::normalize(glm::dvec3(0.47, 0.87, 0.17));
-const Json kHybrid = {{"lights", {{{"direction", {-kSunOverGround.x, -kSunOverGround.y, -kSunOverGround.z}}}}},
-                      {"shadow", {{"technique", "hybrid"}}}};
+const Json kTraced = {{"lights", {{{"direction", {-kSunOverGround.x, -kSunOverGround.y, -kSunOverGround.z}}}}},
+                      {"shadow", {{"technique", "rayTraced"}}}};
 
 TEST(NearPlane, AGroundOfAHundredKilometresIsWholeBeforeTheEye) {
   BoxOverGround scene;
   scene.ground = 50000;
   const Sight sight;
   const auto expected = testing::shownOf(scene, sight, {kSunOverGround, false});
-  const auto shown = testing::shownOf(testing::shadowFrame(testing::sceneOf(scene.builder()), sight, kHybrid));
+  const auto shown = testing::shownOf(testing::shadowFrame(testing::sceneOf(scene.builder()), sight, kTraced));
   EXPECT_GT(testing::countsOf(expected).shadowed, 500);
   EXPECT_GT(testing::countsOf(expected).ground, 10000);
   EXPECT_LE(testing::differing(shown, expected), 12);
@@ -39,7 +39,7 @@ TEST(NearPlane, ABladeOfGrassTwoMillimetresBeforeTheEyeIsSeen) {
     Sight sight;
     sight.eye = {0, 1, 6};
     sight.target = {0, 1, 0};
-    const Frame frame = testing::shadowFrame(testing::sceneOf(builder), sight, kHybrid);
+    const Frame frame = testing::shadowFrame(testing::sceneOf(builder), sight, kTraced);
     const std::vector<float>& ids = testing::floatsOf(frame, 1);
     const auto pixels = std::count(ids.begin(), ids.end(), 2.0f);
     // 0.4 of 2 tan(25 degrees) * 2 = 1.865 mm: 29.2 pixels a side
@@ -49,7 +49,7 @@ TEST(NearPlane, ABladeOfGrassTwoMillimetresBeforeTheEyeIsSeen) {
 
 TEST(NearPlane, CascadesAreNotSpentOnWhatLiesBetweenItAndTheFirstReceiver) {
   const ScenePtr scene = testing::sceneOf(BoxOverGround{}.builder());
-  Json spec = kHybrid;
+  Json spec = kTraced;
   spec["shadow"] = {{"partition", {{"mode", "logarithmic"}, {"pssmFactor", 0}}}};
   const LightReport automatic = testing::shadowFrame(scene, Sight{}, spec).report.lights[0];
   EXPECT_GT(automatic.tiles[0].near, 1);

@@ -104,7 +104,7 @@ TEST(ShadowFrames, D8_AColorIsWhatAFullShadowLeavesWhateverFindsIt) {
   };
   const glm::dvec3 lit = rgbOf({{"enabled", false}});
   const glm::dvec3 color(0.25, 0.5, 0.75);
-  for (const char* technique : {"shadowMap", "hybrid", "rayTraced", "lightMap"}) {
+  for (const char* technique : {"shadowMap", "rayTraced", "lightMap"}) {
     for (const double strength : {0.5, 1.0}) {
       const glm::dvec3 shown =
           rgbOf({{"technique", technique}, {"strength", strength}, {"color", {color.r, color.g, color.b}}});

@@ -140,7 +140,6 @@ const std::vector<Case>& cases() {
       {"ShadowMap", specWith({{"filter", {{"type", "pcss"}}}, {"size", "XLarge"}}, kMany)},
       {"Moments", specWith({{"filter", {{"type", "msm"}, {"size", 7}}}, {"size", "Large"}})},
       {"RayTraced", specWith({{"technique", "rayTraced"}, {"raySamples", 256}})},
-      {"Hybrid", specWith({{"technique", "hybrid"}, {"raySamples", 64}}, kMany)},
       {"LightMap", specWith({{"technique", "lightMap"}, {"lightMap", {{"size", 1024}, {"samples", 256}}}}), "long_row"},
       {"ShadowVolume", specWith({{"technique", "shadowVolume"}}, kMany), "long_row", true},
       {"ErrorViews", specWith({{"size", "Large"}}, {{"width", 640},

@@ -19,7 +19,7 @@ using testing::sceneOf;
 
 /// As the shadow of the light is found: by each filter of a map, by rays, and by both.
 std::vector<Json> techniques() {
-  std::vector<Json> all{{{"technique", "rayTraced"}}, {{"technique", "hybrid"}}};
+  std::vector<Json> all{{{"technique", "rayTraced"}}};
   for (const Json& filter : testing::everyFilter()) all.push_back({{"technique", "shadowMap"}, {"filter", filter}});
   return all;
 }
@@ -128,13 +128,11 @@ TEST(Terminator, ShadingFades) {
 TEST(Terminator, RaysAreRightAboutTheBall) {
   const ScenePtr scene = ball();
   for (const char* terminator : {"smooth", "flat"}) {
-    for (const char* technique : {"rayTraced", "hybrid"}) {
-      const Json shadow = with({{"technique", technique}}, terminator);
-      const Frame frame = renderJson(scene, specOf(shadow, kLowSun, {"error"}).dump());
-      ASSERT_TRUE(frame.report.error);
-      EXPECT_EQ(frame.report.error->misclassified, 0.0) << shadow;
-      EXPECT_GT(frame.report.error->receivers, 2000) << shadow;
-    }
+    const Json shadow = with({{"technique", "rayTraced"}}, terminator);
+    const Frame frame = renderJson(scene, specOf(shadow, kLowSun, {"error"}).dump());
+    ASSERT_TRUE(frame.report.error);
+    EXPECT_EQ(frame.report.error->misclassified, 0.0) << shadow;
+    EXPECT_GT(frame.report.error->receivers, 2000) << shadow;
   }
   const Frame map = renderJson(scene, specOf(Json::object(), kLowSun, {"error"}).dump());
   EXPECT_LT(map.report.error->misclassified, 0.002);

@@ -114,7 +114,7 @@ TEST(UnshadowedSurfaces, UnlitOnesShowNoShadow) {
   builder.json["extensionsUsed"] = {"KHR_materials_unlit"};
   builder.json["meshes"][0]["primitives"][0]["material"] =
       builder.add("materials", {{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  for (const char* technique : {"shadowMap", "rayTraced", "hybrid"}) {
+  for (const char* technique : {"shadowMap", "rayTraced"}) {
     const Json spec = {{"lights", {sun()}}, {"shadow", {{"technique", technique}}}};
     const Frame frame = testing::shadowFrame(testing::sceneOf(builder), Sight{}, spec);
     EXPECT_EQ(testing::countsOf(testing::shownOf(frame)).shadowed, 0) << technique;

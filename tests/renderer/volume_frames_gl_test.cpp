@@ -153,10 +153,8 @@ TEST(VolumeFrames, D6_ItTakesItsShareOfWhatSurfacesLetThrough) {
   const Frame half = rendered(scene, {slab()}, weak);
   EXPECT_NEAR(valueAt(half, 0.4, 0.5, 1), 0.5, 1e-3) << "both are shadow, and darken once";
   EXPECT_NEAR(valueAt(half, 0.6, 0.5, 1), 0.5 + 0.5 * std::exp(-2 * kSigma), 0.003);
-  for (const char* technique : {"rayTraced", "hybrid"}) {
-    const Frame exact = rendered(scene, {slab()}, Json{{"shadow", {{"technique", technique}}}});
-    EXPECT_NEAR(valueAt(exact, 0.6, 0.5, 1), std::exp(-2 * kSigma), 0.003) << technique;
-  }
+  const Frame exact = rendered(scene, {slab()}, Json{{"shadow", {{"technique", "rayTraced"}}}});
+  EXPECT_NEAR(valueAt(exact, 0.6, 0.5, 1), std::exp(-2 * kSigma), 0.003);
 }
 
 TEST(VolumeFrames, D7_SurfacesThrowTheirShadowsOnIt) {

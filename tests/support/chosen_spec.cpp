@@ -81,7 +81,7 @@ json chosenDepthRange(Choices& choices, double metres) {
 }
 
 json chosenShadow(Choices& choices, double metres) {
-  json shadow = {{"technique", choices.of({"shadowMap", "shadowMap", "hybrid", "rayTraced"})},
+  json shadow = {{"technique", choices.of({"shadowMap", "shadowMap", "rayTraced"})},
                  {"filter", chosenFilter(choices, metres)},
                  {"depthRange", chosenDepthRange(choices, metres)},
                  {"raySamples", 1 + choices.below(4)}};

@@ -114,7 +114,7 @@ bool sameMatrices(const LightReport& cpu, const LightReport& gl) {
 /// True where the shadow of a light is what its map says, so that every device plans the same tiles.
 bool onlyMapped(const FrameSpec& effective, std::size_t light) {
   const TechniqueTraits& traits = traitsOf((*effective.lights)[light].shadow->technique);
-  return traits.mapped && !traits.layered;
+  return !traits.layered;
 }
 
 bool sameDepthRange(const FrameReport& cpu, const FrameReport& gl) {
@@ -166,13 +166,6 @@ std::string tileDifference(const FrameReport& cpu, const FrameReport& gl) {
   return "";
 }
 
-/// True where some spot's or point light's shadow is found by technique hybrid.
-bool hasLocalHybrid(const FrameSpec& effective) {
-  return std::any_of(effective.lights->begin(), effective.lights->end(), [](const Light& light) {
-    return light.type != LightType::directional && traitsOf(light.shadow->technique).mapSparesRays();
-  });
-}
-
 } // namespace
 
 std::string differenceOf(const Frame& cpu, const Frame& gl) {
@@ -189,9 +182,6 @@ std::string differenceOf(const Frame& cpu, const Frame& gl) {
     const ViewTraits& traits = traitsOf(gl.images[i].view);
     const bool showsMaps = traits.tiles || traits.source == ViewSource::atlas || (traits.shadowed && mapped);
     if (!planned && showsMaps) continue;
-    if ((traits.shadowed || traits.source == ViewSource::rays) && traits.source != ViewSource::picture &&
-        hasLocalHybrid(gl.report.spec))
-      continue;
     const std::string difference = pictureDifference(cpu.images[i], gl.images[i], antialiased);
     if (!difference.empty()) return difference;
   }

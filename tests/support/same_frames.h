@@ -13,9 +13,7 @@ namespace gnomon::testing {
 ///   picture has nothing near its value (16 levels of 255; antialiased 32) within the 3 x 3 pixels around it, whichever
 ///   picture is asked for which; and one pixel in 100 and 4 besides may differ: what covers single pixels has no
 ///   neighbour that shows it, and what they show may make the depth range of cascades another one.
-/// - Where depth ranges or matrices of tiles are further apart than rounding, so may be all that a map says. Whether
-///   technique hybrid has a map is each device's own choice, and where none of a spot's or point light's light falls,
-///   the map calls lit what rays may find in shadow: nothing shows it but views of shadows.
+/// - Where depth ranges or matrices of tiles are further apart than rounding, so may be all that a map says.
 /// - A row of a level floor has one depth, and may lie where one cascade ends: one row of a view of tiles.
 /// - Times, memory, and counts of what was drawn: each device culls in its own way.
 std::string differenceOf(const Frame& cpu, const Frame& gl);

@@ -311,11 +311,10 @@ class Shadow:
         False = the light casts no shadow, and takes no place in the atlas. Default: true.
     technique:
         How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only. shadowMap =
-        depths seen from the light, filtered: fast, and as exact as its texels are fine; hybrid = rays, but for what
-        a shadow map that a view shows is certain of: exact, and soft where the light has a size; shadowVolume =
-        stencilled shadow volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact,
-        and soft where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a
-        lookup in each frame: soft where the light has a size, for scenes that stand still. Default: "shadowMap".
+        depths seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled
+        shadow volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft
+        where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in
+        each frame: soft where the light has a size, for scenes that stand still. Default: "shadowMap".
     strength:
         0 = no shadow, 1 = no direct light in shadow. Default: 1.0.
     color:
@@ -368,7 +367,7 @@ class Shadow:
     """
 
     enabled: Optional[bool] = None
-    technique: Optional[Literal["shadowMap", "hybrid", "shadowVolume", "rayTraced", "lightMap"]] = None
+    technique: Optional[Literal["shadowMap", "shadowVolume", "rayTraced", "lightMap"]] = None
     strength: Optional[float] = None
     color: Optional[Vector] = None
     size: Optional[Literal["XSmall", "Small", "Medium", "Large", "XLarge"]] = None
@@ -410,8 +409,8 @@ class Light:
         up to five. Unit: degrees. Default: 45.0.
     angularDiameterDegrees:
         Angle that the light's disc spans in the sky, 0.53 for the real sun; directional lights only; absent = 0.
-        Techniques rayTraced, hybrid and lightMap, filter pcss and the exact reference draw a soft shadow for it;
-        the others know no size. Unit: degrees.
+        Techniques rayTraced and lightMap, filter pcss and the exact reference draw a soft shadow for it; the others
+        know no size. Unit: degrees.
     radius:
         Radius of the glowing ball; spot and point lights; absent = 0. Techniques rayTraced, hybrid and lightMap,
         filter pcss and the exact reference draw a soft shadow for it; the others know no size. Unit: metres.

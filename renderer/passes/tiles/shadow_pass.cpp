@@ -10,7 +10,6 @@
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/moments_pass.h"
-#include "renderer/prepare/outlines.h"
 
 namespace gnomon {
 namespace {
@@ -34,36 +33,13 @@ std::vector<TileContent> contentsOf(const PassInputs& inputs, const ShadowPlan& 
 }
 
 /// An empty atlas of the plan's size; a framebuffer over it is to be cleared.
-AtlasTextures emptyAtlas(const ShadowPlan& plan, int samples, bool outlined) {
+AtlasTextures emptyAtlas(const ShadowPlan& plan, int samples) {
   AtlasTextures textures;
   textures.depth = gl::Texture({GL_DEPTH_COMPONENT32F, plan.atlasWidth, plan.atlasHeight, 1, samples > 1 ? samples : 0},
                                "shadow atlas");
   const bool blurs = std::any_of(plan.tiles.begin(), plan.tiles.end(), isBlurred);
-  if (outlined) textures.outlines = gl::Texture({GL_R8, plan.atlasWidth, plan.atlasHeight}, "shadow outlines");
   if (blurs) textures.moments = gl::Texture({GL_RGBA32F, plan.atlasWidth, plan.atlasHeight}, "shadow moments");
   return textures;
-}
-
-bool isOutlined(const Light& light) {
-  return traitsOf(light.shadow->technique).mapSparesRays();
-}
-
-/// Finds the outlines of tiles and writes them; a light's tiles follow each other.
-void outline(const PassInputs& inputs, const ShadowPlan& plan, std::span<const TileContent* const> contents,
-             AtlasTextures& textures) {
-  for (std::size_t first = 0, last = 0; first < contents.size(); first = last) {
-    const Light& light = contents[first]->light;
-    std::vector<OutlinedTile> tiles;
-    for (; last < contents.size() && &contents[last]->light == &light; ++last) {
-      tiles.push_back({plan.tiles[contents[last]->index], contents[last]->casters});
-    }
-    const OutlineInput input{inputs.scene, inputs.view, inputs.geometry, inputs.edges, light, anchorOf(inputs.view)};
-    const std::vector<TileOutlines> outlines = outlinesOf(input, tiles);
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-      textures.outlines.writeRect(tiles[i].tile.rect, {GL_RED, GL_UNSIGNED_BYTE},
-                                  std::as_bytes(std::span(outlines[i])));
-    }
-  }
 }
 
 void clearDepths(const gl::Texture& depth, gl::Framebuffer& target) {
@@ -101,15 +77,12 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     return atlas;
   }
 
-  const bool outlined = std::any_of(contents.begin(), contents.end(),
-                                    [](const TileContent& content) { return isOutlined(content.light); });
-  auto textures = std::make_shared<AtlasTextures>(emptyAtlas(plan, spec.atlas.samples, outlined));
+  auto textures = std::make_shared<AtlasTextures>(emptyAtlas(plan, spec.atlas.samples));
   auto target = gl::Framebuffer::create({{}, {&textures->depth}}, "shadow atlas");
   if (!target) return target.problems();
   clearDepths(textures->depth, *target);
   bindInputs(inputs);
   std::vector<const ShadowTile*> toBlur;
-  std::vector<const TileContent*> toOutline;
   for (std::size_t i = 0; i < contents.size(); ++i) {
     const TileContent& content = contents[i];
     const ShadowTile& tile = plan.tiles[content.index];
@@ -117,7 +90,6 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
     if (const auto kept = cache.find(keys[i])) {
       textures->depth.copyFrom(kept->depth, tile.rect);
       if (isBlurred(tile)) textures->moments.copyFrom(kept->moments, tile.rect);
-      if (isOutlined(content.light)) textures->outlines.copyFrom(kept->outlines, tile.rect);
       counts.reused = true;
       continue;
     }
@@ -133,9 +105,7 @@ Result<ShadowAtlas> castShadows(const PassInputs& inputs, const ShadowPlan& plan
               std::exchange(timer, std::move(next))};
     atlas.drawCalls += batch.drawCalls;
     if (isBlurred(tile)) toBlur.push_back(&tile);
-    if (isOutlined(content.light)) toOutline.push_back(&content);
   }
-  outline(inputs, plan, toOutline, *textures);
   if (const Status blurred = blurMoments(inputs, toBlur, *textures); !blurred) return blurred.problems();
   cache.keep(std::move(keys), textures);
   atlas.textures = std::move(textures);

@@ -5,7 +5,7 @@
 namespace gnomon {
 
 std::size_t AtlasTextures::bytes() const {
-  return depth.bytes() + moments.bytes() + outlines.bytes();
+  return depth.bytes() + moments.bytes();
 }
 
 std::shared_ptr<const AtlasTextures> TileCache::findAll(std::span<const TileKey> keys) {

@@ -13,9 +13,8 @@ namespace gnomon {
 
 /// A shadow atlas' textures.
 struct AtlasTextures {
-  gl::Texture depth;    ///< D32F, 0 nearest the light; 1 where nothing casts
-  gl::Texture moments;  ///< RGBA32F, of the tiles whose filter blurs; empty where none does
-  gl::Texture outlines; ///< R8: outlines.h, of the tiles of technique hybrid; empty where none is
+  gl::Texture depth;   ///< D32F, 0 nearest the light; 1 where nothing casts
+  gl::Texture moments; ///< RGBA32F, of the tiles whose filter blurs; empty where none does
 
   std::size_t bytes() const;
 };

@@ -10,7 +10,6 @@
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
-#include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/shown_triangles.h"
 #include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/baked_shadow.h"
@@ -70,19 +69,10 @@ Result<std::unique_ptr<ShownPicture>> readPicture(const PassInputs& inputs, cons
   return picture;
 }
 
-/// A light map, if there is one, has it all. A shadow map decides where it is sure, rays do elsewhere: everywhere
-/// towards a light that has a size, of which the map knows the middle alone.
-Result<TracedShadow> shadowOf(const PassInputs& inputs, const Shading& shading, const FrameWork& work,
-                              const Surfaces& surfaces, const PicturePoints& points, int light) {
-  const Light& source = points.rays().lights[static_cast<std::size_t>(light)];
-  const TechniqueTraits& traits = traitsOf(source.shadow->technique);
-  if (traits.baked) return bakedShadow(points, *work.baked(light));
-  if (!traits.mapSparesRays() || hasSize(source)) {
-    return tracedShadow(points, points.rays(), light, source.shadow->raySamples);
-  }
-  const auto verdicts = mapVerdicts(inputs, shading, surfaces, light);
-  if (!verdicts) return verdicts.problems();
-  return tracedShadow(points, points.rays(), light, 1, *verdicts);
+TracedShadow shadowOf(const FrameWork& work, const PicturePoints& points, int light) {
+  const Shadow& shadow = *points.rays().lights[static_cast<std::size_t>(light)].shadow;
+  if (traitsOf(shadow.technique).baked) return bakedShadow(points, *work.baked(light));
+  return tracedShadow(points, points.rays(), light, shadow.raySamples);
 }
 
 } // namespace
@@ -112,10 +102,9 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
         if (!read) return read.problems();
         picture = std::move(*read);
       }
-      const auto found = shadowOf(inputs, shading, work, surfaces, *picture->points, light);
-      if (!found) return found.problems();
-      writeVisibility(shadows.layers, static_cast<int>(shadows.lights.size()), found->values);
-      facts.tracedPixels = found->tracedPixels;
+      const TracedShadow found = shadowOf(work, *picture->points, light);
+      writeVisibility(shadows.layers, static_cast<int>(shadows.lights.size()), found.values);
+      facts.tracedPixels = found.tracedPixels;
     } else if (const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows); !drawn) {
       return drawn.problems();
     }

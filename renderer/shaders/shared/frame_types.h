@@ -69,7 +69,6 @@ using glm::vec4;
 #define GNOMON_EMISSION_UNIT 8
 #define GNOMON_MOMENTS_UNIT 9
 #define GNOMON_VISIBILITY_UNIT 10
-#define GNOMON_OUTLINES_UNIT 11
 #define GNOMON_CASTER_NODE_UNIT 12
 #define GNOMON_CASTER_DEPTH_UNIT 13
 #define GNOMON_VOLUMES_UNIT 14
@@ -85,9 +84,6 @@ using glm::vec4;
 
 // Pixels along a side of the squares of the picture that have a list of lights each; whole blocks.
 #define GNOMON_REGION_SIZE 64
-
-// Tangent of the angle to the light from which on a surface counts as steep: all of its edges are outlines then.
-#define GNOMON_STEEPEST 2.0
 
 // Probes in a row of their target.
 #define GNOMON_PROBE_COLUMNS 256

@@ -114,8 +114,8 @@ TEST(EvaluationReportJson, ReadsBackAsItWasWritten) {
   report.renderer.renderer = "llvmpipe";
   report.reference = {12.5, 3, 256, 2};
   EvaluationRow good;
-  good.variant = {R"({"shadow":{"technique":"hybrid"}})"};
-  good.name = "hybrid";
+  good.variant = {R"({"shadow":{"technique":"rayTraced"}})"};
+  good.name = "rayTraced";
   good.milliseconds = 40.25;
   good.stages = {{"survey", 10}, {"shade", 30.25}};
   good.memoryBytes = 1'234'567'890'123;
@@ -130,7 +130,7 @@ TEST(EvaluationReportJson, ReadsBackAsItWasWritten) {
   bad.problems = {{"unsupportedFeature", "/shadow/technique", "It can't.", std::nullopt, "a mask"}};
   report.rows = {good, bad};
   const Json json = toJson(report);
-  EXPECT_EQ(json["rows"][0]["variant"]["shadow"]["technique"], "hybrid");
+  EXPECT_EQ(json["rows"][0]["variant"]["shadow"]["technique"], "rayTraced");
   EXPECT_EQ(json["rows"][0]["stages"]["shade"], 30.25);
   EXPECT_FALSE(json["rows"][1].contains("metrics") || json["rows"][1].contains("milliseconds"));
   const auto back = readEvaluationReport(json.dump());

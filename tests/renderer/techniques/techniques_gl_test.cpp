@@ -35,13 +35,6 @@ std::string shadowSpec(const std::string& lights, const char* technique) {
   return specOf(lights, {{"shadow", {{"technique", technique}}}});
 }
 
-/// Of technique hybrid, with a view that shows its map, so that there is one.
-std::string mappedSpec(const std::string& lights, const Json& shadow = Json::object()) {
-  Json patch{{"shadow", shadow}, {"views", {"shadow", "cascades"}}};
-  patch["shadow"]["technique"] = "hybrid";
-  return specOf(lights, patch);
-}
-
 struct Case {
   const char* scene;
   const char* lights;
@@ -61,15 +54,14 @@ TEST_P(ExactTechniques, RayTracedShadowsAreTheTruth) {
   EXPECT_EQ(count.wrong, 0u);
 }
 
-TEST_P(ExactTechniques, HybridShadowsAreTheTruth) {
+TEST_P(ExactTechniques, AViewOfTheMapChangesNoShadow) {
   const ScenePtr scene = generatedScene(GetParam().scene);
-  const std::string spec = mappedSpec(GetParam().lights);
-  const Frame frame = renderJson(scene, spec);
-  const auto count = misclassified(floatsOf(frame), truthOf(scene, spec));
-  EXPECT_GT(count.receivers, 1000u);
-  EXPECT_EQ(count.wrong, 0u);
-  ASSERT_TRUE(frame.report.lights[0].tracedPixels.has_value());
-  RecordProperty("tracedShare", std::to_string(double(*frame.report.lights[0].tracedPixels) / (320 * 180)));
+  const Frame alone = renderJson(scene, shadowSpec(GetParam().lights, "rayTraced"));
+  const Json shown{{"shadow", {{"technique", "rayTraced"}}}, {"views", {"shadow", "cascades"}}};
+  const Frame mapped = renderJson(scene, specOf(GetParam().lights, shown));
+  EXPECT_TRUE(alone.report.lights[0].tiles.empty());
+  EXPECT_FALSE(mapped.report.lights[0].tiles.empty());
+  EXPECT_EQ(floatsOf(alone), floatsOf(mapped));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ExactTechniques,
@@ -90,61 +82,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ExactTechniques,
                            return std::string(test.param.scene) + kind;
                          });
 
-TEST(HybridShadow, TheMapDecidesMostPixels) {
-  GNOMON_NEEDS_GL("the processor draws the map for the view alone");
-  const Frame frame = renderJson(generatedScene("box_on_plane"), mappedSpec(kSun));
-  EXPECT_LT(*frame.report.lights[0].tracedPixels, 320u * 180u / 10);
-  EXPECT_GT(*frame.report.lights[0].tracedPixels, 0u);
-}
-
-TEST(HybridShadow, RaysDecideAloneWhereNoViewShowsItsMapAndTheReportSaysSo) {
-  const ScenePtr scene = generatedScene("city");
-  const Frame alone = renderJson(scene, shadowSpec(kSun, "hybrid"));
-  const Frame mapped = renderJson(scene, mappedSpec(kSun));
-  // All but the sky, and blocks that are lit or turned away as a whole.
-  EXPECT_GT(*alone.report.lights[0].tracedPixels, 320u * 180u / 10);
-  EXPECT_LT(*alone.report.lights[0].tracedPixels, 320u * 180u);
-  EXPECT_EQ(alone.report.lights[0].note, "rays alone decide: a map would cost more than the rays that it saves");
-  EXPECT_TRUE(alone.report.lights[0].tiles.empty());
-  EXPECT_FALSE(mapped.report.lights[0].tiles.empty());
-  EXPECT_EQ(floatsOf(alone), floatsOf(mapped));
-}
-
-TEST(HybridShadow, ItWorksOnCoarseTilesToo) {
-  const ScenePtr scene = generatedScene("long_row");
-  for (const char* const size : {"XSmall", "Medium"}) {
-    const std::string spec = mappedSpec(kSun, {{"size", size}, {"cascadeCount", 2}});
-    const auto count = misclassified(floatsOf(renderJson(scene, spec)), truthOf(scene, spec));
-    EXPECT_EQ(count.wrong, 0u) << size;
-  }
-}
-
-TEST(HybridShadow, WhatTheMapDoesNotReachIsLeftToRays) {
-  const ScenePtr scene = generatedScene("long_row");
-  const std::string spec = mappedSpec(kSun, {{"depthRange", {{"mode", "manual"}, {"min", 5}, {"max", 20}}}});
-  const auto count = misclassified(floatsOf(renderJson(scene, spec)), truthOf(scene, spec));
-  EXPECT_EQ(count.wrong, 0u);
-}
-
 TEST(ExactShadows, TheirEdgesAreAntialiased) {
   const ScenePtr scene = generatedScene("box_on_plane");
-  for (const char* const technique : {"rayTraced", "hybrid"}) {
-    const Json views{"lightContribution"};
-    const Frame plain = renderJson(scene, specOf(kSun, {{"shadow", {{"technique", technique}}}, {"views", views}}));
-    const Frame smooth = renderJson(
-        scene, specOf(kSun, {{"shadow", {{"technique", technique}}}, {"views", views}, {"antialiasing", "msaa4x"}}));
-    std::size_t between = 0;
-    double difference = 0;
-    const auto& a = floatsOf(plain);
-    const auto& b = floatsOf(smooth);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      difference += std::abs(a[i] - b[i]);
-      if (std::abs(a[i] - b[i]) > 0.05f) ++between;
-    }
-    EXPECT_GT(between, 300u) << technique;
-    EXPECT_LT(difference / double(a.size()), 0.02) << technique;
+  const Json views{"lightContribution"};
+  const Frame plain = renderJson(scene, specOf(kSun, {{"shadow", {{"technique", "rayTraced"}}}, {"views", views}}));
+  const Frame smooth = renderJson(
+      scene, specOf(kSun, {{"shadow", {{"technique", "rayTraced"}}}, {"views", views}, {"antialiasing", "msaa4x"}}));
+  std::size_t between = 0;
+  double difference = 0;
+  const auto& a = floatsOf(plain);
+  const auto& b = floatsOf(smooth);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference += std::abs(a[i] - b[i]);
+    if (std::abs(a[i] - b[i]) > 0.05f) ++between;
   }
+  EXPECT_GT(between, 300u);
+  EXPECT_LT(difference / double(a.size()), 0.02);
 }
 
 TEST(ExactShadows, StrengthAndReceiversCount) {
@@ -160,16 +114,11 @@ TEST(ExactShadows, ASizeSoftensWhatRaysDecide) {
   const ScenePtr scene = generatedScene("box_on_plane");
   const char* const wide =
       R"([{"type":"directional","sun":{"azimuthDegrees":120,"elevationDegrees":35},"angularDiameterDegrees":20}])";
-  const auto softened = [&](const char* technique) {
-    const Frame frame = renderJson(scene, specOf(wide, {{"shadow", {{"technique", technique}, {"raySamples", 64}}}}));
-    const auto& shares = floatsOf(frame);
-    const bool noted = frame.report.lights[0].note.find("size") != std::string::npos;
-    EXPECT_EQ(noted, std::string(technique) != "rayTraced") << frame.report.lights[0].note;
-    EXPECT_EQ(frame.report.lights[0].note.find("ignored"), std::string::npos) << frame.report.lights[0].note;
-    EXPECT_GT(std::count_if(shares.begin(), shares.end(), [](float s) { return s > 0.05f && s < 0.95f; }), 300);
-    return shares;
-  };
-  EXPECT_EQ(softened("rayTraced"), softened("hybrid"));
+  const Json shadow{{"technique", "rayTraced"}, {"raySamples", 64}};
+  const Frame frame = renderJson(scene, specOf(wide, {{"shadow", shadow}}));
+  const auto& shares = floatsOf(frame);
+  EXPECT_EQ(frame.report.lights[0].note, "");
+  EXPECT_GT(std::count_if(shares.begin(), shares.end(), [](float s) { return s > 0.05f && s < 0.95f; }), 300);
 }
 
 TEST(ExactShadows, LightsOfSeveralTechniquesShareAFrame) {
@@ -177,7 +126,7 @@ TEST(ExactShadows, LightsOfSeveralTechniquesShareAFrame) {
   const Json lights = Json::parse(R"([
       {"type":"directional","sun":{"azimuthDegrees":120,"elevationDegrees":35},"shadow":{"technique":"rayTraced"}},
       {"type":"directional","sun":{"azimuthDegrees":240,"elevationDegrees":40},"shadow":{"technique":"shadowMap"}},
-      {"type":"point","position":[1.5,4.2,2.5],"intensity":60,"shadow":{"technique":"hybrid"}}])");
+      {"type":"point","position":[1.5,4.2,2.5],"intensity":60,"shadow":{"technique":"lightMap"}}])");
   const auto alone = [&](int light) {
     return floatsOf(
         renderJson(scene, specOf(Json::array({lights[static_cast<std::size_t>(light)]}).dump(), Json::object())));

@@ -8,7 +8,7 @@ import { specOf } from '../speed/scenes.mjs';
 import { runOnce } from './once.mjs';
 
 const kTechniques = [
-  { name: 'exact', shadows: 'exact', shadow: { technique: 'hybrid' } },
+  { name: 'exact', shadows: 'exact', shadow: { technique: 'rayTraced' } },
   { name: 'shadow map', shadows: '4 cascades', shadow: {} },
 ];
 

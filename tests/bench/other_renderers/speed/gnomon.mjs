@@ -7,7 +7,7 @@ import { start, stop } from './children.mjs';
 import { specOf } from './scenes.mjs';
 
 const kTechniques = [
-  { name: 'exact', says: '`hybrid`', shadow: { technique: 'hybrid' } },
+  { name: 'exact', says: '`rayTraced`', shadow: { technique: 'rayTraced' } },
   { name: 'shadow map', says: 'defaults', shadow: {} },
 ];
 

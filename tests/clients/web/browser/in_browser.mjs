@@ -153,10 +153,10 @@ test('an evaluation draws a chart, and a point of it is taken', async () => {
   await page.locator('.chart .best').first().waitFor();
   assert.ok((await page.locator('.chart .point').count()) > 3);
   await change(async () => {
-    await page.getByRole('button', { name: /^hybrid.*wrong/ }).focus();
+    await page.getByRole('button', { name: /^rayTraced.*wrong/ }).focus();
     await page.keyboard.press('Enter');
   });
-  await page.waitForFunction(() => location.hash.includes('shadow.technique=hybrid'));
+  await page.waitForFunction(() => location.hash.includes('shadow.technique=rayTraced'));
 });
 
 test('a refused value is told beside its control', async () => {
