@@ -1,12 +1,12 @@
 #pragma once
 
 #include <atomic>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "protocol/base/lru.h"
 #include "protocol/spec/frame_spec.h"
 
 namespace gnomon {
@@ -43,10 +43,9 @@ class BakeBook {
     bool done = false;
     std::shared_ptr<std::atomic<bool>> removed;
   };
-  std::list<Entry>::iterator at(const BakeName& name);
 
   std::mutex mutex_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

@@ -33,12 +33,7 @@ std::string contentKey(const FrameTurn& turn, const Sequence& sequence, const Re
 Result<std::shared_ptr<const Sequence>> JobSequences::of(const std::string& job) {
   {
     const std::lock_guard lock(mutex_);
-    const auto known =
-        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.job == job; });
-    if (known != entries_.end()) {
-      entries_.splice(entries_.begin(), entries_, known);
-      return entries_.front().sequence;
-    }
+    if (const Entry* const known = entries_.find(job, &Entry::job)) return known->sequence;
   }
   const auto request = jobs_.request(job);
   if (!request) return request.problems();
@@ -46,8 +41,8 @@ Result<std::shared_ptr<const Sequence>> JobSequences::of(const std::string& job)
   if (!read) return std::shared_ptr<const Sequence>();
   auto sequence = std::make_shared<const Sequence>(*std::move(read));
   const std::lock_guard lock(mutex_);
-  entries_.push_front({job, sequence});
-  if (entries_.size() > kMost) entries_.pop_back();
+  entries_.add({job, sequence});
+  entries_.keepNewest(kMost);
   return sequence;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <list>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "protocol/sequence/sequence_json.h"
 #include "server/handlers/handlers.h"
 #include "server/system/file_descriptor.h"
@@ -30,7 +30,7 @@ class JobSequences {
 
   JobQueue& jobs_;
   std::mutex mutex_;
-  std::list<Entry> entries_; ///< the last used first
+  LruList<Entry> entries_;
 };
 
 /// Threads that take frames of jobs and have workers draw them, until the server drains.

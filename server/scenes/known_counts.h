@@ -1,11 +1,11 @@
 #pragma once
 
-#include <list>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "protocol/base/lru.h"
 #include "protocol/cost/frame_cost.h"
 
 namespace gnomon {
@@ -22,8 +22,10 @@ class KnownCounts {
   static constexpr std::size_t kMost = 1024;       ///< scenes, a few kilobytes each at most
   static constexpr std::size_t kMostLights = 1024; ///< more than a frame may have
 
+  using Entry = std::pair<std::string, SceneCounts>;
+
   std::mutex mutex_;
-  std::list<std::pair<std::string, SceneCounts>> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

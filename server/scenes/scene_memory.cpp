@@ -1,6 +1,7 @@
 #include "server/scenes/scene_memory.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gnomon {
 namespace {
@@ -9,54 +10,45 @@ constexpr std::uint64_t kEachBytes = 8'192; ///< of each besides its own: its la
 
 } // namespace
 
-/// With the mutex held.
-std::list<SceneMemory::Entry>::const_iterator SceneMemory::find(const std::string& id) const {
-  return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.id == id; });
+std::uint64_t SceneMemory::Entry::bytes() const {
+  return bundleBytes + summary.size() + kEachBytes;
+}
+
+/// With the mutex held; does not mark it as used.
+const SceneMemory::Entry* SceneMemory::look(const std::string& id) const {
+  const auto known = std::ranges::find(entries_, id, &Entry::id);
+  return known == entries_.end() ? nullptr : &*known;
 }
 
 bool SceneMemory::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary) {
   const std::lock_guard lock(mutex_);
-  if (const auto known = find(id); known != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, known);
-    return false;
-  }
-  entries_.push_front({id, std::move(bundle), bytes + summary.size() + kEachBytes, summary});
-  bytes_ += entries_.front().bytes;
-  while (entries_.size() > 1 && (bytes_ > budget_ || entries_.size() > most_)) {
-    bytes_ -= entries_.back().bytes;
-    entries_.pop_back();
-  }
+  if (entries_.find(id, &Entry::id)) return false;
+  entries_.add({id, std::move(bundle), bytes, summary});
+  entries_.keepNewest(most_);
+  entries_.keepWithin(budget_, [](const Entry& entry) { return entry.bytes(); });
   return true;
 }
 
 void SceneMemory::replaceSummary(const std::string& id, const std::string& summary) {
   const std::lock_guard lock(mutex_);
-  const auto known = find(id);
-  if (known == entries_.end()) return;
-  entries_.splice(entries_.begin(), entries_, known);
-  Entry& entry = entries_.front();
-  bytes_ += summary.size() - entry.summary.size();
-  entry.bytes += summary.size() - entry.summary.size();
-  entry.summary = summary;
+  if (Entry* const known = entries_.find(id, &Entry::id)) known->summary = summary;
 }
 
 BundlePtr SceneMemory::bundle(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const auto known = find(id);
-  if (known == entries_.end()) return nullptr;
-  entries_.splice(entries_.begin(), entries_, known);
-  return entries_.front().bundle;
+  const Entry* const known = entries_.find(id, &Entry::id);
+  return known ? known->bundle : nullptr;
 }
 
 std::optional<std::string> SceneMemory::summary(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  const auto known = find(id);
-  return known == entries_.end() ? std::nullopt : std::optional(known->summary);
+  const Entry* const known = look(id);
+  return known ? std::optional(known->summary) : std::nullopt;
 }
 
 bool SceneMemory::contains(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  return find(id) != entries_.end();
+  return look(id) != nullptr;
 }
 
 ScenePage SceneMemory::page(std::string_view after, std::size_t limit) const {
@@ -68,16 +60,14 @@ ScenePage SceneMemory::page(std::string_view after, std::size_t limit) const {
 
 StoreSize SceneMemory::size() const {
   const std::lock_guard lock(mutex_);
-  return {entries_.size(), bytes_};
+  const std::uint64_t bytes = std::transform_reduce(entries_.begin(), entries_.end(), std::uint64_t{0}, std::plus<>(),
+                                                    [](const Entry& entry) { return entry.bytes(); });
+  return {entries_.size(), bytes};
 }
 
 bool SceneMemory::remove(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const auto known = find(id);
-  if (known == entries_.end()) return false;
-  bytes_ -= known->bytes;
-  entries_.erase(known);
-  return true;
+  return entries_.eraseIf([&](const Entry& entry) { return entry.id == id; }) > 0;
 }
 
 } // namespace gnomon

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "protocol/base/lru.h"
 #include "server/scenes/scene_page.h"
 #include "server/scenes/store_size.h"
 #include "server/system/file_descriptor.h"
@@ -38,16 +38,17 @@ class SceneMemory {
   struct Entry {
     std::string id;
     BundlePtr bundle;
-    std::uint64_t bytes = 0; ///< all that the scene takes here
+    std::uint64_t bundleBytes = 0;
     std::string summary;
+
+    std::uint64_t bytes() const; ///< all that the scene takes here
   };
-  std::list<Entry>::const_iterator find(const std::string& id) const;
+  const Entry* look(const std::string& id) const;
 
   mutable std::mutex mutex_;
   std::size_t budget_;
   std::size_t most_;
-  std::uint64_t bytes_ = 0;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

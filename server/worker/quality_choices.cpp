@@ -1,7 +1,5 @@
 #include "server/worker/quality_choices.h"
 
-#include <algorithm>
-
 #include "protocol/base/bytes.h"
 
 namespace gnomon {
@@ -18,19 +16,16 @@ std::string hashOf(const std::string& key) {
 std::optional<QualityReport> QualityChoices::find(const std::string& key) {
   const std::string hash = hashOf(key);
   const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.hash == hash; });
-  if (found == entries_.end()) return std::nullopt;
-  entries_.splice(entries_.begin(), entries_, found);
-  return found->report;
+  const Entry* const found = entries_.find(hash, &Entry::hash);
+  return found ? std::optional(found->report) : std::nullopt;
 }
 
 void QualityChoices::keep(const std::string& key, const QualityReport& report) {
   const std::string hash = hashOf(key);
   const std::lock_guard lock(mutex_);
-  entries_.remove_if([&](const Entry& entry) { return entry.hash == hash; });
-  entries_.push_front({hash, report});
-  if (entries_.size() > kMost) entries_.pop_back();
+  entries_.eraseIf([&](const Entry& entry) { return entry.hash == hash; });
+  entries_.add({hash, report});
+  entries_.keepNewest(kMost);
 }
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <list>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "protocol/base/lru.h"
 #include "protocol/report/frame_report.h"
 
 namespace gnomon {
@@ -26,7 +26,7 @@ class QualityChoices {
   };
 
   std::mutex mutex_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon
