@@ -1,32 +1,23 @@
 #include "renderer/cpu/scene_cache.h"
 
-#include <algorithm>
-
 #include "renderer/scene/alike.h"
 
 namespace gnomon::cpu {
 
 CachedScene& SceneCache::of(const std::shared_ptr<const Scene>& scene) {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.scene.lock() == scene; });
-  if (found != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, found);
-    return entries_.front().cached;
+  if (Entry* const same = entries_.findIf([&](const Entry& entry) { return entry.scene.lock() == scene; })) {
+    return same->cached;
   }
-  if (const auto like = std::find_if(entries_.begin(), entries_.end(),
-                                     [&](const Entry& entry) {
-                                       const auto other = entry.scene.lock();
-                                       return other && sameSurfaces(*other, *scene);
-                                     });
-      like != entries_.end()) {
+  if (Entry* const like = entries_.findIf([&](const Entry& entry) {
+        const auto other = entry.scene.lock();
+        return other && sameSurfaces(*other, *scene);
+      })) {
     like->scene = scene;
-    entries_.splice(entries_.begin(), entries_, like);
-    return entries_.front().cached;
+    return like->cached;
   }
   CachedScene cached = made(*scene);
-  entries_.remove_if([](const Entry& entry) { return entry.scene.expired(); });
-  entries_.push_front({scene, std::move(cached)});
-  return entries_.front().cached;
+  entries_.eraseIf([](const Entry& entry) { return entry.scene.expired(); });
+  return entries_.add({scene, std::move(cached)}).cached;
 }
 
 /// Scenes that share their images are poses of one.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <list>
 #include <memory>
 
+#include "protocol/base/lru.h"
 #include "renderer/cpu/surface/textures.h"
 #include "renderer/scene/mask_coverage.h"
 
@@ -30,7 +30,7 @@ class SceneCache {
   /// With the textures and coverages of a scene that has the same images, and a new id.
   CachedScene made(const Scene& scene);
 
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
   std::uint64_t scenes_ = 0;
 };
 

@@ -90,11 +90,8 @@ bool LightMapCache::isOf(const Key& key, const BakeInput& input, const Light& li
 
 /// With the mutex held.
 std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const Light& light) {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return isOf(entry.key, input, light); });
-  if (found == entries_.end()) return nullptr;
-  entries_.splice(entries_.begin(), entries_, found);
-  return found->baked;
+  const Entry* const found = entries_.findIf([&](const Entry& entry) { return isOf(entry.key, input, light); });
+  return found ? found->baked : nullptr;
 }
 
 std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput& input,
@@ -162,7 +159,7 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
   auto made = make(input, index, light.shadow->lightMap, progress);
   if (!made) return made;
   lock.lock();
-  entries_.push_front({key, made->baked});
+  entries_.add({key, made->baked});
   drop();
   lock.unlock(); // before the claim ends, which locks
   return made;
@@ -170,16 +167,12 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
 
 /// With the mutex held.
 void LightMapCache::drop() {
-  entries_.remove_if([](const Entry& entry) { return entry.key.scene.expired(); });
+  entries_.eraseIf([](const Entry& entry) { return entry.key.scene.expired(); });
   std::set<const LightMapLayout*> layouts;
-  std::size_t bytes = 0;
-  auto entry = entries_.begin();
-  while (entry != entries_.end()) {
-    bytes += entry->baked->bytes();
-    if (layouts.insert(entry->baked->layout.get()).second) bytes += bytesOf(*entry->baked->layout);
-    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
-    entry = keep ? std::next(entry) : entries_.erase(entry);
-  }
+  entries_.keepWithin(budgetBytes_, [&layouts](const Entry& entry) {
+    const BakedLight& baked = *entry.baked;
+    return baked.bytes() + (layouts.insert(baked.layout.get()).second ? bytesOf(*baked.layout) : 0);
+  });
 }
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "renderer/bake/baked_light.h"
 #include "renderer/core/progress.h"
@@ -73,8 +74,8 @@ class LightMapCache {
   std::shared_ptr<LightMapStore> store_;
   std::mutex mutex_;
   std::condition_variable changed_; ///< a map was made or given up
-  std::list<Entry> entries_;        ///< most recently used first
-  std::list<Key> making_;           ///< what some thread bakes at the moment
+  LruList<Entry> entries_;
+  std::list<Key> making_; ///< what some thread bakes at the moment
 };
 
 } // namespace gnomon

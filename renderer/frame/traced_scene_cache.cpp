@@ -17,19 +17,18 @@ constexpr std::size_t kMostScenes = 256;
 
 Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shared_ptr<const Scene>& scene, int index) {
   const auto lock = lockUnlessStopped(mutex_);
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.index == index && sameSurfaces(entry.traced->scene(), *scene);
-  });
-  if (found != entries_.end()) {
+  Entry* const found = entries_.findIf(
+      [&](const Entry& entry) { return entry.index == index && sameSurfaces(entry.traced->scene(), *scene); });
+  if (found) {
     found->scene = scene;
-    entries_.splice(entries_.begin(), entries_, found);
-    return entries_.front().traced;
+    return found->traced;
   }
   auto made = TracedScene::build(scene, index);
   if (!made) return made.problems();
-  entries_.push_front({scene, index, std::make_shared<const TracedScene>(std::move(*made))});
+  auto traced = std::make_shared<const TracedScene>(std::move(*made));
+  entries_.add({scene, index, traced});
   drop();
-  return entries_.front().traced;
+  return traced;
 }
 
 /// Of a scene that only the traced one keeps alive: who asks now has a later one with the same surfaces, and the images
@@ -55,16 +54,10 @@ std::vector<const TracedScene*> TracedSceneCache::outOfUse() const {
 
 void TracedSceneCache::drop() {
   const std::vector<const TracedScene*> idle = outOfUse();
-  entries_.remove_if(
+  entries_.eraseIf(
       [&idle](const Entry& entry) { return std::find(idle.begin(), idle.end(), entry.traced.get()) != idle.end(); });
-  if (entries_.size() > kMostScenes) entries_.resize(kMostScenes);
-  std::size_t bytes = 0;
-  auto entry = entries_.begin();
-  while (entry != entries_.end()) {
-    bytes += entry->traced->bytes() + olderSceneBytes(*entry);
-    const bool keep = entry == entries_.begin() || bytes <= budgetBytes_;
-    entry = keep ? std::next(entry) : entries_.erase(entry);
-  }
+  entries_.keepNewest(kMostScenes);
+  entries_.keepWithin(budgetBytes_, [](const Entry& entry) { return entry.traced->bytes() + olderSceneBytes(entry); });
 }
 
 } // namespace gnomon

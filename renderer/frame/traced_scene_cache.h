@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "renderer/reference/traced_scene.h"
 
@@ -34,7 +34,7 @@ class TracedSceneCache {
 
   std::size_t budgetBytes_;
   std::timed_mutex mutex_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 #include "renderer/frame/volume_cache.h"
 
-#include <algorithm>
 #include <set>
 
 #include "renderer/core/vec3.h"
@@ -9,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kMaxPlaces = 128; // in which volumes stood or stand, however little each takes
+constexpr std::size_t kMaxPlaces = 128; // in which volumes stood or stand, however little each takes
 
 Problems at(const std::string& pointer, Problems problems) {
   for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
@@ -70,13 +69,10 @@ Result<Medium> VolumeCache::filledMedium(const std::shared_ptr<const Bytes>& fil
 
 Result<std::shared_ptr<const Medium>> VolumeCache::medium(const std::shared_ptr<const Bytes>& file,
                                                           const VolumeOptions& options, const VolumePlace& place) {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+  const Entry* const found = entries_.findIf([&](const Entry& entry) {
     return entry.options == options && entry.place == place && entry.file.lock() == file;
   });
-  if (found != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, found);
-    return entries_.front().medium;
-  }
+  if (found) return found->medium;
   const auto space = spaceOf(options, place);
   if (!space) return space.problems();
   auto made = filledMedium(file, options);
@@ -85,24 +81,19 @@ Result<std::shared_ptr<const Medium>> VolumeCache::medium(const std::shared_ptr<
   made->visible = place.visible;
   made->castShadow = options.castShadow && place.castShadow;
   made->receiveShadow = options.receiveShadow && place.receiveShadow;
-  entries_.push_front({file, options, place, std::make_shared<const Medium>(*std::move(made))});
+  const Entry& added = entries_.add({file, options, place, std::make_shared<const Medium>(*std::move(made))});
   drop();
-  return entries_.front().medium;
+  return added.medium;
 }
 
 void VolumeCache::drop() {
-  entries_.remove_if([](const Entry& entry) { return entry.file.expired(); });
+  entries_.eraseIf([](const Entry& entry) { return entry.file.expired(); });
+  entries_.keepNewest(kMaxPlaces);
   std::set<const DensityGrid*> grids;
-  std::size_t bytes = 0;
-  int places = 0;
-  auto entry = entries_.begin();
-  while (entry != entries_.end()) {
-    const DensityGrid* grid = entry->medium->grid.get();
-    if (grids.insert(grid).second) bytes += bytesOf(*grid);
-    bytes += entry->medium->bricks.filled.size();
-    const bool keep = places++ == 0 || (bytes <= budgetBytes_ && places <= kMaxPlaces);
-    entry = keep ? std::next(entry) : entries_.erase(entry);
-  }
+  entries_.keepWithin(budgetBytes_, [&grids](const Entry& entry) {
+    const DensityGrid* grid = entry.medium->grid.get();
+    return entry.medium->bricks.filled.size() + (grids.insert(grid).second ? bytesOf(*grid) : 0);
+  });
 }
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <list>
 #include <memory>
 #include <string>
 
 #include "protocol/base/bytes.h"
+#include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/volume_options.h"
 #include "renderer/resolve/resolve_volumes.h"
@@ -40,7 +40,7 @@ class VolumeCache {
   void drop();
 
   std::size_t budgetBytes_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
   VolumeLightStore lights_;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <list>
 #include <memory>
 
+#include "protocol/base/lru.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/scene/mesh_edges.h"
 
@@ -33,7 +33,7 @@ class GpuSceneCache {
 
   std::size_t budgetBytes_;
   std::uint64_t uploads_ = 0;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

@@ -39,20 +39,11 @@ bool VolumeLightStore::holds(const VolumeLightKey& key) const {
 }
 
 VolumeLightStore::Found VolumeLightStore::mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make) {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.first == key; });
-  if (found != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, found);
-    return {entries_.front().second, false};
-  }
-  entries_.emplace_front(key, std::make_shared<const VolumeLight>(make()));
-  std::size_t bytes = 0;
-  const auto beyond = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    bytes += bytesOf(*entry.second);
-    return bytes > maxBytes_;
-  });
-  const std::shared_ptr<const VolumeLight> made = entries_.front().second;
-  entries_.erase(beyond, entries_.end());
+  if (const Entry* const found = entries_.find(key, &Entry::first)) return {found->second, false};
+  const auto made = std::make_shared<const VolumeLight>(make());
+  entries_.add({key, made});
+  entries_.keepWithin(maxBytes_, [](const Entry& entry) { return bytesOf(*entry.second); });
+  if (bytesOf(*made) > maxBytes_) entries_.keepNewest(0);
   return {made, true};
 }
 

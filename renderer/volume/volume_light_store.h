@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <functional>
-#include <list>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "renderer/volume/volume_light.h"
 
 namespace gnomon {
@@ -57,7 +57,7 @@ class VolumeLightStore {
   using Entry = std::pair<VolumeLightKey, std::shared_ptr<const VolumeLight>>;
 
   std::size_t maxBytes_;
-  std::list<Entry> entries_; ///< the latest used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <list>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "renderer/core/rect.h"
 #include "renderer/gl/texture.h"
 #include "renderer/prepare/tile_casters.h"
@@ -38,7 +38,7 @@ class TileCache {
   };
 
   std::size_t budgetBytes_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon

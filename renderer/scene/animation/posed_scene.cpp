@@ -73,16 +73,11 @@ Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const Pose& 
 
 Result<std::shared_ptr<const Scene>> PoseCache::get(const Key& key, const Make& make) {
   const auto lock = lockUnlessStopped(mutex_);
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
-  if (found != entries_.end()) {
-    entries_.splice(entries_.begin(), entries_, found);
-    return entries_.front().scene;
-  }
+  if (const Entry* const found = entries_.find(key, &Entry::key)) return found->scene;
   auto made = make();
   if (!made) return made;
-  entries_.push_front({key, *made});
-  if (entries_.size() > kKept) entries_.pop_back();
+  entries_.add({key, *made});
+  entries_.keepNewest(kKept);
   return made;
 }
 

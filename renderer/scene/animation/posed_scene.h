@@ -1,13 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/scene/animation/node_places.h"
@@ -58,7 +58,7 @@ class PoseCache {
   };
 
   std::timed_mutex mutex_;
-  std::list<Entry> entries_; ///< most recently used first
+  LruList<Entry> entries_;
 };
 
 } // namespace gnomon
