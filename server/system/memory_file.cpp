@@ -36,10 +36,6 @@ std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes) {
   return writer.finish();
 }
 
-FileDescriptor duplicate(const FileDescriptor& file) {
-  return FileDescriptor(::fcntl(file.get(), F_DUPFD_CLOEXEC, 0));
-}
-
 std::optional<std::size_t> sizeOf(const FileDescriptor& file) {
   struct stat status {};
   if (::fstat(file.get(), &status) != 0 || status.st_size < 0) return std::nullopt;

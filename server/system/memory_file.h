@@ -30,9 +30,6 @@ class MemoryFileWriter {
 
 std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes);
 
-/// A second descriptor of the same file; an empty one where the system refused.
-FileDescriptor duplicate(const FileDescriptor& file);
-
 /// How many bytes a file has; nothing where the system does not tell.
 std::optional<std::size_t> sizeOf(const FileDescriptor& file);
 
