@@ -11,8 +11,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr double kDefaultMin = 0.0;
-constexpr double kDefaultMax = 50.0;
 constexpr double kDefaultGuard = 1.0;
 
 /// Factors by which the ends of a held range move: a little at a time outwards, so that it is not longer than it need
@@ -123,8 +121,7 @@ std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverD
   if (receivers.range.empty()) return std::nullopt;
   const double near = view.near + view.ahead;
   if (options.mode == DepthRangeMode::manual) {
-    const DepthInterval asked =
-        widened(view, {near + options.min.value_or(kDefaultMin), near + options.max.value_or(kDefaultMax)});
+    const DepthInterval asked = widened(view, {near + *options.min, near + *options.max});
     return PlannedRange{asked, asked, {}};
   }
   const double nearest = receivers.range.nearest;

@@ -33,7 +33,7 @@ struct PlannedRange {
 /// The view depths that the cascades of a light cover, from the eye that was asked for (CameraView::ahead). Empty where
 /// nothing is in view.
 /// Automatic: from the nearest to the farthest surface, widened by depthSlack. Manual: min and max beyond the camera's
-/// near plane (absent: 0 and 50 m), as asked. A range too thin to be cut is widened.
+/// near plane, as asked; REQUIRES: both. A range too thin to be cut is widened.
 /// Automatic with a previous range: that range and the guard on both ends, within the camera's near and far planes. An
 /// end beyond which a surface lies moves outwards by as many steps of a tenth as it takes; one that could move inwards
 /// by a factor of two does so: near to near / 1.1^n or near * 2^n, far to far * 1.1^n or far / 2^n (the steps of

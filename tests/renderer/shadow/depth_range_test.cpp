@@ -44,10 +44,6 @@ TEST(DepthRange, X21_ManualIsMeasuredFromTheNearPlane) {
   ASSERT_TRUE(range);
   EXPECT_DOUBLE_EQ(range->covered.near, 2.5);
   EXPECT_DOUBLE_EQ(range->covered.far, 30.5);
-  DepthRange defaults;
-  defaults.mode = DepthRangeMode::manual;
-  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->covered.near, 0.5);
-  EXPECT_DOUBLE_EQ(depthRangeOf(view, receiversBetween(1, 2), defaults)->covered.far, 50.5);
 }
 
 TEST(DepthRange, X18_APlaneThatFacesTheCameraGetsARangeWithALength) {
