@@ -42,15 +42,18 @@ int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& con
     }
     return cli::kExitUsage;
   }
-  if (!config.print) return serve(options);
-  std::fputs(configOf(command).c_str(), stdout);
-  return std::fflush(stdout) == 0 ? cli::kExitOk : cli::kExitProblem;
+  if (config.print) {
+    std::fputs(configOf(command).c_str(), stdout);
+    return std::fflush(stdout) == 0 ? cli::kExitOk : cli::kExitProblem;
+  }
+  std::vector<StaticFile> page;
+  for (const WebFile& file : webFiles()) page.push_back({file.path, file.contentType, file.bytes});
+  return serve(options, std::move(page));
 }
 
 cli::Subcommand addServeCommand(CLI::App& app) {
   auto options = std::make_shared<ServeOptions>(fittedTo(memoryLimit()));
   auto config = std::make_shared<ConfigChoice>();
-  for (const WebFile& file : webFiles()) options->page.push_back({file.path, file.contentType, file.bytes});
   auto* command = app.add_subcommand("serve", "Serve the HTTP API and the web page until SIGTERM or SIGINT");
   addServeFlags(*command, *options);
   addConfigFlags(*command, *config);

@@ -7,7 +7,7 @@ A link leads to a file or folder of the tree, and its #anchor to a heading there
 its first part is the name of a folder of the tree, or if it ends like a source file; it may begin at the root, at the
 page's folder, or at any folder, and may lack the file's suffix. In a table, every name in a column headed `file`,
 `files`, `folder` or `shader` is one, and lies below the page's folder if it has no path. Shell commands in code blocks
-are checked for paths from the root. Views, stages, techniques, shaders, flags, commands and fields are those that the
+are checked for paths from the root. Views, stages, techniques, shaders, commands and fields are those that the
 code names. A file that a comment of a source names (C++, GLSL, Python, CMake) is one of the tree, by its path or by the
 last parts of it.
 """
@@ -212,10 +212,6 @@ def table_faults(tree):
     techniques = spellings(tree, "ShadowTechnique")
     for path, heading in (("README.md", "What it can do"), ("renderer/SHADOWS.md", "Techniques")):
         yield from compare(path, "technique", first_column(tree, path, heading), techniques)
-
-    flags = [flag for text in texts(tree, "server/*serve_flags.cpp") for flag in re.findall(r"\"(--[\w-]+)\"", text)]
-    listed = first_column(tree, "server/OPERATIONS.md", "Start and stop")
-    yield from compare("server/OPERATIONS.md", "flag", listed, flags)
 
     commands = [name for folder in ("server", "clients") for text in texts(tree, folder + "/*.cpp")
                 for name in re.findall(r"add_subcommand\(\"(\w+)\"", text)]

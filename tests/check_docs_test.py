@@ -13,8 +13,6 @@ SOUND = {
                  "[API](server/API.md#views)\n",
     "server/API.md": "# API\n\n## Views\n\n| view | shows |\n|---|---|\n| `color` | all |\n| `depth` | depth |\n\n"
                      "## Stages\n\n| stage | is |\n|---|---|\n| `plan` | planning |\n| `encode` | writing |\n",
-    "server/OPERATIONS.md": "## Start and stop\n\n| flag | does |\n|---|---|\n| `--port` | listens |\n",
-    "server/process/serve_flags.cpp": 'serve.add_option("--port", options.port);\n',
     "server/frames/reply.cpp": 'stages.push_back({"encode", took});\n',
     "server/main.cpp": 'app.add_subcommand("serve", "Serve");\n',
     "clients/USING.md": "## Command line\n\n| command | does |\n|---|---|\n| `gnomon serve` | serves |\n",
@@ -58,10 +56,9 @@ BROKEN = [
     ("protocol/report/report_rows.h", "plan, ", "", "protocol/report/report_rows.h: stage plan is missing"),
     ("renderer/SHADOWS.md", "| `maps` | a map |\n", "", "renderer/SHADOWS.md: technique maps is missing"),
     ("README.md", "| `maps` | a map |\n", "", "README.md: technique maps is missing"),
-    ("server/OPERATIONS.md", "| `--port` | listens |\n", "", "flag --port is missing"),
     ("clients/USING.md", "| `gnomon serve` | serves |\n", "", "command serve is missing"),
     ("protocol/FIELDS.md", "| `width` | number |\n", "", "field width is missing"),
-    ("server/process/serve_flags.cpp", '"--port"', "kPort", "the code names no flag"),
+    ("server/main.cpp", 'add_subcommand("serve"', "addServe(", "the code names no command"),
 ]
 
 # Path, its text, and words of the one fault that its comments have to give.

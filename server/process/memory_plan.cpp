@@ -36,7 +36,7 @@ std::size_t usualWorkers(int cores, std::uint64_t memoryBytes) {
 }
 
 std::size_t mostWorkers(const ServeOptions& options, std::size_t workers) {
-  return workers + (mayStartDriverWorker(options.backend.device) ? 1 : 0);
+  return workers + (mayStartDriverWorker(options.device) ? 1 : 0);
 }
 
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes) {

@@ -163,9 +163,9 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
   return {.program = options.workerProgram,
           .workers = workers,
           .queueLimit = options.queueLimit,
-          .each = {.device = options.backend.device,
-                   .backend = options.backend.backend,
-                   .requireGpu = options.backend.requireGpu,
+          .each = {.device = options.device,
+                   .backend = options.backend,
+                   .requireGpu = options.requireGpu,
                    .gpuSceneBytes = options.gpuSceneBytes / workers,
                    .tileCacheBytes = options.tileCacheBytes / workers,
                    .tracedSceneBytes = options.tracedSceneBytes / workers,
@@ -188,7 +188,7 @@ KeepingPeriod keepingOf(const ServeOptions& options) {
 
 } // namespace
 
-int serve(const ServeOptions& options) {
+int serve(const ServeOptions& options, std::vector<StaticFile> page) {
   std::shared_ptr<KeyRing> keys;
   const std::function<void()> reload = [&keys] {
     tellReloading();
@@ -249,7 +249,7 @@ int serve(const ServeOptions& options) {
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
                     .sequenceTimeout = std::chrono::seconds(options.sequenceTimeoutSeconds),
-                    .page = options.page,
+                    .page = std::move(page),
                     .evaluations = std::counting_semaphore<>(options.maxEvaluations),
                     .sequences = std::counting_semaphore<>(options.maxSequences),
                     .videoMemory = ByteBudget(options.videoMemoryBytes),

@@ -97,10 +97,11 @@ class Configuration(unittest.TestCase):
             self.assertEqual(printed("--config", self.write(f"{key} = ''\n")), usual, key)
         self.assert_refused(serve("--print-config", "--config", self.write("port = ''\n")), ":1: port: ")
 
-    def test_sizes_have_units_in_the_file_too(self):
-        file = self.write("reply-cache-bytes = 2MB\ntile-cache-bytes = '1 GB'\n")
+    def test_sizes_and_times_have_units_in_the_file_too(self):
+        file = self.write("reply-cache-bytes = 2MB\ntile-cache-bytes = '1 GB'\nstore-age = 30d\nrequest-timeout = 2m\n")
         options = options_in(printed("--config", file))
-        self.assertEqual((options["reply-cache-bytes"], options["tile-cache-bytes"]), (str(2 << 20), str(1 << 30)))
+        self.assertEqual([options[key] for key in ("reply-cache-bytes", "tile-cache-bytes", "store-age", "request-timeout")],
+                         [str(2 << 20), str(1 << 30), "2592000", "120"])  # fmt: skip
 
     def test_a_wrong_file_is_refused_with_every_line(self):
         file = self.write("bind = '::1'\nworkrs = 2\nport = 99999\nrequire-gpu = maybe\ngrace = [1, 2]\nstore\nconfig = 'x'\n")

@@ -40,10 +40,10 @@ TEST(MemoryPlan, WorkersAndTheProcessThatListensFitTogether) {
 
 TEST(MemoryPlan, AWorkerForOpenGlComesOnTop) {
   ServeOptions options = fittedTo(4 * kGiB);
-  options.backend.device = DeviceChoice::auto_;
+  options.device = DeviceChoice::auto_;
   EXPECT_EQ(mostWorkers(options, 2), 3u);
   for (const DeviceChoice only : {DeviceChoice::cpu, DeviceChoice::gl}) {
-    options.backend.device = only;
+    options.device = only;
     EXPECT_EQ(mostWorkers(options, 2), 2u) << "requests can't ask for another device";
   }
 }
