@@ -29,7 +29,7 @@ namespace {
 std::shared_ptr<FrameCaches> emptyCaches(const RendererOptions& options) {
   return std::shared_ptr<FrameCaches>(new FrameCaches{TracedSceneCache(options.tracedSceneBytes),
                                                       LightMapCache(options.lightMapBytes, options.lightMaps),
-                                                      VolumeCache(options.volumeBytes)});
+                                                      VolumeCache(options.volumeBytes / 2)});
 }
 
 } // namespace

@@ -23,6 +23,7 @@ ServeOptions fittedTo(std::uint64_t memoryBytes) {
   atMost(options.replyCacheBytes, 32);
   atMost(options.tileCacheBytes, 32);
   atMost(options.lightMapBytes, 32);
+  atMost(options.volumeBytes, 72);
   options.jobBytes = std::min(options.jobBytes, memoryBytes / 40);
   options.maxSceneBytes = std::min(options.maxSceneBytes, options.uploadMemoryBytes / 2);
   return options;

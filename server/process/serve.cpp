@@ -170,6 +170,7 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                    .tileCacheBytes = options.tileCacheBytes / workers,
                    .tracedSceneBytes = options.tracedSceneBytes / workers,
                    .lightMapBytes = options.lightMapBytes / workers,
+                   .volumeBytes = options.volumeBytes / workers,
                    .sceneMemoryBytes = options.sceneMemoryBytes / workers,
                    .frameMemoryBytes = options.frameMemoryBytes / workers,
                    .maxSceneBytes = options.maxSceneBytes,

@@ -35,6 +35,7 @@ inline constexpr auto kRows<WorkerOptions> =
          field("tileCacheBytes", &WorkerOptions::tileCacheBytes, {.says = "Shadow atlases.", .unit = "bytes"}),
          field("tracedSceneBytes", &WorkerOptions::tracedSceneBytes, {.says = "Scenes for rays.", .unit = "bytes"}),
          field("lightMapBytes", &WorkerOptions::lightMapBytes, {.says = "Baked light maps.", .unit = "bytes"}),
+         field("volumeBytes", &WorkerOptions::volumeBytes, {.says = "Grids and light of volumes.", .unit = "bytes"}),
          field("sceneMemoryBytes", &WorkerOptions::sceneMemoryBytes, {.says = "Loaded scenes.", .unit = "bytes"}),
          field("frameMemoryBytes", &WorkerOptions::frameMemoryBytes, {.says = "Pictures.", .unit = "bytes"}),
          field("maxSceneBytes", &WorkerOptions::maxSceneBytes, {.says = "The largest bundle.", .unit = "bytes"}),

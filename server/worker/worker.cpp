@@ -125,6 +125,7 @@ class Worker {
                                          .tracedSceneBytes = options.tracedSceneBytes,
                                          .lightMapBytes = options.lightMapBytes,
                                          .lightMaps = options.keepsLightMaps ? lightMaps_ : nullptr,
+                                         .volumeBytes = options.volumeBytes,
                                          .tileCacheBytes = options.tileCacheBytes});
     if (!renderer) {
       say({.refusal = Refusal{renderer.problems()}});
