@@ -64,7 +64,7 @@ struct SquarePlaces {
   std::uint32_t x[kLanes], y[kLanes];
 };
 
-/// Turns the way to a place of the light's disc, as discFacing and discSample have it. REQUIRES: aim.
+/// Turns the way to a place of the light's disc, as discFacing and waysTo have it. REQUIRES: aim.
 void aimAside(const DrawnLight& light, const SquarePlaces& places, DrawnPoints& points);
 
 } // namespace gnomon

@@ -109,11 +109,6 @@ LightDisc discFacing(const LightSource& light, const glm::dvec3& point) {
   return disc;
 }
 
-glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed) {
-  const glm::dvec2 square = squareSample(index, count, seed);
-  return discFromSquare(square.x, square.y);
-}
-
 namespace {
 
 /// Ways to the places of the disc that these of the unit square become.

@@ -58,8 +58,8 @@ LightDisc discFacing(const LightSource& light, const glm::dvec3& point);
 /// Which of a point's places on a light's disc rays go to: those from `first` up to `last`.
 struct LightSamples {
   std::uint32_t first = 0, last = 1;
-  /// How many there are in all, where that is known from the start (discSample); 0 = the places of an endless sequence,
-  /// whose first ones fill the disc evenly however many they are (sequencePlace).
+  /// How many there are in all, where that is known from the start: spread evenly for any number. 0 = the places of an
+  /// endless sequence, whose first ones fill the disc evenly however many they are (sequencePlace).
   std::uint32_t of = 0;
 };
 
@@ -70,7 +70,7 @@ struct SampleWays {
   double cosine[kLanes]; ///< of the direction and `normal`
 };
 
-/// The ways to the first kLanes of these samples. `normal`: of the point's surface.
+/// The ways to the first kLanes of these samples. `seed` shifts the samples. `normal`: of the point's surface.
 void waysTo(const LightDisc& disc, const LightSamples& samples, std::uint64_t seed, const glm::dvec3& normal,
             SampleWays& ways);
 
@@ -89,9 +89,6 @@ inline constexpr double kFacingCosine = 1e-4;
 inline bool faces(const glm::vec3& normal, const WayToLight& way) {
   return glm::dot(glm::dvec3(normal), way.direction) > kFacingCosine;
 }
-
-/// Number `index` of `count` places in the unit disc, spread evenly over its area for any count. `seed` shifts them.
-glm::dvec2 discSample(std::uint32_t index, std::uint32_t count, std::uint64_t seed);
 
 /// A place in the unit square, in units of 2^-32.
 struct SquarePlace {
