@@ -22,21 +22,14 @@ std::string layerName(View view) {
   return view == View::color ? "" : std::string(spell(view));
 }
 
-} // namespace
-
-Result<Bytes> encodePng(const Frame& frame, std::size_t index) {
-  return encodePng(frame.images[index].image, frame.report.spec.output.pngCompression);
-}
-
-Result<Bytes> encodeExr(const Frame& frame) {
+/// One EXR of every view as named layers.
+Result<Bytes> encodeLayers(const Frame& frame) {
   std::vector<ImageLayer> layers;
   for (const ViewImage& view : frame.images)
     layers.push_back({layerName(view.view), &view.image, traitsOf(view.view).wide});
   const Output& output = frame.report.spec.output;
   return encodeExr(layers, output.exrCompression, output.exrPixelType);
 }
-
-namespace {
 
 Result<Bytes> encodeArray(const ViewImage& view) {
   return encodeNpy(view.image, holdsIndices(view.view) ? ArrayNumbers::int32 : ArrayNumbers::float32);
@@ -60,9 +53,9 @@ Result<Bytes> encodeFile(const Frame& frame, std::size_t index) {
   const ViewImage& view = frame.images[index];
   switch (output.format) {
     case ImageFormat::png:
-      return encodePng(frame, index);
+      return encodePng(view.image, output.pngCompression);
     case ImageFormat::exr:
-      return encodeExr(frame);
+      return encodeLayers(frame);
     case ImageFormat::npy:
       return encodeArray(view);
     case ImageFormat::npz:

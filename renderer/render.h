@@ -120,11 +120,6 @@ class Renderer {
 /// What an evaluation has `renderer` do for it. Refers to both.
 EvaluationTools evaluationTools(Renderer& renderer, const ScenePtr& scene);
 
-/// The frame's file: a PNG of view `index`, or one EXR of every view as named layers. Any thread. REQUIRES: that the
-/// frame's spec asks for that format.
-Result<Bytes> encodePng(const Frame& frame, std::size_t index);
-Result<Bytes> encodeExr(const Frame& frame);
-
 /// A file of a frame's pictures.
 struct EncodedPicture {
   std::string view; ///< its name; of a file that holds every view, the first one's

@@ -12,6 +12,7 @@
 #include "tests/bench/depth_floor.h"
 #include "tests/bench/median.h"
 #include "tests/support/files.h"
+#include "tests/support/png_of.h"
 
 namespace gnomon::bench {
 namespace {
@@ -67,7 +68,7 @@ std::vector<StageTime> request(const std::string& json) {
   const auto spec = decodeFrameSpec(json);
   Frame frame = *renderer().render(city(), *spec);
   const auto encodeBegin = Clock::now();
-  benchmark::DoNotOptimize(*encodePng(frame, 0));
+  benchmark::DoNotOptimize(testing::pngOf(frame));
   std::vector<StageTime> stages = std::move(frame.report.stages);
   stages.push_back({"encode", since(encodeBegin)});
   stages.push_back({"whole", since(begin)});

@@ -11,6 +11,7 @@
 #include "renderer/render.h"
 #include "tests/support/compare_images.h"
 #include "tests/support/files.h"
+#include "tests/support/png_of.h"
 #include "tests/support/tested_device.h"
 
 namespace gnomon {
@@ -51,7 +52,7 @@ Drawn renderCase(const Json& golden) {
   const auto frame = renderer->render(*scene, *spec);
   EXPECT_TRUE(frame) << frame.problems().front().detail;
   if (!frame) return {};
-  return {*encodePng(*frame, 0), !renderer->info().software};
+  return {testing::pngOf(*frame), !renderer->info().software};
 }
 
 Image decoded(const Bytes& png) {

@@ -5,6 +5,7 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/files.h"
+#include "tests/support/png_of.h"
 
 namespace gnomon {
 namespace {
@@ -19,7 +20,7 @@ Result<std::vector<Bytes>> picturesBy(Backend backend) {
         "views":["color","cascades","depth","shadow","atlas"]})");
     const auto frame = renderer->render(*scene, *spec);
     if (!frame) return frame.problems();
-    for (std::size_t view = 0; view < frame->images.size(); ++view) pictures.push_back(*encodePng(*frame, view));
+    for (std::size_t view = 0; view < frame->images.size(); ++view) pictures.push_back(testing::pngOf(*frame, view));
   }
   return pictures;
 }

@@ -6,6 +6,7 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/files.h"
+#include "tests/support/png_of.h"
 
 namespace gnomon {
 namespace {
@@ -36,7 +37,7 @@ std::vector<Bytes> picturesBy(Renderer& renderer, const ScenePtr& scene) {
   const auto frame = renderer.render(scene, specOf(kManyViews));
   EXPECT_TRUE(frame) << frame.problems()[0].pointer << ' ' << frame.problems()[0].detail;
   std::vector<Bytes> pictures;
-  for (std::size_t i = 0; frame && i < frame->images.size(); ++i) pictures.push_back(*encodePng(*frame, i));
+  for (std::size_t i = 0; frame && i < frame->images.size(); ++i) pictures.push_back(testing::pngOf(*frame, i));
   return pictures;
 }
 

@@ -4,6 +4,7 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/support/glb_builder.h"
+#include "tests/support/png_of.h"
 #include "tests/support/tested_device.h"
 
 namespace gnomon {
@@ -22,7 +23,7 @@ Bytes checkered() {
   Image image{8, 8, {"R", "G", "B"}, std::vector<std::uint8_t>(192)};
   auto& pixels = std::get<std::vector<std::uint8_t>>(image.pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i / 3 + i / 24) % 2 == 0 ? 250 : 90;
-  return *encodePng({{}, {{View::color, image}}}, 0);
+  return *encodePng(image, 1);
 }
 
 testing::GlbBuilder boxOnFloor(const Variation& variation) {
@@ -55,7 +56,7 @@ std::vector<Bytes> pictures(Renderer& renderer, const ScenePtr& scene) {
   const auto frame = renderer.render(scene, spec ? *spec : FrameSpec{});
   EXPECT_TRUE(frame) << frame.problems().front().detail;
   std::vector<Bytes> files;
-  for (std::size_t i = 0; frame && i < frame->images.size(); ++i) files.push_back(*encodePng(*frame, i));
+  for (std::size_t i = 0; frame && i < frame->images.size(); ++i) files.push_back(testing::pngOf(*frame, i));
   return files;
 }
 

@@ -1,6 +1,7 @@
 // What a frame's node switches and a light's culling mask do, seen in rendered frames.
 #include "protocol/json/json_codec.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/png_of.h"
 
 namespace gnomon {
 namespace {
@@ -248,8 +249,9 @@ TEST(NodeOptions, D2_SwitchesThatChangeNothingChangeNoByte) {
       Jsons{{{"node", "ground"}, {"visible", true}, {"layers", 12}}, {{"node", "card"}, {"castShadow", true}}};
   const ScenePtr scene = stage();
   const Frame frame = renderJson(scene, switched.dump());
-  EXPECT_EQ(*encodePng(renderJson(scene, plain.dump()), 0), *encodePng(frame, 0));
-  EXPECT_EQ(*encodePng(renderJson(scene, toJson(frame.report.spec).dump()), 0), *encodePng(frame, 0)) << "asked again";
+  EXPECT_EQ(testing::pngOf(renderJson(scene, plain.dump())), testing::pngOf(frame));
+  EXPECT_EQ(testing::pngOf(renderJson(scene, toJson(frame.report.spec).dump())), testing::pngOf(frame))
+      << "asked again";
 }
 
 TEST(NodeOptions, D2_ANodeThatIsNotThereIsAProblem) {

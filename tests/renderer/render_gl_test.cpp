@@ -4,20 +4,18 @@
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/png_of.h"
 
 namespace gnomon {
 namespace {
 
 using testing::floatsOf;
+using testing::pngOf;
 using testing::renderJson;
 using testing::valueAt;
 
 const std::string kBox = R"({"width":160,"height":90,"camera":{"node":"camera"},
     "lights":[{"type":"directional","sun":{"azimuthDegrees":240,"elevationDegrees":35}}]})";
-
-Bytes pngOf(const Frame& frame) {
-  return *encodePng(frame, 0);
-}
 
 TEST(Render, H5_TheSameRequestGivesTheSameBytesWhateverCameBetween) {
   const ScenePtr box = testing::generatedScene("box_on_plane");
@@ -48,7 +46,7 @@ TEST(Render, ViewsComeOutTheSameInAnyOrder) {
   };
   const Frame forth = views(R"(["color","depth","normal","cascades","shadow","atlas"])");
   const Frame back = views(R"(["atlas","shadow","cascades","normal","depth","color"])");
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(*encodePng(forth, i), *encodePng(back, 5 - i)) << i;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pngOf(forth, i), pngOf(back, 5 - i)) << i;
 }
 
 TEST(Render, DepthIsMetresAlongTheViewAxis) {
