@@ -24,7 +24,7 @@ bool mayHaveGpu() {
 
 /// An explicit context, or the wish for a GPU, is one for OpenGL.
 Result<DeviceChoice> askedDevice(const BackendOptions& backend) {
-  const bool namesContext = backend.backend != Backend::automatic || backend.requireGpu;
+  const bool namesContext = backend.backend != Backend::auto_ || backend.requireGpu;
   if (!namesContext || backend.device == DeviceChoice::gl) return backend.device;
   if (backend.device == DeviceChoice::auto_) return DeviceChoice::gl;
   return Problem{ProblemCode::invalidValue, "", "The device cpu has neither a context of OpenGL nor a GPU.",

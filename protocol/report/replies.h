@@ -11,12 +11,12 @@
 
 namespace gnomon {
 
-enum class Backend { automatic, egl, osmesa };
+enum class Backend { auto_, egl, osmesa };
 
 /// Which device draws, and by which graphics context.
 struct BackendOptions {
   DeviceChoice device = DeviceChoice::auto_; ///< gl where another option names a context or a GPU
-  Backend backend = Backend::automatic;      ///< automatic = EGL, then OSMesa
+  Backend backend = Backend::auto_;          ///< auto_ = EGL, or else OSMesa
   bool requireGpu = false;                   ///< refuse software renderers
 };
 

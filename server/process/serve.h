@@ -35,7 +35,7 @@ struct ServeOptions {
   std::size_t workers = 0;
   std::string workerProgram = "/proc/self/exe";
   DeviceChoice device = DeviceChoice::auto_;
-  Backend backend = Backend::automatic;
+  Backend backend = Backend::auto_;
   bool requireGpu = false;
 
   // Limits

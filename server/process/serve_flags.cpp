@@ -27,20 +27,15 @@ std::string variableOf(std::string_view name) {
   return variable;
 }
 
-/// The word for an enumerator of this name on the command line.
-std::string wordOf(std::string_view name) {
-  return name == "automatic" ? "auto" : std::string(name);
-}
-
 template <Spelled Enum>
 CLI::Option* addWord(CLI::App& command, const std::string& flag, Enum& value, const std::string& says) {
   std::map<std::string, Enum> words;
-  for (const Spelling& each : kSpellings<Enum>) words.emplace(wordOf(each.name), static_cast<Enum>(each.value));
+  for (const Spelling& each : kSpellings<Enum>) words.emplace(each.name, static_cast<Enum>(each.value));
   const auto set = [&value, words](const std::string& word) { value = words.at(word); };
   return command.add_option_function<std::string>(flag, set, says)
       ->check(CLI::IsMember(words))
       ->type_name("")
-      ->default_str(wordOf(spell(value)));
+      ->default_str(std::string(spell(value)));
 }
 
 template <class T>

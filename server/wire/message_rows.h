@@ -10,7 +10,7 @@ namespace gnomon {
 
 template <>
 inline constexpr std::array kSpellings<Backend>{
-    spelling(Backend::automatic, "automatic"),
+    spelling(Backend::auto_, "auto"),
     spelling(Backend::egl, "egl"),
     spelling(Backend::osmesa, "osmesa"),
 };

@@ -17,7 +17,7 @@ namespace gnomon {
 /// How a worker draws and what it may keep; the first message to it.
 struct WorkerOptions {
   DeviceChoice device = DeviceChoice::auto_;
-  Backend backend = Backend::automatic;
+  Backend backend = Backend::auto_;
   bool requireGpu = false;
 
   // Bytes

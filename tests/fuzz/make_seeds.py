@@ -158,7 +158,7 @@ def messages(folder):
     texts = (
         {"order": {"number": 1, "kind": "frame", "scene": "ab" * 32, "isStored": True, "milliseconds": 60000.5,
                    "mediaType": "image/png", "boundary": "gnomon-1", "light": 0}},
-        {"start": {"device": "cpu", "backend": "automatic", "sceneMemoryBytes": 1 << 30, "keepsLightMaps": True}},
+        {"start": {"device": "cpu", "backend": "auto", "sceneMemoryBytes": 1 << 30, "keepsLightMaps": True}},
         {"cancel": {"number": 1}},
         {"forget": {"scene": "ab" * 32}},
         {"lightMap": {"number": 1}},

@@ -29,7 +29,7 @@ Json namesOf() {
 /// What the server's route says, of the device that draws unless another is asked for; and beside it every device of
 /// this machine, each with what it is or why it can't be had.
 Result<Json> capabilitiesHere() {
-  const NamedDevice devices[] = {{"cpu", {DeviceChoice::cpu, Backend::automatic, false}},
+  const NamedDevice devices[] = {{"cpu", {DeviceChoice::cpu, Backend::auto_, false}},
                                  {"egl", {DeviceChoice::gl, Backend::egl, false}},
                                  {"osmesa", {DeviceChoice::gl, Backend::osmesa, false}}};
   RendererOptions options;

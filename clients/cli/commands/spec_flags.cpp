@@ -213,7 +213,7 @@ void addWhereFlags(CLI::App& command, WhereOptions& where, SpecArguments& argume
   auto* backend = command.add_option_function<std::string>(
       "--backend",
       [&where](const std::string& name) {
-        where.backend.backend = name == "egl" ? Backend::egl : name == "osmesa" ? Backend::osmesa : Backend::automatic;
+        where.backend.backend = name == "egl" ? Backend::egl : name == "osmesa" ? Backend::osmesa : Backend::auto_;
       },
       "Graphics context; auto is EGL, then OSMesa");
   backend->check(CLI::IsMember({"auto", "egl", "osmesa"}))->type_name("")->default_str("auto")->group("Where");

@@ -134,7 +134,7 @@ TEST(Context, bothBackendsDrawTheSameBytes) {
 }
 
 TEST(Context, refusesSoftwareWhereAGpuIsRequired) {
-  const auto context = createContext({.backend = Backend::automatic, .requireGpu = true});
+  const auto context = createContext({.backend = Backend::auto_, .requireGpu = true});
   if (context) {
     EXPECT_FALSE((*context)->info().software) << (*context)->info().renderer;
     return;

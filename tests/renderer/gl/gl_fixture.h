@@ -14,7 +14,7 @@ namespace gnomon::gl {
 
 /// Why a back end can't be tested on this machine; empty = it can.
 inline std::string missing(Backend backend) {
-  if (backend == Backend::automatic && missing(Backend::egl).empty()) return {};
+  if (backend == Backend::auto_ && missing(Backend::egl).empty()) return {};
   return SharedLibrary(backend == Backend::egl ? "libEGL.so.1" : "libOSMesa.so.8").failure();
 }
 
@@ -28,7 +28,7 @@ inline std::string detailsOf(const Problems& problems) {
 class GlTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (const std::string why = missing(Backend::automatic); !why.empty()) GTEST_SKIP() << why;
+    if (const std::string why = missing(Backend::auto_); !why.empty()) GTEST_SKIP() << why;
     Result<std::unique_ptr<Context>> context = createContext({});
     ASSERT_TRUE(context) << detailsOf(context.problems());
     context_ = *std::move(context);
