@@ -5,6 +5,7 @@
 
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
+#include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/move_to_scene.h"
 #include "renderer/resolve/resolve_camera.h"
@@ -47,9 +48,30 @@ ShadowSize usualSize(LightType type) {
   return ShadowSize::Large;
 }
 
-} // namespace
+/// The lights of a frame with nothing left open.
+std::vector<Light> settledLights(const FrameSpec& spec, const SceneView& scene, std::vector<std::string>& warnings) {
+  std::vector<Light> lights = chooseLights(spec, scene, warnings);
+  for (Light& light : lights) {
+    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
+    if (!light.shadow) light.shadow = spec.shadow;
+    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
+  }
+  return lights;
+}
 
-namespace {
+/// Index into Scene::scenes; -1 where the file does not have that scene.
+int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problems) {
+  const int index = spec.scene.value_or(scene.defaultScene);
+  const int count = fileScenes(scene);
+  const bool isThere = index >= 0 && index < count;
+  if (!isThere) {
+    problems.add({ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
+                  "0.." + std::to_string(count - 1), std::to_string(index)});
+  }
+  if (!spec.materialVariant) return isThere ? index : -1;
+  const auto variant = collect(resolveVariant(*spec.materialVariant, scene), problems);
+  return isThere ? indexOf(scene, {index, variant}) : -1;
+}
 
 /// Why the scene does not have the camera that is asked for, where its file has one.
 Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene) {
@@ -64,54 +86,48 @@ Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene)
 
 } // namespace
 
-Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
+ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems) {
   if (spec.quality) {
-    return Problem{ProblemCode::invalidValue, "/quality",
-                   "This call does not support quality targets; give settings instead.", "", ""};
+    problems.add({ProblemCode::invalidValue, "/quality",
+                  "This call does not support quality targets; give settings instead.", "", ""});
   }
-  ResolvedFrame frame{spec, {}, spec.scene.value_or(scene.defaultScene), {}, {}, {}, {}, {}};
-  const int count = fileScenes(scene);
-  if (frame.scene < 0 || frame.scene >= count) {
-    return Problem{ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
-                   "0.." + std::to_string(count - 1), std::to_string(frame.scene)};
-  }
-  frame.spec.scene = frame.scene;
-  if (spec.materialVariant) {
-    const auto variant = resolveVariant(*spec.materialVariant, scene);
-    if (!variant) return variant.problems();
-    frame.scene = indexOf(scene, {frame.scene, *variant});
-  }
-  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
-  auto nodes = resolveNodes(spec.nodes, scene);
-  if (!nodes) return nodes.problems();
-  frame.nodes = std::move(*nodes);
+  ResolvedFrame frame{spec, {}, resolveScene(spec, scene, problems), {}, {}, {}, {}, {}};
+  auto nodes = collect(resolveNodes(spec.nodes, scene), problems);
+  if (nodes) frame.nodes = *std::move(nodes);
+  const SceneView none;
+  const SceneView& view = frame.scene < 0 ? none : scene.scenes[static_cast<std::size_t>(frame.scene)];
+  frame.spec.lights = settledLights(spec, view, frame.warnings);
+  if (frame.scene < 0) return frame;
+  frame.spec.scene = spec.scene.value_or(scene.defaultScene);
+
   SeenExtent seen(scene, view, frame.nodes);
   // What is hidden altogether is framed as if it were there.
   const FramedSubject subject =
       seen.empty() ? subjectOf(view.bounds)
                    : subjectOf(seen.bounds(), [&](const glm::dvec3& way) { return seen.farthest(way); });
-  auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height}, subject);
-  if (!camera) return whyWithout(camera.problems(), spec.camera, scene);
-  frame.spec.camera = camera->camera;
-  frame.view = camera->view;
-
-  frame.spec.lights = chooseLights(spec, view, frame.warnings);
-  for (Light& light : *frame.spec.lights) {
-    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
-    if (!light.shadow) light.shadow = spec.shadow;
-    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
+  if (auto camera = resolveCamera(spec.camera, view, {spec.width, spec.height}, subject)) {
+    frame.spec.camera = camera->camera;
+    frame.view = movedToScene(camera->view, view, receivingInstances(scene, view, frame.nodes));
+  } else {
+    collect(whyWithout(camera.problems(), spec.camera, scene), problems);
   }
-  if (const Status known = checkDebugLight(spec.debug, frame.spec.lights->size()); !known) return known.problems();
-
-  auto volumes = resolveVolumes(spec.volumes, scene, view, frame.nodes);
-  if (!volumes) return volumes.problems();
-  frame.volumes = *std::move(volumes);
+  collect(checkDebugLight(spec.debug, frame.spec.lights->size()), problems);
+  if (auto volumes = collect(resolveVolumes(spec.volumes, scene, view, frame.nodes), problems)) {
+    frame.volumes = *std::move(volumes);
+  }
+  if (!nodes) return frame; // what follows depends on what they switch
   frame.layers = layersInUse(scene, view, frame.nodes);
-  auto groups = resolveReceiverGroups(scene, view, frame.nodes, *frame.spec.lights);
-  if (!groups) return groups.problems();
-  frame.groups = std::move(*groups);
-  frame.view = movedToScene(frame.view, view, receivingInstances(scene, view, frame.nodes));
-  if (const Status able = checkTechniques(spec, scene, frame); !able) return able.problems();
+  if (auto groups = collect(resolveReceiverGroups(scene, view, frame.nodes, *frame.spec.lights), problems)) {
+    frame.groups = *std::move(groups);
+  }
+  collect(checkTechniques(spec, scene, frame), problems);
+  return frame;
+}
+
+Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
+  ProblemList problems;
+  ResolvedFrame frame = resolveFrame(scene, spec, problems);
+  if (!problems.empty()) return std::move(problems).take();
   return frame;
 }
 

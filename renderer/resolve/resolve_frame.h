@@ -24,7 +24,10 @@ struct ResolvedFrame {
   ReceiverGroups groups;
 };
 
-/// Fills in what only the scene can tell. The spec has passed protocol/validate.
+/// Fills in what only the scene can tell. The spec has passed protocol/validate. All that the scene refuses is added to
+/// `problems`; where that is anything, the frame says only what its lights are, and `scene` is -1 if it is the index
+/// that the file does not have.
+ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems);
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec);
 
 /// Index into Scene::variants; of two of one name the first. A problem at /materialVariant names those there are.

@@ -7,6 +7,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
+#include "renderer/core/collect.h"
 #include "renderer/scene/found_nodes.h"
 
 namespace gnomon {
@@ -26,12 +27,9 @@ Result<std::vector<NodeOptions>> ownSwitches(std::span<const NodeOptions> entrie
   NodeFinder finder(scene);
   ProblemList problems;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const auto found = finder.find(*entries[i].node, "/nodes/" + std::to_string(i) + "/node");
-    if (found) {
-      for (const std::size_t node : *found) addSwitches(entries[i], own[node]);
-    } else {
-      for (const Problem& problem : found.problems()) problems.add(problem);
-    }
+    const auto found = collect(finder.find(*entries[i].node, "/nodes/" + std::to_string(i) + "/node"), problems);
+    if (!found) continue;
+    for (const std::size_t node : *found) addSwitches(entries[i], own[node]);
   }
   if (!problems.empty()) return std::move(problems).take();
   return own;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/collect.h"
 #include "renderer/core/flat_transform.h"
 #include "renderer/scene/found_nodes.h"
 #include "renderer/scene/graph/node_tree.h"
@@ -57,13 +58,11 @@ Result<std::vector<VolumePlace>> resolveVolumes(std::span<const VolumeOptions> v
     if (!volumes[i].node) continue;
     const std::string pointer = "/volumes/" + std::to_string(i) + "/node";
     const int* index = std::get_if<int>(&*volumes[i].node);
-    const auto node = index != nullptr ? nodeOfIndex(*index, scene, view, pointer)
-                                       : nodeOfName(std::get<std::string>(*volumes[i].node), scene, view, pointer);
-    if (node) {
-      places.back() = placeAt(*node, scene, nodes);
-    } else {
-      for (const Problem& problem : node.problems()) problems.add(problem);
-    }
+    const auto node =
+        collect(index != nullptr ? nodeOfIndex(*index, scene, view, pointer)
+                                 : nodeOfName(std::get<std::string>(*volumes[i].node), scene, view, pointer),
+                problems);
+    if (node) places.back() = placeAt(*node, scene, nodes);
   }
   if (!problems.empty()) return std::move(problems).take();
   return places;
