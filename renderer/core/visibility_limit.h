@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -13,6 +14,13 @@ inline Status checkVisibilityBytes(std::int64_t bytes, const std::string& pointe
   if (bytes <= kLimits.maxVisibilityBytes) return Done{};
   return Problem{ProblemCode::tooLarge, pointer, detail, std::to_string(kLimits.maxVisibilityBytes) + " bytes",
                  std::to_string(bytes) + " bytes"};
+}
+
+/// The same for what rays and shadow volumes say of lights, two bytes at each sample of a picture.
+inline Status checkVisibilityBytes(int width, int height, std::size_t samples, std::size_t lights) {
+  return checkVisibilityBytes(
+      std::int64_t{2} * width * height * static_cast<std::int64_t>(samples * lights), "/lights",
+      "What rays and shadow volumes decide for every sample and light would take more memory than a frame may have.");
 }
 
 } // namespace gnomon

@@ -8,7 +8,6 @@
 #include "renderer/core/parallel.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/techniques/traced_shadow.h"
-#include "renderer/techniques/visibility_bytes.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -150,9 +149,6 @@ Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& wor
     }
   }
   if (traced.empty()) return exact;
-  const auto samples = static_cast<std::size_t>(surfaces.samples);
-  const Status fits = checkVisibilityBytes(surfaces.width, surfaces.height, samples, traced.size());
-  if (!fits) return fits.problems();
   if (const Status found = traceLayers(camera, work, survey, surfaces, traced, exact); !found) return found.problems();
   return exact;
 }

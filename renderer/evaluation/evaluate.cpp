@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/json/json_codec.h"
+#include "renderer/core/collect.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/scene/animation/posed_scene.h"
@@ -39,12 +40,6 @@ int stepCount(const std::vector<Subject>& subjects, const Evaluation& evaluation
   return count;
 }
 
-/// The problems of a spec that stands at /spec.
-Problems inSpec(Problems problems) {
-  for (Problem& problem : problems) problem.pointer.insert(0, "/spec");
-  return problems;
-}
-
 /// One run from beginning to end.
 class Run {
  public:
@@ -56,7 +51,7 @@ class Run {
       EvaluationRow& row = rows_.emplace_back();
       row.variant = variant.patch;
       row.name = variant.name;
-      auto subject = subjectOf(*scene, variant, i);
+      auto subject = subjectOf(scene, variant, i);
       if (subject) {
         subjects_.push_back(std::move(*subject));
       } else {
@@ -144,9 +139,10 @@ class Run {
 
 Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer,
                                   const EvaluationTools& tools, const EvaluationListener& listener) {
-  const auto posed = posedScene(scene, poseOf(evaluation.spec));
-  if (!posed) return inSpec(posed.problems());
-  if (const auto base = resolveFrame(**posed, evaluation.spec); !base) return inSpec(base.problems());
+  ProblemList problems;
+  const ScenePtr posed = collect(posedScene(scene, poseOf(evaluation.spec)), problems).value_or(scene);
+  resolveFrame(*posed, evaluation.spec, problems);
+  if (!problems.empty()) return placedAt("/spec", std::move(problems).take());
   return Run(scene, evaluation, tools, listener).run(renderer);
 }
 

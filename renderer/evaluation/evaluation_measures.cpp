@@ -6,6 +6,7 @@
 #include "protocol/base/elapsed.h"
 #include "renderer/core/visibility_limit.h"
 #include "renderer/evaluation/evaluate.h"
+#include "renderer/frame/settle_frame.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/scene/animation/posed_scene.h"
@@ -83,13 +84,10 @@ std::vector<int> measuredLights(const ResolvedFrame& frame) {
   return lights;
 }
 
-Result<Subject> subjectOf(const Scene& loaded, const Variant& variant, std::size_t index) {
-  const auto posed = posedScene(loaded, poseOf(variant.spec));
-  if (!posed) return posed.problems();
-  const Scene& scene = **posed;
-  auto frame = resolveFrame(scene, variant.spec);
-  if (!frame) return frame.problems();
-  Subject subject{index, std::move(*frame), {}};
+Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index) {
+  auto settled = settleFrame(scene, variant.spec, nullptr);
+  if (!settled) return settled.problems();
+  Subject subject{index, std::move(settled->frame), {}};
   subject.lights = measuredLights(subject.frame);
   if (subject.lights.empty()) {
     return Problem{ProblemCode::invalidValue, "/shadow",

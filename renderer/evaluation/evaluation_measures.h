@@ -55,7 +55,7 @@ struct Subject {
 };
 
 /// The variant on its scene; a problem where nothing in it casts a shadow, or where its shadows take too much memory.
-Result<Subject> subjectOf(const Scene& scene, const Variant& variant, std::size_t index);
+Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index);
 
 /// Subjects that one reference serves, in order of their first; indices into `subjects`.
 std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>& subjects);

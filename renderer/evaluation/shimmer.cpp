@@ -5,9 +5,9 @@
 #include "protocol/spec/traits.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
+#include "renderer/frame/settle_frame.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
-#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -25,16 +25,26 @@ Problem stopped() {
   return {ProblemCode::unavailable, "", "The measurement was stopped."};
 }
 
-Result<std::vector<ResolvedFrame>> resolvePath(const Scene& scene, FrameSpec spec, std::span<const Camera> path) {
-  spec.antialiasing = Antialiasing::none; // points are asked, not pixels
+/// A scene along a path of cameras.
+struct SettledPath {
+  ScenePtr scene; ///< posed
   std::vector<ResolvedFrame> frames;
-  for (const Camera& camera : path) {
+};
+
+Result<SettledPath> settlePath(const ScenePtr& scene, FrameSpec spec, std::span<const Camera> path,
+                               const RendererInfo& device) {
+  spec.antialiasing = Antialiasing::none; // points are asked, not pixels
+  spec.camera = path.front();
+  auto first = settleFrame(scene, spec, &device);
+  if (!first) return first.problems();
+  SettledPath settled{std::move(first->scene), {std::move(first->frame)}};
+  for (const Camera& camera : path.subspan(1)) {
     spec.camera = camera;
-    auto frame = resolveFrame(scene, spec);
+    auto frame = resolveFrame(*settled.scene, spec);
     if (!frame) return frame.problems();
-    frames.push_back(std::move(*frame));
+    settled.frames.push_back(std::move(*frame));
   }
-  return frames;
+  return settled;
 }
 
 TraceInput traceInput(const TracedScene& traced, const ResolvedFrame& frame) {
@@ -149,33 +159,31 @@ Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, c
     return Problem{ProblemCode::invalidValue, "/path", "A path needs two cameras or more.", "at least 2",
                    std::to_string(path.size())};
   }
-  if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
-  const auto posed = posedScene(loaded, poseOf(spec));
-  if (!posed) return posed.problems();
-  const ScenePtr& scene = *posed;
-  auto frames = resolvePath(*scene, spec, path);
-  if (!frames) return frames.problems();
-  const auto traced = tracedScenes.get(scene, frames->front().scene);
+  auto settled = settlePath(loaded, spec, path, device.info());
+  if (!settled) return settled.problems();
+  const ScenePtr& scene = settled->scene;
+  std::vector<ResolvedFrame>& frames = settled->frames;
+  const auto traced = tracedScenes.get(scene, frames.front().scene);
   if (!traced) return traced.problems();
-  auto watched = watchedPoints(**traced, *frames);
+  auto watched = watchedPoints(**traced, frames);
   if (!watched) return watched.problems();
-  for (ResolvedFrame& frame : *frames) raiseStrengths(frame);
+  for (ResolvedFrame& frame : frames) raiseStrengths(frame);
 
   Shimmer shimmer;
   shimmer.steps = path.size() - 1;
   for (const Watched& light : *watched) shimmer.points += light.points.size();
   // What is exact is so for a point, whoever looks at it: it never flips.
   std::erase_if(*watched, [&](const Watched& light) {
-    return isExact((*frames->front().spec.lights)[static_cast<std::size_t>(light.light)]);
+    return isExact((*frames.front().spec.lights)[static_cast<std::size_t>(light.light)]);
   });
   if (watched->empty()) return shimmer;
-  for (std::size_t i = 0; i < frames->size(); ++i) {
-    dropExact((*frames)[i].spec);
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames->size()))) return stopped();
-    const auto probed = probeFrame(device, scene, (*frames)[i], *watched);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    dropExact(frames[i].spec);
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames.size()))) return stopped();
+    const auto probed = probeFrame(device, scene, frames[i], *watched);
     if (!probed) return probed.problems();
     shimmer.flips += probed->flips;
-    if (i + 1 < frames->size()) passRangesOn(probed->plan, (*frames)[i + 1].spec);
+    if (i + 1 < frames.size()) passRangesOn(probed->plan, frames[i + 1].spec);
   }
   return shimmer;
 }

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <chrono>
 
+#include "protocol/bake/bake_json.h"
 #include "protocol/base/elapsed.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/render_frame.h"
+#include "renderer/frame/settle_frame.h"
 #include "renderer/resolve/plan_input.h"
-#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
 
-std::vector<int> lightsToBake(const ResolvedFrame& frame) {
-  std::vector<int> lights = layeredLights(frame);
-  std::erase_if(lights, [&](int light) { return !techniqueOf(frame, light).baked; });
+std::vector<int> lightsToBake(const SettledFrame& settled) {
+  std::vector<int> lights = settled.layered;
+  std::erase_if(lights, [&](int light) { return !techniqueOf(settled.frame, light).baked; });
   return lights;
 }
 
@@ -23,13 +24,9 @@ std::vector<int> lightsToBake(const ResolvedFrame& frame) {
 Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Scene>& scene, const FrameSpec& spec,
                              const BakeListener& listener) {
   const auto start = std::chrono::steady_clock::now();
-  const auto posed = posedScene(scene, poseOf(spec));
-  if (!posed) return posed.problems();
-  FrameSpec seen = spec;
-  seen.camera = Camera{};
-  auto frame = resolveFrame(**posed, seen);
-  if (!frame) return frame.problems();
-  std::vector<int> lights = lightsToBake(*frame);
+  auto settled = settleFrame(scene, bakedParts(spec), nullptr);
+  if (!settled) return settled.problems();
+  std::vector<int> lights = lightsToBake(*settled);
   if (lights.empty()) {
     return Problem{ProblemCode::invalidValue, "/shadow/technique",
                    "There is nothing to bake: no light that casts a shadow has technique lightMap.", "lightMap", ""};
@@ -38,9 +35,10 @@ Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Sc
     const auto done = std::find(lights.begin(), lights.end(), light) - lights.begin();
     return !listener || listener({{}, light, share, static_cast<int>(done), static_cast<int>(lights.size())});
   };
-  auto found = bakedLights(caches.lightMaps, caches.traced, {scene, *posed}, spec, *frame, progress);
+  auto found = bakedLights(caches.lightMaps, caches.traced, *settled, spec, progress);
   if (!found) return found.problems();
-  return BakedScene{*posed, *std::move(frame), std::move(lights), *std::move(found), millisecondsSince(start)};
+  return BakedScene{std::move(settled->scene), std::move(settled->frame), std::move(lights), *std::move(found),
+                    millisecondsSince(start)};
 }
 
 BakeReport reportOf(const BakedScene& baked) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "renderer/core/collect.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/scene/animation/posed_scene.h"
 
@@ -69,12 +70,12 @@ Result<EarlierMoment> earlierMoment(const std::shared_ptr<const Scene>& loaded, 
                                     const Camera& now, const SceneView& view) {
   const MotionFrom& from = *asked.motionFrom;
   const Pose pose{from.animation ? from.animation : asked.animation, from.nodes ? *from.nodes : asked.nodes};
-  auto posed = posedScene(loaded, pose);
-  if (!posed) return placedInMotion(posed.problems(), from);
-  const auto frame = resolveFrame(**posed, frameThen(asked, now));
-  if (!frame) return placedInMotion(frame.problems(), from);
-  const SceneView& then = (*posed)->scenes[static_cast<std::size_t>(frame->scene)];
-  return EarlierMoment{*posed, frame->scene, frame->view, frame->spec.camera, instancesThen(view, then)};
+  ProblemList problems;
+  const auto scene = collect(posedScene(loaded, pose), problems).value_or(loaded);
+  const ResolvedFrame frame = resolveFrame(*scene, frameThen(asked, now), problems);
+  if (!problems.empty()) return placedInMotion(std::move(problems).take(), from);
+  const SceneView& then = scene->scenes[static_cast<std::size_t>(frame.scene)];
+  return EarlierMoment{scene, frame.scene, frame.view, frame.spec.camera, instancesThen(view, then)};
 }
 
 glm::dvec2 motionAt(const ShownGeometry& shown, const EarlierMoment& earlier, const PlacedTriangle& triangle,

@@ -2,15 +2,13 @@
 
 #include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/make_report.h"
+#include "renderer/frame/settle_frame.h"
 #include "renderer/prepare/box_depths.h"
 #include "renderer/prepare/frame_geometry.h"
 #include "renderer/prepare/survey_slots.h"
 #include "renderer/prepare/tile_casters.h"
-#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
-#include "renderer/resolve/resolve_frame.h"
-#include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
 namespace {
@@ -52,36 +50,30 @@ SeenDepths boxesSeen(const ResolvedFrame& frame, const SceneView& view, const Fr
 
 } // namespace
 
-Result<PlanReport> planFrame(const Scene& loaded, const FrameSpec& spec, const RendererInfo& device) {
-  const auto posed = posedScene(loaded, poseOf(spec));
-  if (!posed) return posed.problems();
-  const Scene& scene = **posed;
-  const auto frame = resolveFrame(scene, spec);
-  if (!frame) return frame.problems();
-  if (const Status able = checkDevice(spec, device); !able) return able.problems();
-  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame->scene)];
-  const FrameGeometry geometry = frameGeometry(scene, view, frame->view.eye, frame->groups.ofInstance);
-  const std::vector<int> layered = layeredLights(*frame);
-  const std::vector<int> mapped = mappedLights(*frame);
+Result<PlanReport> planFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo& device) {
+  const auto settled = settleFrame(loaded, spec, &device);
+  if (!settled) return settled.problems();
+  const ResolvedFrame& frame = settled->frame;
+  const Scene& scene = *settled->scene;
+  const SceneView& view = settled->view();
+  const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye, frame.groups.ofInstance);
   const PlanInput input =
-      planInput(*frame, view, boxesSeen(*frame, view, geometry, mapped), mapped, device.maxTextureSize);
+      planInput(frame, view, boxesSeen(frame, view, geometry, settled->mapped), settled->mapped, device.maxTextureSize);
   const ShadowPlan plan = planShadows(input);
-  if (const auto subject = debugSubject(frame->spec, plan, layered); !subject) return subject.problems();
-  if (const Status fits = checkAtlas(plan, frame->spec.atlas.samples); !fits) return fits.problems();
+  if (const auto fits = settlePlan(frame.spec, plan, settled->layered); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(input, plan);
 
   PlanReport report;
-  report.spec = frame->spec;
-  report.spec.device = device.device;
-  report.depthRange = askedDepths(frame->view, input.receivers.range);
+  report.spec = frame.spec;
+  report.depthRange = askedDepths(frame.view, input.receivers.range);
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame->spec, plan, errors, frame->view, layered);
-  addCasters(plan, *frame, scene, geometry, report.lights);
+  report.lights = lightReports(frame.spec, plan, errors, frame.view, settled->layered);
+  addCasters(plan, frame, scene, geometry, report.lights);
   report.predictedError = errors.all;
-  report.warnings = loaded.summary.warnings;
-  report.warnings.insert(report.warnings.end(), frame->warnings.begin(), frame->warnings.end());
+  report.warnings = loaded->summary.warnings;
+  report.warnings.insert(report.warnings.end(), frame.warnings.begin(), frame.warnings.end());
   for (std::string& warning :
-       frameWarnings({scene, view, *frame, input.receivers, plan, errors, layered}, WarnedBy::plan)) {
+       frameWarnings({scene, view, frame, input.receivers, plan, errors, settled->layered}, WarnedBy::plan)) {
     report.warnings.push_back(std::move(warning));
   }
   return report;

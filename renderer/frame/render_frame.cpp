@@ -3,67 +3,50 @@
 #include <algorithm>
 #include <iterator>
 
-#include "protocol/spec/traits.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/baked_lights.h"
 #include "renderer/frame/caster_view.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/make_report.h"
-#include "renderer/frame/motion_view.h"
 #include "renderer/frame/predicted_displacement.h"
+#include "renderer/frame/settle_frame.h"
 #include "renderer/frame/volumes_of_frame.h"
 #include "renderer/prepare/light_lists.h"
-#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
-#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 namespace {
 
-bool shows(const FrameSpec& spec, View view) {
-  return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
-}
-
 Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
                          TileUse tiles) {
-  const auto posed = posedScene(loaded, poseOf(spec));
-  if (!posed) return posed.problems();
-  const ScenePtr& scene = *posed;
-  auto resolved = resolveFrame(*scene, spec);
-  if (!resolved) return resolved.problems();
-  if (const Status able = checkDevice(spec, device.info()); !able) return able.problems();
-  resolved->spec.device = device.info().device;
-  const FrameSpec& effective = resolved->spec;
-  const SceneView& view = scene->scenes[static_cast<std::size_t>(resolved->scene)];
-  std::optional<EarlierMoment> earlier;
-  if (shows(effective, View::motion)) {
-    auto moment = earlierMoment(loaded, spec, effective.camera, view);
-    if (!moment) return moment.problems();
-    earlier = *std::move(moment);
-    resolved->spec.motionFrom->camera = earlier->settledCamera;
-  }
-  const std::vector<int> layered = layeredLights(*resolved);
-  const std::vector<int> mapped = mappedLights(*resolved);
-  const auto tracedScene = [&] { return caches.traced.get(scene, resolved->scene); };
+  const auto settled = settleFrame(loaded, spec, &device.info());
+  if (!settled) return settled.problems();
+  const ScenePtr& scene = settled->scene;
+  const ResolvedFrame& resolved = settled->frame;
+  const FrameSpec& effective = resolved.spec;
+  const SceneView& view = settled->view();
+  const std::vector<int>& layered = settled->layered;
+  const std::vector<int>& mapped = settled->mapped;
+  const auto tracedScene = [&] { return caches.traced.get(scene, resolved.scene); };
 
   std::vector<LightMapCache::Found> baked;
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
   MadeVolumes made;
-  const auto begun = device.begin({scene, *resolved, layered, needsEdges(*resolved), tracedScene, bakedLight,
-                                   &made.volumes, receiverParts(*resolved, mapped)});
+  const auto begun = device.begin({scene, resolved, layered, needsEdges(resolved), tracedScene, bakedLight,
+                                   &made.volumes, receiverParts(resolved, mapped)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
-  auto found = bakedLights(caches.lightMaps, caches.traced, {loaded, scene}, spec, *resolved);
+  auto found = bakedLights(caches.lightMaps, caches.traced, *settled, spec);
   if (!found) return found.problems();
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
 
-  auto volumes = volumesOf(caches.volumes, caches.traced, {loaded, scene}, *resolved);
+  auto volumes = volumesOf(caches.volumes, caches.traced, *settled);
   if (!volumes) return volumes.problems();
   made = *std::move(volumes);
   if (!made.volumes.empty()) drawing.endStage("volume");
@@ -72,19 +55,18 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (!seen) return seen.problems();
   drawing.endStage("survey");
 
-  const PlanInput planned = planInput(*resolved, view, *std::move(seen), mapped, device.info().maxTextureSize);
+  const PlanInput planned = planInput(resolved, view, *std::move(seen), mapped, device.info().maxTextureSize);
   const ShadowPlan plan = planShadows(planned);
-  if (const Status fits = checkAtlas(plan, effective.atlas.samples); !fits) return fits.problems();
-  PredictedErrors errors = predictErrors(planned, plan);
-  const auto lights = litLights(*effective.lights, plan, resolved->view.eye, resolved->groups.ofLight, layered);
-  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved->view, planned.receivers, lights)
-                                                         : std::vector<std::uint32_t>{};
-  const auto subject = debugSubject(effective, plan, layered);
+  const auto subject = settlePlan(effective, plan, layered);
   if (!subject) return subject.problems();
+  PredictedErrors errors = predictErrors(planned, plan);
+  const auto lights = litLights(*effective.lights, plan, resolved.view.eye, resolved.groups.ofLight, layered);
+  const auto lists = lights.size() > kLightsWithoutLists ? lightLists(resolved.view, planned.receivers, lights)
+                                                         : std::vector<std::uint32_t>{};
   const bool layerDecides = std::find(layered.begin(), layered.end(), subject->light) != layered.end();
   const FrameViews views(effective, layerDecides);
   std::vector<std::string> warnings =
-      frameWarnings({*scene, view, *resolved, planned.receivers, plan, errors, layered}, WarnedBy::drawing, baked);
+      frameWarnings({*scene, view, resolved, planned.receivers, plan, errors, layered}, WarnedBy::drawing, baked);
   const ShowInput show{plan, lights, lists, subject->light, subject->planned, subject->tile, views.requests()};
   drawing.endStage("plan");
 
@@ -99,7 +81,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
     const auto footprints = drawing.footprints(show);
     if (!footprints) return footprints.problems();
     const auto displacement =
-        displacementOf(resolved->view, effective, plan, *subject->planned, *footprints, views.fullShadow(drawing));
+        displacementOf(resolved.view, effective, plan, *subject->planned, *footprints, views.fullShadow(drawing));
     if (displacement && *predicted) {
       (*predicted)->edgeDisplacement = displacement->mean;
       (*predicted)->edgeLength = displacement->length;
@@ -111,7 +93,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (views.needReference()) {
     const auto rays = tracedScene();
     if (!rays) return rays.problems();
-    auto compared = measureShadow(*resolved, **rays, subject->light, views.fullShadow(drawing));
+    auto compared = measureShadow(resolved, **rays, subject->light, views.fullShadow(drawing));
     if (!compared) return compared.problems();
     measured = std::move(*compared);
     if (predicted != nullptr) measured->errors.predicted = *predicted;
@@ -122,16 +104,15 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (views.needGeometry()) {
     auto triangles = drawing.shownTriangles();
     if (!triangles) return triangles.problems();
-    geometry.emplace(ShownGeometry{*scene, view, resolved->view, effective.width, effective.height,
-                                   *std::move(triangles), earlier ? &*earlier : nullptr});
+    geometry.emplace(ShownGeometry{*scene, view, resolved.view, effective.width, effective.height,
+                                   *std::move(triangles), settled->earlier ? &*settled->earlier : nullptr});
   }
 
   std::vector<int> casters;
   if (views.needCasters()) {
     const auto rays = tracedScene();
     if (!rays) return rays.problems();
-    const TraceInput input{**rays,           resolved->view,    effective.width,
-                           effective.height, *effective.lights, resolved->nodes};
+    const TraceInput input{**rays, resolved.view, effective.width, effective.height, *effective.lights, resolved.nodes};
     casters = casterNodes(*geometry, input, subject->light);
   }
 
@@ -140,7 +121,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
-  FrameReport report = makeReport({*resolved, view.triangles, planned.receivers.range, plan, errors, layered, baked,
+  FrameReport report = makeReport({resolved, view.triangles, planned.receivers.range, plan, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "renderer/core/collect.h"
 #include "renderer/core/vec3.h"
 #include "renderer/volume/grid_file.h"
 
@@ -10,16 +11,11 @@ namespace {
 
 constexpr std::size_t kMaxPlaces = 128; // in which volumes stood or stand, however little each takes
 
-Problems at(const std::string& pointer, Problems problems) {
-  for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
-  return problems;
-}
-
 /// In the world, or in the space of the node.
-Result<VolumeSpace> spaceOf(const VolumeOptions& options) {
+Result<VolumeSpace> ownSpace(const VolumeOptions& options) {
   if (options.box) {
     auto space = gnomon::spaceOf(Aabb{toVector(options.box->min), toVector(options.box->max)});
-    return space ? space : Result<VolumeSpace>(at("/box", space.problems()));
+    return space ? space : Result<VolumeSpace>(placedAt("/box", space.problems()));
   }
   if (!options.matrix) return VolumeSpace{};
   glm::dmat4 matrix(1);
@@ -27,21 +23,14 @@ Result<VolumeSpace> spaceOf(const VolumeOptions& options) {
     matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = (*options.matrix)[i];
   }
   auto space = gnomon::spaceOf(matrix);
-  return space ? space : Result<VolumeSpace>(at("/matrix", space.problems()));
-}
-
-Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& place) {
-  auto own = spaceOf(options);
-  if (!own || !place.worldFromNode) return own;
-  auto atNode = moved(*own, *place.worldFromNode);
-  return atNode ? atNode : Result<VolumeSpace>(at("/node", atNode.problems()));
+  return space ? space : Result<VolumeSpace>(placedAt("/matrix", space.problems()));
 }
 
 Result<TransferFunction> functionOf(const std::vector<TransferStop>& stops) {
   std::vector<TransferPoint> points;
   for (const TransferStop& stop : stops) points.push_back({stop.value, {toVector(stop.color), stop.extinction}});
   auto function = makeTransferFunction(std::move(points));
-  return function ? function : Result<TransferFunction>(at("/transferFunction", function.problems()));
+  return function ? function : Result<TransferFunction>(placedAt("/transferFunction", function.problems()));
 }
 
 std::size_t bytesOf(const DensityGrid& grid) {
@@ -49,6 +38,13 @@ std::size_t bytesOf(const DensityGrid& grid) {
 }
 
 } // namespace
+
+Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& place) {
+  auto own = ownSpace(options);
+  if (!own || !place.worldFromNode) return own;
+  auto atNode = moved(*own, *place.worldFromNode);
+  return atNode ? atNode : Result<VolumeSpace>(placedAt("/node", atNode.problems()));
+}
 
 Result<Medium> VolumeCache::filledMedium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options) const {
   std::shared_ptr<const DensityGrid> grid;
@@ -61,7 +57,7 @@ Result<Medium> VolumeCache::filledMedium(const std::shared_ptr<const Bytes>& fil
   if (!function) return function.problems();
   if (!grid) {
     auto read = readGridFile(*file, options.grid.value_or(""));
-    if (!read) return at("/file", read.problems());
+    if (!read) return placedAt("/file", read.problems());
     grid = std::make_shared<const DensityGrid>(*std::move(read));
   }
   return makeMedium(std::move(grid), *std::move(function), {});

@@ -13,6 +13,9 @@
 
 namespace gnomon {
 
+/// In the world. A problem at /box, /matrix or /node of the volume where it is flat or not finite.
+Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& place);
+
 /// Volumes of earlier frames: grids that were read, with what their transfer functions say of them, and the light that
 /// arrives in them. The least recently used are dropped first once either takes more than a budget, and grids of files
 /// that nobody holds any more. For one thread.

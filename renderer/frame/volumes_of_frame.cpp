@@ -6,6 +6,7 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/base/text.h"
 #include "protocol/spec/limits.h"
+#include "renderer/core/collect.h"
 #include "renderer/core/vec3.h"
 #include "renderer/core/visibility_limit.h"
 #include "renderer/frame/light_on_volumes.h"
@@ -16,25 +17,19 @@ namespace {
 
 constexpr double kMeanAround = 0.598; // of shared::irradianceAround, over all directions
 
+std::string placeOf(std::size_t volume) {
+  return "/volumes/" + std::to_string(volume);
+}
+
 /// One a volume of the spec; null = it is hidden.
 Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, const Scene& scene,
                                                            const ResolvedFrame& frame) {
   const std::vector<VolumeOptions>& volumes = frame.spec.volumes;
   std::vector<std::shared_ptr<const Medium>> media(volumes.size());
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    const std::string pointer = "/volumes/" + std::to_string(i);
-    const auto file = scene.grids.find(volumes[i].file);
-    if (file == scene.grids.end()) {
-      return Problem{ProblemCode::invalidValue, pointer + "/file", "The upload has no .npy or .vdb file of that name.",
-                     "", volumes[i].file};
-    }
     if (frame.volumes[i].hidden()) continue;
-    auto medium = cache.medium(file->second, volumes[i], frame.volumes[i]);
-    if (!medium) {
-      Problems problems = medium.problems();
-      for (Problem& problem : problems) problem.pointer = pointer + problem.pointer;
-      return problems;
-    }
+    auto medium = cache.medium(scene.grids.at(volumes[i].file), volumes[i], frame.volumes[i]);
+    if (!medium) return placedAt(placeOf(i), medium.problems());
     media[i] = *std::move(medium);
   }
   return media;
@@ -61,18 +56,19 @@ void chooseLight(const ResolvedFrame& frame, FrameVolumes& volumes) {
 
 /// The light in one of `volumes.media`: kept, or made now.
 Result<VolumeLightStore::Found> lightIn(const FrameVolumes& volumes, std::size_t chosen, VolumeLightStore& lights,
-                                        TracedSceneCache& traced, const FrameScene& scene, const ResolvedFrame& frame) {
+                                        TracedSceneCache& traced, const SettledFrame& settled) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<const Medium*> all;
   for (const auto& medium : volumes.media) all.push_back(medium.get());
   const Medium& medium = *all[chosen];
+  const ResolvedFrame& frame = settled.frame;
   VolumeLightInput input{.media = all, .chosen = chosen, .size = volumeLightSize(*medium.grid)};
   if (volumes.light >= 0) input.towards = volumes.towards;
   const ShiningLights shining = shiningLights(frame, toWorld(medium.space, glm::dvec3(0.5)));
   const VolumeLightKey key(input, lightsText(shining), castersText(frame));
   LightShares shares;
   if (!lights.holds(key) && medium.receiveShadow && !shining.shadowing.empty()) {
-    const auto rays = traced.get(scene.posed, frame.scene);
+    const auto rays = traced.get(settled.scene, frame.scene);
     if (!rays) return rays.problems();
     shares =
         surfaceShares(shining, {**rays, frame.view, 1, 1, *frame.spec.lights, frame.nodes}, medium.space, input.size);
@@ -98,17 +94,35 @@ VolumeReport reportOf(const Medium& medium, const VolumeLightStore::Found& found
 
 } // namespace
 
-Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const FrameScene& scene,
-                              const ResolvedFrame& frame) {
-  MadeVolumes made;
-  if (frame.spec.volumes.empty()) return made;
+Status checkVolumes(const Scene& loaded, const ResolvedFrame& frame) {
+  const std::vector<VolumeOptions>& volumes = frame.spec.volumes;
+  if (volumes.empty()) return Done{};
+  ProblemList problems;
   const std::size_t lights = frame.spec.lights->size();
   if (lights > static_cast<std::size_t>(kLimits.maxVolumeLights)) {
-    return Problem{ProblemCode::tooLarge, "/lights", "A frame with volumes has too many lights.",
-                   std::to_string(kLimits.maxVolumeLights), std::to_string(lights)};
+    problems.add({ProblemCode::tooLarge, "/lights", "A frame with volumes has too many lights.",
+                  std::to_string(kLimits.maxVolumeLights), std::to_string(lights)});
   }
-  if (const Status fits = checkSize(frame.spec); !fits) return fits.problems();
-  const auto media = mediaOf(cache, *scene.loaded, frame);
+  collect(checkSize(frame.spec), problems);
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!loaded.grids.contains(volumes[i].file)) {
+      problems.add({ProblemCode::invalidValue, placeOf(i) + "/file",
+                    "The upload has no .npy or .vdb file of that name.", "", volumes[i].file});
+    }
+    if (i >= frame.volumes.size() || frame.volumes[i].hidden()) continue;
+    if (const auto space = spaceOf(volumes[i], frame.volumes[i]); !space) {
+      collect(placedAt(placeOf(i), space.problems()), problems);
+    }
+  }
+  if (problems.empty()) return Done{};
+  return std::move(problems).take();
+}
+
+Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled) {
+  MadeVolumes made;
+  const ResolvedFrame& frame = settled.frame;
+  if (frame.spec.volumes.empty()) return made;
+  const auto media = mediaOf(cache, *settled.loaded, frame);
   if (!media) return media.problems();
   FrameVolumes& volumes = made.volumes;
   std::vector<std::size_t> shown; // of the spec's volumes
@@ -121,7 +135,7 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
   chooseLight(frame, volumes);
   made.reports.resize(media->size());
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto found = lightIn(volumes, i, cache.lights(), traced, scene, frame);
+    const auto found = lightIn(volumes, i, cache.lights(), traced, settled);
     if (!found) return found.problems();
     volumes.lights.push_back(found->map);
     made.reports[shown[i]] = reportOf(*volumes.media[i], *found);

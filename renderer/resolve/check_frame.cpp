@@ -10,6 +10,11 @@
 
 namespace gnomon {
 
+std::string shadowPlace(const FrameSpec& asked, int light) {
+  const bool own = asked.lights && (*asked.lights)[static_cast<std::size_t>(light)].shadow;
+  return own ? "/lights/" + std::to_string(light) + "/shadow" : "/shadow";
+}
+
 std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec) {
   std::vector<std::string> places;
   if (spec.shadow.technique == ShadowTechnique::shadowVolume) places.emplace_back("/shadow/technique");
@@ -67,12 +72,6 @@ std::string told(const std::string& name, int index) {
   return name.empty() ? std::to_string(index) : "\"" + name + "\"";
 }
 
-/// Where the technique of a light was asked for.
-std::string pointerOf(const FrameSpec& asked, std::size_t light) {
-  const bool own = asked.lights && (*asked.lights)[light].shadow;
-  return own ? "/lights/" + std::to_string(light) + "/shadow/technique" : "/shadow/technique";
-}
-
 /// The first caster of a light that has holes; null = there is none.
 const Instance* firstWithHoles(const Scene& scene, const ResolvedFrame& frame, const Light& light) {
   const std::vector<Instance>& instances = scene.scenes[static_cast<std::size_t>(frame.scene)].instances;
@@ -91,9 +90,8 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
   ProblemList problems;
   std::string last;
   for (const int index : shadowingLights(frame)) {
-    const auto light = static_cast<std::size_t>(index);
-    const Light& settled = (*frame.spec.lights)[light];
-    const std::string pointer = pointerOf(asked, light);
+    const Light& settled = (*frame.spec.lights)[static_cast<std::size_t>(index)];
+    const std::string pointer = shadowPlace(asked, index) + "/technique";
     if (!traitsOf(settled.shadow->technique).needsOpaqueCasters || pointer == last) continue;
     const Instance* instance = firstWithHoles(scene, frame, settled);
     if (instance == nullptr) continue;

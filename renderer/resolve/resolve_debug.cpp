@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/collect.h"
+#include "renderer/resolve/check_frame.h"
+
 namespace gnomon {
 namespace {
 
@@ -79,6 +82,14 @@ Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan,
     subject.tile = *tile;
   }
   return subject;
+}
+
+Result<DebugSubject> settlePlan(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
+  ProblemList problems;
+  collect(checkAtlas(plan, spec.atlas.samples), problems);
+  const auto subject = collect(debugSubject(spec, plan, layeredLights), problems);
+  if (!subject || !problems.empty()) return std::move(problems).take();
+  return *subject;
 }
 
 } // namespace gnomon

@@ -24,4 +24,7 @@ Status checkDebugLight(const Debug& debug, std::size_t lightCount);
 Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan,
                                   std::span<const int> layeredLights = {});
 
+/// The same, and all else that only a plan refuses: an atlas that takes more memory than a frame may have.
+Result<DebugSubject> settlePlan(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights);
+
 } // namespace gnomon

@@ -89,7 +89,7 @@ Answer planOrder(WorkContext& context, const OrderCall& call) {
   if (!spec) return {.problems = spec.problems()};
   auto scene = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
-  const auto plan = planFrame(*std::get<LoadedScene>(scene).scene, *spec, context.renderer.info());
+  const auto plan = planFrame(std::get<LoadedScene>(scene).scene, *spec, context.renderer.info());
   if (!plan) return {.problems = plan.problems()};
   return {.contentType = std::string(kJson), .body = jsonText(toJson(*plan))};
 }

@@ -135,7 +135,7 @@ TEST(AnimatedFrames, APlanIsOfThePose) {
     json["camera"]["target"] = {6, 0, 0};
     json["camera"]["eye"] = {6, 30, 0};
     json["camera"]["orthographic"]["height"] = 2;
-    const auto plan = planFrame(*scene, *decodeFrameSpec(json.dump()), device);
+    const auto plan = planFrame(scene, *decodeFrameSpec(json.dump()), device);
     EXPECT_TRUE(plan);
     return plan ? plan->lights.at(0).casterTriangles : 0;
   };
@@ -146,7 +146,7 @@ TEST(AnimatedFrames, UnknownAnimationsAreRefused) {
   const ScenePtr scene = flight();
   Json unknown = specOf({"shadow"});
   unknown["animation"] = {{"index", 3}};
-  const auto refused = planFrame(*scene, *decodeFrameSpec(unknown.dump()), testing::sharedRenderer().info());
+  const auto refused = planFrame(scene, *decodeFrameSpec(unknown.dump()), testing::sharedRenderer().info());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.problems()[0].pointer, "/animation/index");
   EXPECT_EQ(refusedJson(scene, unknown.dump()).at(0).pointer, "/animation/index");

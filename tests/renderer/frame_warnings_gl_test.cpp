@@ -182,7 +182,7 @@ TEST(FrameWarnings, APlanWarnsOfWhatNeedsNoPicture) {
   const auto plan = [](const Json& spec) {
     const auto decoded = decodeFrameSpec(spec.dump());
     EXPECT_TRUE(decoded);
-    const auto report = planFrame(*wallOnGround(), *decoded, testing::sharedRenderer().info());
+    const auto report = planFrame(wallOnGround(), *decoded, testing::sharedRenderer().info());
     EXPECT_TRUE(report);
     return report ? report->warnings : std::vector<std::string>{};
   };

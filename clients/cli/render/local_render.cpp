@@ -73,7 +73,7 @@ Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, c
   const auto here = openHere(bundle, backend, progress);
   if (!here) return here.problems();
   progress.stage("planning");
-  const auto plan = planFrame(*here->scene, spec, here->renderer.info());
+  const auto plan = planFrame(here->scene, spec, here->renderer.info());
   if (!plan) return plan.problems();
   return toJson(*plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "renderer/core/visibility_limit.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
-#include "renderer/techniques/visibility_bytes.h"
 
 namespace gnomon {
 

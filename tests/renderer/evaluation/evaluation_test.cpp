@@ -45,13 +45,13 @@ TEST(Median, IsTheMiddleWhateverTheOrder) {
   EXPECT_EQ(median({4, 1, 100, 2}), 3);
 }
 
-Scene emptyScene() {
+ScenePtr emptyScene() {
   Scene scene;
   scene.scenes.resize(1);
-  return scene;
+  return std::make_shared<const Scene>(std::move(scene));
 }
 
-std::vector<Subject> subjectsOf(const Scene& scene, const char* request) {
+std::vector<Subject> subjectsOf(const ScenePtr& scene, const char* request) {
   const auto evaluation = decodeEvaluation(request);
   EXPECT_TRUE(evaluation) << evaluation.problems()[0].detail;
   std::vector<Subject> subjects;
@@ -64,7 +64,7 @@ std::vector<Subject> subjectsOf(const Scene& scene, const char* request) {
 }
 
 TEST(EvaluationTruth, VariantsThatSeeTheSameShareAReference) {
-  const Scene scene = emptyScene();
+  const ScenePtr scene = emptyScene();
   const auto groups = shareReferences(subjectsOf(scene, R"({"variants": [
       {}, {"shadow": {"filter": {"type": "hard"}, "cascadeCount": 1}}, {"width": 99}, {"exposure": 3},
       {"lights": [{"sun": {}, "intensity": 9}]}, {"lights": [{"sun": {"elevationDegrees": 10}}]},
@@ -76,14 +76,14 @@ TEST(EvaluationTruth, VariantsThatSeeTheSameShareAReference) {
 TEST(EvaluationTruth, VariantsWithNodesElsewhereHaveReferencesOfTheirOwn) {
   const auto scene = loadScene(testing::plane().bundle());
   ASSERT_TRUE(scene);
-  const auto groups = shareReferences(subjectsOf(**scene, R"({"variants": [
+  const auto groups = shareReferences(subjectsOf(*scene, R"({"variants": [
       {}, {"nodes": [{"node": 0, "translation": [1, 0, 0]}]}, {"nodes": [{"node": 0, "translation": [2, 0, 0]}]},
       {"nodes": [{"node": 0, "translation": [1, 0, 0]}], "exposure": 1}]})"));
   EXPECT_EQ(groups, (std::vector<std::vector<std::size_t>>{{0}, {1, 3}, {2}}));
 }
 
 TEST(EvaluationTruth, OnlyLightsThatCastAreMeasured) {
-  const Scene scene = emptyScene();
+  const ScenePtr scene = emptyScene();
   const auto subjects = subjectsOf(scene, R"({"spec": {"lights": [
         {"sun": {}, "intensity": 0}, {"sun": {}, "shadow": {"enabled": false}}, {"sun": {}},
         {"type": "point", "position": [0, 1, 0]}, {"sun": {}, "shadow": {"strength": 0}}]}, "variants": [{}]})");
@@ -92,7 +92,7 @@ TEST(EvaluationTruth, OnlyLightsThatCastAreMeasured) {
 }
 
 TEST(EvaluationTruth, WhereNoLightCastsThereIsNothingToMeasure) {
-  const Scene scene = emptyScene();
+  const ScenePtr scene = emptyScene();
   const auto evaluation = decodeEvaluation(R"({"variants": [{"shadow": {"enabled": false}}]})");
   const auto subject = subjectOf(scene, evaluation->variants[0], 0);
   ASSERT_FALSE(subject);
@@ -209,7 +209,7 @@ DrawFrame litFrames(std::size_t lights, int failing) {
 }
 
 TEST(EvaluationSteps, AreAllFinishedWhicheverLightAVariantFailsAt) {
-  const auto scene = std::make_shared<const Scene>(emptyScene());
+  const ScenePtr scene = emptyScene();
   const auto evaluation = decodeEvaluation(R"({"repeats": 2, "variants": [{"exposure": 3}, {}],
       "spec": {"width": 16, "height": 16, "lights": [{"sun": {}}, {"sun": {}}, {"sun": {}}]}})");
   ASSERT_TRUE(evaluation);
