@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "protocol/spec/shadow_volume_places.h"
 #include "renderer/cpu/cpu_device.h"
 #include "renderer/passes/gl_device.h"
 #include "renderer/render.h"
-#include "renderer/resolve/check_frame.h"
 
 namespace gnomon {
 namespace {

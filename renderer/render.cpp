@@ -51,6 +51,12 @@ const RendererInfo& Renderer::info() const {
   return impl_->devices.standard().info();
 }
 
+Result<RendererInfo> Renderer::infoFor(const FrameSpec& spec) {
+  const auto device = impl_->devices.of(spec);
+  if (!device) return device.problems();
+  return (*device)->info();
+}
+
 Baker Renderer::baker() const {
   return Baker(impl_->caches);
 }

@@ -95,6 +95,9 @@ class Renderer {
   /// Of the device that draws what doesn't name one.
   const RendererInfo& info() const;
 
+  /// Of the device that draws `spec`, which is opened now if need be. A problem at /device as render gives.
+  Result<RendererInfo> infoFor(const FrameSpec& spec);
+
   /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
   /// `goOn`: false ends the frame with a problem of code unavailable; nothing half made is kept for later frames.
   Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept,

@@ -5,6 +5,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/limits.h"
+#include "protocol/spec/shadow_volume_places.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 
@@ -13,19 +14,6 @@ namespace gnomon {
 std::string shadowPlace(const FrameSpec& asked, int light) {
   const bool own = asked.lights && (*asked.lights)[static_cast<std::size_t>(light)].shadow;
   return own ? "/lights/" + std::to_string(light) + "/shadow" : "/shadow";
-}
-
-std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec) {
-  std::vector<std::string> places;
-  if (spec.shadow.technique == ShadowTechnique::shadowVolume) places.emplace_back("/shadow/technique");
-  if (!spec.lights) return places;
-  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
-    const std::optional<Shadow>& own = (*spec.lights)[i].shadow;
-    if (own && own->technique == ShadowTechnique::shadowVolume) {
-      places.push_back("/lights/" + std::to_string(i) + "/shadow/technique");
-    }
-  }
-  return places;
 }
 
 Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {

@@ -11,9 +11,6 @@ namespace gnomon {
 /// Where a spec, as it was asked for, says what the shadow of a light is. A JSON Pointer.
 std::string shadowPlace(const FrameSpec& asked, int light);
 
-/// Where a spec, as it was asked for, names what only OpenGL draws. JSON Pointers.
-std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec);
-
 /// What only the device can refuse.
 Status checkDevice(const FrameSpec& spec, const RendererInfo& device);
 

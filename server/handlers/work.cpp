@@ -11,6 +11,7 @@
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/shadow_volume_places.h"
 #include "server/handlers/event_reply.h"
 #include "server/system/memory_file.h"
 
@@ -66,12 +67,7 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
 }
 
 bool needsDriver(const FrameSpec& spec) {
-  const auto byStencil = [](const Shadow& shadow) { return shadow.technique == ShadowTechnique::shadowVolume; };
-  const bool isAnyLight = spec.lights && std::any_of(spec.lights->begin(), spec.lights->end(), [&](const Light& light) {
-                            return light.shadow && byStencil(*light.shadow);
-                          });
-  return spec.device == DeviceChoice::gl ||
-         (spec.device != DeviceChoice::cpu && (byStencil(spec.shadow) || isAnyLight));
+  return spec.device == DeviceChoice::gl || (spec.device != DeviceChoice::cpu && !placesOfShadowVolumes(spec).empty());
 }
 
 std::string secondsText(double milliseconds) {

@@ -89,7 +89,9 @@ Answer planOrder(WorkContext& context, const OrderCall& call) {
   if (!spec) return {.problems = spec.problems()};
   auto scene = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
-  const auto plan = planFrame(std::get<LoadedScene>(scene).scene, *spec, context.renderer.info());
+  const auto device = context.renderer.infoFor(*spec, call.goOn);
+  if (!device) return {.problems = call.goOn() ? device.problems() : Problems{stoppedProblem("the plan", call)}};
+  const auto plan = planFrame(std::get<LoadedScene>(scene).scene, *spec, *device);
   if (!plan) return {.problems = plan.problems()};
   return {.contentType = std::string(kJson), .body = jsonText(toJson(*plan))};
 }

@@ -5,6 +5,7 @@
 #include <future>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/spec/shadow_volume_places.h"
 #include "server/worker/first_frame.h"
 
 namespace gnomon {
@@ -96,6 +97,12 @@ Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions&
     return Problem{ProblemCode::internal, "", "The first frame failed.", "", error.what()};
   }
   return thread;
+}
+
+Result<RendererInfo> RenderThread::infoFor(const FrameSpec& spec, const GoOn& goOn) {
+  const bool isOpen = spec.device == DeviceChoice::auto_ && placesOfShadowVolumes(spec).empty();
+  if (isOpen || spec.device == info_.device) return info_;
+  return ask<RendererInfo>(goOn, [&] { return renderer_->infoFor(spec); });
 }
 
 Result<DrawnFrame> RenderThread::draw(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn,

@@ -32,6 +32,10 @@ class RenderThread {
 
   const RendererInfo& info() const { return info_; }
 
+  /// Renderer::infoFor; waits for its turn only where that may be another device than `info` tells of. A problem of
+  /// code unavailable where it was asked to stop before.
+  Result<RendererInfo> infoFor(const FrameSpec& spec, const GoOn& goOn);
+
   /// Bakes for the frames of this thread, without waiting for it.
   const Baker& baker() const { return *baker_; }
 

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/shadow_volume_places.h"
 #include "protocol/spec/traits.h"
 #include "renderer/render.h"
-#include "renderer/resolve/check_frame.h"
 #include "tests/fuzz/sound_problems.h"
 #include "tests/support/chosen_spec.h"
 #include "tests/support/same_frames.h"

@@ -2,8 +2,8 @@
 #include <random>
 
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/shadow_volume_places.h"
 #include "renderer/render.h"
-#include "renderer/resolve/check_frame.h"
 #include "tests/support/chosen_spec.h"
 #include "tests/support/same_frames.h"
 

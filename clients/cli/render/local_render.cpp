@@ -70,10 +70,12 @@ Result<EvaluationReport> evaluateHere(const SceneBundle& bundle, const Evaluatio
 
 Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, const BackendOptions& backend,
                              ProgressLine& progress) {
-  const auto here = openHere(bundle, backend, progress);
+  auto here = openHere(bundle, backend, progress);
   if (!here) return here.problems();
   progress.stage("planning");
-  const auto plan = planFrame(here->scene, spec, here->renderer.info());
+  const auto device = here->renderer.infoFor(spec);
+  if (!device) return device.problems();
+  const auto plan = planFrame(here->scene, spec, *device);
   if (!plan) return plan.problems();
   return toJson(*plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
