@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
@@ -24,17 +25,22 @@ struct FrameCall {
   std::string request{}; ///< names all that the reply depends on; empty = the body counts too
 };
 
-HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
-               const std::string& etag) {
+/// The task of drawing it, or the reply that refuses it.
+std::variant<Task, HttpReply> taskOf(Services& services, const RouteCall& call, const FrameCall& frame) {
   auto bundle = frame.bundle();
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   auto made = frameTask(services, call, frame.sceneId, *std::move(bundle), frame.spec, frame.counts);
-  if (!made) {
-    HttpReply refused = problemReply(made.problems(), call.request.id);
-    refused.refusal = RefusalReason::cost;
-    return refused;
-  }
-  Task task = *std::move(made);
+  if (made) return *std::move(made);
+  HttpReply refused = problemReply(made.problems(), call.request.id);
+  refused.refusal = RefusalReason::cost;
+  return refused;
+}
+
+HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,
+               const std::string& etag) {
+  auto made = taskOf(services, call, frame);
+  if (auto* refused = std::get_if<HttpReply>(&made)) return std::move(*refused);
+  Task task = std::get<Task>(std::move(made));
   task.order.mediaType = mediaTypeOf(form);
   task.order.boundary = "gnomon-" + etag.substr(etag.find('"') + 1, 32);
   const auto drawn = [&](const std::function<bool()>& gone) {
@@ -51,13 +57,18 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   });
 }
 
-/// What drawing would refuse, found by planning alone: nobody would see the picture.
+/// What drawing would refuse, found by planning alone: nobody would see the picture. Where settings are to be chosen,
+/// the plan is of those that were asked for beside.
 HttpReply check(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form) {
-  auto bundle = frame.bundle();
-  if (!bundle) return problemReply(bundle.problems(), call.request.id);
-  Task task = taskFor(call, OrderKind::plan, frame.sceneId, *std::move(bundle), jsonText(toJson(frame.spec)),
-                      services.requestTimeout);
-  task.needsDriver = needsDriver(frame.spec);
+  auto made = taskOf(services, call, frame);
+  if (auto* refused = std::get_if<HttpReply>(&made)) return std::move(*refused);
+  Task task = std::get<Task>(std::move(made));
+  FrameSpec spec = frame.spec;
+  spec.quality.reset();
+  task.request = jsonText(toJson(spec));
+  task.order.kind = OrderKind::plan;
+  task.lane = Lane::interactive;
+  task.holdsRenderer = false;
   HttpReply reply = replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
   if (reply.status != 200) return reply;
   HttpReply checked;

@@ -9,6 +9,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/json/node_json.h"
 #include "server/system/log.h"
+#include "server/worker/frame_memory.h"
 
 namespace gnomon {
 namespace {
@@ -55,13 +56,16 @@ Problem stoppedProblem(std::string_view what, const OrderCall& call) {
   return {ProblemCode::deadlineExceeded, "", "The deadline came before " + std::string(what) + " was done.", "", ""};
 }
 
+Status checkMemory(const ByteBudget& budget, std::size_t bytes, std::string_view pointer) {
+  if (bytes <= budget.total()) return Done{};
+  return Problem{ProblemCode::tooLarge, std::string(pointer), "The pictures that this needs are too large together.",
+                 std::to_string(budget.total()) + " bytes", std::to_string(bytes) + " bytes"};
+}
+
 Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes, std::string_view pointer,
                   const OrderCall& call) {
   constexpr std::chrono::milliseconds kNextTry{5};
-  if (bytes > budget.total()) {
-    return Problem{ProblemCode::tooLarge, std::string(pointer), "The pictures that this needs are too large together.",
-                   std::to_string(budget.total()) + " bytes", std::to_string(bytes) + " bytes"};
-  }
+  if (const Status fits = checkMemory(budget, bytes, pointer); !fits) return fits.problems();
   while (!lease.grow(bytes)) {
     if (!call.goOn()) return stoppedProblem("the memory for it", call);
     std::this_thread::sleep_for(kNextTry); // at most a few orders run in a worker
@@ -89,6 +93,9 @@ Answer planOrder(WorkContext& context, const OrderCall& call) {
   if (!spec) return {.problems = spec.problems()};
   auto scene = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
+  if (const auto fits = checkMemory(context.frameMemory, frameBytes(*spec), "/views"); !fits) {
+    return {.problems = fits.problems()};
+  }
   const auto device = context.renderer.infoFor(*spec, call.goOn);
   if (!device) return {.problems = call.goOn() ? device.problems() : Problems{stoppedProblem("the plan", call)}};
   const auto plan = planFrame(std::get<LoadedScene>(scene).scene, *spec, *device);

@@ -60,8 +60,11 @@ Answer carryOut(WorkContext& context, const OrderCall& call) noexcept;
 /// The order's scene, or the answer that says why it can't be had.
 std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall& call);
 
-/// Takes memory as soon as there is room. tooLarge at `pointer` where there can never be; deadlineExceeded where the
-/// order is stopped before.
+/// tooLarge at `pointer` where there can never be room for so many bytes.
+Status checkMemory(const ByteBudget& budget, std::size_t bytes, std::string_view pointer);
+
+/// Takes memory as soon as there is room; checkMemory's problem, and deadlineExceeded where the order is stopped
+/// before.
 Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes, std::string_view pointer,
                   const OrderCall& call);
 
