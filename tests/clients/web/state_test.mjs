@@ -123,7 +123,6 @@ test('each technique shows the controls that it heeds', () => {
   assert.deepEqual(shownFor({ technique: 'rayTraced' }), always);
   assert.deepEqual(shownFor({ technique: 'rayTraced' }, { angularDiameterDegrees: 1 }), [on, technique, 'shadow.raySamples', strength]);
   assert.deepEqual(shownFor({ technique: 'lightMap' }), always);
-  assert.deepEqual(shownFor({ technique: 'rayTraced' }), [on, technique, ...tiles, strength]);
   assert.deepEqual(shownFor({ technique: 'shadowMap', filter: { type: 'pcss' } }), [on, technique, ...tiles, 'shadow.filter.type', strength]);
   assert.deepEqual(shownFor({ enabled: false, technique: 'lightMap' }), [on]);
 });
