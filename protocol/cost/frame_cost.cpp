@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {
@@ -64,32 +64,10 @@ double pixelsOf(const FrameSpec& spec) {
   return static_cast<double>(spec.width) * spec.height;
 }
 
-double samplesOf(const FrameSpec& spec) {
-  return spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
-}
-
-/// As the renderer chooses them.
 std::vector<Light> lightsOf(const FrameSpec& spec, const SceneCounts& scene) {
-  std::vector<Light> lights = spec.lights.value_or(std::vector<Light>{});
-  if (!spec.lights) {
-    for (const LightType type : scene.lights) lights.push_back({.type = type});
-    if (lights.size() > static_cast<std::size_t>(kLimits.maxLights)) {
-      lights.resize(static_cast<std::size_t>(kLimits.maxLights));
-    }
-    if (lights.empty()) lights.emplace_back();
-  }
-  bool any = false; // some light casts a shadow
-  for (Light& light : lights) {
-    if (!light.shadow) light.shadow = spec.shadow;
-    if (any && spec.shadowLightPolicy == ShadowLightPolicy::first) light.shadow->enabled = false;
-    any = any || light.shadow->enabled;
-  }
-  return lights;
-}
-
-bool hasSize(const Light& light) {
-  return light.type == LightType::directional ? light.angularDiameterDegrees.value_or(0) > 0
-                                              : light.radius.value_or(0) > 0;
+  std::vector<Light> own;
+  for (const LightType type : scene.lights) own.push_back({.type = type});
+  return lightsOf(spec, own);
 }
 
 /// Share of the pixels that are in a penumbra, about. How far off a lamp is, a request does not tell.
@@ -99,18 +77,10 @@ double penumbraOf(const Light& light) {
   return std::clamp(kPenumbra * *light.angularDiameterDegrees, 0.02, 0.6);
 }
 
-double tilesOf(const Light& light) {
-  return light.type == LightType::directional ? light.shadow->cascadeCount : light.type == LightType::point ? 6 : 1;
-}
-
+/// As if the light showed in all of the picture.
 double tileSide(const Light& light, const FrameSpec& spec) {
-  const ShadowSize usual = light.type == LightType::directional ? ShadowSize::Large
-                           : light.type == LightType::spot      ? ShadowSize::Medium
-                                                                : ShadowSize::Small;
-  const int steps = static_cast<int>(light.shadow->size.value_or(usual)) - static_cast<int>(ShadowSize::Large) +
-                    static_cast<int>(light.shadow->importance) - static_cast<int>(ShadowImportance::high);
-  const auto longest = std::bit_ceil(static_cast<unsigned>(std::max(spec.width, spec.height)));
-  return std::ldexp(std::min(static_cast<double>(spec.atlas.baseSize), static_cast<double>(longest)), steps);
+  const Shadow& shadow = *light.shadow;
+  return askedTileSize(*shadow.size, shadow.importance, spec.atlas.baseSize, std::max(spec.width, spec.height));
 }
 
 /// Texels that a filter reads for a pixel, about.
@@ -148,10 +118,10 @@ void addShadow(const Light& light, const FrameSpec& spec, const SceneCounts& sce
   const TechniqueTraits& technique = traitsOf(shadow.technique);
   const auto triangles = static_cast<double>(scene.triangles);
   if (isMapped(light, tilesShown)) {
-    const double texels = tilesOf(light) * tileSide(light, spec) * tileSide(light, spec);
+    const double texels = tileCount(light) * tileSide(light, spec) * tileSide(light, spec);
     const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
     const double each = spec.atlas.samples * kTexel + (isBlurred(shadow.filter) ? kBlurredTexel : 0.0);
-    cost[FramePart::shadow] += std::min(texels, room) * each + tilesOf(light) * triangles * kTriangle;
+    cost[FramePart::shadow] += std::min(texels, room) * each + tileCount(light) * triangles * kTriangle;
   }
   if (!technique.layered) return;
   const double pixels = pixelsOf(spec);
@@ -162,16 +132,8 @@ void addShadow(const Light& light, const FrameSpec& spec, const SceneCounts& sce
     const double more = penumbraOf(light) * (shadow.raySamples - 1);
     cost[FramePart::visibility] += pixels * (1 + more) * kRay;
   } else {
-    cost[FramePart::visibility] += triangles * kVolumeTriangle + pixels * samplesOf(spec) * kSample;
+    cost[FramePart::visibility] += triangles * kVolumeTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
   }
-}
-
-double filterTaps(const std::vector<Light>& lights, bool tilesShown) {
-  double taps = 0;
-  for (const Light& light : lights) {
-    if (light.shadow->enabled && isMapped(light, tilesShown)) taps += tapsOf(light.shadow->filter);
-  }
-  return taps;
 }
 
 double encodedPixel(const Output& output) {
@@ -184,7 +146,7 @@ void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights,
   const ViewTraits& traits = traitsOf(view);
   const double pixels = pixelsOf(spec);
   // Pixels at the edges of triangles show several of them.
-  const double shaded = pixels * (traits.source == ViewSource::picture && samplesOf(spec) > 1 ? 1.6 : 1.0);
+  const double shaded = pixels * (traits.source == ViewSource::picture && samplesOf(spec.antialiasing) > 1 ? 1.6 : 1.0);
   if (traits.source == ViewSource::picture) {
     cost[FramePart::shade] += shaded * (kShadedPixel + static_cast<double>(lights.size()) * kLitPixel + taps * kTap);
   } else if (traits.source == ViewSource::data) {
@@ -217,11 +179,15 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene) {
   const bool tilesShown = shows([](const ViewTraits& view) { return view.tiles; });
   FrameCost cost;
   cost[FramePart::fixed] = kFrame;
-  cost[FramePart::survey] = static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec) * kSample;
-  for (const Light& light : lights) {
-    if (light.shadow->enabled) addShadow(light, spec, scene, tilesShown, cost);
+  cost[FramePart::survey] =
+      static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
+  const std::vector<int> throwing = shadowingLights(lights, spec.shadowLightPolicy);
+  double taps = 0;
+  for (const int index : throwing) {
+    const Light& light = lights[static_cast<std::size_t>(index)];
+    addShadow(light, spec, scene, tilesShown, cost);
+    if (isMapped(light, tilesShown)) taps += tapsOf(light.shadow->filter);
   }
-  const double taps = filterTaps(lights, tilesShown);
   for (const View view : spec.views) addView(view, spec, lights, taps, cost);
   if (!lights.empty() && shows([](const ViewTraits& view) { return view.source == ViewSource::rays; })) {
     cost[FramePart::reference] = pixels * (2 + referenceRays(spec, lights)) * kReferenceRay;

@@ -55,10 +55,6 @@ glm::dvec3 directionOf(const Light& light) {
   return {0, -1, 0};
 }
 
-bool shines(const Light& light) {
-  return light.intensity > 0 && (light.temperatureKelvin || light.color.value_or(Vec3{1, 1, 1}) != Vec3{0, 0, 0});
-}
-
 double luminanceOf(const glm::dvec3& color) {
   return glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), color);
 }

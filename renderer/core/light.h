@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "protocol/spec/scene_options.h"
+#include "protocol/spec/frame_lights.h"
 
 namespace gnomon {
 
@@ -11,14 +11,6 @@ glm::dvec3 directionOf(const Light& light);
 
 /// How far the edge of the light's own disc is off its middle: a tangent (directional) or metres; 0 = it has no size.
 double radiusOf(const Light& light);
-
-/// Its shadows have penumbras.
-inline bool hasSize(const Light& light) {
-  return radiusOf(light) > 0;
-}
-
-/// It gives off something: else it has no shadow to be seen.
-bool shines(const Light& light);
 
 /// The color of a black body's glow as linear sRGB of luminance 1, so that it changes no lux and no candela: components
 /// may exceed 1. What lies outside of sRGB is brought to its edge. `kelvin`: 1000..15000.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/cpu/atlas_picture.h"
@@ -87,7 +88,7 @@ const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
 Result<SeenDepths> CpuFrame::survey() {
   if (const Status made = needHoles(); !made) return made.problems();
   passStart_ = Clock::now();
-  const int samples = work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+  const int samples = gnomon::samplesOf(work_.frame.spec.antialiasing);
   survey_ = surveyScene(camera(), samples, work_.parts, std::exchange(shared_.storage[samples], {}));
   if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {
     scene_.frame.depthRange.x = range.nearest;

@@ -5,6 +5,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/base/text.h"
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/limits.h"
 #include "renderer/core/collect.h"
 #include "renderer/core/vec3.h"
@@ -37,7 +38,7 @@ Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, c
 
 /// What devices keep of volumes for each pixel takes no more than a frame may have.
 Status checkSize(const FrameSpec& spec) {
-  const std::int64_t samples = spec.antialiasing == Antialiasing::msaa4x ? 4 : 1;
+  const std::int64_t samples = samplesOf(spec.antialiasing);
   const std::int64_t pixel = sizeof(glm::vec4) + samples * (sizeof(float) + sizeof(std::uint16_t));
   const std::int64_t bytes = pixel * spec.width * spec.height;
   return checkVisibilityBytes(bytes, "/volumes", "A picture of this size takes too much memory with volumes.");

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "protocol/spec/frame_lights.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"
@@ -51,7 +52,7 @@ GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
 }
 
 Result<SeenDepths> GlFrame::survey() {
-  auto survey = surveyScene(inputs_, work_.frame.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1, work_.parts);
+  auto survey = surveyScene(inputs_, samplesOf(work_.frame.spec.antialiasing), work_.parts);
   if (!survey) return survey.problems();
   survey_ = std::move(*survey);
   if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {

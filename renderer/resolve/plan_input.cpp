@@ -5,21 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/spec/frame_lights.h"
 #include "renderer/core/light.h"
 #include "renderer/core/vec3.h"
 
 namespace gnomon {
 
 std::vector<int> shadowingLights(const ResolvedFrame& frame) {
-  std::vector<int> lights;
-  const bool firstOnly = frame.spec.shadowLightPolicy == ShadowLightPolicy::first;
-  for (std::size_t i = 0; i < frame.spec.lights->size(); ++i) {
-    const Light& light = (*frame.spec.lights)[i];
-    if (firstOnly && light.type != LightType::directional) continue;
-    if (light.shadow->enabled && shines(light)) lights.push_back(static_cast<int>(i));
-    if (firstOnly) break; // the first is the first, with a shadow or without
-  }
-  return lights;
+  return shadowingLights(*frame.spec.lights, frame.spec.shadowLightPolicy);
 }
 
 const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light) {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "protocol/base/text.h"
-#include "protocol/spec/limits.h"
+#include "protocol/spec/frame_lights.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/move_to_scene.h"
@@ -17,45 +17,9 @@ namespace gnomon {
 
 namespace {
 
-/// The request's lights, else the scene's own, else one sun.
-std::vector<Light> chooseLights(const FrameSpec& spec, const SceneView& scene, std::vector<std::string>& warnings) {
-  if (spec.lights) return *spec.lights;
+std::vector<Light> lightsOf(const SceneView& scene) {
   std::vector<Light> lights;
   for (const SceneLight& light : scene.lights) lights.push_back(light.light);
-  const auto most = static_cast<std::size_t>(kLimits.maxLights);
-  if (lights.size() > most) {
-    warnings.push_back("The scene has " + std::to_string(lights.size()) + " lights; only the first " +
-                       std::to_string(most) + " light this frame.");
-    lights.resize(most);
-  }
-  if (lights.empty()) {
-    Light sun;
-    sun.sun = Sun{};
-    lights.push_back(sun);
-  }
-  return lights;
-}
-
-ShadowSize usualSize(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return ShadowSize::Large;
-    case LightType::spot:
-      return ShadowSize::Medium;
-    case LightType::point:
-      return ShadowSize::Small;
-  }
-  return ShadowSize::Large;
-}
-
-/// The lights of a frame with nothing left open.
-std::vector<Light> settledLights(const FrameSpec& spec, const SceneView& scene, std::vector<std::string>& warnings) {
-  std::vector<Light> lights = chooseLights(spec, scene, warnings);
-  for (Light& light : lights) {
-    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
-    if (!light.shadow) light.shadow = spec.shadow;
-    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
-  }
   return lights;
 }
 
@@ -96,7 +60,11 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
   if (nodes) frame.nodes = *std::move(nodes);
   const SceneView none;
   const SceneView& view = frame.scene < 0 ? none : scene.scenes[static_cast<std::size_t>(frame.scene)];
-  frame.spec.lights = settledLights(spec, view, frame.warnings);
+  frame.spec.lights = lightsOf(spec, lightsOf(view));
+  if (!spec.lights && view.lights.size() > frame.spec.lights->size()) {
+    frame.warnings.push_back("The scene has " + std::to_string(view.lights.size()) + " lights; only the first " +
+                             std::to_string(frame.spec.lights->size()) + " light this frame.");
+  }
   if (frame.scene < 0) return frame;
   frame.spec.scene = spec.scene.value_or(scene.defaultScene);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "protocol/spec/frame_lights.h"
 #include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/receiver_pieces.h"
@@ -114,12 +115,8 @@ void addNote(PlannedLight& light, const std::string& note) {
   light.note += note;
 }
 
-double widestSingleTile() {
-  return glm::radians(60.0);
-}
-
 std::vector<LightFace> facesOf(const ShadowCaster& light) {
-  if (light.type == LightType::spot && light.outerCone <= widestSingleTile()) {
+  if (light.type == LightType::spot && light.outerCone <= glm::radians(kWidestTileDegrees)) {
     return {{lightBasis(light.direction), std::tan(light.outerCone)}};
   }
   const bool spot = light.type == LightType::spot;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "protocol/spec/frame_lights.h"
 #include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"

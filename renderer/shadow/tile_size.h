@@ -16,11 +16,6 @@ namespace gnomon {
 /// halved below it. Wide enough for every kernel and snapping step.
 inline constexpr int kSmallestTile = 64;
 
-/// Texels along a side of one tile, a power of two: min(baseSize * f, nextPowerOfTwo(lightSize * f)), f = size times
-/// importance: 2 (XLarge), 1, 1/2, 1/4, 1/8 (XSmall) times 1 (high), 1/2, 1/4 (low). `lightSize`: pixels that the light
-/// covers, from lightSize(). 0 where it covers none. Counted in integers: log(x) / log(2) misrounds.
-int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, int lightSize);
-
 /// The smallest sphere around all that a spot or point light reaches, relative to the eye. REQUIRES: it has a range.
 Sphere reachOf(const ShadowCaster& light);
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/frame_lights.h"
 #include "tests/bench/depth_floor.h"
 #include "tests/bench/median.h"
 
@@ -54,8 +55,7 @@ Running start(Renderer& renderer, const CostPoint& point) {
   }
   running.spec = *spec;
   running.scene = point.scene();
-  running.floor = std::make_unique<DepthFloor>(*running.scene, running.spec,
-                                               running.spec.antialiasing == Antialiasing::msaa4x ? 4 : 1);
+  running.floor = std::make_unique<DepthFloor>(*running.scene, running.spec, samplesOf(running.spec.antialiasing));
   drawOnce(renderer, running, 0);
   return running;
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "protocol/spec/frame_lights.h"
 #include "tests/renderer/shadow/random_plan.h"
 
 namespace gnomon {

@@ -1,0 +1,95 @@
+#include "protocol/spec/frame_lights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "protocol/spec/limits.h"
+
+namespace gnomon {
+namespace {
+
+ShadowSize usualSize(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return ShadowSize::Large;
+    case LightType::spot:
+      return ShadowSize::Medium;
+    case LightType::point:
+      return ShadowSize::Small;
+  }
+  return ShadowSize::Large;
+}
+
+std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> ofScene) {
+  if (spec.lights) return *spec.lights;
+  std::vector<Light> lights(ofScene.begin(), ofScene.end());
+  lights.resize(std::min(lights.size(), static_cast<std::size_t>(kLimits.maxLights)));
+  if (lights.empty()) {
+    Light sun;
+    sun.sun = Sun{};
+    lights.push_back(sun);
+  }
+  return lights;
+}
+
+} // namespace
+
+std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene) {
+  std::vector<Light> lights = chosenLights(spec, ofScene);
+  for (Light& light : lights) {
+    if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
+    if (!light.shadow) light.shadow = spec.shadow;
+    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
+  }
+  return lights;
+}
+
+bool shines(const Light& light) {
+  return light.intensity > 0 && (light.temperatureKelvin || light.color.value_or(Vec3{1, 1, 1}) != Vec3{0, 0, 0});
+}
+
+bool hasSize(const Light& light) {
+  return (light.type == LightType::directional ? light.angularDiameterDegrees : light.radius).value_or(0) > 0;
+}
+
+std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolicy policy) {
+  std::vector<int> throwing;
+  const bool firstOnly = policy == ShadowLightPolicy::first;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights[i];
+    if (firstOnly && light.type != LightType::directional) continue;
+    if (light.shadow->enabled && shines(light)) throwing.push_back(static_cast<int>(i));
+    if (firstOnly) break; // the first is the first, with a shadow or without
+  }
+  return throwing;
+}
+
+int tileCount(const Light& light) {
+  switch (light.type) {
+    case LightType::directional:
+      return light.shadow->cascadeCount;
+    case LightType::spot:
+      return light.outerConeDegrees <= kWidestTileDegrees ? 1
+                                                          : 5; // no cone narrower than a half space reaches the back
+    case LightType::point:
+      return 6;
+  }
+  return 0;
+}
+
+int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, int lightSize) {
+  if (lightSize <= 0 || baseSize <= 0) return 0;
+  // In 32nds of a texel every factor is a whole power of two, and nextPowerOfTwo scales with it.
+  const int doublings = static_cast<int>(size) - static_cast<int>(ShadowSize::XSmall) + static_cast<int>(importance) -
+                        static_cast<int>(ShadowImportance::low);
+  const std::uint64_t byLight = std::bit_ceil(static_cast<std::uint64_t>(lightSize)) << doublings;
+  const std::uint64_t byBase = static_cast<std::uint64_t>(baseSize) << doublings;
+  return static_cast<int>(std::max<std::uint64_t>(1, std::min(byLight, byBase) / 32));
+}
+
+int samplesOf(Antialiasing antialiasing) {
+  return antialiasing == Antialiasing::msaa4x ? 4 : 1;
+}
+
+} // namespace gnomon

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "protocol/spec/frame_spec.h"
+
+/// The lights of a frame, as far as a request and the scene's own lights decide them: what plans, draws and estimates
+/// a frame asks here.
+namespace gnomon {
+
+/// The request's lights, else the first kLimits.maxLights of the scene's own, else one sun. What they leave open is
+/// set: their shadow is the frame's, a tile's size that of the light's type.
+std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene);
+
+/// Gives off light: else it has no shadow to be seen.
+bool shines(const Light& light);
+
+/// Has a disc, or is a ball: its shadows have penumbras.
+bool hasSize(const Light& light);
+
+/// The lights that throw shadows, by their index. REQUIRES: their shadows are set.
+std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolicy policy);
+
+/// The widest half angle of a spot that one tile serves, degrees: at its rim a texel is already four times as large,
+/// seen from the light, as in the middle. A wider one takes faces of a cube.
+inline constexpr double kWidestTileDegrees = 60;
+
+/// Tiles of a light's shadow map, those included that nothing in view lies in: its cascades, or the faces of a cube
+/// that a spot or point light reaches. REQUIRES: its shadow is set.
+int tileCount(const Light& light);
+
+/// Texels along a side of one tile, a power of two: min(baseSize * f, nextPowerOfTwo(lightSize * f)), f = size times
+/// importance: 2 (XLarge), 1, 1/2, 1/4, 1/8 (XSmall) times 1 (high), 1/2, 1/4 (low). `lightSize`: pixels that the light
+/// covers. 0 where it covers none. Counted in integers: log(x) / log(2) misrounds.
+int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, int lightSize);
+
+/// Samples a pixel of pictures.
+int samplesOf(Antialiasing antialiasing);
+
+} // namespace gnomon
