@@ -117,14 +117,14 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
   return false;
 }
 
-/// What to write instead of a word that is none of a type's.
-std::string adviceFor(const std::string& text, const ValueType& type) {
-  for (const RetiredWord& word : type.retired) {
-    if (word.name == text) return "; it was removed: use " + std::string(word.successor) + ".";
+bool decodeRetired(const std::string& text, const ValueType& type, void* out) {
+  for (const RetiredWord& retired : type.retired) {
+    if (retired.name != text) continue;
+    const auto now = std::ranges::find(type.spellings, retired.successor, &Spelling::name);
+    type.setWord(out, static_cast<int>(now - type.spellings.begin()));
+    return true;
   }
-  std::vector<std::string> words;
-  for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
-  return suggestion(text, words);
+  return false;
 }
 
 bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
@@ -139,12 +139,15 @@ bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems,
     if (i > 0) names += i + 1 == type.spellings.size() ? " or " : ", ";
     names += name;
   }
+  if (text && decodeRetired(*text, type, out)) return true;
   if (!text) {
     addWrongType(node, names, place, problems);
   } else {
+    std::vector<std::string> words;
+    for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = place.pointer(),
-                  .detail = "This is not one of the possible values" + adviceFor(*text, type),
+                  .detail = "This is not one of the possible values" + suggestion(*text, words),
                   .limit = names,
                   .actual = shownNode(node)});
   }

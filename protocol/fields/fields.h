@@ -161,7 +161,7 @@ inline constexpr std::array<Spelling, 0> kSpellings{};
 template <class T>
 concept Spelled = !kSpellings<T>.empty();
 
-/// A JSON word that an enumerator had once; it is refused with the word to use instead.
+/// A JSON word of earlier versions, which is read as the one that took its place; never written.
 struct RetiredWord {
   std::string_view name, successor;
 };

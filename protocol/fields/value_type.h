@@ -64,7 +64,7 @@ struct ValueType {
   Kind kind;
 
   std::span<const Spelling> spellings{};  ///< of a word
-  std::span<const RetiredWord> retired{}; ///< words that it does not know any more
+  std::span<const RetiredWord> retired{}; ///< words of earlier versions
   int (*wordIndex)(const void* word) = nullptr;
   void (*setWord)(void* word, int index) = nullptr;
 

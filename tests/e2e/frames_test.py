@@ -66,7 +66,7 @@ class Frames(ServerTest):
         self.assertTrue(quality["met"])
         self.assertFalse(quality["cached"])
         self.assertEqual(chosen["error"], 0)
-        self.assertGreaterEqual(len(quality["tried"]), 8)
+        self.assertGreaterEqual(len(quality["tried"]), 7)
         self.assertEqual(report["spec"]["shadow"]["technique"], chosen["shadow"]["technique"])
         self.assertNotIn("quality", report["spec"])
         again = self.frame(spec, "application/json").json()["report"]["quality"]

@@ -149,7 +149,7 @@ class LightReport(TypedDict, total=False):
     predictedError:
         How large the texels of its tiles appear; absent if none was drawn.
     tracedPixels:
-        Pixels that rays decided; techniques hybrid and rayTraced; absent in a plan. Unit: pixels.
+        Pixels that rays decided; technique rayTraced; absent in a plan. Unit: pixels.
     lightMap:
         What was baked; technique lightMap alone; absent in a plan.
     casterTriangles:

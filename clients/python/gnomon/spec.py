@@ -361,9 +361,9 @@ class Shadow:
     lightMap:
         Technique lightMap: how finely the shadow is baked into a texture of the scene's surfaces.
     raySamples:
-        Techniques rayTraced and hybrid: most rays for each pixel towards a light that has a size. Only penumbras
-        take so many; where a pixel and its neighbours agree, one ray does, or 4 beside materials with alpha. Lights
-        without a size take one ray. Unit: rays. Default: 16.
+        Technique rayTraced: most rays for each pixel towards a light that has a size. Only penumbras take so many;
+        where a pixel and its neighbours agree, one ray does, or 4 beside materials with alpha. Lights without a
+        size take one ray. Unit: rays. Default: 16.
     """
 
     enabled: Optional[bool] = None
@@ -412,8 +412,8 @@ class Light:
         Techniques rayTraced and lightMap, filter pcss and the exact reference draw a soft shadow for it; the others
         know no size. Unit: degrees.
     radius:
-        Radius of the glowing ball; spot and point lights; absent = 0. Techniques rayTraced, hybrid and lightMap,
-        filter pcss and the exact reference draw a soft shadow for it; the others know no size. Unit: metres.
+        Radius of the glowing ball; spot and point lights; absent = 0. Techniques rayTraced and lightMap, filter
+        pcss and the exact reference draw a soft shadow for it; the others know no size. Unit: metres.
     color:
         Linear red, green and blue; absent = white, or the color of `temperatureKelvin`.
     temperatureKelvin:
@@ -854,8 +854,8 @@ class EvaluationRequest:
         removes a field, lists are replaced.
     sweep:
         A named set of variants, applied to all lights that cast shadows. techniques = hard and filtered shadow
-        maps, hybrid, shadow volumes, rays; filters = shadow maps with every filter at every size in texels; sizes =
-        hard shadow maps, XSmall to XLarge, with 1, 2 and 4 cascades; all = all of these.
+        maps, shadow volumes, rays; filters = shadow maps with every filter at every size in texels; sizes = hard
+        shadow maps, XSmall to XLarge, with 1, 2 and 4 cascades; all = all of these.
     repeats:
         Timed frames of each variant; their median counts. More make times steadier and take longer. Unit: frames.
         Default: 5.

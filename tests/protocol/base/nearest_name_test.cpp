@@ -32,8 +32,6 @@ TEST(NearestName, IsToldOfFieldsAndViews) {
             "This is not one of the possible values; did you mean depth?");
   EXPECT_EQ(detail(decodeFrameQuery({{"view", "shadows"}})),
             "This is not one of the possible values; did you mean shadow?");
-  EXPECT_EQ(detail(decodeFrameSpec(R"({"shadow": {"technique": "hybrid"}})")),
-            "This is not one of the possible values; it was removed: use rayTraced.");
   EXPECT_EQ(detail(decodeFrameQuery({{"lights[0].intensty", "3"}})),
             "There is no field of this name; did you mean intensity?");
   EXPECT_EQ(detail(decodeFrameSpec(R"({"xyz": 3})")), "There is no field of this name.");

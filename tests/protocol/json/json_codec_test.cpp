@@ -13,6 +13,13 @@ namespace {
 
 using ::testing::ElementsAre;
 
+TEST(DecodeFrameSpec, WordsOfEarlierVersionsAreReadAsTheirSuccessors) {
+  const auto spec = decodeFrameSpec(R"({"shadow": {"technique": "hybrid"}})");
+  ASSERT_TRUE(spec);
+  EXPECT_EQ(spec->shadow.technique, ShadowTechnique::rayTraced);
+  EXPECT_EQ(toJson(*spec)["shadow"]["technique"], "rayTraced");
+}
+
 TEST(DecodeFrameSpec, NothingIsEveryDefault) {
   for (const char* text : {"", " \r\n\t", "{}", " { } "}) {
     const Result<FrameSpec> spec = decodeFrameSpec(text);
