@@ -26,18 +26,18 @@ GpuSceneCache::Entry& GpuSceneCache::entryOf(const std::shared_ptr<const Scene>&
   if (Entry* const known = entries_.findIf([&](const Entry& entry) { return entry.scene.lock() == scene; })) {
     return *known;
   }
-  const auto alike = [&](bool (*same)(const Scene&, const Scene&)) {
+  const auto matching = [&](bool (*same)(const Scene&, const Scene&)) {
     return [&scene, same](const Entry& entry) {
       const auto other = entry.scene.lock();
       return other && same(*other, *scene);
     };
   };
-  if (Entry* const like = entries_.findIf(alike(sameSurfaces))) {
+  if (Entry* const like = entries_.findIf(matching(sameSurfaces))) {
     like->scene = scene;
     return *like;
   }
-  const auto ofMeshes = std::ranges::find_if(entries_, alike(sameMeshes));
-  const auto ofTextures = std::ranges::find_if(entries_, alike(sameTextures));
+  const auto ofMeshes = std::ranges::find_if(entries_, matching(sameMeshes));
+  const auto ofTextures = std::ranges::find_if(entries_, matching(sameTextures));
   auto meshes = ofMeshes != entries_.end() ? ofMeshes->gpu.meshes : uploadMeshes(*scene);
   auto textures = ofTextures != entries_.end() ? ofTextures->gpu.textures : uploadTextures(*scene);
   entries_.eraseIf([](const Entry& entry) { return entry.scene.expired(); });

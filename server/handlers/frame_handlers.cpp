@@ -57,7 +57,7 @@ HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame
   });
 }
 
-/// What drawing would refuse, found by planning alone: nobody would see the picture. Where settings are to be chosen,
+/// What drawing would refuse, found by planning alone: no picture is sent. Where settings are to be chosen,
 /// the plan is of those that were asked for beside.
 HttpReply check(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form) {
   auto made = taskOf(services, call, frame);

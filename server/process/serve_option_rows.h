@@ -75,7 +75,7 @@ inline constexpr std::array kStorageRows{
     option("store-bytes", &ServeOptions::storeBytes, kSize,
            "Scenes kept in that store, as 20GB; 507 beyond it. 0 = as many as its disk or Redis takes"),
     option("store-age", &ServeOptions::storeAgeSeconds, {kSeconds, {0, kLongestAge}},
-           "Scenes in that store that nobody has uploaded or drawn for so long, as 30d or 12h, are removed. 0 = never"),
+           "Scenes in that store that were not uploaded or drawn for so long, as 30d or 12h, are removed. 0 = never"),
     option("redis-password-file", &ServeOptions::redisPasswordFile, kFile,
            "File whose first line is the password of that Redis server, and of that of `--jobs`"),
     option("redis-authorities", &ServeOptions::redisAuthorities, kFile,
