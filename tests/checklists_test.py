@@ -130,7 +130,7 @@ class Checklists(unittest.TestCase):
         self.assertEqual(self.steps_of("To add a technique"), ["1", "2", "3"])
         rows = '#include "protocol/spec/traits.h"\n'
         # 1. Its name, what it is, and its row.
-        self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ shadowMap, shadowVolume, rayTraced", ", scratch")
+        self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ auto_, shadowMap, shadowVolume, rayTraced", ", scratch")
         self.assert_refused(rows, "spellsAll<ShadowTechnique>")
         self.edit("protocol/spec/enum_rows.h", r"spelling\(ShadowTechnique::rayTraced,.*?\),\n",
                   '    spelling(ShadowTechnique::scratch, "scratch", "nothing"),\n')

@@ -11,8 +11,8 @@ const shadowed = (store) => store.effective('shadow.enabled') !== false;
 const showsOneLight = ({ state: { view } }) => ['cascades', 'shadow'].includes(view) || kDebugViews.some(([name]) => name === view);
 const one = (path, value) => (store) => store.effective(path) === value;
 const by = (...techniques) => (store) => shadowed(store) && techniques.includes(store.effective('shadow.technique'));
-const tiled = by('shadowMap');
-const soft = (store) => by('shadowMap')(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
+const tiled = by('auto', 'shadowMap');
+const soft = (store) => tiled(store) && !['hard', 'pcss'].includes(store.effective('shadow.filter.type'));
 const lightHasSize = ({ state }) => (state.spec.lights ?? state.report?.spec.lights ?? []).some((light) => light.angularDiameterDegrees || light.radius);
 
 // A manual range needs both its ends, an automatic one takes none.
@@ -104,6 +104,7 @@ export const kSections = [
         label: 'Technique',
         whole: true,
         choices: [
+          ['auto', 'Auto', 'For each light rays where they cost at most twice its map, else the map'],
           ['shadowMap', 'Maps', 'Shadow maps: fast, as sharp as their texels'],
           ['rayTraced', 'Rays', 'Exact: rays for every pixel in doubt'],
           ['shadowVolume', 'Volumes', 'Exact, by the stencil buffer; drawn by OpenGL alone'],
@@ -111,11 +112,11 @@ export const kSections = [
         ],
         needs: shadowed,
       },
-      { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('rayTraced')(store) && lightHasSize(store) },
+      { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('auto', 'rayTraced')(store) && lightHasSize(store) },
       { path: 'shadow.cascadeCount', label: 'Cascades', choices: [[1, '1'], [2, '2'], [3, '3'], [4, '4'], [6, '6'], [8, '8']], choose: chooseCascades, needs: tiled },
       { path: 'shadow.size', label: 'Tile size', choices: [['XSmall', 'XS'], ['Small', 'S'], ['Medium', 'M'], ['Large', 'L'], ['XLarge', 'XL']], says: 'Larger is sharper and slower. Default: L for a sun, M for a spot, S for a point light', needs: tiled },
       { path: 'shadow.importance', label: 'Importance', choices: [['low', 'Low'], ['medium', 'Medium'], ['high', 'High']], says: 'Lower makes tiles smaller, and shrinks them first when the atlas is full', needs: tiled },
-      { path: 'shadow.filter.type', label: 'Filter', whole: true, choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: by('shadowMap') },
+      { path: 'shadow.filter.type', label: 'Filter', whole: true, choices: [['hard', 'Hard'], ['pcf', 'PCF'], ['vsm', 'VSM'], ['evsm', 'EVSM'], ['msm', 'MSM'], ['pcss', 'PCSS', 'Soft by the size of the light']], choose: chooseFilter, needs: tiled },
       { path: 'shadow.filter.size', label: 'Filter width', says: 'Texels across; wider is softer and slower', choices: [[3, '3'], [5, '5'], [7, '7']], needs: (store) => soft(store) && store.effective('shadow.filter.radius') == null },
       { path: 'shadow.filter.radius', label: 'Filter radius', says: 'Softness in metres, the same everywhere, instead of a width in texels', unit: 'm', needs: soft },
       { path: 'shadow.strength', label: 'Strength', slider: [0, 1, 0.01], needs: shadowed },

@@ -31,6 +31,7 @@ function lightOf(light) {
   return element(
     'div',
     { class: 'light-report' },
+    light.choice && element('p', { class: 'fact' }, `${light.choice.technique === 'rayTraced' ? 'Rays' : 'Map'}: ${light.choice.why}`),
     light.note && element('p', { class: 'note' }, light.note),
     light.lightMap && element('p', { class: 'fact' }, mapOf(light.lightMap)),
     rows.length ? table : null,

@@ -24,15 +24,11 @@ namespace {
 // Nanoseconds each, on two cores, by the CPU device: of shadow maps, rays and pictures measured, of the others
 // estimated.
 constexpr double kFrame = 1.5e6;        ///< whatever else a frame is
-constexpr double kTriangle = 8;         ///< of the scene, seen or not, once for the survey and once a tile
+constexpr double kTriangle = 8;         ///< of the scene, seen or not, for the survey
 constexpr double kSample = 4;           ///< of a pixel: to find the nearest surface
-constexpr double kTexel = 3;            ///< of a tile, and of each of its samples
-constexpr double kBlurredTexel = 14;    ///< of a tile with moments
 constexpr double kShadedPixel = 8;      ///< material and surroundings
 constexpr double kLitPixel = 4;         ///< for each light
-constexpr double kTap = 0.2;            ///< of a filter, for each light and pixel
-constexpr double kRay = 40;             ///< towards a light
-constexpr double kPenumbra = 0.1;       ///< share of the pixels in a penumbra, for each degree that a light spans
+constexpr double kRayOfTexel = 40;      ///< of a light map
 constexpr double kVolumeTriangle = 400; ///< of a shadow volume
 constexpr double kReferenceRay = 90;
 constexpr double kMarchedPixel = 900; ///< through a volume
@@ -70,69 +66,26 @@ std::vector<Light> lightsOf(const FrameSpec& spec, const SceneCounts& scene) {
   return lightsOf(spec, own);
 }
 
-/// Share of the pixels that are in a penumbra, about. How far off a lamp is, a request does not tell.
-double penumbraOf(const Light& light) {
-  if (!hasSize(light)) return 0;
-  if (light.type != LightType::directional) return kPenumbra;
-  return std::clamp(kPenumbra * *light.angularDiameterDegrees, 0.02, 0.6);
-}
-
-/// As if the light showed in all of the picture.
-double tileSide(const Light& light, const FrameSpec& spec) {
-  const Shadow& shadow = *light.shadow;
-  return askedTileSize(*shadow.size, shadow.importance, spec.atlas.baseSize, std::max(spec.width, spec.height));
-}
-
-/// Texels that a filter reads for a pixel, about.
-double tapsOf(const Filter& filter) {
-  switch (filter.type) {
-    case FilterType::hard:
-    case FilterType::vsm:
-    case FilterType::evsm:
-    case FilterType::msm:
-      return 4;
-    case FilterType::pcf:
-      return filter.radius ? 49 : static_cast<double>(filter.size) * filter.size;
-    case FilterType::pcss:
-      return 64;
-  }
-  return 4;
-}
-
-bool isBlurred(const Filter& filter) {
-  return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
-}
-
-bool isMapped(const Light& light, bool tilesShown) {
-  return !traitsOf(light.shadow->technique).layered || tilesShown;
-}
-
 double bakedTexels(const LightMapOptions& options) {
   const double side = options.texelsPerMetre ? kLimits.maxLightMapSide / 4.0 : options.size;
   return side * side;
 }
 
-/// What `light`'s shadow costs wherever it is looked at.
-void addShadow(const Light& light, const FrameSpec& spec, const SceneCounts& scene, bool tilesShown, FrameCost& cost) {
+/// What the visibility layer of `light` costs, where its technique has one.
+void addLayer(const Light& light, const FrameSpec& spec, const SceneCounts& scene, FrameCost& cost) {
   const Shadow& shadow = *light.shadow;
   const TechniqueTraits& technique = traitsOf(shadow.technique);
-  const auto triangles = static_cast<double>(scene.triangles);
-  if (isMapped(light, tilesShown)) {
-    const double texels = tileCount(light) * tileSide(light, spec) * tileSide(light, spec);
-    const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
-    const double each = spec.atlas.samples * kTexel + (isBlurred(shadow.filter) ? kBlurredTexel : 0.0);
-    cost[FramePart::shadow] += std::min(texels, room) * each + tileCount(light) * triangles * kTriangle;
-  }
   if (!technique.layered) return;
   const double pixels = pixelsOf(spec);
   if (technique.baked) {
-    cost[FramePart::bake] += bakedTexels(shadow.lightMap) * (hasSize(light) ? shadow.lightMap.samples : 16) * kRay;
+    cost[FramePart::bake] +=
+        bakedTexels(shadow.lightMap) * (hasSize(light) ? shadow.lightMap.samples : 16) * kRayOfTexel;
     cost[FramePart::visibility] += pixels * kLitPixel;
   } else if (technique.traced) {
-    const double more = penumbraOf(light) * (shadow.raySamples - 1);
-    cost[FramePart::visibility] += pixels * (1 + more) * kRay;
+    cost[FramePart::visibility] += rayCost(light, spec, scene);
   } else {
-    cost[FramePart::visibility] += triangles * kVolumeTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
+    cost[FramePart::visibility] +=
+        static_cast<double>(scene.triangles) * kVolumeTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
   }
 }
 
@@ -142,15 +95,15 @@ double encodedPixel(const Output& output) {
   return finer * (output.pngCompression <= 2 ? kPngPixel : kSmallPngPixel * output.pngCompression);
 }
 
-void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights, double taps, FrameCost& cost) {
+void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights, double lookups, FrameCost& cost) {
   const ViewTraits& traits = traitsOf(view);
   const double pixels = pixelsOf(spec);
   // Pixels at the edges of triangles show several of them.
   const double shaded = pixels * (traits.source == ViewSource::picture && samplesOf(spec.antialiasing) > 1 ? 1.6 : 1.0);
   if (traits.source == ViewSource::picture) {
-    cost[FramePart::shade] += shaded * (kShadedPixel + static_cast<double>(lights.size()) * kLitPixel + taps * kTap);
+    cost[FramePart::shade] += shaded * (kShadedPixel + static_cast<double>(lights.size()) * kLitPixel + lookups);
   } else if (traits.source == ViewSource::data) {
-    cost[FramePart::shade] += shaded * (kLitPixel + (traits.shadowed ? kTap * 25 : 0.0));
+    cost[FramePart::shade] += shaded * (kLitPixel + (traits.shadowed ? lookupOfPixel(Filter{}) : 0.0));
   } else if (traits.source == ViewSource::geometry) {
     cost[FramePart::readback] += pixels * kReadPixel * 4;
   } else if (traits.source == ViewSource::atlas) {
@@ -170,25 +123,31 @@ double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
 
 } // namespace
 
-FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene) {
-  const std::vector<Light> lights = lightsOf(spec, scene);
+FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device) {
+  std::vector<Light> lights = lightsOf(spec, scene);
   const double pixels = pixelsOf(spec);
   const auto shows = [&](auto which) {
     return std::any_of(spec.views.begin(), spec.views.end(), [&](View view) { return which(traitsOf(view)); });
   };
-  const bool tilesShown = shows([](const ViewTraits& view) { return view.tiles; });
   FrameCost cost;
   cost[FramePart::fixed] = kFrame;
   cost[FramePart::survey] =
       static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
-  const std::vector<int> throwing = shadowingLights(lights, spec.shadowLightPolicy);
-  double taps = 0;
-  for (const int index : throwing) {
+  for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
+    Shadow& shadow = *lights[static_cast<std::size_t>(index)].shadow;
     const Light& light = lights[static_cast<std::size_t>(index)];
-    addShadow(light, spec, scene, tilesShown, cost);
-    if (isMapped(light, tilesShown)) taps += tapsOf(light.shadow->filter);
+    if (shadow.technique == ShadowTechnique::auto_) {
+      shadow.technique = chooseTechnique(light, spec, scene, device).technique;
+    }
+    addLayer(light, spec, scene, cost);
   }
-  for (const View view : spec.views) addView(view, spec, lights, taps, cost);
+  double lookups = 0;
+  for (const int index : mappedLights(lights, spec)) {
+    const Light& light = lights[static_cast<std::size_t>(index)];
+    cost[FramePart::shadow] += tileCost(light, spec, scene.triangles);
+    lookups += lookupOfPixel(light.shadow->filter);
+  }
+  for (const View view : spec.views) addView(view, spec, lights, lookups, cost);
   if (!lights.empty() && shows([](const ViewTraits& view) { return view.source == ViewSource::rays; })) {
     cost[FramePart::reference] = pixels * (2 + referenceRays(spec, lights)) * kReferenceRay;
   }

@@ -3,20 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
-#include <vector>
 
+#include "protocol/cost/shadow_cost.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 
 /// How much work a frame is, told before any of it is done: from the request and the scene's summary alone.
 namespace gnomon {
-
-/// What a scene brings to each of its frames.
-struct SceneCounts {
-  std::uint64_t triangles = 0;     ///< of the default glTF scene
-  std::vector<LightType> lights{}; ///< the scene's own; they count where a request names none
-};
 
 SceneCounts sceneCounts(const SceneSummary& summary);
 
@@ -37,7 +30,8 @@ struct FrameCost {
 
 /// Of a frame that finds nothing of earlier ones: every tile is drawn, every light map baked. What the camera sees is
 /// not known, so that it counts as if surfaces filled the picture, lit by every light. Grows with each of: pixels,
-/// samples, views, lights, rays, texels, triangles. REQUIRES: `spec` has passed protocol/validate.
-FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene);
+/// samples, views, lights, rays, texels, triangles. `device`: what technique auto chooses for. REQUIRES: `spec` has
+/// passed protocol/validate.
+FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device = DeviceKind::processor);
 
 } // namespace gnomon

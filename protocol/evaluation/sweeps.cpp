@@ -35,6 +35,7 @@ void appendTechniques(std::vector<ShadowVariant>& variants) {
     const std::string name(spell(technique.technique));
     if (technique.layered) variants.push_back({name, {{"technique", name}}});
   }
+  variants.push_back({"auto", {{"technique", "auto"}, {"filter", nullptr}, {"bias", nullptr}}});
 }
 
 void appendFilters(std::vector<ShadowVariant>& variants) {

@@ -117,14 +117,15 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
   return false;
 }
 
-bool decodeRetired(const std::string& text, const ValueType& type, void* out) {
-  for (const RetiredWord& retired : type.retired) {
-    if (retired.name != text) continue;
-    const auto now = std::ranges::find(type.spellings, retired.successor, &Spelling::name);
-    type.setWord(out, static_cast<int>(now - type.spellings.begin()));
-    return true;
+/// Why a word is none of a type's.
+std::string notAWord(const std::string& text, const ValueType& type) {
+  const auto retired = std::ranges::find(type.retired, text, &RetiredWord::name);
+  if (retired != type.retired.end()) {
+    return "Earlier versions had this value. Its successor is " + std::string(retired->successor) + ".";
   }
-  return false;
+  std::vector<std::string> words;
+  for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
+  return "This is not one of the possible values" + suggestion(text, words);
 }
 
 bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems, const ValueType& type, void* out) {
@@ -139,15 +140,12 @@ bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems,
     if (i > 0) names += i + 1 == type.spellings.size() ? " or " : ", ";
     names += name;
   }
-  if (text && decodeRetired(*text, type, out)) return true;
   if (!text) {
     addWrongType(node, names, place, problems);
   } else {
-    std::vector<std::string> words;
-    for (const Spelling& spelling : type.spellings) words.emplace_back(spelling.name);
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = place.pointer(),
-                  .detail = "This is not one of the possible values" + suggestion(*text, words),
+                  .detail = notAWord(*text, type),
                   .limit = names,
                   .actual = shownNode(node)});
   }

@@ -161,7 +161,7 @@ inline constexpr std::array<Spelling, 0> kSpellings{};
 template <class T>
 concept Spelled = !kSpellings<T>.empty();
 
-/// A JSON word of earlier versions, which is read as the one that took its place; never written.
+/// A JSON word of earlier versions, which is refused with the name of the one that took its place.
 struct RetiredWord {
   std::string_view name, successor;
 };

@@ -68,6 +68,15 @@ struct VolumeReport {
   double lightMilliseconds = 0; ///< that making its light took, when it was made
 };
 
+/// What technique auto chose for a light, and why. The estimates are of two cores without a GPU, and of a GPU beside
+/// them where one draws; other machines are about in proportion.
+struct TechniqueChoice {
+  ShadowTechnique technique = ShadowTechnique::shadowMap; ///< shadowMap or rayTraced
+  std::string why{};
+  double mapMilliseconds = 0;
+  double rayMilliseconds = 0;
+};
+
 struct LightReport {
   int light = 0; ///< index into the effective spec's lights
   bool shadowed = false;
@@ -77,6 +86,7 @@ struct LightReport {
   /// Directional: the view depths of its cascades without a guard, for the next frame's depthRange.previous.
   std::optional<PreviousRange> depthRange{};
   std::vector<TileReport> tiles{};
+  std::optional<TechniqueChoice> choice{};     ///< where auto was asked for
   std::optional<std::uint64_t> tracedPixels{}; ///< pixels that rays decided; technique rayTraced, not in a plan
   std::optional<LightMapReport> lightMap{};    ///< technique lightMap, not in a plan
   // Over its tiles:

@@ -96,6 +96,21 @@ inline constexpr auto kRows<VolumeReport> = replyRows(
 static_assert(kRowsAreComplete<VolumeReport>);
 
 template <>
+inline constexpr auto kRows<TechniqueChoice> = replyRows(
+    "TechniqueChoice", "What technique auto chose for a light.",
+    field("technique", &TechniqueChoice::technique,
+          {.says = "shadowMap or rayTraced; `spec` names it too, so that asking for `spec` again draws the same."}),
+    field("why", &TechniqueChoice::why, {.says = "The reason, in a sentence."}),
+    field("mapMilliseconds", &TechniqueChoice::mapMilliseconds,
+          {.says =
+               "Estimate for the light's shadow map, from counts of the scene and the request: about what it takes on "
+               "two cores. Not a promise for this machine.",
+           .unit = "milliseconds"}),
+    field("rayMilliseconds", &TechniqueChoice::rayMilliseconds,
+          {.says = "The same for rays.", .unit = "milliseconds"}));
+static_assert(kRowsAreComplete<TechniqueChoice>);
+
+template <>
 inline constexpr auto kRows<LightReport> = replyRows(
     "LightReport", "What was decided for one light.",
     field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
@@ -113,6 +128,9 @@ inline constexpr auto kRows<LightReport> = replyRows(
           {.says = "Its tiles: cascades, nearest first, or faces of a spot or point light."}),
     field("predictedError", &LightReport::predictedError,
           {.says = "How large the texels of its tiles appear; absent if none was drawn."}),
+    field("choice", &LightReport::choice,
+          {.says = "What technique auto chose; absent where the request names another. The tiles of a light that rays "
+                   "were chosen for are planned, and drawn only where a view shows them."}),
     field("tracedPixels", &LightReport::tracedPixels,
           {.says = "Pixels that rays decided; technique rayTraced; absent in a plan.", .unit = "pixels"}),
     field("lightMap", &LightReport::lightMap, {.says = "What was baked; technique lightMap alone; absent in a plan."}),

@@ -16,6 +16,8 @@ static_assert(spellsAll<LightType>());
 
 template <>
 inline constexpr std::array kSpellings<ShadowTechnique>{
+    spelling(ShadowTechnique::auto_, "auto",
+             "for each light rayTraced where that is estimated to cost at most twice its map, else shadowMap"),
     spelling(ShadowTechnique::shadowMap, "shadowMap",
              "depths seen from the light, filtered: fast, and as exact as its texels are fine"),
     spelling(ShadowTechnique::shadowVolume, "shadowVolume",

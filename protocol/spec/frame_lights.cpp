@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "protocol/spec/limits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
@@ -63,6 +64,16 @@ std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolic
     if (firstOnly) break; // the first is the first, with a shadow or without
   }
   return throwing;
+}
+
+std::vector<int> mappedLights(std::span<const Light> lights, const FrameSpec& spec) {
+  const bool shown = std::any_of(spec.views.begin(), spec.views.end(), [](View view) { return traitsOf(view).tiles; });
+  std::vector<int> mapped = shadowingLights(lights, spec.shadowLightPolicy);
+  if (!shown) {
+    std::erase_if(
+        mapped, [&](int light) { return traitsOf(lights[static_cast<std::size_t>(light)].shadow->technique).layered; });
+  }
+  return mapped;
 }
 
 int tileCount(const Light& light) {

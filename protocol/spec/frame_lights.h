@@ -22,6 +22,10 @@ bool hasSize(const Light& light);
 /// The lights that throw shadows, by their index. REQUIRES: their shadows are set.
 std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolicy policy);
 
+/// Of the lights that throw shadows, the ones that get a shadow map: those whose technique reads one, and all of them
+/// where a view shows tiles. REQUIRES: no technique is auto any more.
+std::vector<int> mappedLights(std::span<const Light> lights, const FrameSpec& spec);
+
 /// The widest half angle of a spot that one tile serves, degrees: at its rim a texel is already four times as large,
 /// seen from the light, as in the middle. A wider one takes faces of a cube.
 inline constexpr double kWidestTileDegrees = 60;

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-enum class ShadowTechnique { shadowMap, shadowVolume, rayTraced, lightMap };
+enum class ShadowTechnique { auto_, shadowMap, shadowVolume, rayTraced, lightMap };
 enum class ShadowSize { XSmall, Small, Medium, Large, XLarge };
 enum class ShadowLightPolicy { all, first };
 enum class ShadowImportance { low, medium, high };
@@ -78,7 +78,7 @@ struct LightMapOptions {
 
 struct Shadow {
   bool enabled = true;
-  ShadowTechnique technique = ShadowTechnique::shadowMap;
+  ShadowTechnique technique = ShadowTechnique::auto_;
   double strength = 1; ///< 0 = no shadow, 1 = no direct light in shadow
   /// Linear RGB, 0..1: what share of the direct light a full shadow of strength 1 leaves.
   std::array<double, 3> color{0, 0, 0};

@@ -120,7 +120,9 @@ inline constexpr auto kRows<Shadow> = rows(
     "Shadow", "The shadow of a light.",
     field("enabled", &Shadow::enabled, {.says = "False = the light casts no shadow, and takes no place in the atlas."}),
     field("technique", &Shadow::technique,
-          {.says = "How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only."}),
+          {.says =
+               "How the shadow is found. Size, cascades, filter, stabilization and bias affect shadow maps only; with "
+               "auto, a light that sets a filter or a bias gets a map. The report says what auto chose, and why."}),
     field("strength", &Shadow::strength,
           {.says = "0 = no shadow, 1 = no direct light in shadow.", .range = kUnitRange}),
     field("color", &Shadow::color,

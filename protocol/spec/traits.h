@@ -90,6 +90,7 @@ struct TechniqueTraits {
 // clang-format off
 inline constexpr std::array kTechniqueTraits{
     //               technique                    layered traced baked  edges  size   opaque
+    TechniqueTraits{ShadowTechnique::auto_,        false, false, false, false, false, false}, // settled before it matters
     TechniqueTraits{ShadowTechnique::shadowMap,    false, false, false, false, false, false},
     TechniqueTraits{ShadowTechnique::shadowVolume, true,  false, false, true,  false, true},
     TechniqueTraits{ShadowTechnique::rayTraced,    true,  true,  false, false, true,  false},

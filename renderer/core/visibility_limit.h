@@ -16,10 +16,14 @@ inline Status checkVisibilityBytes(std::int64_t bytes, const std::string& pointe
                  std::to_string(bytes) + " bytes"};
 }
 
-/// The same for what rays and shadow volumes say of lights, two bytes at each sample of a picture.
+/// Of what rays and shadow volumes say of lights, two bytes at each sample of a picture.
+inline std::int64_t visibilityBytes(int width, int height, std::size_t samples, std::size_t lights) {
+  return std::int64_t{2} * width * height * static_cast<std::int64_t>(samples * lights);
+}
+
 inline Status checkVisibilityBytes(int width, int height, std::size_t samples, std::size_t lights) {
   return checkVisibilityBytes(
-      std::int64_t{2} * width * height * static_cast<std::int64_t>(samples * lights), "/lights",
+      visibilityBytes(width, height, samples, lights), "/lights",
       "What rays and shadow volumes decide for every sample and light would take more memory than a frame may have.");
 }
 

@@ -42,6 +42,9 @@ Result<SettledPath> settlePath(const ScenePtr& scene, FrameSpec spec, std::span<
     spec.camera = camera;
     auto frame = resolveFrame(*settled.scene, spec);
     if (!frame) return frame.problems();
+    for (std::size_t i = 0; i < frame->spec.lights->size(); ++i) {
+      (*frame->spec.lights)[i].shadow->technique = (*settled.frames.front().spec.lights)[i].shadow->technique;
+    }
     settled.frames.push_back(std::move(*frame));
   }
   return settled;
@@ -124,19 +127,18 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
   const FrameSpec& spec = frame.spec;
-  const std::vector<int> mapped = mappedLights(frame);
   const auto begun = device.begin({.scene = scene,
                                    .frame = frame,
                                    .layered = {},
                                    .traced = {},
                                    .baked = {},
-                                   .parts = receiverParts(frame, mapped)});
+                                   .parts = receiverParts(frame)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
   auto seen = drawing.survey();
   if (!seen) return seen.problems();
   ProbedFrame probed;
-  probed.plan = planShadows(planInput(frame, view, *std::move(seen), mapped, device.info().maxTextureSize));
+  probed.plan = framePlans(frame, view, *std::move(seen), device.info().maxTextureSize).drawn;
   if (const Status fits = checkAtlas(probed.plan, spec.atlas.samples); !fits) return fits.problems();
   const auto lights = litLights(*spec.lights, probed.plan, frame.view.eye, frame.groups.ofLight);
   const ShowInput nothing{.plan = probed.plan, .lights = lights};

@@ -25,8 +25,8 @@ LightMapReport lightMapReport(const LightMapCache::Found& found) {
 namespace {
 
 std::vector<LightReport> drawnLights(const FrameOutcome& outcome) {
-  auto lights = lightReports(outcome.frame.spec, outcome.plan, outcome.errors, outcome.frame.view, outcome.layered);
-  for (const PlannedLight& planned : outcome.plan.lights) {
+  auto lights = lightReports(outcome.frame, outcome.plans, outcome.errors, outcome.layered);
+  for (const PlannedLight& planned : outcome.plans.drawn.lights) {
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
     for (std::size_t i = 0; i < light.tiles.size(); ++i) {
       const TileFacts& facts = outcome.facts.tiles[static_cast<std::size_t>(planned.firstTile) + i];
@@ -69,7 +69,7 @@ FrameReport makeReport(FrameOutcome outcome) {
   FrameReport report;
   report.spec = outcome.frame.spec;
   report.depthRange = askedDepths(outcome.frame.view, outcome.depths);
-  report.atlasSize = {outcome.plan.atlasWidth, outcome.plan.atlasHeight};
+  report.atlasSize = {outcome.plans.drawn.atlasWidth, outcome.plans.drawn.atlasHeight};
   report.lights = drawnLights(outcome);
   report.volumes.assign(outcome.volumes.begin(), outcome.volumes.end());
   report.predictedError = outcome.errors.all;
@@ -142,6 +142,22 @@ std::string sharpNote(const Light& light) {
   return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 
+/// `errors`: one a tile of the plan; empty = the tiles are not drawn.
+void addTiles(const ResolvedFrame& frame, const ShadowPlan& plan, const PlannedLight& planned,
+              std::span<const std::optional<PredictedError>> errors, LightReport& report) {
+  const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(planned.light)];
+  report.askedTileSize = planned.askedTileSize;
+  report.grantedTileSize = planned.grantedTileSize;
+  // A frame that sees nothing hands its predecessor's range on.
+  report.depthRange = light.shadow->depthRange.previous;
+  if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
+  for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
+    const auto index = static_cast<std::size_t>(tile);
+    report.tiles.push_back(tileReport(plan.tiles[index], light.type, light.shadow->bias,
+                                      errors.empty() ? std::nullopt : errors[index], frame.view));
+  }
+}
+
 } // namespace
 
 std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths) {
@@ -149,41 +165,37 @@ std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depth
   return {depths.nearest + view.ahead, depths.farthest + view.ahead};
 }
 
-std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const CameraView& view, std::span<const int> layeredLights) {
+std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePlans& plans,
+                                      const PredictedErrors& errors, std::span<const int> layeredLights) {
+  const std::vector<Light>& lights = *frame.spec.lights;
   std::vector<LightReport> reports;
-  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
     LightReport report;
     report.light = static_cast<int>(i);
-    const Light& light = (*spec.lights)[i];
-    report.note = !light.shadow->enabled ? "its shadow is disabled"
-                  : light.intensity <= 0 ? "its intensity is 0"
-                                         : "shadowLightPolicy is first, and this is not the first directional light";
+    report.note = !lights[i].shadow->enabled ? "its shadow is disabled"
+                  : lights[i].intensity <= 0
+                      ? "its intensity is 0"
+                      : "shadowLightPolicy is first, and this is not the first directional light";
+    if (i < frame.choices.size()) report.choice = frame.choices[i];
     reports.push_back(std::move(report));
   }
   for (const int layered : layeredLights) {
     LightReport& report = reports[static_cast<std::size_t>(layered)];
     report.shadowed = true;
-    report.note = sharpNote((*spec.lights)[static_cast<std::size_t>(layered)]);
+    report.note = sharpNote(lights[static_cast<std::size_t>(layered)]);
   }
-  for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-    const PlannedLight& planned = plan.lights[i];
+  for (const PlannedLight& planned : plans.whole.lights) {
+    addTiles(frame, plans.whole, planned, {}, reports[static_cast<std::size_t>(planned.light)]);
+  }
+  for (std::size_t i = 0; i < plans.drawn.lights.size(); ++i) {
+    const PlannedLight& planned = plans.drawn.lights[i];
     LightReport& report = reports[static_cast<std::size_t>(planned.light)];
-    const auto& shadow = (*spec.lights)[static_cast<std::size_t>(planned.light)].shadow;
+    report.tiles.clear();
+    addTiles(frame, plans.drawn, planned, errors.tiles, report);
     report.shadowed = report.shadowed || planned.tileCount > 0;
-    report.askedTileSize = planned.askedTileSize;
-    report.grantedTileSize = planned.grantedTileSize;
-    const std::string sharp = report.shadowed ? sharpNote((*spec.lights)[static_cast<std::size_t>(planned.light)]) : "";
+    const std::string sharp = report.shadowed ? sharpNote(lights[static_cast<std::size_t>(planned.light)]) : "";
     report.note = planned.note + (planned.note.empty() || sharp.empty() ? "" : "; ") + sharp;
     report.predictedError = errors.lights[i];
-    // A frame that sees nothing hands its predecessor's range on.
-    report.depthRange = shadow->depthRange.previous;
-    if (planned.depthRange) report.depthRange = PreviousRange{planned.depthRange->near, planned.depthRange->far};
-    for (int tile = planned.firstTile; tile < planned.firstTile + planned.tileCount; ++tile) {
-      const auto index = static_cast<std::size_t>(tile);
-      report.tiles.push_back(tileReport(plan.tiles[index], (*spec.lights)[static_cast<std::size_t>(planned.light)].type,
-                                        shadow->bias, errors.tiles[index], view));
-    }
   }
   return reports;
 }

@@ -6,6 +6,7 @@
 #include "protocol/report/frame_report.h"
 #include "renderer/device/facts.h"
 #include "renderer/frame/light_map_cache.h"
+#include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/predicted_error.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -17,7 +18,7 @@ struct FrameOutcome {
   const ResolvedFrame& frame;
   std::uint64_t sceneTriangles; ///< of the chosen glTF scene
   DepthSpan depths;             ///< of all that the camera sees
-  const ShadowPlan& plan;
+  const FramePlans& plans;
   const PredictedErrors& errors;
   std::span<const int> layered;                ///< as in FrameWork
   std::span<const LightMapCache::Found> baked; ///< bakedLights
@@ -34,8 +35,9 @@ FrameReport makeReport(FrameOutcome outcome);
 
 /// What a plan decided about the spec's lights: everything but counts and times. `layeredLights`: those whose shadow
 /// comes from rays or shadow volumes, or also does.
-std::vector<LightReport> lightReports(const FrameSpec& spec, const ShadowPlan& plan, const PredictedErrors& errors,
-                                      const CameraView& view, std::span<const int> layeredLights);
+/// `errors`: of plans.drawn.
+std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePlans& plans,
+                                      const PredictedErrors& errors, std::span<const int> layeredLights);
 
 /// From the eye that was asked for; 0 0 = nothing in view.
 std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths);

@@ -33,8 +33,7 @@ void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene&
 }
 
 /// What a survey may find at most.
-SeenDepths boxesSeen(const ResolvedFrame& frame, const SceneView& view, const FrameGeometry& geometry,
-                     std::span<const int> mapped) {
+SeenDepths boxesSeen(const ResolvedFrame& frame, const SceneView& view, const FrameGeometry& geometry) {
   std::vector<std::uint8_t> visible(geometry.slotCount(), 1);
   keepNodes(
       frame.nodes, view, geometry, [](const NodeSwitches& node) { return node.visible; }, visible);
@@ -42,7 +41,7 @@ SeenDepths boxesSeen(const ResolvedFrame& frame, const SceneView& view, const Fr
     return boxDepths(frame.view, frame.spec.width, frame.spec.height, geometry.slotBounds, slots);
   };
   SeenDepths seen{depthsOf(visible), {}};
-  for (const std::uint32_t groups : receiverParts(frame, mapped)) {
+  for (const std::uint32_t groups : receiverParts(frame)) {
     seen.parts.push_back(depthsOf(slotsOfGroups(geometry, groups, visible)));
   }
   return seen;
@@ -57,9 +56,9 @@ Result<PlanReport> planFrame(const ScenePtr& loaded, const FrameSpec& spec, cons
   const Scene& scene = *settled->scene;
   const SceneView& view = settled->view();
   const FrameGeometry geometry = frameGeometry(scene, view, frame.view.eye, frame.groups.ofInstance);
-  const PlanInput input =
-      planInput(frame, view, boxesSeen(frame, view, geometry, settled->mapped), settled->mapped, device.maxTextureSize);
-  const ShadowPlan plan = planShadows(input);
+  const FramePlans plans = framePlans(frame, view, boxesSeen(frame, view, geometry), device.maxTextureSize);
+  const PlanInput& input = plans.input;
+  const ShadowPlan& plan = plans.drawn;
   if (const auto fits = settlePlan(frame.spec, plan, settled->layered); !fits) return fits.problems();
   const PredictedErrors errors = predictErrors(input, plan);
 
@@ -67,7 +66,7 @@ Result<PlanReport> planFrame(const ScenePtr& loaded, const FrameSpec& spec, cons
   report.spec = frame.spec;
   report.depthRange = askedDepths(frame.view, input.receivers.range);
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame.spec, plan, errors, frame.view, settled->layered);
+  report.lights = lightReports(frame, plans, errors, settled->layered);
   addCasters(plan, frame, scene, geometry, report.lights);
   report.predictedError = errors.all;
   report.warnings = loaded->summary.warnings;

@@ -29,7 +29,6 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const FrameSpec& effective = resolved.spec;
   const SceneView& view = settled->view();
   const std::vector<int>& layered = settled->layered;
-  const std::vector<int>& mapped = settled->mapped;
   const auto tracedScene = [&] { return caches.traced.get(scene, resolved.scene); };
 
   std::vector<LightMapCache::Found> baked;
@@ -37,7 +36,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
 
   MadeVolumes made;
   const auto begun = device.begin({scene, resolved, layered, needsEdges(resolved), tracedScene, bakedLight,
-                                   &made.volumes, receiverParts(resolved, mapped)});
+                                   &made.volumes, receiverParts(resolved)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
@@ -55,8 +54,9 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (!seen) return seen.problems();
   drawing.endStage("survey");
 
-  const PlanInput planned = planInput(resolved, view, *std::move(seen), mapped, device.info().maxTextureSize);
-  const ShadowPlan plan = planShadows(planned);
+  const FramePlans plans = framePlans(resolved, view, *std::move(seen), device.info().maxTextureSize);
+  const PlanInput& planned = plans.input;
+  const ShadowPlan& plan = plans.drawn;
   const auto subject = settlePlan(effective, plan, layered);
   if (!subject) return subject.problems();
   PredictedErrors errors = predictErrors(planned, plan);
@@ -121,7 +121,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
   const auto error = measured ? std::optional(measured->errors) : std::nullopt;
-  FrameReport report = makeReport({resolved, view.triangles, planned.receivers.range, plan, errors, layered, baked,
+  FrameReport report = makeReport({resolved, view.triangles, planned.receivers.range, plans, errors, layered, baked,
                                    made.reports, *std::move(facts), error});
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));

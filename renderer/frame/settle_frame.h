@@ -17,7 +17,6 @@ struct SettledFrame {
   ResolvedFrame frame;
   std::optional<EarlierMoment> earlier; ///< what view motion compares with; there where the frame has that view
   std::vector<int> layered;             ///< layeredLights
-  std::vector<int> mapped;              ///< mappedLights
 
   const SceneView& view() const { return scene->scenes[static_cast<std::size_t>(frame.scene)]; }
 };

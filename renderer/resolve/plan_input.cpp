@@ -27,11 +27,7 @@ std::vector<int> layeredLights(const ResolvedFrame& frame) {
 }
 
 std::vector<int> mappedLights(const ResolvedFrame& frame) {
-  const auto& views = frame.spec.views;
-  const bool shown = std::any_of(views.begin(), views.end(), [](View view) { return traitsOf(view).tiles; });
-  std::vector<int> lights = shadowingLights(frame);
-  if (!shown) std::erase_if(lights, [&](int light) { return techniqueOf(frame, light).layered; });
-  return lights;
+  return mappedLights(*frame.spec.lights, frame.spec);
 }
 
 bool needsEdges(const ResolvedFrame& frame) {
@@ -77,17 +73,26 @@ class TakingPart {
 
 } // namespace
 
-std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame, std::span<const int> mapped) {
+std::vector<int> plannedLights(const ResolvedFrame& frame) {
+  std::vector<int> planned = mappedLights(frame);
+  for (std::size_t i = 0; i < frame.choices.size(); ++i) {
+    const int light = static_cast<int>(i);
+    if (frame.choices[i] && !std::binary_search(planned.begin(), planned.end(), light)) planned.push_back(light);
+  }
+  std::sort(planned.begin(), planned.end());
+  return planned;
+}
+
+std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame) {
   std::vector<std::uint32_t> parts;
-  for (const int light : mapped) {
+  for (const int light : plannedLights(frame)) {
     const std::uint32_t groups = receivingGroups(frame, light);
     if (groups != kAllGroups && std::find(parts.begin(), parts.end(), groups) == parts.end()) parts.push_back(groups);
   }
   return parts;
 }
 
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, std::span<const int> mapped,
-                    int maxTextureSize) {
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize) {
   PlanInput input;
   input.view = frame.view;
   input.receivers = std::move(seen.all);
@@ -98,9 +103,9 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
   input.maxTextureSize = maxTextureSize;
   input.frameWidth = frame.spec.width;
   input.frameHeight = frame.spec.height;
-  const std::vector<std::uint32_t> parts = receiverParts(frame, mapped);
+  const std::vector<std::uint32_t> parts = receiverParts(frame);
   TakingPart takingPart(frame, scene);
-  for (const int index : mapped) {
+  for (const int index : plannedLights(frame)) {
     const Light& light = (*frame.spec.lights)[static_cast<std::size_t>(index)];
     ShadowCaster caster{index, directionOf(light), *light.shadow, light.type};
     if (light.position) caster.position = toVector(*light.position) - frame.view.eye;
@@ -116,6 +121,19 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
     input.casters.push_back(caster);
   }
   return input;
+}
+
+FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize) {
+  FramePlans plans{planInput(frame, scene, std::move(seen), maxTextureSize), {}, {}};
+  const std::vector<int> mapped = mappedLights(frame);
+  if (mapped.size() < plans.input.casters.size()) {
+    plans.whole = planShadows(plans.input);
+    std::erase_if(plans.input.casters, [&](const ShadowCaster& caster) {
+      return !std::binary_search(mapped.begin(), mapped.end(), caster.light);
+    });
+  }
+  plans.drawn = planShadows(plans.input);
+  return plans;
 }
 
 } // namespace gnomon

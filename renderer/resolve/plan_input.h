@@ -27,13 +27,23 @@ std::vector<int> mappedLights(const ResolvedFrame& frame);
 /// Whether some light's technique needs the edges of the casters' meshes.
 bool needsEdges(const ResolvedFrame& frame);
 
-/// The parts of what is seen that a survey tells by themselves, because a light of `mapped` throws shadows on them
-/// alone: receiver groups, a bit each. No part twice, and none for lights that throw shadows on all.
-std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame, std::span<const int> mapped);
+/// The lights whose maps are planned: mappedLights, and those for which technique auto chose rays.
+std::vector<int> plannedLights(const ResolvedFrame& frame);
 
-/// What the shadow maps of a frame are planned from: those of the lights `mapped`. `seen`: what the camera sees, its
-/// parts those of receiverParts.
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, std::span<const int> mapped,
-                    int maxTextureSize);
+/// The parts of what is seen that a survey tells by themselves, because a planned light throws shadows on them alone:
+/// receiver groups, a bit each. No part twice, and none for lights that throw shadows on all.
+std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame);
+
+/// What a frame's shadow maps are planned from: those of plannedLights. `seen`: what the camera sees, its parts those
+/// of receiverParts.
+PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize);
+
+/// A frame's shadow maps.
+struct FramePlans {
+  PlanInput input;  ///< of `drawn`
+  ShadowPlan drawn; ///< of mappedLights
+  ShadowPlan whole; ///< of plannedLights, where those are more; else empty
+};
+FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize);
 
 } // namespace gnomon

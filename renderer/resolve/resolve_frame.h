@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/report/frame_report.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/resolve/resolve_volumes.h"
@@ -22,6 +24,9 @@ struct ResolvedFrame {
   std::vector<VolumePlace> volumes; ///< one a volume of the spec
   LayersInUse layers;
   ReceiverGroups groups;
+  /// What technique auto chose, one a light; empty = no light asks for auto. resolveFrame leaves it to
+  /// chooseTechniques, as it does not know the device.
+  std::vector<std::optional<TechniqueChoice>> choices{};
 };
 
 /// Fills in what only the scene can tell. The spec has passed protocol/validate. All that the scene refuses is added to

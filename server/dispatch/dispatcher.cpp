@@ -173,8 +173,9 @@ void Dispatcher::finish(const TicketPtr& ticket, TaskResult result) {
   ticket->changed.notify_one();
 }
 
-double Dispatcher::milliseconds(const FrameCost& cost) const {
+double Dispatcher::milliseconds(const FrameSpec& spec, const SceneCounts& scene) const {
   const Lock lock(mutex_);
+  const FrameCost cost = frameCost(spec, scene, kindOf(info_));
   return std::inner_product(cost.parts.begin(), cost.parts.end(), costFactors_.parts.begin(), 0.0);
 }
 

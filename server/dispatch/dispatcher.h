@@ -91,7 +91,7 @@ class Dispatcher {
   TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
   /// How long a frame may take that finds nothing of earlier ones, as workers have learned.
-  double milliseconds(const FrameCost& cost) const;
+  double milliseconds(const FrameSpec& spec, const SceneCounts& scene) const;
 
   /// A scene was deleted: workers drop it.
   void forget(const std::string& scene);

@@ -22,7 +22,7 @@ Task taskOfFrame(Services& services, const FrameToDraw& call) {
   task.request = jsonText(toJson(spec));
   task.allowed = services.requestTimeout;
   task.needsDriver = needsDriver(spec);
-  task.holdsRenderer = services.workers.milliseconds(frameCost(spec, call.counts)) > kLongFrame;
+  task.holdsRenderer = services.workers.milliseconds(spec, call.counts) > kLongFrame;
   return task;
 }
 

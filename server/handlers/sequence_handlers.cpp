@@ -53,7 +53,7 @@ bool mayCarry(const FrameSpec& spec) {
 Result<AskedSequence> read(Services& services, const RouteCall& call) {
   AskedSequence asked{.counts = services.store.counts(call.values.at("id")).value_or(SceneCounts())};
   auto sequence = decodeSequence(asText(call.request.body), [&](const FrameSpec& spec) {
-    const double estimate = services.workers.milliseconds(frameCost(spec, asked.counts));
+    const double estimate = services.workers.milliseconds(spec, asked.counts);
     asked.ofAll += estimate;
     asked.ofLongest = std::max(asked.ofLongest, estimate);
     asked.sizes.see(spec);

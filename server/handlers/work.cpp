@@ -77,7 +77,7 @@ std::string secondsText(double milliseconds) {
 Result<Task> frameTask(const Services& services, const RouteCall& call, const std::string& scene, StoredBundle bundle,
                        const FrameSpec& spec, const SceneCounts& counts) {
   const bool hasTarget = spec.quality.has_value(); // its settings are found by drawing and measuring many frames
-  const double estimate = services.workers.milliseconds(frameCost(spec, counts));
+  const double estimate = services.workers.milliseconds(spec, counts);
   const auto allowed = static_cast<double>(services.requestTimeout.count());
   if (!hasTarget && estimate > allowed * kDoubt) {
     return Problem{ProblemCode::tooLarge, "",

@@ -67,7 +67,7 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
         report.stages.begin(),
         {StageTime{"queue", call.order.queuedMilliseconds + frame.queuedMilliseconds}, StageTime{"load", loadMs}});
     report.quality = quality;
-    context.costs.learn(frameCost(spec, sceneCounts(scene.summary)), report);
+    context.costs.learn(frameCost(report.spec, sceneCounts(scene.summary)), report);
     file = fileOf(std::move(frame.frame), scene.scene, spec, call);
   });
   if (!drawn) {

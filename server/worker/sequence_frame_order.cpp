@@ -41,7 +41,7 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
   if (!drawn) return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
   FrameReport& report = drawn->frame.report;
   call.event(kSequenceNews, textOf(SequenceNews{.drawn = DrawnNews{carriedOf(report), report.warnings}}));
-  context.costs.learn(frameCost(*spec, sceneCounts(scene.summary)), report);
+  context.costs.learn(frameCost(report.spec, sceneCounts(scene.summary)), report);
 
   const auto encoding = Clock::now();
   const bool isRaw = call.order.mediaType == kRawVideo;

@@ -259,7 +259,7 @@ class Render(CommandLine):
         metrics = told["reference"]["metrics"]
         self.assertGreater(metrics["misclassified"], 0)
         self.assertTrue(error.startswith("wrong {:.4f} % ".format(100 * metrics["misclassified"])), error)
-        self.assertEqual(told["spec"]["shadow"]["technique"], "shadowMap")
+        self.assertEqual(told["spec"]["lights"][0]["shadow"]["technique"], "shadowMap")
         frame, truth = self.output.read_bytes(), reference.read_bytes()
         self.assertNotEqual(frame, truth)
         self.render(*flags)

@@ -174,7 +174,8 @@ class Compare(CommandLine):
 
     def test_floats_are_compared_layer_by_layer(self):
         files = [self.folder / "a.exr", self.folder / "b.exr"]
-        views = ["--view", "color", "--view", "depth", "--view", "shadow", "--view", "reference"]
+        views = ["--view", "color", "--view", "depth", "--view", "shadow", "--view", "reference",
+                 "--set", "shadow.technique=shadowMap"]
         for file, more in zip(files, ([], ["--exposure", "1"])):
             self.assert_ends(gnomon("render", BOX, "-o", str(file), *SMALL, *views, *more), OK)
         run = gnomon("compare", *map(str, files))

@@ -178,7 +178,7 @@ class Sequences(SequenceTest):
         def shimmer(shadow):
             cameras = [SPEC["camera"] | {"eye": [6 + 0.013 * i, 4, 6], "target": [0.013 * i + 0.01 * (i % 3), 0.5, 0]}
                        for i in range(6)]
-            request = {"spec": SPEC | {"lights": SUN}, "variants": [{"shadow": shadow}], "repeats": 1,
+            request = {"spec": SPEC | {"lights": SUN}, "variants": [{"shadow": shadow | {"technique": "shadowMap"}}], "repeats": 1,
                        "referenceSamples": 1, "path": {"cameras": cameras}}
             reply = self.server.ask("POST", f"/v1/scenes/{self.scene}/evaluations", json.dumps(request),
                                     self.headers("application/json"))

@@ -105,7 +105,7 @@ class SlowFrames(unittest.TestCase):
         with Server("--request-timeout", "5", "--workers", "2") as server:
             scene = server.upload("box_on_plane")
             server.frame(scene, SMALL)
-            long = Beside(server.frame, scene, slow(rays=1024, lights=16))
+            long = Beside(server.frame, scene, slow(rays=1024, lights=64, width=2560, height=1440))
             time.sleep(0.3)
             for exposure in range(5):
                 begun = time.monotonic()

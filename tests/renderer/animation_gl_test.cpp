@@ -135,7 +135,7 @@ TEST(AnimatedFrames, APlanIsOfThePose) {
     json["camera"]["target"] = {6, 0, 0};
     json["camera"]["eye"] = {6, 30, 0};
     json["camera"]["orthographic"]["height"] = 2;
-    const auto plan = planFrame(scene, *decodeFrameSpec(json.dump()), device);
+    const auto plan = planFrame(scene, *decodeFrameSpec(testing::withMaps(json).dump()), device);
     EXPECT_TRUE(plan);
     return plan ? plan->lights.at(0).casterTriangles : 0;
   };

@@ -68,7 +68,7 @@ Json specOf(int camera, const Json& more) {
 }
 
 Frame drawn(DeviceChoice device, const ScenePtr& scene, const Json& json) {
-  const auto spec = decodeFrameSpec(json.dump());
+  const auto spec = decodeFrameSpec(testing::withMaps(json).dump());
   EXPECT_TRUE(spec) << spec.problems()[0].pointer << ' ' << spec.problems()[0].detail;
   if (!spec) return {};
   auto frame = rendererBy(device).render(scene, *spec);

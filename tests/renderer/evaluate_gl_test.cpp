@@ -145,8 +145,8 @@ TEST(Evaluate, StopsWhenItIsAskedTo) {
 TEST(Evaluate, H6_ShimmerIsMeasuredAlongAPathOfSmallSteps) {
   const ScenePtr row = testing::generatedScene("long_row");
   const auto report = evaluated(row, evaluationOf(R"("path": {"step": [0.013, 0, 0.007], "frames": 8}, "variants": [
-        {"shadow": {"stabilization": "none"}},
-        {"shadow": {"stabilization": "projectionSnapping", "depthRange": {"mode": "manual", "min": 0, "max": 60}}}])"));
+        {"shadow": {"technique": "shadowMap", "stabilization": "none"}},
+        {"shadow": {"technique": "shadowMap", "stabilization": "projectionSnapping", "depthRange": {"mode": "manual", "min": 0, "max": 60}}}])"));
   ASSERT_TRUE(report) << report.problems()[0].detail;
   ASSERT_TRUE(report->rows[0].metrics && report->rows[1].metrics);
   EXPECT_GT(report->rows[0].metrics->shimmer.value(), 0);
@@ -163,7 +163,7 @@ TEST(Evaluate, NothingInViewIsNoErrorAndNoProblem) {
 
 TEST(Evaluate, H13_TilesThatAreKeptDoNotMakeLaterRoundsCheaper) {
   const ScenePtr box = testing::generatedScene("box_on_plane");
-  const auto spec = decodeFrameSpec(kSpec);
+  const auto spec = decodeFrameSpec(testing::withMaps(Json::parse(kSpec)).dump());
   ASSERT_TRUE(spec);
   std::vector<std::uint64_t> casters;
   std::thread([&] { // a context of its own needs a thread of its own

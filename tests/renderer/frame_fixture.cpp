@@ -58,8 +58,20 @@ ScenePtr generatedScene(const std::string& name) {
   return sceneOf(generatedGlb(name));
 }
 
+Json withMaps(Json spec) {
+  const auto name = [](Json& shadow) {
+    if (!shadow.contains("technique")) shadow["technique"] = "shadowMap";
+  };
+  name(spec["shadow"]);
+  if (!spec.contains("lights")) return spec;
+  for (Json& light : spec["lights"]) {
+    if (light.contains("shadow")) name(light["shadow"]);
+  }
+  return spec;
+}
+
 Frame renderJson(const ScenePtr& scene, const std::string& json) {
-  const auto spec = decodeFrameSpec(json);
+  const auto spec = decodeFrameSpec(withMaps(Json::parse(json)).dump());
   EXPECT_TRUE(spec) << told(spec.problems());
   if (!spec) return {};
   auto frame = sharedRenderer().render(scene, *spec);

@@ -25,7 +25,10 @@ ScenePtr sceneOf(const SceneBundle& bundle);
 ScenePtr generatedScene(const std::string& name); ///< of tests/scenes
 Bytes generatedGlb(const std::string& name);
 
-/// Renders a FrameSpec given as JSON; a failed expectation and an empty frame when it is refused.
+/// The spec with shadow maps where it names no technique: what auto chooses is tested by itself.
+Json withMaps(Json spec);
+
+/// Renders a FrameSpec given as JSON, withMaps; a failed expectation and an empty frame when it is refused.
 Frame renderJson(const ScenePtr& scene, const std::string& spec);
 
 /// Renders what must be refused; the problems.

@@ -16,7 +16,7 @@ const char* const kThreeLights = R"({"width":96,"height":64,"views":["color","sh
 TEST(FramePlans, HoldWhatTheFrameHolds) {
   for (const char* name : {"box_on_plane", "long_row", "thin_slats"}) {
     const ScenePtr scene = testing::generatedScene(name);
-    const auto spec = decodeFrameSpec(kThreeLights);
+    const auto spec = decodeFrameSpec(testing::withMaps(Json::parse(kThreeLights)).dump());
     ASSERT_TRUE(spec);
     const Frame frame = renderJson(scene, kThreeLights);
     const auto plan = planFrame(scene, *spec, testing::sharedRenderer().info());
@@ -80,7 +80,7 @@ TEST(FramePlans, RefuseWhatTheFrameRefuses) {
        {"/camera/node", "/debug/light", "/shadow/technique"}}};
   const ScenePtr scene = moving();
   for (const auto& [text, pointers] : refusals) {
-    const auto spec = decodeFrameSpec(text);
+    const auto spec = decodeFrameSpec(testing::withMaps(Json::parse(text)).dump());
     ASSERT_TRUE(spec) << text;
     const auto plan = planFrame(scene, *spec, testing::sharedRenderer().info());
     ASSERT_FALSE(plan) << text;

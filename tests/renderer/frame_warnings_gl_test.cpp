@@ -180,7 +180,7 @@ TEST(FrameWarnings, WhatTheFileSaysStandsBeforeWhatThePictureLacks) {
 
 TEST(FrameWarnings, APlanWarnsOfWhatNeedsNoPicture) {
   const auto plan = [](const Json& spec) {
-    const auto decoded = decodeFrameSpec(spec.dump());
+    const auto decoded = decodeFrameSpec(testing::withMaps(spec).dump());
     EXPECT_TRUE(decoded);
     const auto report = planFrame(wallOnGround(), *decoded, testing::sharedRenderer().info());
     EXPECT_TRUE(report);

@@ -26,6 +26,7 @@ struct Compared {
 /// None where the shadow has no edges to speak of.
 std::optional<Compared> compared(const ScenePtr& scene, const Json& view, const char* filter) {
   Json spec = view;
+  spec["shadow"]["technique"] = "shadowMap";
   spec["shadow"]["filter"] = Json::parse(filter);
   spec["debug"] = {{"predictEdges", true}};
   const Frame frame = testing::renderJson(scene, spec.dump());

@@ -25,7 +25,7 @@ Json placed(const Place& from, const Place& step, int times, const Place& root) 
 }
 
 FrameSpec decoded(const Json& json) {
-  auto spec = decodeFrameSpec(json.dump());
+  auto spec = decodeFrameSpec(testing::withMaps(json).dump());
   EXPECT_TRUE(spec) << spec.problems().front().pointer << ' ' << spec.problems().front().detail;
   return spec ? *spec : FrameSpec{};
 }

@@ -14,7 +14,7 @@ std::vector<Frame> drawn(const std::vector<std::pair<ScenePtr, Json>>& requests,
     auto renderer = Renderer::create({.backend = testing::testedBackend(), .tileCacheBytes = tileCacheBytes});
     ASSERT_TRUE(renderer);
     for (const auto& [scene, spec] : requests) {
-      const auto decoded = decodeFrameSpec(spec.dump());
+      const auto decoded = decodeFrameSpec(testing::withMaps(spec).dump());
       ASSERT_TRUE(decoded) << decoded.problems()[0].pointer << decoded.problems()[0].detail;
       auto frame = renderer->render(scene, *decoded);
       ASSERT_TRUE(frame) << frame.problems()[0].detail;

@@ -94,6 +94,31 @@ class TileReport(TypedDict, total=False):
     gpuMilliseconds: float
 
 
+class TechniqueChoice(TypedDict, total=False):
+    """What technique auto chose for a light.
+
+    technique:
+        shadowMap or rayTraced; `spec` names it too, so that asking for `spec` again draws the same. auto = for each
+        light rayTraced where that is estimated to cost at most twice its map, else shadowMap; shadowMap = depths
+        seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled shadow
+        volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the
+        light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame:
+        soft where the light has a size, for scenes that stand still.
+    why:
+        The reason, in a sentence.
+    mapMilliseconds:
+        Estimate for the light's shadow map, from counts of the scene and the request: about what it takes on two
+        cores. Not a promise for this machine. Unit: milliseconds.
+    rayMilliseconds:
+        The same for rays. Unit: milliseconds.
+    """
+
+    technique: Literal["auto", "shadowMap", "shadowVolume", "rayTraced", "lightMap"]
+    why: str
+    mapMilliseconds: float
+    rayMilliseconds: float
+
+
 class LightMapReport(TypedDict, total=False):
     """The texture that technique lightMap looks a shadow up in.
 
@@ -148,6 +173,9 @@ class LightReport(TypedDict, total=False):
         Its tiles: cascades, nearest first, or faces of a spot or point light.
     predictedError:
         How large the texels of its tiles appear; absent if none was drawn.
+    choice:
+        What technique auto chose; absent where the request names another. The tiles of a light that rays were
+        chosen for are planned, and drawn only where a view shows them.
     tracedPixels:
         Pixels that rays decided; technique rayTraced; absent in a plan. Unit: pixels.
     lightMap:
@@ -171,6 +199,7 @@ class LightReport(TypedDict, total=False):
     depthRange: Dict[str, Any]
     tiles: List["TileReport"]
     predictedError: "PredictedError"
+    choice: "TechniqueChoice"
     tracedPixels: int
     lightMap: "LightMapReport"
     casterTriangles: int

@@ -1,6 +1,5 @@
 """The Python client over the shared files of exporters: it draws and says what the command line does."""
 
-import json
 import unittest
 import warnings
 
@@ -42,7 +41,7 @@ class SharedCases(ServerTest):
         for case in sorted({name for name, *_ in cases.SHADOWS}):
             with self.subTest(case):
                 folder = cases.CASES / "shadow" / case
-                spec = json.loads((folder / "spec.json").read_text()) | {"views": ["shadow", "ids"]}
+                spec = cases.spec_of(folder) | {"views": ["shadow", "ids"]}
                 frame = self.session.frame(folder / "scene.glb", spec)
                 numbers = {"output": {"format": "npz", "exrPixelType": "float"}}
                 views, _ = cases.render(folder / "scene.glb", spec | numbers, "--device", "cpu")

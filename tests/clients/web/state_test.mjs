@@ -111,7 +111,7 @@ test('what is in force is the choice, else what the server resolved', () => {
   assert.equal(store.effective('exposure'), 0.5);
 });
 
-test('each technique shows the controls that it heeds', () => {
+test('each technique shows the controls that it uses', () => {
   const shadows = kSections.find(({ title }) => title === 'Shadows').fields;
   const shownFor = (shadow, light) => {
     const store = createStore({ spec: { lights: [{ type: 'directional', ...light }], shadow } });
@@ -120,6 +120,8 @@ test('each technique shows the controls that it heeds', () => {
   const always = ['shadow.enabled', 'shadow.technique', 'shadow.strength'];
   const tiles = ['shadow.cascadeCount', 'shadow.size', 'shadow.importance'];
   const [on, technique, strength] = always;
+  const filters = ['shadow.filter.type', 'shadow.filter.size', 'shadow.filter.radius'];
+  assert.deepEqual(shownFor({ technique: 'auto' }), [on, technique, ...tiles, ...filters, strength]);
   assert.deepEqual(shownFor({ technique: 'rayTraced' }), always);
   assert.deepEqual(shownFor({ technique: 'rayTraced' }, { angularDiameterDegrees: 1 }), [on, technique, 'shadow.raySamples', strength]);
   assert.deepEqual(shownFor({ technique: 'lightMap' }), always);

@@ -20,12 +20,12 @@ std::vector<std::string> namesOf(const char* sweep) {
 }
 
 TEST(Sweeps, EachHasItsVariantsOnce) {
-  EXPECT_EQ(namesOf("techniques"),
-            (std::vector<std::string>{"hard", "pcf 3", "pcf 5", "pcss", "shadowVolume", "rayTraced", "lightMap"}));
+  EXPECT_EQ(namesOf("techniques"), (std::vector<std::string>{"hard", "pcf 3", "pcf 5", "pcss", "shadowVolume",
+                                                             "rayTraced", "lightMap", "auto"}));
   EXPECT_EQ(namesOf("filters").size(), 2u + 4 * 3);
   EXPECT_EQ(namesOf("sizes").size(), 5u * 3);
   const auto all = namesOf("all");
-  EXPECT_EQ(all.size(), 7u + 14 + 15 - 4);
+  EXPECT_EQ(all.size(), 8u + 14 + 15 - 4);
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
 }
 

@@ -13,11 +13,11 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(DecodeFrameSpec, WordsOfEarlierVersionsAreReadAsTheirSuccessors) {
+TEST(DecodeFrameSpec, WordsOfEarlierVersionsAreRefusedWithTheirSuccessors) {
   const auto spec = decodeFrameSpec(R"({"shadow": {"technique": "hybrid"}})");
-  ASSERT_TRUE(spec);
-  EXPECT_EQ(spec->shadow.technique, ShadowTechnique::rayTraced);
-  EXPECT_EQ(toJson(*spec)["shadow"]["technique"], "rayTraced");
+  ASSERT_FALSE(spec);
+  EXPECT_EQ(spec.problems()[0].pointer, "/shadow/technique");
+  EXPECT_NE(spec.problems()[0].detail.find("rayTraced"), std::string::npos);
 }
 
 TEST(DecodeFrameSpec, NothingIsEveryDefault) {

@@ -18,6 +18,7 @@ rc::Gen<Light> anyLight() {
     light.innerConeDegrees = 0;
     light.intensity = *rc::gen::element(0.0, 1.0, 1.0);
     Shadow shadow;
+    shadow.technique = ShadowTechnique::shadowMap;
     shadow.enabled = *rc::gen::arbitrary<bool>();
     shadow.cascadeCount = *rc::gen::inRange(1, 9);
     shadow.importance = *rc::gen::element(ShadowImportance::low, ShadowImportance::medium, ShadowImportance::high);
@@ -34,6 +35,7 @@ RC_GTEST_PROP(PlannedTiles, AreNoMoreAndNoLargerThanARequestTells, ()) {
   spec.height = *rc::gen::inRange(16, 3000);
   spec.shadowLightPolicy = *rc::gen::element(ShadowLightPolicy::all, ShadowLightPolicy::first);
   spec.atlas.baseSize = *rc::gen::element(256, 1024, 4096);
+  spec.shadow.technique = ShadowTechnique::shadowMap;
   spec.lights = *rc::gen::container<std::vector<Light>>(anyLight());
   RendererInfo device;
   device.device = DeviceChoice::cpu;

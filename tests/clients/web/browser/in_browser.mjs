@@ -93,7 +93,10 @@ test('the picture follows the hand, and at rest is sharp and as large as its pla
 test('the error is measured, and stands beside the picture', async () => {
   await open.page.locator('.error-card button').click();
   await open.page.locator('.error-card dt', { hasText: 'Wrong' }).waitFor();
-  assert.match(await open.page.locator('.error-card').innerText(), /Texel[^%]*px[^%]*%/);
+  assert.match(await open.page.locator('.error-card').innerText(), /Wrong\s0 %/); // rays, which auto chooses
+  await change(() => open.page.locator('label', { hasText: /^Maps$/ }).locator('input').check());
+  await open.page.locator('.error-card button').click();
+  await open.page.waitForFunction(() => /Texel[^%]*px[^%]*%/.test(document.querySelector('.error-card').innerText));
 });
 
 test('two settings are compared, and the handle moves by keys', async () => {

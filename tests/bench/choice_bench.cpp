@@ -1,0 +1,144 @@
+// What shadow maps and rays cost over many scenes and lights, which `technique: auto` has to estimate. Prints CSV.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "protocol/json/json_codec.h"
+#include "renderer/render.h"
+#include "tests/bench/gathered_scenes.h"
+#include "tests/support/files.h"
+
+namespace gnomon::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+struct NamedLight {
+  const char* name;
+  Json light;
+};
+
+/// Suns, and lamps above the middle of the scene.
+std::vector<NamedLight> lightsOver(const Aabb& bounds) {
+  const double size = glm::length(bounds.max - bounds.min);
+  const glm::dvec3 middle = bounds.center();
+  const glm::dvec3 lamp = glm::dvec3(middle.x, bounds.max.y, middle.z) + glm::dvec3(0.15, 0.35, 0.2) * size;
+  const glm::dvec3 down = middle - lamp;
+  const Json sun = {{"type", "directional"}, {"sun", {{"azimuthDegrees", 135}, {"elevationDegrees", 40}}}};
+  Json softSun = sun;
+  softSun["angularDiameterDegrees"] = 0.53;
+  const Json point = {{"type", "point"}, {"position", {lamp.x, lamp.y, lamp.z}}, {"intensity", 4 * size * size}};
+  Json spot = point;
+  spot["type"] = "spot";
+  spot["direction"] = {down.x, down.y, down.z};
+  spot["outerConeDegrees"] = 50;
+  Json ball = spot;
+  ball["radius"] = 0.02 * size;
+  return {{"sun", sun}, {"soft sun", softSun}, {"spot", spot}, {"soft spot", ball}, {"point", point}};
+}
+
+double processorMilliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+struct Size {
+  int width, height;
+  const char* antialiasing;
+};
+
+Json specOf(const Json& light, const Size& size, const char* technique) {
+  Json spec = {{"width", size.width},
+               {"height", size.height},
+               {"antialiasing", size.antialiasing},
+               {"camera", {{"fit", true}}},
+               {"lights", {light}}};
+  if (technique == nullptr) {
+    spec["shadow"] = {{"enabled", false}};
+  } else {
+    spec["shadow"] = {{"technique", technique}};
+  }
+  return spec;
+}
+
+} // namespace
+} // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  using namespace gnomon;
+  using namespace gnomon::bench;
+  CLI::App app{"What shadow maps and rays cost over many scenes and lights. Times need a quiet machine."};
+  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> files, only;
+  int repeats = 5;
+  DeviceChoice device = DeviceChoice::auto_;
+  const std::map<std::string, DeviceChoice> devices{
+      {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
+  app.add_option("--folder", folders, "Folder of models with a manifest.json");
+  app.add_option("--file", files, "A GLB");
+  app.add_option("--light", only, "Only lights of this name");
+  app.add_option("--repeats", repeats, "Frames each")->check(CLI::Range(1, 100));
+  app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
+  CLI11_PARSE(app, argc, argv);
+  auto renderer = Renderer::create({.backend = {.device = device}});
+  if (!renderer) {
+    std::cerr << renderer.problems().front().detail << '\n';
+    return 1;
+  }
+  std::vector<NamedScene> scenes;
+  for (const auto& folder : folders) {
+    for (NamedScene& each : gatheredScenes(folder)) scenes.push_back(std::move(each));
+  }
+  for (const std::string& file : files) {
+    if (auto scene = loadScene({testing::readFile(file), {}})) {
+      scenes.push_back({std::filesystem::path(file).stem(), std::move(*scene)});
+    }
+  }
+  std::set<std::string> models;
+  std::cout << "scene,light,width,height,samples,triangles,holed,instances,off,map,rays\n";
+  for (const NamedScene& scene : scenes) {
+    const std::string model = scene.name.substr(0, scene.name.find('/'));
+    if (!models.insert(model).second) continue;
+    const SceneView& view = scene.scene->scenes[static_cast<std::size_t>(scene.scene->defaultScene)];
+    if (view.bounds.empty()) continue;
+    std::uint64_t holed = 0;
+    for (const Instance& each : view.instances) {
+      if (scene.scene->materials[static_cast<std::size_t>(materialOf(*scene.scene, each))].alphaMode !=
+          AlphaMode::opaque)
+        holed += scene.scene->primitives[static_cast<std::size_t>(each.primitive)].indexCount / 3;
+    }
+    for (const NamedLight& light : lightsOver(view.bounds)) {
+      if (!only.empty() && std::ranges::count(only, light.name) == 0) continue;
+      for (const Size& size : {Size{1280, 720, "msaa4x"}, Size{640, 360, "none"}}) {
+        const char* ways[] = {nullptr, "shadowMap", "rayTraced"};
+        double best[3] = {1e30, 1e30, 1e30};
+        for (int turn = 0; turn <= repeats; ++turn) {
+          for (int way = 0; way < 3; ++way) {
+            const auto spec = decodeFrameSpec(specOf(light.light, size, ways[way]).dump());
+            if (!spec) {
+              std::cerr << spec.problems().front().detail << '\n';
+              return 1;
+            }
+            const double start = processorMilliseconds();
+            const auto frame = renderer->render(scene.scene, *spec, TileUse::drawnAnew);
+            if (!frame) {
+              std::cerr << scene.name << frame.problems().front().detail << '\n';
+              continue;
+            }
+            if (turn > 0) best[way] = std::min(best[way], processorMilliseconds() - start);
+          }
+        }
+        std::cout << model << ',' << light.name << ',' << size.width << ',' << size.height << ','
+                  << (size.width == 640 ? 1 : 4) << ',' << view.triangles << ',' << holed << ','
+                  << view.instances.size() << ',' << best[0] << ',' << best[1] << ',' << best[2] << std::endl;
+      }
+    }
+  }
+  return 0;
+}
