@@ -13,7 +13,7 @@ inline constexpr Range kPrincipalRange{-1e7, 1e7};        ///< pixels; may lie b
 inline constexpr Range kIntensityRange{0, 1e9};           ///< brighter than the sun by four decades
 inline constexpr Range kTemperatureRange{1000, 15000};    ///< kelvin; where the formula holds
 inline constexpr Range kBiasRange{0, 1e6};
-inline constexpr Range kUnitRange{0, 1};                                       ///< shares and linear colours
+inline constexpr Range kUnitRange{0, 1};                                       ///< shares and linear colors
 inline constexpr Range kAzimuthRange{-360, 360};                               ///< degrees
 inline constexpr Range kElevationRange{-90, 90};                               ///< degrees
 inline constexpr Range kFrameSideRange{1, double(kLimits.maxFrameSide)};       ///< pixels

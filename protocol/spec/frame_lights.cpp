@@ -10,18 +10,6 @@
 namespace gnomon {
 namespace {
 
-ShadowSize usualSize(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return ShadowSize::Large;
-    case LightType::spot:
-      return ShadowSize::Medium;
-    case LightType::point:
-      return ShadowSize::Small;
-  }
-  return ShadowSize::Large;
-}
-
 std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> ofScene) {
   if (spec.lights) return *spec.lights;
   std::vector<Light> lights(ofScene.begin(), ofScene.end());
@@ -35,6 +23,18 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
 }
 
 } // namespace
+
+ShadowSize usualSize(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return ShadowSize::Large;
+    case LightType::spot:
+      return ShadowSize::Medium;
+    case LightType::point:
+      return ShadowSize::Small;
+  }
+  return ShadowSize::Large;
+}
 
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene) {
   std::vector<Light> lights = chosenLights(spec, ofScene);

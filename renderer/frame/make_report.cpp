@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
+#include "protocol/spec/unused_settings.h"
 #include "renderer/core/light.h"
 #include "renderer/shadow/filter_kernel.h"
 
@@ -142,6 +143,30 @@ std::string sharpNote(const Light& light) {
   return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 
+bool hasPlan(const ShadowPlan& plan, int light) {
+  return std::any_of(plan.lights.begin(), plan.lights.end(),
+                     [&](const PlannedLight& each) { return each.light == light; });
+}
+
+/// Settings that were asked for and that nothing reads.
+std::string unusedNote(const Light& light, bool mapped) {
+  std::string names;
+  for (const std::string_view name : unusedSettings(light, mapped)) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  if (names.empty()) return "";
+  return "without effect with technique " + std::string(spell(light.shadow->technique)) + ": " + names;
+}
+
+/// The notes that say something, one after the other.
+std::string joined(std::initializer_list<std::string> notes) {
+  std::string all;
+  for (const std::string& note : notes) {
+    if (!note.empty()) all += (all.empty() ? "" : "; ") + note;
+  }
+  return all;
+}
+
 /// `errors`: one a tile of the plan; empty = the tiles are not drawn.
 void addTiles(const ResolvedFrame& frame, const ShadowPlan& plan, const PlannedLight& planned,
               std::span<const std::optional<PredictedError>> errors, LightReport& report) {
@@ -181,8 +206,10 @@ std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePla
   }
   for (const int layered : layeredLights) {
     LightReport& report = reports[static_cast<std::size_t>(layered)];
+    const Light& light = lights[static_cast<std::size_t>(layered)];
+    const bool mapped = hasPlan(plans.drawn, layered) || hasPlan(plans.whole, layered);
     report.shadowed = true;
-    report.note = sharpNote(lights[static_cast<std::size_t>(layered)]);
+    report.note = joined({sharpNote(light), unusedNote(light, mapped)});
   }
   for (const PlannedLight& planned : plans.whole.lights) {
     addTiles(frame, plans.whole, planned, {}, reports[static_cast<std::size_t>(planned.light)]);
@@ -193,8 +220,8 @@ std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePla
     report.tiles.clear();
     addTiles(frame, plans.drawn, planned, errors.tiles, report);
     report.shadowed = report.shadowed || planned.tileCount > 0;
-    const std::string sharp = report.shadowed ? sharpNote(lights[static_cast<std::size_t>(planned.light)]) : "";
-    report.note = planned.note + (planned.note.empty() || sharp.empty() ? "" : "; ") + sharp;
+    const Light& light = lights[static_cast<std::size_t>(planned.light)];
+    report.note = joined({planned.note, report.shadowed ? sharpNote(light) : "", unusedNote(light, true)});
     report.predictedError = errors.lights[i];
   }
   return reports;
