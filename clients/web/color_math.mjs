@@ -1,4 +1,4 @@
-// Colours: "#rrggbb" as people choose them (sRGB), linear red, green and blue as the API takes them. Pure.
+// Colors: "#rrggbb" as people choose them (sRGB), linear red, green and blue as the API takes them. Pure.
 
 const toLinear = (share) => (share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4);
 const fromLinear = (share) => (share <= 0.0031308 ? share * 12.92 : 1.055 * share ** (1 / 2.4) - 0.055);

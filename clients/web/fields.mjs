@@ -151,7 +151,7 @@ export const kSections = [
       { path: 'volumes.0.file', label: 'File', says: 'A .npy or .vdb file of the upload', options: volumeFiles, choose: chooseVolume, clears: 'volumes' },
       { path: 'volumes.0.transferFunction.1.extinction', label: 'Density', unit: '/ m', says: 'Share of the light that is taken away on a metre, where it is small', slider: [0, 2, 0.01], needs: hasVolume, keeps: true },
       { path: 'volumes.0.transferFunction.1.value', label: 'Full at', says: 'Value of the grid that has this density; at first the greatest in the file', needs: hasVolume, keeps: true },
-      { path: 'volumes.0.transferFunction.1.color', label: 'Colour', says: 'White for a cloud, black for soot', color: true, choose: chooseVolumeColor, needs: hasVolume, keeps: true },
+      { path: 'volumes.0.transferFunction.1.color', label: 'Color', says: 'White for a cloud, black for soot', color: true, choose: chooseVolumeColor, needs: hasVolume, keeps: true },
       { path: 'volumes.0.box.min', label: 'From', unit: 'm', says: 'Lowest corner of the box that the grid fills: x, y, z', vector: true, needs: hasBox, keeps: true },
       { path: 'volumes.0.box.max', label: 'To', unit: 'm', says: 'Highest corner: x, y, z', vector: true, needs: hasBox, keeps: true },
       { path: 'volumes.0.castShadow', label: 'Casts shadow', toggle: true, absent: true, needs: hasVolume },
@@ -199,20 +199,20 @@ export const kSections = [
 ];
 
 export const kViews = [
-  ['color', 'Colour', 'The shaded scene'],
+  ['color', 'Color', 'The shaded scene'],
   ['cascades', 'Cascades', 'Tinted by cascade: green, blue, purple, red, orange, cyan, yellow, pink'],
   ['shadow', 'Shadow', 'Share of the light that arrives, white = all'],
   ['depth', 'Depth', 'Distance along the view axis'],
   ['normal', 'Normal', 'World-space shading normal'],
-  ['ids', 'Nodes', 'A colour for each node'],
+  ['ids', 'Nodes', 'A color for each node'],
 ];
 
 // Data that is asked for more rarely.
 export const kDataViews = [
-  ['materials', 'Materials', 'A colour for each material'],
-  ['instances', 'Instances', 'A colour for each copy of a mesh'],
-  ['albedo', 'Albedo', 'Base colour, without light'],
-  ['position', 'Position', 'Place in the scene’s bounds, as a colour'],
+  ['materials', 'Materials', 'A color for each material'],
+  ['instances', 'Instances', 'A color for each copy of a mesh'],
+  ['albedo', 'Albedo', 'Base color, without light'],
+  ['position', 'Position', 'Place in the scene’s bounds, as a color'],
   ['motion', 'Motion', 'How far each point has moved since the last picture: the direction as a hue, white = not at all'],
   ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
 ];
@@ -223,7 +223,7 @@ export const kDebugViews = [
   ['texelDensity', 'Texel density', 'Pixels that a texel of the shadow map spans: blue 1/16, green 1, red 16'],
   ['blendWeight', 'Blend weight', 'Weight of the next cascade'],
   ['bias', 'Bias', 'How far a surface is moved before it is compared with the map: blue 0.1 mm, green 1 cm, red 1 m'],
-  ['casterIds', 'Caster ids', 'A colour for each node that throws a shadow'],
+  ['casterIds', 'Caster ids', 'A color for each node that throws a shadow'],
   ['lightContribution', 'Light', 'The scene lit by this light alone'],
   ['tile', 'Tile', 'One tile of the atlas, depth as grey'],
   ['reference', 'Reference', 'The share of the light that rays find'],

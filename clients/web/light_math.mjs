@@ -21,7 +21,7 @@ export function sunInForce({ spec, report }) {
   return { ...kFirstSun, ...(own ?? shown) };
 }
 
-// A light of the user's own with its sun there; at first it has the colour and strength of the one that it replaces.
+// A light of the user's own with its sun there; at first it has the color and strength of the one that it replaces.
 export function lightsWithSun(state, sun) {
   const [own, ...others] = state.spec.lights ?? [];
   const kept = ['color', 'temperatureKelvin', 'intensity', 'angularDiameterDegrees', 'cullingMask'];

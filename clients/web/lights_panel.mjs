@@ -42,7 +42,7 @@ function createRow(store, index) {
   const fields = [
     { path: `${path}.type`, label: 'Type', choices: kTypes, choose: (type) => put(retyped(light(), type, store.state)), absent: 'directional', keeps: true },
     { path: `${path}.intensity`, label: 'Intensity', says: 'Lux of a sun, candela of a lamp', log: true, slider: [0.1, 10000, 0.01], absent: 3 },
-    { path: `${path}.color`, label: 'Colour', color: true, absent: [1, 1, 1] },
+    { path: `${path}.color`, label: 'Color', color: true, absent: [1, 1, 1] },
     { path: `${path}.angularDiameterDegrees`, label: 'Size', unit: '°', says: 'Angle of its disc, 0.53 for the real sun; exact shadows, baked ones and PCSS are soft by it', slider: [0, 10, 0.01], absent: 0, needs: () => !isLamp() },
     { path: `${path}.radius`, label: 'Size', unit: 'm', says: 'Radius of the glowing ball', slider: [0, 2, 0.01], absent: 0, needs: isLamp },
     { path: `${path}.position`, label: 'Position', unit: 'm', vector: true, needs: isLamp, keeps: true },

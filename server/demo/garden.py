@@ -19,7 +19,7 @@ def ground_height(x, z):
 
 
 def ground(size, cells):
-    """Coloured by vertex, so that the repeating texture does not show from afar."""
+    """Colored by vertex, so that the repeating texture does not show from afar."""
 
     def tint(x, _, z):
         patch = math.sin(x * 0.11 + 2) * math.sin(z * 0.09 - 1) + 0.5 * math.sin(x * 0.31 - z * 0.27)

@@ -91,7 +91,7 @@ def add_spheres(glb, materials):
 
 
 def add_pergola(glb, materials):
-    """East of the plaza, with two benches in it, and boxes painted by vertex colours beside it."""
+    """East of the plaza, with two benches in it, and boxes painted by vertex colors beside it."""
     pergola = glb.mesh("pergola", (architecture.pergola(9.0, 3.2, 2.7), materials["wood"]))
     bench = glb.mesh("bench", (architecture.bench(), materials["wood"]))
     nodes = [glb.node("pergola", mesh=pergola, translation=[19.5, 0.0, 3.0], children=[

@@ -6,7 +6,7 @@ from array import array
 
 
 class Mesh:
-    """Vertices as flat arrays. Tangents and colours are either of every vertex or of none."""
+    """Vertices as flat arrays. Tangents and colors are either of every vertex or of none."""
 
     def __init__(self):
         self.positions, self.normals, self.uvs = array("f"), array("f"), array("f")
@@ -54,7 +54,7 @@ class Mesh:
         return self
 
     def paint(self, color_at):
-        """Vertex colours, linear RGB, from a function of the position; or one colour for all."""
+        """Vertex colors, linear RGB, from a function of the position; or one color for all."""
         p = self.positions
         self.colors = array("f")
         for i in range(0, len(p), 3):

@@ -1,4 +1,4 @@
-"""Small procedural textures that repeat without a seam, as PNG bytes. Colours are sRGB, 0..255."""
+"""Small procedural textures that repeat without a seam, as PNG bytes. Colors are sRGB, 0..255."""
 
 import math
 import random
@@ -37,7 +37,7 @@ def _byte(value):
 
 
 def mottled(size, color, contrast, seed, cells=8, octaves=5, stretch=1):
-    """One colour, lighter and darker in spots; `stretch` > 1 draws the spots out along v, mirrored in the middle."""
+    """One color, lighter and darker in spots; `stretch` > 1 draws the spots out along v, mirrored in the middle."""
     field = clouds(size, cells, octaves, seed)
     pixels = bytearray()
     for y in range(size):

@@ -1,4 +1,4 @@
-// Volumes and bakes on the page: what it makes of a file, of colours, and of events.
+// Volumes and bakes on the page: what it makes of a file, of colors, and of events.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -50,7 +50,7 @@ test('the panel offers the files of the upload, and takes the volume away again'
   assert.deepEqual(store.state.spec, {});
 });
 
-test('colours are shown as screens have them, and sent as light adds up', () => {
+test('colors are shown as screens have them, and sent as light adds up', () => {
   assert.deepEqual(linearOf('#ffffff'), [1, 1, 1]);
   assert.equal(linearOf('#808080')[0], 0.2159);
   for (const hex of ['#000000', '#0a0b0c', '#7f3fd2', '#ffffff']) assert.equal(hexOf(linearOf(hex)), hex);
