@@ -240,6 +240,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   ShowJob job = jobOf(input, shown, maps);
   job.view = request.view;
   job.encoded = request.encoded;
+  job.tone = toneOf(work_.frame.spec.toneMapping, request.encoded);
   job.fine = request.fine;
   if (volumes != nullptr && request.view == View::color) job.volumes = volumes->picture;
   ShownCasters casters;
@@ -254,7 +255,6 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
 
 ShowJob CpuFrame::jobOf(const ShowInput& input, const DepthBuffer& shown, const ShadowMaps& maps) const {
   ShowJob job{scene_, *cached_.textures, shown, maps, input.lightLists};
-  job.toneMapping = work_.frame.spec.toneMapping;
   job.debugLight = input.debugLight;
   return job;
 }

@@ -68,6 +68,11 @@ int filterKind(const FilterKernel& filter) {
   return GNOMON_FILTER_KERNEL;
 }
 
+int toneOf(ToneMapping toneMapping, bool encoded) {
+  if (!encoded) return GNOMON_TONE_NONE;
+  return toneMapping == ToneMapping::aces ? GNOMON_TONE_ACES : GNOMON_TONE_CLIP;
+}
+
 namespace {
 
 shared::LightData packed(const LitLight& light) {

@@ -15,6 +15,9 @@ namespace gnomon {
 /// How a map is read: GNOMON_FILTER_...
 int filterKind(const FilterKernel& filter);
 
+/// GNOMON_TONE_... Numbers that are not `encoded` stay linear, whatever the tone mapping.
+int toneOf(ToneMapping toneMapping, bool encoded);
+
 std::vector<shared::LightData> lightData(std::span<const LitLight> lights);
 
 /// The plan's tiles, in its order.

@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "protocol/spec/traits.h"
-#include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
 namespace {
@@ -161,10 +160,8 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.unlit) defines.emplace_back("UNLIT");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (traitsOf(variant.view).oneLight) defines.emplace_back("DEBUG_LIGHT");
-  if (variant.encoded) {
-    defines.emplace_back("ENCODED");
-    defines.emplace_back(variant.toneMapping == ToneMapping::aces ? "TONE_ACES" : "TONE_CLIP");
-  }
+  if (variant.encoded) defines.emplace_back("ENCODED");
+  if (variant.tone != GNOMON_TONE_NONE) defines.push_back("TONE " + std::to_string(variant.tone));
   return {"fullscreen.vert", "view.frag", std::move(defines)};
 }
 

@@ -6,6 +6,7 @@
 #include "protocol/spec/shadow_options.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/scene.h"
+#include "renderer/shaders/shared/frame_types.h"
 
 namespace gnomon {
 
@@ -47,8 +48,8 @@ struct ShadowSampling {
 /// What lighting the surfaces needs, and no more.
 struct ViewVariant {
   View view = View::color;
-  bool encoded = true; ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
-  ToneMapping toneMapping = ToneMapping::aces;
+  bool encoded = true;         ///< for an 8-bit picture: tone mapped, normals and depths brought into 0..1
+  int tone = GNOMON_TONE_NONE; ///< toneOf
   int samples = 1;             ///< a pixel
   bool emission = false;       ///< as in SurfaceVariant
   bool unlit = false;          ///< some material is; `emission` is set then

@@ -81,7 +81,7 @@ float checkerboard(vec2 place, vec2 width) {
 
 // As bright as the scene, but never so dark that the squares can't be told apart.
 vec3 texelGrid(vec3 shown, Receiver receiver) {
-  vec3 grey = vec3(0.15 + 0.85 * clamp(dot(shown, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0));
+  vec3 grey = vec3(0.15 + 0.85 * clamp(luminance(shown), 0.0, 1.0));
   DebugTexel texel = debugTexel(receiver);
   if (!texel.found) return grey;
   TexelEdges edges = texelEdges(texel, receiver);

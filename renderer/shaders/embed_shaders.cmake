@@ -2,7 +2,7 @@
 #   ${OUTPUT}             one .cpp that holds the texts as string views, behind shader_sources.h;
 #   ${EXPANDED}/<shader>  each text with its #version line, for glslangValidator.
 #
-#   cmake -DDIRECTORY=... -DSHADERS=surface.vert,view.frag -DINCLUDES=common_tone.glsl,shared/light.h -DOUTPUT=... -DEXPANDED=... -P embed_shaders.cmake
+#   cmake -DDIRECTORY=... -DSHADERS=surface.vert,view.frag -DINCLUDES=common_names.glsl,shared/light.h -DOUTPUT=... -DEXPANDED=... -P embed_shaders.cmake
 #
 # `#include "x"` takes x from DIRECTORY, and only if it is listed, so that the build knows what depends on what. A file
 # is included once per shader: later includes of it give an empty line. `#include <x>` is C++'s: it gives an empty line,

@@ -7,7 +7,7 @@
 #include "common_shadow.glsl"
 #include "shared/light.h"
 #include "common_light_lists.glsl"
-#include "common_tone.glsl"
+#include "shared/picture.h"
 #ifdef DEBUG_LIGHT
 #include "common_debug.glsl"
 #endif
@@ -74,52 +74,46 @@ layout(binding = GNOMON_VOLUMES_UNIT) uniform sampler2D volumes;
 vec4 volumesHere() { return texelFetch(volumes, ivec2(gl_FragCoord.xy), 0); }
 #endif
 
-// What shows as it is, neither exposed nor tone mapped, unlike the volumes before it.
-vec3 seenAsItIs(vec3 color) {
+#ifndef TONE
+#define TONE GNOMON_TONE_NONE
+#endif
+
+vec4 shownColor(SeenLight seen) {
 #ifdef VOLUMES
   vec4 before = volumesHere();
-  return toneMapped(before.rgb * frame.depthRange.z) + before.a * color;
+  seen = seenBehind(seen, before.rgb, before.a);
+#endif
+  return vec4(shownColor(seen, frame.depthRange.z, TONE), seen.alpha);
+}
+
+SeenLight backgroundLight() {
+#ifdef VIEW_LIGHT_CONTRIBUTION
+  return seenLight(vec3(0.0), vec3(0.0), frame.background.a);
 #else
-  return color;
+  return seenLight(vec3(0.0), frame.background.rgb, frame.background.a);
 #endif
 }
 
-vec4 backgroundSeen() {
-#ifdef VOLUMES
-  return vec4(seenAsItIs(frame.background.rgb), 1.0 - volumesHere().a * (1.0 - frame.background.a));
-#else
-  return frame.background;
-#endif
-}
-
-vec3 seenThroughVolumes(vec3 radiance) {
-#ifdef VOLUMES
-  vec4 before = volumesHere();
-  radiance = before.rgb + before.a * radiance;
-#endif
-  return toneMapped(radiance * frame.depthRange.z);
+SeenLight surfaceLight(Surface surface, Sample seen, Receiver receiver) {
+  vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
+  SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
+  vec4 emission = emissionAt(seen.index);
+  vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
+  return isUnlit(emission) ? seenLight(vec3(0.0), radiance, 1.0) : seenLight(radiance, vec3(0.0), 1.0);
 }
 
 vec4 picture(Sample seen, uint samples) {
-#ifdef VIEW_LIGHT_CONTRIBUTION
-  if (!seen.hit) return vec4(vec3(0.0), frame.background.a);
-#else
-  if (!seen.hit) return backgroundSeen();
-#endif
+  if (!seen.hit) return shownColor(backgroundLight());
   Surface surface = unpackedSurface(seen.bits);
-  vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
-  SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   Receiver receiver = receiverOf(seen, surface.face, samples);
-  vec4 emission = emissionAt(seen.index);
-  vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
-  vec3 shown = isUnlit(emission) ? seenAsItIs(radiance) : seenThroughVolumes(radiance);
+  vec4 shown = shownColor(surfaceLight(surface, seen, receiver));
 #if defined(VIEW_CASCADES)
   vec3 tint = hasTiles() ? cascadeTint(debugLight, receiver, towardsDebugLight(receiver)) : vec3(1.0);
-  shown = dot(shown, vec3(0.2126, 0.7152, 0.0722)) * tint;
+  shown.rgb = luminance(shown.rgb) * tint;
 #elif defined(VIEW_TEXEL_GRID)
-  shown = texelGrid(shown, receiver);
+  shown.rgb = texelGrid(shown.rgb, receiver);
 #endif
-  return vec4(shown, 1.0);
+  return shown;
 }
 
 #if SAMPLES > 1

@@ -116,8 +116,7 @@ HWY_INLINE Float checkerboard(const Float& place, const Float& width) {
 
 /// View texelGrid. As bright as the scene, `shown`, but never so dark that the squares can't be told apart.
 inline Float3 texelGrid(const DebugLight& debug, const Float3& shown, const Receiver& receiver) {
-  constexpr glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
-  const Float grey = 0.15f + 0.85f * clamp(along(weights, shown), 0.0f, 1.0f);
+  const Float grey = 0.15f + 0.85f * clamp(luminance(shown), 0.0f, 1.0f);
   Float3 color(grey);
   if (!hasTiles(debug)) return color;
   const ServedReceiver served = servedReceiver(debug, receiver);

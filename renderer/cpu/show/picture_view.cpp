@@ -27,52 +27,49 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Packet& packet, const Sur
                       andNot(surface.unlit, packet.fragments.shown), visibility);
 }
 
-/// What volumes send, and what share of the light behind them they let through.
-struct SeenVolumes {
-  Float3 color;
-  Float through;
+struct ShownColor {
+  Float3 color; ///< linear
+  Float alpha;
 };
 
-/// `x`, `y`: pixels of the picture.
-HWY_INLINE SeenVolumes volumesAt(const ShowJob& job, const Int& x, const Int& y) {
-  const float* values = &job.volumes[0].x;
-  const Int at = (y * Int(job.scene.width) + x) * Int(4);
-  return {{gather(values, at), gather(values, at + Int(1)), gather(values, at + Int(2))}, gather(values, at + Int(3))};
+/// What shows at pixels `x`, `y` of the picture.
+HWY_INLINE ShownColor shownColor(const ShowJob& job, SeenLight seen, const Int& x, const Int& y) {
+  if (!job.volumes.empty()) {
+    const float* values = &job.volumes[0].x;
+    const Int at = (y * Int(job.scene.width) + x) * Int(4);
+    const Float3 radiance(gather(values, at), gather(values, at + Int(1)), gather(values, at + Int(2)));
+    seen = seenBehind(seen, radiance, gather(values, at + Int(3)));
+  }
+  return {shownColor(seen, job.scene.frame.depthRange.z, job.tone), seen.alpha};
 }
 
-/// Where no surface is. The background, which is not tone mapped, comes through what is.
+/// Where no surface is.
 void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
+  const SeenLight behind = seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
   for (int first = 0; first < static_cast<int>(kTilePixels); first += static_cast<int>(kLanes)) {
     const Int pixel = Int(first) + laneNumbers();
     const Int x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
     const Int y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
-    const SeenVolumes seen = volumesAt(job, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
-    const Float3 own = pictureOf(job.scene.frame, seen.color, job.toneMapping, job.encoded);
+    const auto [color, alpha] =
+        shownColor(job, behind, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
     const auto at = static_cast<std::size_t>(first);
-    store(own.x + seen.through * Float(background.x), &colors.channels[0][at]);
-    store(own.y + seen.through * Float(background.y), &colors.channels[1][at]);
-    store(own.z + seen.through * Float(background.z), &colors.channels[2][at]);
-    store(1.0f - seen.through * Float(1.0f - background.w), &colors.channels[3][at]);
+    store(color.x, &colors.channels[0][at]);
+    store(color.y, &colors.channels[1][at]);
+    store(color.z, &colors.channels[2][at]);
+    store(alpha, &colors.channels[3][at]);
   }
 }
 
-HWY_INLINE Float3 shownColor(const ShowJob& job, const Packet& packet) {
+HWY_INLINE Float3 pictureColor(const ShowJob& job, const Packet& packet) {
   const Surface surface = surfaceOf(job, packet);
   const Float3 radiance = radianceOf(job, packet, surface);
-  const auto toned = [&](const Float3& color)
-                         HWY_ATTR { return pictureOf(job.scene.frame, color, job.toneMapping, job.encoded); };
-  Float3 shown;
-  if (job.volumes.empty()) {
-    shown = select(surface.unlit, radiance, toned(radiance));
-  } else { // what is unlit shows as it is, as the background does; the volumes before it do not
-    const SeenVolumes seen = volumesAt(job, packet.fragments.x, packet.fragments.y);
-    shown =
-        select(surface.unlit, toned(seen.color) + radiance * seen.through, toned(seen.color + radiance * seen.through));
-  }
+  const Float3 none(0.0f);
+  const SeenLight seen = seenLight(select(surface.unlit, none, radiance), select(surface.unlit, radiance, none), 1.0f);
+  const Float3 shown = shownColor(job, seen, packet.fragments.x, packet.fragments.y).color;
   const DebugLight debug{job.maps, job.scene.frame, job.debugLight};
   if (job.view == View::texelGrid) return texelGrid(debug, shown, surface.receiver);
   if (job.view != View::cascades) return shown;
-  const Float grey = along(glm::vec3(0.2126f, 0.7152f, 0.0722f), shown);
+  const Float grey = luminance(shown);
   if (!hasTiles(debug)) return Float3(grey);
   const Float3 toLight =
       towardsLight(job.maps.lights[static_cast<std::size_t>(job.debugLight)], surface.receiver.relative);
@@ -99,7 +96,7 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
   const float share = 1.0f / static_cast<float>(job.buffer.samples);
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const Packet packet = packetAt(list, i, x, y, means);
-    const Float3 color = shownColor(job, packet);
+    const Float3 color = pictureColor(job, packet);
     if (fillsBlock(packet, list, i)) {
       const auto first = static_cast<std::size_t>(list.pixel[i]);
       store(color.x, &colors.channels[0][first]);

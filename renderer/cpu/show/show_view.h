@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <span>
 
-#include "protocol/spec/output_options.h"
 #include "protocol/spec/traits.h"
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/raster/depth_buffer.h"
@@ -25,7 +24,7 @@ struct ShowJob {
   View view = View::color;
   bool encoded = true; ///< as in ViewRequest
   bool fine = false;   ///< as in ViewRequest
-  ToneMapping toneMapping = ToneMapping::aces;
+  int tone = GNOMON_TONE_ACES;
   int debugLight = -1;                          ///< what views of one light show; -1 = there is none
   std::span<const TileMap> casters = {};        ///< view casterIds: parallel to the maps', numbered, a sample a texel
   std::span<const glm::vec4> volumes = {};      ///< marchPicture; empty = none are seen

@@ -1,4 +1,4 @@
-// The light of surfaces on its way to the eye, and the picture that it makes.
+// The light of surfaces on its way to the eye: linear radiance.
 #if defined(GNOMON_CPU_SHADING_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GNOMON_CPU_SHADING_INL_H
 #undef GNOMON_CPU_SHADING_INL_H
@@ -8,7 +8,6 @@
 
 #include <span>
 
-#include "protocol/spec/output_options.h"
 #include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -82,14 +81,6 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
     }
   }
   return select(surface.unlit, surface.emission, sum);
-}
-
-/// The color that a radiance has in a picture, linear. `encoded`: for 8 bits a channel; else linear numbers, whatever
-/// the tone mapping.
-HWY_INLINE Float3 pictureOf(const shared::FrameData& frame, const Float3& radiance, ToneMapping toneMapping,
-                            bool encoded) {
-  const Float3 exposed = radiance * Float(frame.depthRange.z);
-  return !encoded ? exposed : toneMapping == ToneMapping::aces ? acesToneMapped(exposed) : clippedTone(exposed);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -4,6 +4,7 @@
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/visibility_limit.h"
+#include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/pipeline_state.h"
 
@@ -27,7 +28,7 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   ViewVariant variant = lightVariant(inputs, shading, layersDecide);
   variant.view = view;
   variant.encoded = encoded;
-  variant.toneMapping = shading.spec.toneMapping;
+  variant.tone = toneOf(shading.spec.toneMapping, encoded);
   variant.samples = static_cast<int>(surfaces.samplePositions.size());
   variant.smoothPlaces = surfaces.smoothPlaces.id() != 0 && (traits.shadowed || traits.oneLight);
   variant.emission = surfaces.emission.id() != 0;

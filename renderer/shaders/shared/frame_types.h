@@ -110,6 +110,11 @@ using glm::vec4;
 #define GNOMON_READS_MOMENTS(kind) \
   ((kind) == GNOMON_FILTER_VSM || (kind) == GNOMON_FILTER_EVSM || (kind) == GNOMON_FILTER_MSM)
 
+// What a frame's radiance becomes as it is shown.
+#define GNOMON_TONE_NONE 0 // of pictures that are not encoded
+#define GNOMON_TONE_CLIP 1
+#define GNOMON_TONE_ACES 2
+
 struct FrameData {
   mat4 clipFromRelative;
   vec4 forward;    // xyz: the view axis; w: 1 perspective, 0 orthographic

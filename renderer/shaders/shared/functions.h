@@ -42,9 +42,9 @@ T select(bool condition, const T& yes, const T& no) {
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
+#include "renderer/shaders/shared/picture.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
-#include "renderer/shaders/shared/tone.h"
 #undef PUNCTUAL
 #undef GNOMON_OUT
 #undef GNOMON_CONSTANT

@@ -51,7 +51,8 @@ struct Tone {
   template <class Columns>
   static vec3 of(const Columns& in) {
     const vec3 radiance = in.three(0) * 4.0f + vec3(4.0f);
-    return acesToneMapped(radiance) + clippedTone(radiance);
+    const SeenLight seen = seenBehind(seenLight(radiance, vec3(0.5f), 0.5f), radiance, 0.25f);
+    return shownColor(seen, 0.5f, GNOMON_TONE_ACES) + toneMapped(radiance, GNOMON_TONE_CLIP) + vec3(seen.alpha);
   }
 };
 
