@@ -172,14 +172,8 @@ Status CpuFrame::cast(const ShowInput& input, TileUse tiles) {
 /// The texels that views read of the plan's tiles, for each tile.
 std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
   std::vector<TexelMarks> read = noTexels(input.plan);
-  lit_.clear();
   const ShownLights lights(input.plan, input.lights, cast_);
   const ShadowMaps maps = lights.maps({});
-  const bool whole = std::any_of(input.views.begin(), input.views.end(),
-                                 [](const ViewRequest& request) { return request.view == View::atlas; });
-  // Where all texels are made anyway, they are read.
-  std::vector<CasterGrid> grids;
-  if (!whole) grids = casterGrids(scene_, input.plan, maps.lights, cast_.casters, survey_.buffer);
   std::set<int> done;
   for (const ViewRequest& request : input.views) {
     if (request.view == View::atlas) {
@@ -187,9 +181,7 @@ std::vector<TexelMarks> CpuFrame::readBy(const ShowInput& input) {
     } else if (request.view == View::tile) {
       read[static_cast<std::size_t>(input.tile - input.plan.tiles.data())].markAll();
     } else if (traitsOf(request.view).shadowed && done.insert(samplesOf(request)).second) {
-      const int samples = samplesOf(request);
-      lit_[samples] =
-          markReadTexels({scene_, surfaces(samples), maps, grids, input.lightLists, input.debugLight}, read);
+      markReadTexels({scene_, surfaces(samplesOf(request)), maps, input.lightLists, input.debugLight}, read);
     }
   }
   return read;
@@ -232,7 +224,6 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   const auto exact = layers_.find(samples);
   const std::vector<Layer> layers = exact == layers_.end() ? std::vector<Layer>{} : exact->second.layers(shown);
   ShadowMaps maps = lights.maps(layers);
-  if (const auto lit = lit_.find(samples); lit != lit_.end()) maps.lit = &lit->second;
   if (volumes != nullptr && work_.volumes->light >= 0) {
     maps.volumeLight = work_.volumes->light;
     maps.volumes = {volumes->shadow.data(), shown.width, samples};

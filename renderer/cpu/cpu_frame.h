@@ -79,7 +79,6 @@ class CpuFrame : public FrameDrawing {
   bool surveyShown_ = false;                        ///< its surfaces are those of a view
   std::future<void> decoding_;                      ///< of the textures, while shadows are made
   std::map<int, ExactLayers> layers_;               ///< by samples a pixel
-  std::map<int, LitParts> lit_;                     ///< by samples a pixel
   std::map<int, VolumeLayers> volumes_;             ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;

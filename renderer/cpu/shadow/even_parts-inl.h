@@ -11,8 +11,6 @@
 #include <bit>
 #include <span>
 
-#include "renderer/cpu/shadow/caster_grid.h"
-#include "renderer/cpu/shadow/lit_parts.h"
 #include "renderer/cpu/shadow/read_texels-inl.h"
 #include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/cpu/surface/receivers-inl.h"
@@ -21,6 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
+inline constexpr int kPartSide = 8;       ///< pixels
+inline constexpr unsigned kPartCount = 4; ///< of a square of the picture, two by two, from the lower left one
 inline constexpr unsigned kCorners = kLanes / kPartCount;
 
 /// The parts of a square, a bit each.
@@ -91,9 +91,14 @@ HWY_INLINE TileSpans tileSpans(const ShadowMaps& maps, const LightData& light, c
           chooseCascade(maps, light, viewDepth * (1.0f + kRounding)).second};
 }
 
+/// Texels of a tile from a lowest to a greatest one, which belongs to them.
+struct ReadBox {
+  int x0, y0, x1, y1;
+};
+
 /// The texels of a tile that the lanes may read, and those of all places between them.
-HWY_INLINE TexelBox texelsBetween(const ShadowMaps& maps, const LightData& light, std::size_t tile,
-                                  const Receiver& corners, const Mask& lanes) {
+HWY_INLINE ReadBox texelsBetween(const ShadowMaps& maps, const LightData& light, std::size_t tile,
+                                 const Receiver& corners, const Mask& lanes) {
   const Lookup at = lookupIn(light, maps.tiles[tile], corners, Float3(glm::vec3(light.direction)));
   const Float2 rounding(Float(0.5f)); // of places: pixels between the corners are rounded in ways of their own
   const Reached reached =
@@ -102,16 +107,9 @@ HWY_INLINE TexelBox texelsBetween(const ShadowMaps& maps, const LightData& light
           mostOf(lanes, reached.high)};
 }
 
-/// What the corners tell of the parts, a bit each.
-struct ToldParts {
-  unsigned told = 0; ///< nothing more need be marked of these
-  unsigned lit = 0;  ///< of these, they see all of the light: nothing is read of its tiles
-};
-
-/// Marks what the covered parts read of a light. `grids`: parallel to the maps' tiles, or none.
-HWY_INLINE ToldParts markCorners(const ShadowMaps& maps, const LightData& light, std::span<const CasterGrid> grids,
-                                 const Fragments& shown, const Receiver& corners, unsigned covered,
-                                 std::span<TexelMarks> marks) {
+/// Marks what the covered parts read of a light. Gives those of which nothing more need be marked, a bit each.
+HWY_INLINE unsigned markCorners(const ShadowMaps& maps, const LightData& light, const Receiver& corners,
+                                unsigned covered, std::span<TexelMarks> marks) {
   constexpr float kTurnedAway = 5e-5f; // where a corner is, isTurnedAway says so of all
   constexpr std::int32_t kWidest = 48; // a box around more than that holds much that no pixel reads
   const Float3 toLight(glm::vec3(light.direction));
@@ -121,62 +119,54 @@ HWY_INLINE ToldParts markCorners(const ShadowMaps& maps, const LightData& light,
   const Mask faces = corners.smooth.bends & (cosine < 2e-4f) & (dot(corners.smooth.normal, toLight) > 0.0f);
   const unsigned standsOff = light.smoothTerminator != 0u ? bitsOf(faces) : 0u;
   const TileSpans spans = tileSpans(maps, light, corners.viewDepth);
-  alignas(64) std::int32_t triangles[kLanes];
-  store(shown.triangle, triangles);
-  ToldParts parts;
+  unsigned marked = 0;
   for (unsigned left = covered; left != 0; left &= left - 1) {
     const auto part = static_cast<unsigned>(std::countr_zero(left));
     if ((standsOff & lanesOf(part)) != 0) continue;
     if ((lit & lanesOf(part)) == 0) {
-      parts.told |= 1u << part;
+      marked |= 1u << part;
       continue;
     }
     const Mask lanes = maskOf(lanesOf(part));
     const std::size_t first = light.firstTile + static_cast<std::size_t>(leastOf(lanes, spans.first));
     const std::size_t count = light.firstTile + static_cast<std::size_t>(mostOf(lanes, spans.last)) - first + 1;
-    TexelBox read[2];
+    ReadBox read[2];
     if (count > std::size(read)) continue;
-    bool open = !grids.empty(), wide = false;
+    bool wide = false;
     for (std::size_t i = 0; i < count; ++i) {
       if (maps.maps[first + i].depths == nullptr) continue;
       read[i] = texelsBetween(maps, light, first + i, corners, lanes);
-      open = open && grids[first + i].isOpen(static_cast<std::uint32_t>(triangles[kCorners * part]), read[i]);
       wide = wide || read[i].x1 - read[i].x0 >= kWidest || read[i].y1 - read[i].y0 >= kWidest;
     }
-    if (!open && wide) continue;
-    parts.told |= 1u << part;
-    parts.lit |= (open ? 1u : 0u) << part;
-    for (std::size_t i = 0; i < count && !open; ++i) {
+    if (wide) continue;
+    marked |= 1u << part;
+    for (std::size_t i = 0; i < count; ++i) {
       if (maps.maps[first + i].depths == nullptr) continue;
       marks[first + i].mark(read[i].x0, read[i].y0, read[i].x1, read[i].y1);
     }
   }
-  return parts;
+  return marked;
 }
 
 /// Marks what the lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
-/// corners tell for all of them. `tell(light, told)` hears of each light.
-template <class Told>
+/// corners mark all that any of them reads.
 HWY_INLINE unsigned markCorners(const ReadQuery& query, std::span<const std::uint32_t> lights, const EvenParts& parts,
-                                std::span<TexelMarks> marks, const Told& tell) {
+                                std::span<TexelMarks> marks) {
   if (parts.covered == 0) return 0;
   const Receiver corners = receiversOf(query.scene, parts.corners);
   // Of a triangle that is seen edge-on some point is taken, by each pixel another one.
   constexpr float kOutside = 0.1f;
   const Mask sound = (corners.weights.x > -kOutside) & (corners.weights.y > -kOutside) &
                      (corners.weights.x + corners.weights.y < 1.0f + kOutside);
-  unsigned told = 0;
+  unsigned marked = 0;
   for (unsigned part = 0; part < kPartCount; ++part) {
     const bool whole = (bitsOf(sound) & lanesOf(part)) == lanesOf(part);
-    told |= whole ? parts.covered & 1u << part : 0u;
+    marked |= whole ? parts.covered & 1u << part : 0u;
   }
   for (const std::uint32_t light : lights) {
-    const ToldParts own =
-        markCorners(query.maps, query.maps.lights[light], query.casters, parts.corners, corners, told, marks);
-    tell(light, own);
-    told &= own.told;
+    marked &= markCorners(query.maps, query.maps.lights[light], corners, marked, marks);
   }
-  return told;
+  return marked;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -20,14 +20,11 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 
 /// For parts of a square of the picture, whose lower left pixel is x, y. Gives those that are done with, a bit each.
 unsigned markParts(const ReadQuery& query, std::span<const std::uint32_t> lights, int x, int y,
-                   std::span<TexelMarks> marks, LitParts& lit) {
+                   std::span<TexelMarks> marks) {
   const auto alike = [&](std::uint32_t light) { return readsAlike(query.maps.lights[light]); };
   if (!(query.scene.frame.forward.w > 0.0f) || !std::all_of(lights.begin(), lights.end(), alike)) return 0;
   const EvenParts parts = evenParts(query.surfaces, x, y);
-  const auto tell = [&](std::uint32_t light, const ToldParts& told) {
-    if (told.lit != 0) lit.add(light, x / kTileSide, y / kTileSide, told.lit);
-  };
-  return parts.empty | markCorners(query, lights, parts, marks, tell);
+  return parts.empty | markCorners(query, lights, parts, marks);
 }
 
 /// For the fragments of the square.
@@ -92,23 +89,21 @@ std::vector<std::uint32_t> lightsIn(const ReadQuery& query, int x, int y) {
 
 } // namespace
 
-LitParts markReadTexels(const ReadQuery& query, std::span<TexelMarks> marks) {
-  if (std::none_of(query.maps.lights.begin(), query.maps.lights.end(), readsMap)) return {};
+void markReadTexels(const ReadQuery& query, std::span<TexelMarks> marks) {
+  if (std::none_of(query.maps.lights.begin(), query.maps.lights.end(), readsMap)) return;
   const auto across = static_cast<std::size_t>((query.scene.width + kTileSide - 1) / kTileSide);
   const auto up = static_cast<std::size_t>((query.scene.height + kTileSide - 1) / kTileSide);
-  LitParts lit(query.maps.lights.size(), static_cast<int>(across), static_cast<int>(up));
   forEachPiece(across * up, 8, [&](std::size_t first, std::size_t last) {
     FragmentList list;
     for (std::size_t i = first; i < last; ++i) {
       const int x = static_cast<int>(i % across) * kTileSide;
       const int y = static_cast<int>(i / across) * kTileSide;
       const std::vector<std::uint32_t> lights = lightsIn(query, x, y);
-      const unsigned done = GNOMON_KERNEL(markParts)(query, lights, x, y, marks, lit);
+      const unsigned done = GNOMON_KERNEL(markParts)(query, lights, x, y, marks);
       listFragments(query.surfaces, x, y, list, blocksOf(done));
       if (list.count > 0) GNOMON_KERNEL(markSquare)(query, lights, list, x, y, marks);
     }
   });
-  return lit;
 }
 
 } // namespace gnomon::cpu

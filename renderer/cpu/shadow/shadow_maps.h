@@ -8,7 +8,6 @@
 
 #include "renderer/core/rect.h"
 #include "renderer/cpu/raster/depth_buffer.h"
-#include "renderer/cpu/shadow/lit_parts.h"
 #include "renderer/prepare/frame_geometry.h"
 #include "renderer/shaders/shared/frame_types.h"
 
@@ -60,9 +59,8 @@ struct ShadowMaps {
   std::span<const TileMap> maps; ///< parallel to tiles
   glm::vec2 atlasTexels{1};      ///< width and height of the atlas
   std::span<const Layer> layers = {};
-  const LitParts* lit = nullptr; ///< of the picture that is shown: no texels are read for them
-  int volumeLight = -1;          ///< the light that volumes take a share of; -1 = none
-  Layer volumes = {};            ///< the share that they let through
+  int volumeLight = -1; ///< the light that volumes take a share of; -1 = none
+  Layer volumes = {};   ///< the share that they let through
 };
 
 } // namespace gnomon::cpu

@@ -172,33 +172,13 @@ inline HWY_NOINLINE Float throughVolumes(const ShadowMaps& maps, const LightData
   return select(receives, left + (visibility - left) * share, visibility);
 }
 
-/// Lanes in parts of the picture that see all of the light; of one square.
-HWY_INLINE Mask inLitParts(const LitParts& parts, int light, const Receiver& receiver) {
-  static_assert(kPartCount == 4);
-  constexpr int kSquare = 2 * kPartSide;
-  const Int x = truncated(receiver.place.x), y = truncated(receiver.place.y);
-  const int column = firstLane(x) / kSquare, row = firstLane(y) / kSquare;
-  const unsigned lit = parts.of(static_cast<std::size_t>(light), column, row);
-  if (lit == 0) return maskOf(0);
-  const Int across = x - Int(column * kSquare), up = y - Int(row * kSquare);
-  const Mask inside = ((across | up) & Int(~(kSquare - 1))) == Int(0);
-  const Mask right = across >= Int(kPartSide), upper = up >= Int(kPartSide);
-  const Int part = select(upper, select(right, Int(8), Int(4)), select(right, Int(2), Int(1)));
-  return inside & ((part & Int(static_cast<std::int32_t>(lit))) != Int(0));
-}
-
 /// What share of `light` reaches the receivers, 0 to 1, by the strength of its shadow. `toLight`: unit length. Lanes
 /// that are not `needed`, because no light arrives anyway, hold anything in 0 to 1.
 inline Float shadowVisibility(const ShadowMaps& maps, int light, const Receiver& receiver, const Float3& toLight,
                               const Mask& needed) {
   const LightData& data = maps.lights[light];
-  Float visibility;
-  if (data.visibilityLayer > 0u) {
-    visibility = layerVisibility(maps, data, receiver, toLight, needed);
-  } else {
-    const Mask lit = maps.lit != nullptr ? inLitParts(*maps.lit, light, receiver) : maskOf(0);
-    visibility = select(lit, 1.0f, mapVisibility(maps, data, receiver, toLight, andNot(lit, needed)));
-  }
+  const Float visibility = data.visibilityLayer > 0u ? layerVisibility(maps, data, receiver, toLight, needed)
+                                                     : mapVisibility(maps, data, receiver, toLight, needed);
   return light == maps.volumeLight ? throughVolumes(maps, data, receiver, visibility, needed) : visibility;
 }
 
