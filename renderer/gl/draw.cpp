@@ -50,23 +50,31 @@ void drawIndirect(const Program& program, const VertexArray& vertices, const Buf
                               static_cast<GLsizei>(count), sizeof(DrawCommand));
 }
 
-void drawFullscreen(const Program& program, const VertexArray& nothing) {
+void drawFullscreen(const Program& program, const PipelineState& state, std::initializer_list<TexelRead> reads) {
+  const Sampler texels({GL_NEAREST, GL_NEAREST}, "texels");
+  for (const TexelRead& read : reads) {
+    if (read.texture == nullptr || read.texture->id() == 0) continue;
+    read.texture->bind(read.unit);
+    texels.bind(read.unit);
+  }
+  const VertexArray nothing({}, {}, nullptr, "fullscreen");
+  apply(state);
   program.use();
   glBindVertexArray(nothing.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void drawBands(const Program& program, const VertexArray& nothing, const Rect& viewport) {
+void drawBands(const Program& program, PipelineState state, std::initializer_list<TexelRead> reads) {
   if (Stop::current() == nullptr) {
-    drawFullscreen(program, nothing);
+    drawFullscreen(program, state, reads);
     return;
   }
   constexpr int kRows = 64; // of the tiles in which software drivers draw
+  const Rect whole = state.viewport;
   Steps bands;
-  glEnable(GL_SCISSOR_TEST);
-  for (int row = 0; row < viewport.height; row += kRows) {
-    glScissor(viewport.x, viewport.y + row, viewport.width, std::min(kRows, viewport.height - row));
-    drawFullscreen(program, nothing);
+  for (int row = 0; row < whole.height; row += kRows) {
+    state.scissor = Rect{whole.x, whole.y + row, whole.width, std::min(kRows, whole.height - row)};
+    drawFullscreen(program, state, reads);
     bands.end();
   }
 }

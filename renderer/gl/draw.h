@@ -3,13 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 
-#include "renderer/core/rect.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/object.h"
+#include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
 
 namespace gnomon::gl {
 
@@ -61,13 +63,18 @@ struct DrawCommand {
 void drawIndirect(const Program& program, const VertexArray& vertices, const Buffer& commands, std::size_t first,
                   std::size_t count);
 
-/// One triangle over the whole viewport, without vertices: the shader makes clip positions from gl_VertexID 0, 1, 2.
-/// `nothing` is a vertex array without streams.
-void drawFullscreen(const Program& program, const VertexArray& nothing);
+/// A texture that a draw reads texel by texel; none where it is null or default-made.
+struct TexelRead {
+  GLuint unit = 0;
+  const Texture* texture = nullptr;
+};
 
-/// The same over `viewport`, band by band, for long work: once the thread's task is to end (core/stop.h), no more bands
-/// are drawn. The scissor is left on the last one.
-void drawBands(const Program& program, const VertexArray& nothing, const Rect& viewport);
+/// One triangle over the whole viewport, without vertices: the shader makes clip positions from gl_VertexID 0, 1, 2.
+/// States `state`.
+void drawFullscreen(const Program& program, const PipelineState& state, std::initializer_list<TexelRead> reads = {});
+
+/// The same band by band, for long work: once the thread's task is to end (core/stop.h), no more bands are drawn.
+void drawBands(const Program& program, PipelineState state, std::initializer_list<TexelRead> reads = {});
 
 /// Hands what was drawn so far to the device, without waiting for it.
 void submit();

@@ -43,16 +43,16 @@ enum class FrontFace { counterClockwise, clockwise };
 struct PipelineState {
   GLuint framebuffer = 0;
   Rect viewport;
-  std::optional<Rect> scissor;
-  DepthState depth;
-  std::optional<StencilState> stencil; ///< absent = off; clears of the stencil are never masked
-  DepthOffset depthOffset;
+  std::optional<Rect> scissor{};
+  DepthState depth{};
+  std::optional<StencilState> stencil{}; ///< absent = off; clears of the stencil are never masked
+  DepthOffset depthOffset{};
   bool depthClamp = false;
   Cull cull = Cull::none;
   FrontFace frontFace = FrontFace::counterClockwise;
   std::array<bool, 4> colorMask{true, true, true, true};
   bool multisample = false;    ///< false = samples, where the target has them, all get the pixel's one value
-  std::optional<int> sample;   ///< only this one of each pixel is drawn; with `multisample`. Absent = all
+  std::optional<int> sample{}; ///< only this one of each pixel is drawn; with `multisample`. Absent = all
   bool srgbConversion = false; ///< true = linear colors written to an sRGB target are encoded, and blended as linear
   int clipDistances = 0;       ///< how many of gl_ClipDistance[0..7] cut
 

@@ -2,9 +2,24 @@
 
 #include <algorithm>
 
+#include "renderer/gl/draw.h"
+#include "renderer/gl/framebuffer.h"
 #include "renderer/shaders/shared/mask_coverage.h"
 
 namespace gnomon {
+
+Result<gl::Texture> drawTexture(ProgramCache& programs, const std::string& shader, const gl::Texture& from, GLuint unit,
+                                GLenum format) {
+  const gl::TextureShape& shape = from.shape();
+  const auto program = programs.get({"fullscreen.vert", shader, {"SAMPLES " + std::to_string(shape.samples)}});
+  if (!program) return program.problems();
+  gl::Texture made({format, shape.width, shape.height}, shader);
+  const auto target = gl::Framebuffer::create({{{&made}}, {}}, shader);
+  if (!target) return target.problems();
+  gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = {0, 0, shape.width, shape.height}},
+                     {{unit, &from}});
+  return made;
+}
 
 void bindInputs(const PassInputs& inputs) {
   inputs.frame.bindUniform(GNOMON_FRAME_BUFFER);

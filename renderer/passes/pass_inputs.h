@@ -31,6 +31,10 @@ class ProgramCache {
   std::map<std::string, gl::Program> programs_;
 };
 
+/// A texture as large as `from`, of one value a texel that a fragment shader makes of all samples there.
+Result<gl::Texture> drawTexture(ProgramCache& programs, const std::string& shader, const gl::Texture& from, GLuint unit,
+                                GLenum format);
+
 /// What every pass of a frame reads. All of it outlives the frame.
 struct PassInputs {
   const Scene& scene;

@@ -48,23 +48,12 @@ Result<std::vector<glm::vec4>> reduceBlocks(const PassInputs& inputs, const gl::
   auto target = gl::Framebuffer::create({{{&blocks}}, {}}, "survey blocks");
   if (!target) return target.problems();
 
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, grid.columns, grid.rows};
-  gl::apply(state);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "survey texels");
-  texels.bind(0);
-  depth.bind(0);
-  if (part != nullptr) {
-    texels.bind(1);
-    part->bind(1);
-  }
+  const Rect whole{0, 0, grid.columns, grid.rows};
   (*program)->set(GNOMON_FRAME_SIZE, glm::ivec2(inputs.width, inputs.height));
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = whole}, {{0, &depth}, {1, part}});
 
   std::vector<glm::vec4> depths(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-  target->readColor(0, {0, 0, grid.columns, grid.rows}, {GL_RGBA, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
+  target->readColor(0, whole, {GL_RGBA, GL_FLOAT}, std::as_writable_bytes(std::span(depths)));
   return depths;
 }
 

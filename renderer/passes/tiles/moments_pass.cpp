@@ -6,7 +6,6 @@
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
 #include "renderer/gl/framebuffer.h"
-#include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
 
 namespace gnomon {
@@ -32,19 +31,13 @@ Status blur(const PassInputs& inputs, const ShadowTile& tile, int samples, const
   if (step.alongX && samples > 1) defines.push_back("ATLAS_SAMPLES " + std::to_string(samples));
   const auto program = inputs.programs.get({"fullscreen.vert", "moments.frag", std::move(defines)});
   if (!program) return program.problems();
-  gl::PipelineState state;
-  state.framebuffer = step.to.id();
-  state.viewport = step.viewport;
-  state.scissor = step.viewport;
-  gl::apply(state);
-  step.from.bind(0);
   const glm::vec2 texels = blurOf(tile);
   const bool perspective = tile.space.fit.perspective;
   (*program)->set(GNOMON_MOMENT_TILE, glm::ivec4(tile.rect.x, tile.rect.y, tile.rect.width, tile.rect.height));
   (*program)->set(GNOMON_MOMENT_BLUR, glm::vec4(step.alongX ? texels.x : texels.y, perspective ? tile.near : 0.0,
                                                 perspective ? tile.far : 0.0, 0.0));
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawBands(**program, nothing, step.viewport);
+  gl::drawBands(**program, {.framebuffer = step.to.id(), .viewport = step.viewport, .scissor = step.viewport},
+                {{0, &step.from}});
   return Done{};
 }
 
@@ -59,8 +52,6 @@ Status blurMoments(const PassInputs& inputs, const std::vector<const ShadowTile*
   if (!target) return target.problems();
   auto between = gl::Framebuffer::create({{{&rows}}, {}}, "blurred rows");
   if (!between) return between.problems();
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "moment texels");
-  texels.bind(0);
   const int samples = std::max(1, atlas.depth.shape().samples);
   for (const ShadowTile* tile : tiles) {
     const Rect alone{0, 0, tile->rect.width, tile->rect.height};

@@ -4,7 +4,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "renderer/gl/draw.h"
-#include "renderer/gl/pipeline_state.h"
 #include "renderer/gl/texture.h"
 #include "renderer/passes/views/view_pass.h"
 #include "renderer/shaders/shared/functions.h"
@@ -42,24 +41,18 @@ Result<std::vector<MapFootprint>> mapFootprints(const PassInputs& inputs, const 
   const auto target = gl::Framebuffer::create({{{&lengths}, {&places}}, {}}, "footprints");
   if (!target) return target.problems();
 
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, inputs.width, inputs.height};
-  gl::apply(state);
+  const Rect whole{0, 0, inputs.width, inputs.height};
   bindInputs(inputs);
   const ShadowBindings bindings(shading);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
-  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
-  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
-  bindTexture(surfaces.smoothPlaces, texels, GNOMON_SMOOTH_UNIT);
   const gl::Texture& atlas = shading.atlas.textures->depth;
   (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
   (*program)->set(GNOMON_ATLAS_SIZE, glm::vec2(atlas.width(), atlas.height()));
   (*program)->set(GNOMON_SAMPLE_POSITIONS, surfaces.samplePositions.front());
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = whole},
+                     {{GNOMON_DEPTH_UNIT, &depthOf(surfaces, shading.survey)},
+                      {GNOMON_SURFACE_UNIT, &surfaces.bits},
+                      {GNOMON_SMOOTH_UNIT, &surfaces.smoothPlaces}});
 
-  const Rect whole{0, 0, inputs.width, inputs.height};
   const auto width = static_cast<std::size_t>(inputs.width);
   const auto height = static_cast<std::size_t>(inputs.height);
   std::vector<glm::uvec4> read(2 * width * height);
@@ -107,17 +100,12 @@ Result<std::vector<float>> probeShadow(const PassInputs& inputs, const Shading& 
   const auto target = gl::Framebuffer::create({{{&color}}, {}}, "probes");
   if (!target) return target.problems();
 
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, whole.width, whole.height};
-  gl::apply(state);
   bindInputs(inputs);
   const gl::Buffer probes(gl::bytesOf(rows), "probes");
   probes.bindStorage(GNOMON_PROBE_BUFFER);
   const ShadowBindings bindings(shading);
   (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = whole});
 
   std::vector<float> visibility(rows.size());
   target->readColor(0, whole, {GL_RED, GL_FLOAT}, std::as_writable_bytes(std::span(visibility)));

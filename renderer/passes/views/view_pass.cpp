@@ -6,7 +6,6 @@
 #include "renderer/core/visibility_limit.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
-#include "renderer/gl/pipeline_state.h"
 
 namespace gnomon {
 
@@ -88,25 +87,9 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   if (!target) return target.problems();
   drawn.framebuffer = std::move(*target);
 
-  gl::PipelineState state;
-  state.framebuffer = drawn.framebuffer.id();
-  state.viewport = {0, 0, inputs.width, inputs.height};
-  state.srgbConversion = true;
-  gl::apply(state);
-
   bindInputs(inputs);
   const ShadowBindings shadows(shading);
   shading.buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surface texels");
-  bindTexture(depthOf(surfaces, shading.survey), texels, GNOMON_DEPTH_UNIT);
-  bindTexture(surfaces.bits, texels, GNOMON_SURFACE_UNIT);
-  bindTexture(surfaces.emission, texels, GNOMON_EMISSION_UNIT);
-  bindTexture(surfaces.smoothPlaces, texels, GNOMON_SMOOTH_UNIT);
-  bindTexture(sources.visibility.texture, texels, GNOMON_VISIBILITY_UNIT);
-  bindTexture(surfaces.bakedShares, texels, GNOMON_BAKED_UNIT);
-  if (variant.volumes) bindTexture(sources.volumes->picture, texels, GNOMON_VOLUMES_UNIT);
-  bindTexture(sources.casters.nodes, texels, GNOMON_CASTER_NODE_UNIT);
-  bindTexture(sources.casters.depth, texels, GNOMON_CASTER_DEPTH_UNIT);
   if (traitsOf(request.view).oneLight) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
     (*program)->set(GNOMON_ATLAS_SIZE,
@@ -115,8 +98,18 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
   for (std::size_t i = 0; i < surfaces.samplePositions.size(); ++i) {
     (*program)->set(GNOMON_SAMPLE_POSITIONS + static_cast<GLint>(i), surfaces.samplePositions[i]);
   }
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawBands(**program, nothing, state.viewport);
+  const gl::PipelineState state{
+      .framebuffer = drawn.framebuffer.id(), .viewport = {0, 0, inputs.width, inputs.height}, .srgbConversion = true};
+  gl::drawBands(**program, state,
+                {{GNOMON_DEPTH_UNIT, &depthOf(surfaces, shading.survey)},
+                 {GNOMON_SURFACE_UNIT, &surfaces.bits},
+                 {GNOMON_EMISSION_UNIT, &surfaces.emission},
+                 {GNOMON_SMOOTH_UNIT, &surfaces.smoothPlaces},
+                 {GNOMON_VISIBILITY_UNIT, &sources.visibility.texture},
+                 {GNOMON_BAKED_UNIT, &surfaces.bakedShares},
+                 {GNOMON_VOLUMES_UNIT, variant.volumes ? &sources.volumes->picture : nullptr},
+                 {GNOMON_CASTER_NODE_UNIT, &sources.casters.nodes},
+                 {GNOMON_CASTER_DEPTH_UNIT, &sources.casters.depth}});
   drawn.timer.stop();
   return drawn;
 }
@@ -125,14 +118,13 @@ ShadowBindings::ShadowBindings(const Shading& shading)
     : texels_({GL_NEAREST, GL_NEAREST}, "shadow texels"), blurred_({GL_LINEAR, GL_LINEAR}, "shadow moments") {
   shading.buffers.lights.bindStorage(GNOMON_LIGHT_BUFFER);
   shading.buffers.tiles.bindStorage(GNOMON_TILE_BUFFER);
-  bindTexture(shading.atlas.textures->depth, texels_, GNOMON_ATLAS_UNIT);
-  bindTexture(shading.atlas.textures->moments, blurred_, GNOMON_MOMENTS_UNIT);
-}
-
-void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
-  if (texture.id() == 0) return;
-  texture.bind(unit);
-  sampler.bind(unit);
+  const auto bind = [](const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit) {
+    if (texture.id() == 0) return;
+    texture.bind(unit);
+    sampler.bind(unit);
+  };
+  bind(shading.atlas.textures->depth, texels_, GNOMON_ATLAS_UNIT);
+  bind(shading.atlas.textures->moments, blurred_, GNOMON_MOMENTS_UNIT);
 }
 
 Result<VisibilityLayers> makeVisibilityLayers(int width, int height, int samples, int layers) {

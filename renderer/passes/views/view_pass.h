@@ -88,7 +88,4 @@ class ShadowBindings {
   gl::Sampler blurred_;
 };
 
-/// Binds nothing where the texture is empty.
-void bindTexture(const gl::Texture& texture, const gl::Sampler& sampler, GLuint unit);
-
 } // namespace gnomon

@@ -1,32 +1,11 @@
 #include "renderer/passes/views/volume_layers.h"
 
 #include "renderer/core/parallel.h"
-#include "renderer/gl/draw.h"
-#include "renderer/gl/framebuffer.h"
-#include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/views/view_pass.h"
 #include "renderer/volume/volume_picture.h"
 
 namespace gnomon {
 namespace {
-
-/// The depths of a pixel's samples as the channels of one texel.
-Result<gl::Texture> sideBySide(const PassInputs& inputs, const gl::Texture& depth) {
-  const auto program = inputs.programs.get({"fullscreen.vert", "sample_depths.frag", {"SAMPLES 4"}});
-  if (!program) return program.problems();
-  gl::Texture depths({GL_RGBA32F, inputs.width, inputs.height}, "depths, side by side");
-  const auto target = gl::Framebuffer::create({{{&depths}}, {}}, "depths, side by side");
-  if (!target) return target.problems();
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, inputs.width, inputs.height};
-  gl::apply(state);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "depths");
-  bindTexture(depth, texels, GNOMON_DEPTH_UNIT);
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
-  return depths;
-}
 
 /// View depths of all samples, metres; infinite where nothing is.
 Result<std::vector<float>> viewDepths(const PassInputs& inputs, const gl::Texture& depth, std::size_t samples) {
@@ -37,7 +16,7 @@ Result<std::vector<float>> viewDepths(const PassInputs& inputs, const gl::Textur
   if (samples == 1) {
     depth.read(0, whole, {GL_DEPTH_COMPONENT, GL_FLOAT}, texels);
   } else {
-    const auto beside = sideBySide(inputs, depth);
+    const auto beside = drawTexture(inputs.programs, "sample_depths.frag", depth, GNOMON_DEPTH_UNIT, GL_RGBA32F);
     if (!beside) return beside.problems();
     beside->read(0, whole, {GL_RGBA, GL_FLOAT}, texels);
   }

@@ -137,15 +137,8 @@ Status writeVisibility(const PassInputs& inputs, const VolumeCounts& counts, con
   if (!program) return program.problems();
   const auto target = gl::Framebuffer::create({{{&visibility, 0, layer}}, {}}, "visibility");
   if (!target) return target.problems();
-  gl::PipelineState state;
-  state.framebuffer = target->id();
-  state.viewport = {0, 0, inputs.width, inputs.height};
-  gl::apply(state);
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "volume counts");
-  texels.bind(0);
-  counts.depthStencil.bind(0);
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
-  gl::drawFullscreen(**program, nothing);
+  gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = {0, 0, inputs.width, inputs.height}},
+                     {{0, &counts.depthStencil}});
   return Done{};
 }
 
@@ -168,17 +161,12 @@ Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& d
   state.viewport = {0, 0, inputs.width, inputs.height};
   state.depth.write = true;
   state.multisample = stored > 0;
-  const gl::Sampler texels({GL_NEAREST, GL_NEAREST}, "surveyed depth");
-  texels.bind(0);
-  depth.bind(0);
-  const gl::VertexArray nothing({}, {}, nullptr, "fullscreen");
   for (int sample = 0; sample < samplesOf(counts); ++sample) {
     if (stored > 0) {
       state.sample = sample;
       (*program)->set(GNOMON_SAMPLE, sample);
     }
-    gl::apply(state);
-    gl::drawFullscreen(**program, nothing);
+    gl::drawFullscreen(**program, state, {{0, &depth}});
   }
   return counts;
 }

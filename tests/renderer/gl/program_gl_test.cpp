@@ -73,11 +73,7 @@ void main() { result = float(scale) * OFFSET + values[int(gl_FragCoord.x)] + mat
   const Rect all{0, 0, 3, 1};
   const Texture sums({.format = GL_R32F, .width = all.width, .height = all.height}, "sums");
   const Framebuffer target = *Framebuffer::create({{{.texture = &sums}}, {}}, "sums");
-  PipelineState state;
-  state.framebuffer = target.id();
-  state.viewport = all;
-  apply(state);
-  drawFullscreen(*program, VertexArray({}, {}, nullptr, "nothing"));
+  drawFullscreen(*program, {.framebuffer = target.id(), .viewport = all});
   std::array<float, 3> values{};
   sums.read(0, all, {GL_RED, GL_FLOAT}, std::as_writable_bytes(std::span(values)));
   EXPECT_THAT(values, testing::ElementsAre(120, 121, 122));

@@ -77,19 +77,16 @@ TEST_F(StageClocks, addUpToTheTimeThatPassed) {
 }
 
 /// `times` times some hundred milliseconds of work for a software driver, or one for a GPU.
-void drawSlowly(const Framebuffer& target, const Program& slow, const VertexArray& nothing, int times) {
-  PipelineState state;
-  state.framebuffer = target.id();
-  state.viewport = {0, 0, 256, 256};
-  apply(state);
-  for (int i = 0; i < times; ++i) drawFullscreen(slow, nothing);
+void drawSlowly(const Framebuffer& target, const Program& slow, int times) {
+  const PipelineState state{.framebuffer = target.id(), .viewport = {0, 0, 256, 256}};
+  for (int i = 0; i < times; ++i) drawFullscreen(slow, state);
 }
 
 /// How often it must draw for the device to be busy for 50 ms.
-int timesToBeBusy(const Framebuffer& target, const Program& slow, const VertexArray& nothing) {
+int timesToBeBusy(const Framebuffer& target, const Program& slow) {
   for (int times = 1;; times *= 2) {
     Timer timer = Timer::start();
-    drawSlowly(target, slow, nothing, times);
+    drawSlowly(target, slow, times);
     timer.stop();
     if (timer.gpuMilliseconds().value_or(50) >= 50) return times;
   }
@@ -107,15 +104,14 @@ void main() {
   const Program slow = *Program::create(text, "slow");
   const Texture texture({.width = 256, .height = 256}, "slow");
   const Framebuffer target = *Framebuffer::create({{{.texture = &texture}}, {}}, "slow");
-  const VertexArray nothing({}, {}, nullptr, "nothing");
   std::vector<std::byte> texels(256 * 256 * 4);
   // What the driver does once is no part of it.
-  const int times = timesToBeBusy(target, slow, nothing);
+  const int times = timesToBeBusy(target, slow);
   target.readColor(0, {0, 0, 256, 256}, {GL_RGBA, GL_UNSIGNED_BYTE}, texels);
 
   StageClock clock;
   const auto begin = std::chrono::steady_clock::now();
-  drawSlowly(target, slow, nothing, times);
+  drawSlowly(target, slow, times);
   clock.finishDrawing("draw");
   const double waited = elapsed(begin);
   target.readColor(0, {0, 0, 256, 256}, {GL_RGBA, GL_UNSIGNED_BYTE}, texels);
