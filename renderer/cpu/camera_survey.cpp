@@ -16,8 +16,8 @@ std::vector<RasterDraw> rasterDraws(const FrameScene& scene, DrawUse use, std::s
   std::vector<RasterDraw> draws;
   for (const DrawGroup& group : list.groups) {
     // Where facing and holes don't matter draws share a group, whatever their material.
-    const bool holed = group.material >= 0 &&
-                       scene.scene.materials[static_cast<std::size_t>(group.material)].alphaMode != AlphaMode::opaque;
+    const bool holed =
+        group.material >= 0 && readsMaterial(scene.scene.materials[static_cast<std::size_t>(group.material)], use);
     for (const DrawRange& range : std::span(list.ranges).subspan(group.firstRange, group.rangeCount)) {
       const Instance& instance = scene.view.instances[range.instance];
       const Primitive& primitive = scene.scene.primitives[static_cast<std::size_t>(instance.primitive)];

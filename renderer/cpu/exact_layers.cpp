@@ -70,7 +70,7 @@ std::vector<std::uint8_t> maskCoverage(const CameraRaster& camera, const Survey&
   std::vector<std::uint8_t> slots = survey.visible;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const Material& material = scene.scene.materials[static_cast<std::size_t>(scene.slots[i].material)];
-    if (material.alphaMode == AlphaMode::opaque) slots[i] = 0;
+    if (!hasHoles(material)) slots[i] = 0;
   }
   if (std::none_of(slots.begin(), slots.end(), [](std::uint8_t slot) { return slot != 0; })) return {};
   Coverage coverage(scene.width, showing(slots, surfaces));

@@ -186,8 +186,8 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
 
 shared::MaterialData materialData(const Material& material) {
   shared::MaterialData data{
-      material.baseColorFactor,
-      glm::vec4(material.emissiveFactor, material.alphaMode != AlphaMode::opaque ? material.alphaCutoff : 0.0f),
+      glm::vec4(glm::vec3(material.baseColorFactor), hasHoles(material) ? material.baseColorFactor.a : 1.0f),
+      glm::vec4(material.emissiveFactor, material.cutoff.value_or(0.0f)),
       glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength),
       glm::vec4(0),
       glm::vec4(material.transmission, 0, 0, 0),

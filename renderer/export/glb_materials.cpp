@@ -86,11 +86,14 @@ class MaterialWriter {
     json result = {{"name", source.name},
                    {"doubleSided", source.doubleSided},
                    {"emissiveFactor", {source.emissiveFactor.x, source.emissiveFactor.y, source.emissiveFactor.z}}};
-    if (source.alphaMode != AlphaMode::opaque) {
-      result["alphaMode"] = source.alphaMode == AlphaMode::mask ? "MASK" : "BLEND";
-      if (source.alphaMode == AlphaMode::mask) result["alphaCutoff"] = source.alphaCutoff;
+    glm::vec4 color = source.baseColorFactor;
+    if (source.lightOpacity) {
+      result["alphaMode"] = "BLEND";
+      color.a = *source.lightOpacity * (hasHoles(source) ? color.a : 1.0f);
+    } else if (source.cutoff) {
+      result["alphaMode"] = "MASK";
+      result["alphaCutoff"] = *source.cutoff;
     }
-    const glm::vec4& color = source.baseColorFactor;
     json& surface = result["pbrMetallicRoughness"];
     surface = {{"baseColorFactor", {color.r, color.g, color.b, color.a}},
                {"metallicFactor", source.specularGlossiness ? 0 : source.metallicFactor},

@@ -55,7 +55,7 @@ void addShadowDefines(const ShadowSampling& shadows, std::vector<std::string>& d
 std::vector<std::string> maskDefines(const Material* material) {
   if (material == nullptr) return {};
   std::vector<std::string> defines{"ALPHA_MASK"};
-  if (material->uniformAlpha) return defines;
+  if (!hasHoles(*material)) return defines;
   if (material->hasVertexColors) defines.emplace_back("VERTEX_COLORS");
   if (material->baseColor) {
     defines.emplace_back("BASE_COLOR_TEXTURE");
@@ -73,8 +73,7 @@ gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended) {
   gl::ProgramSource source = depthProgram("shadow_cast.vert", masked);
   if (masked == nullptr) return source;
   source.defines.emplace_back("SEEN_BY_LIGHT");
-  const bool blends = masked->alphaMode == AlphaMode::blend;
-  if (blends && blended == BlendedCasters::dither) source.defines.emplace_back("ALPHA_DITHER");
+  if (masked->lightOpacity && blended == BlendedCasters::dither) source.defines.emplace_back("ALPHA_DITHER");
   return source;
 }
 
@@ -98,7 +97,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   std::vector<std::string> defines;
   std::array<bool, 2> uvs{};
   bool moved = false;
-  const bool masked = material.alphaMode != AlphaMode::opaque && !material.uniformAlpha;
+  const bool masked = hasHoles(material);
   for (std::size_t unit = 0; unit < slots.size(); ++unit) {
     const Slot& slot = slots[unit];
     if (!*slot.use) continue;

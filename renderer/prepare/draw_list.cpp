@@ -22,6 +22,10 @@ struct Run {
   std::uint32_t clusterCount = 0;
 };
 
+bool isCast(DrawUse use) {
+  return use == DrawUse::cast || use == DrawUse::castFromPoint;
+}
+
 /// True where only front faces are drawn.
 bool isCulled(const Primitive& primitive, const Material& material, DrawUse use) {
   switch (use) {
@@ -29,7 +33,7 @@ bool isCulled(const Primitive& primitive, const Material& material, DrawUse use)
     case DrawUse::surface:
       return !material.doubleSided;
     case DrawUse::cast:
-      return primitive.solid && material.alphaMode == AlphaMode::opaque;
+      return primitive.solid && stopsAllLight(material);
     case DrawUse::castFromPoint:
       return false;
   }
@@ -41,7 +45,7 @@ GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const int materialIndex = materialOf(scene, instance);
   const Material& material = scene.materials[static_cast<std::size_t>(materialIndex)];
   GroupKey key;
-  if (use == DrawUse::surface || material.alphaMode != AlphaMode::opaque) key.material = materialIndex;
+  if (use == DrawUse::surface || readsMaterial(material, use)) key.material = materialIndex;
   if (isCulled(primitive, material, use)) {
     const bool mirrored = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0;
     key.facing = mirrored ? Facing::clockwise : Facing::counterClockwise;
@@ -66,6 +70,10 @@ void addRuns(const Scene& scene, const Instance& instance, std::uint32_t index, 
 }
 
 } // namespace
+
+bool readsMaterial(const Material& material, DrawUse use) {
+  return isCast(use) ? !stopsAllLight(material) : hasHoles(material);
+}
 
 DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeometry& geometry, DrawUse use,
                        std::span<const std::uint8_t> keep) {

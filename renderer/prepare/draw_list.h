@@ -11,9 +11,9 @@ namespace gnomon {
 
 /// What a draw list is for: it decides which state and which textures its groups need.
 enum class DrawUse {
-  survey,        ///< culled by facing; textures only for materials with alpha
-  cast,          ///< both faces cast, but of solids only the front ones; textures only for materials with alpha
-  castFromPoint, ///< both faces cast: the light may stand inside a solid; textures only for materials with alpha
+  survey,        ///< culled by facing; textures only for materials with holes
+  cast,          ///< both faces cast, but of solids only the front ones; textures only for materials that light passes
+  castFromPoint, ///< both faces cast: the light may stand inside a solid; textures only for materials that light passes
   surface        ///< culled by facing; a group for each material
 };
 
@@ -32,7 +32,7 @@ enum class Facing { both, counterClockwise, clockwise };
 
 /// Ranges that share state and material.
 struct DrawGroup {
-  int material = -1; ///< -1 = any opaque one: nothing but positions matters
+  int material = -1; ///< -1 = any: nothing but positions matters
   Facing facing = Facing::both;
   bool tangents = false;
   std::size_t firstRange = 0;
@@ -44,6 +44,9 @@ struct DrawList {
   std::vector<DrawGroup> groups;
   std::uint64_t triangles = 0;
 };
+
+/// Whether more than positions matters where triangles of a material are drawn for depths.
+bool readsMaterial(const Material& material, DrawUse use);
 
 /// The draws for every slot that `keep` marks (one byte a slot); neighbouring clusters become one draw. Pure.
 DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeometry& geometry, DrawUse use,

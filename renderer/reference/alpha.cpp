@@ -12,7 +12,7 @@ glm::dvec2 moved(const glm::dvec2& uv, const std::optional<TextureTransform>& tr
   return transform ? glm::dmat2(transform->axes) * uv + glm::dvec2(transform->offset) : uv;
 }
 
-/// A triangle of a material with alpha, and its corners.
+/// A triangle of a material with holes, and its corners.
 struct Holed {
   const Material& material;
   const VertexAttributes &a, &b, &c;
@@ -23,7 +23,7 @@ struct Holed {
   /// What the texture's alpha is multiplied by, anywhere in the triangle's plane.
   double factor(const Barycentric& at) const {
     const double own = material.baseColorFactor.a;
-    if (material.uniformAlpha || !material.hasVertexColors) return own;
+    if (!material.hasVertexColors) return own;
     return own * at.mix<double>(a.color.a, b.color.a, c.color.a) / 65535.0;
   }
 
@@ -54,7 +54,7 @@ double alphaAt(const TracedScene::Tree& tree, std::uint32_t instance, std::uint3
 bool isFilled(const TracedScene::Tree& tree, std::uint32_t instance, std::uint32_t triangle, const SeenPlace& place) {
   const Holed holed(tree, instance, triangle);
   const double factor = holed.factor(place.at);
-  const double cutoff = holed.material.alphaCutoff;
+  const double cutoff = *holed.material.cutoff;
   const TextureUse* use = holed.texture();
   if (use == nullptr) return factor >= cutoff;
   const glm::dvec2 uv = holed.uv(place.at);

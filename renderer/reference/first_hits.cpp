@@ -59,7 +59,7 @@ bool isSeen(const Eye& eye, const PlacedTriangle& hit, const glm::vec2& place, c
   if (eye.visible[hit.instance] == 0) return false;
   const Material& material = eye.tree.material(hit.instance);
   if (!material.doubleSided && away() != (eye.tree.mirrored[hit.instance] != 0)) return false;
-  if (material.alphaMode == AlphaMode::opaque) return true;
+  if (!hasHoles(material)) return true;
   return isFilled(eye.tree, hit.instance, hit.triangle, seenPlace(eye, hit, place, at()));
 }
 

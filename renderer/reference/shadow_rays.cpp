@@ -94,9 +94,11 @@ double opacityOf(const Casters& casters, const RayToLight& ray, const Candidate&
 
 double opacityAt(const Casters& casters, const PlacedTriangle& caster, const Barycentric& at) {
   const Material& material = casters.tree.material(caster.instance);
-  const double alpha = alphaAt(casters.tree, caster.instance, caster.triangle, at);
-  const bool dithers = material.alphaMode == AlphaMode::blend && casters.blended == BlendedCasters::dither;
-  return dithers ? std::clamp(alpha, 0.0, 1.0) : (alpha >= material.alphaCutoff ? 1 : 0);
+  const double alpha = hasHoles(material) ? alphaAt(casters.tree, caster.instance, caster.triangle, at) : 1.0;
+  if (material.lightOpacity && casters.blended == BlendedCasters::dither) {
+    return std::clamp(alpha * *material.lightOpacity, 0.0, 1.0);
+  }
+  return alpha >= material.cutoff.value_or(0) ? 1 : 0;
 }
 
 Receiver receiverAt(const TracedScene::Tree& tree, const glm::dvec3& eye, const SurfacePoint& point) {

@@ -16,7 +16,7 @@ constexpr std::size_t kPoints = 512; ///< that one core has in hand at a time, a
 constexpr std::size_t kRays = 8192;  ///< that it traces for them, about
 
 Opacity opacityOf(const TracedScene::Tree& tree, std::uint32_t instance) {
-  return tree.material(instance).alphaMode == AlphaMode::opaque ? Opacity::full : Opacity::byAlpha;
+  return stopsAllLight(tree.material(instance)) ? Opacity::full : Opacity::byAlpha;
 }
 
 std::vector<Opacity> opacities(const TraceInput& input, const Light& light) {
@@ -30,7 +30,7 @@ std::vector<Opacity> opacities(const TraceInput& input, const Light& light) {
 bool letThrough(const TracedScene::Tree& tree, std::span<const Opacity> opacity, BlendedCasters blended) {
   if (blended != BlendedCasters::dither) return false;
   for (std::uint32_t i = 0; i < opacity.size(); ++i) {
-    if (opacity[i] == Opacity::byAlpha && tree.material(i).alphaMode == AlphaMode::blend) return true;
+    if (opacity[i] == Opacity::byAlpha && tree.material(i).lightOpacity) return true;
   }
   return false;
 }

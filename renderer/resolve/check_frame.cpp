@@ -60,14 +60,14 @@ std::string told(const std::string& name, int index) {
   return name.empty() ? std::to_string(index) : "\"" + name + "\"";
 }
 
-/// The first caster of a light that has holes; null = there is none.
-const Instance* firstWithHoles(const Scene& scene, const ResolvedFrame& frame, const Light& light) {
+/// The first caster of a light that lets some of it through; null = there is none.
+const Instance* firstThatLightPasses(const Scene& scene, const ResolvedFrame& frame, const Light& light) {
   const std::vector<Instance>& instances = scene.scenes[static_cast<std::size_t>(frame.scene)].instances;
   const auto found = std::find_if(instances.begin(), instances.end(), [&](const Instance& instance) {
     const NodeSwitches node =
         frame.nodes.empty() ? NodeSwitches{} : frame.nodes[static_cast<std::size_t>(instance.node)];
     return castsFrom(light, node) &&
-           scene.materials[static_cast<std::size_t>(materialOf(scene, instance))].alphaMode != AlphaMode::opaque;
+           !stopsAllLight(scene.materials[static_cast<std::size_t>(materialOf(scene, instance))]);
   });
   return found == instances.end() ? nullptr : &*found;
 }
@@ -81,7 +81,7 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
     const Light& settled = (*frame.spec.lights)[static_cast<std::size_t>(index)];
     const std::string pointer = shadowPlace(asked, index) + "/technique";
     if (!traitsOf(settled.shadow->technique).needsOpaqueCasters || pointer == last) continue;
-    const Instance* instance = firstWithHoles(scene, frame, settled);
+    const Instance* instance = firstThatLightPasses(scene, frame, settled);
     if (instance == nullptr) continue;
     const int material = materialOf(scene, *instance);
     problems.add({ProblemCode::unsupportedFeature, pointer,

@@ -52,7 +52,6 @@ struct Primitive {
   std::string content{}; ///< SHA-256 of what its vertices and indices were made from; empty = not known
 };
 
-enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 
 /// Which texels are mixed where a texture is shown smaller than it is: those of one level, and which levels.
@@ -116,19 +115,29 @@ struct Material {
   float roughnessFactor = 1;
   float normalScale = 1;
   float occlusionStrength = 1;
-  float alphaCutoff = 0.5f; ///< mask, and blend where it is drawn like one: below it, nothing is there
-  AlphaMode alphaMode = AlphaMode::opaque;
+  std::optional<float> cutoff{};       ///< where alpha is below it, nothing is there; nothing = it has no holes
+  std::optional<float> lightOpacity{}; ///< share of the light that a dithered caster stops, times alpha where it has
+                                       ///< holes; nothing = all of it
+  float transmission = 0;              ///< share of the light that the eye sees pass where it is not reflected
   bool doubleSided = false;
   bool hasVertexColors = false;
-  bool unlit = false;        ///< it shows its base color, whatever the light
-  float transmission = 0;    ///< share of the light that passes where it is not reflected
-  bool uniformAlpha = false; ///< its alpha is the factor's alone: opaque but for its transmission
+  bool unlit = false;                                     ///< it shows its base color, whatever the light
   std::optional<SpecularGlossiness> specularGlossiness{}; ///< instead of metal and roughness
   /// metallicRoughness: with `specularGlossiness` its texture, sRGB specular and alpha glossiness.
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
 
   bool operator==(const Material&) const = default;
 };
+
+/// Whether there are places where nothing is, for the eye and for light.
+inline bool hasHoles(const Material& material) {
+  return material.cutoff.has_value();
+}
+
+/// Whether no light passes, however its caster is drawn.
+inline bool stopsAllLight(const Material& material) {
+  return !material.cutoff && !material.lightOpacity;
+}
 
 /// Every place in a material (const or not) where a texture may stand, in the order in which shaders number them.
 template <class SomeMaterial>

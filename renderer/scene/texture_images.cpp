@@ -15,8 +15,7 @@ std::vector<T> eachOnce(std::vector<T> values) {
 } // namespace
 
 bool readsAlpha(const Material& material) {
-  return material.alphaMode != AlphaMode::opaque && !material.uniformAlpha && material.baseColor &&
-         material.baseColor->image >= 0;
+  return hasHoles(material) && material.baseColor && material.baseColor->image >= 0;
 }
 
 std::vector<int> alphaImages(const Scene& scene, const SceneView& view) {

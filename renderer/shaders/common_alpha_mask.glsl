@@ -77,6 +77,9 @@ void discardMasked() {
 #ifdef BASE_COLOR_TEXTURE
   alpha *= MASK_TEXEL.a;
 #endif
+#ifdef ALPHA_DITHER
+  alpha *= 1.0 - material.passing.x;
+#endif
   if (alpha < leastAlpha(material)) discard;
 #endif
 }

@@ -38,7 +38,7 @@ HWY_INLINE ReadAlpha alphaOf(const FrameScene& scene, const Textures& textures, 
   const Material& material = scene.scene.materials[static_cast<std::size_t>(slot.material)];
   const shared::MaterialData& data = scene.materials[static_cast<std::size_t>(slot.material)];
   ReadAlpha alpha{Float(data.baseColorFactor.w)};
-  if (material.uniformAlpha || (!material.hasVertexColors && !material.baseColor)) return alpha;
+  if (!hasHoles(material) || (!material.hasVertexColors && !material.baseColor)) return alpha;
   const Corners corners(scene, slot, triangle);
   const glm::mat4 columns = glm::transpose(clipFromLocal);
   const glm::vec4 rows[3] = {columns[0], columns[1], columns[3]};

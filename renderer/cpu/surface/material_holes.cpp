@@ -12,8 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Of the places that are `asked` for those where alpha is at least `least`, a number a place.
-unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, const float* least, unsigned asked) {
+/// Of the places that are `asked` for those where alpha times `opacity` is at least `least`, a number a place.
+unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, float opacity, const float* least,
+                      unsigned asked) {
   const std::uint32_t first = input.scene.geometry.firstSlot[places.instance] * kClusterTriangles;
   const Mask where = maskOf(asked);
   // The others have a triangle of the instance, too.
@@ -26,7 +27,7 @@ unsigned filledPlaces(const HolesInput& input, const HoledPlaces& places, const 
   const Slot& slot = input.scene.slots[input.scene.geometry.firstSlot[places.instance]];
   const MaskCoverage* mask =
       input.masks != nullptr ? (*input.masks)[static_cast<std::size_t>(slot.material)].get() : nullptr;
-  unsigned filled = asked & bitsOf(alpha.factor * alpha.texel >= load(least));
+  unsigned filled = asked & bitsOf(alpha.factor * opacity * alpha.texel >= load(least));
   if (mask == nullptr) return filled;
   const unsigned smaller = asked & bitsOf(alpha.halvings > 0.0f);
   if (smaller == 0) return filled;
@@ -82,18 +83,20 @@ std::uint32_t surfaceHash(const FrameScene& scene, std::uint32_t number) {
 
 unsigned MaterialHoles::filled(const HoledPlaces& places, unsigned asked) const {
   const FrameScene& scene = input_.scene;
-  const auto material = static_cast<std::size_t>(scene.slots[scene.geometry.firstSlot[places.instance]].material);
+  const auto number = static_cast<std::size_t>(scene.slots[scene.geometry.firstSlot[places.instance]].material);
+  const Material& material = scene.scene.materials[number];
+  const bool dithers = input_.dithers && material.lightOpacity;
   alignas(64) float least[HoledPlaces::kAsked] = {};
-  if (input_.dithers && scene.scene.materials[material].alphaMode == AlphaMode::blend) {
+  if (dithers) {
     for (unsigned left = asked; left != 0; left &= left - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(left));
       const glm::uvec2 texel(input_.corner + glm::ivec2(places.x[i], places.y[i]));
       least[i] = patternAt(texel, surfaceHash(scene, places.number[i]), (places.counterClockwise >> i & 1u) != 0);
     }
   } else {
-    std::fill(std::begin(least), std::end(least), scene.materials[material].emissiveFactor.w);
+    std::fill(std::begin(least), std::end(least), material.cutoff.value_or(0.0f));
   }
-  return GNOMON_KERNEL(filledPlaces)(input_, places, least, asked);
+  return GNOMON_KERNEL(filledPlaces)(input_, places, dithers ? *material.lightOpacity : 1.0f, least, asked);
 }
 
 } // namespace gnomon::cpu

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> maskedSlots(const PassInputs& inputs, const Survey& su
   std::vector<std::uint8_t> slots = survey.visible;
   for (std::size_t i = 0; i < inputs.view.instances.size(); ++i) {
     const int material = materialOf(inputs.scene, inputs.view.instances[i]);
-    if (inputs.scene.materials[static_cast<std::size_t>(material)].alphaMode != AlphaMode::opaque) continue;
+    if (hasHoles(inputs.scene.materials[static_cast<std::size_t>(material)])) continue;
     std::fill(slots.begin() + inputs.geometry.firstSlot[i], slots.begin() + inputs.geometry.firstSlot[i + 1], 0);
   }
   return slots;

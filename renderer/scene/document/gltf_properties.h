@@ -12,6 +12,8 @@
 /// Materials, cameras and lights as a glTF file states them: the parts of gltf::Model that animations may change.
 namespace gnomon::gltf {
 
+enum class AlphaMode { opaque, mask, blend };
+
 /// KHR_texture_transform.
 struct TextureTransform {
   glm::dvec2 offset{0};

@@ -26,9 +26,9 @@ gltf::SpecularGlossiness readSpecularGlossiness(const json& extension) {
           textureInfoAt(extension, "diffuseTexture"), textureInfoAt(extension, "specularGlossinessTexture")};
 }
 
-AlphaMode alphaModeOf(const std::string& name) {
-  if (name == "MASK") return AlphaMode::mask;
-  return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+gltf::AlphaMode alphaModeOf(const std::string& name) {
+  if (name == "MASK") return gltf::AlphaMode::mask;
+  return name == "BLEND" ? gltf::AlphaMode::blend : gltf::AlphaMode::opaque;
 }
 
 Wrap wrapOf(int mode) {

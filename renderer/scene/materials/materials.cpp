@@ -11,18 +11,17 @@ namespace gnomon {
 namespace {
 
 void readAlpha(const gltf::Material& source, const std::string& name, Material& material, Findings& findings) {
-  material.alphaMode = source.alphaMode;
-  if (source.alphaMode == AlphaMode::mask) {
-    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
-  } else if (source.alphaMode == AlphaMode::blend) {
-    material.alphaCutoff = 0.5f;
+  if (source.alphaMode == gltf::AlphaMode::mask) {
+    material.cutoff = static_cast<float>(source.alphaCutoff);
+  } else if (source.alphaMode == gltf::AlphaMode::blend) {
+    material.cutoff = 0.5f;
+    material.lightOpacity = 1;
     findings.warn("The " + name + " uses alpha blending; it is drawn opaque where its alpha is at least 0.5.");
   }
 }
 
-/// After the alpha mode has been read.
-void readTransmission(const gltf::Transmission& extension, const std::string& name, Material& material,
-                      Findings& findings) {
+void readTransmission(const gltf::Material& source, const std::string& name, Material& material, Findings& findings) {
+  const gltf::Transmission& extension = *source.transmission;
   material.transmission = static_cast<float>(extension.factor);
   if (!(material.transmission > 0)) return;
   findings.warn("The " + name +
@@ -30,16 +29,7 @@ void readTransmission(const gltf::Transmission& extension, const std::string& na
   if (extension.texture) {
     findings.warn("The transmission texture of the " + name + " is ignored.");
   }
-  const float left = 1 - material.transmission;
-  if (material.alphaMode == AlphaMode::opaque) {
-    material.alphaMode = AlphaMode::blend;
-    material.uniformAlpha = true;
-    material.baseColorFactor.a = left;
-    material.alphaCutoff = 0;
-  } else if (material.alphaMode == AlphaMode::blend) {
-    material.baseColorFactor.a *= left;
-    material.alphaCutoff *= left;
-  }
+  if (source.alphaMode != gltf::AlphaMode::mask) material.lightOpacity = 1 - material.transmission;
 }
 
 /// All but the textures. `name` says in warnings which material it is.
@@ -61,7 +51,7 @@ Material readFactors(const gltf::Material& source, const std::string& name, Find
         SpecularGlossiness{glm::vec3(glossy->specularFactor), static_cast<float>(glossy->glossinessFactor)};
   }
   material.unlit = source.unlit;
-  if (source.transmission) readTransmission(*source.transmission, name, material, findings);
+  if (source.transmission) readTransmission(source, name, material, findings);
   return material;
 }
 

@@ -29,7 +29,7 @@ TEST(ShaderVariants, OnlyTheCoordinatesThatATextureReadsAreInterpolated) {
 
 TEST(ShaderVariants, G2_AMaskIsCutForEyeAndLight) {
   Material material;
-  material.alphaMode = AlphaMode::mask;
+  material.cutoff = 0.5f;
   material.baseColor = TextureUse{0};
   for (const auto& defines : {surfaceProgram(material, {}).defines, maskDefines(&material)}) {
     EXPECT_THAT(defines, Contains("ALPHA_MASK"));
@@ -40,12 +40,13 @@ TEST(ShaderVariants, G2_AMaskIsCutForEyeAndLight) {
 
 TEST(ShaderVariants, X34_OnlyTheShadowOfABlendedMaterialIsDithered) {
   Material material;
-  material.alphaMode = AlphaMode::blend;
+  material.cutoff = 0.5f;
+  material.lightOpacity = 1.0f;
   EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Contains("ALPHA_DITHER"));
   EXPECT_THAT(castProgram(&material, BlendedCasters::threshold).defines, Not(Contains("ALPHA_DITHER")));
   EXPECT_THAT(depthProgram("survey.vert", &material).defines, Not(Contains("ALPHA_DITHER")));
   EXPECT_THAT(surfaceProgram(material, {}).defines, Contains("ALPHA_MASK"));
-  material.alphaMode = AlphaMode::mask;
+  material.lightOpacity.reset();
   EXPECT_THAT(castProgram(&material, BlendedCasters::dither).defines, Not(Contains("ALPHA_DITHER")));
   EXPECT_TRUE(castProgram(nullptr, BlendedCasters::dither).defines.empty());
 }
@@ -100,14 +101,12 @@ TEST(ShaderVariants, EachFeatureOfAMaterialIsADefineOfItsOwn) {
   gains(glossy, "SPECULAR_GLOSSINESS");
   Material glass;
   glass.transmission = 0.5f;
-  glass.alphaMode = AlphaMode::blend;
-  glass.uniformAlpha = true;
   gains(glass, "TRANSMISSION");
 }
 
 TEST(ShaderVariants, OnlyATransformedTextureIsMoved) {
   Material material;
-  material.alphaMode = AlphaMode::mask;
+  material.cutoff = 0.5f;
   material.baseColor = TextureUse{0};
   material.normal = TextureUse{1};
   material.normal->transform.emplace();
@@ -122,8 +121,7 @@ TEST(ShaderVariants, OnlyATransformedTextureIsMoved) {
 TEST(ShaderVariants, G2_TheAlphaOfGlassIsReadFromNoTexture) {
   Material glass;
   glass.baseColor = TextureUse{0};
-  glass.alphaMode = AlphaMode::blend;
-  glass.uniformAlpha = true;
+  glass.lightOpacity = 0.5f;
   EXPECT_THAT(castProgram(&glass, BlendedCasters::dither).defines,
               ::testing::ElementsAre("ALPHA_MASK", "SEEN_BY_LIGHT", "ALPHA_DITHER"));
 }
@@ -159,7 +157,7 @@ TEST(ShaderVariants, OnlyViewsOfOneLightReadWhichItIs) {
 
 TEST(ShaderVariants, CastersAreNamedOnlyWhereTheirNodesAreAskedFor) {
   Material masked;
-  masked.alphaMode = AlphaMode::mask;
+  masked.cutoff = 0.5f;
   EXPECT_TRUE(castProgram(nullptr, BlendedCasters::dither).fragment.empty());
   EXPECT_THAT(castProgram(&masked, BlendedCasters::dither).defines, Not(Contains("CASTER_NODE")));
   EXPECT_THAT(casterNodeProgram(nullptr, BlendedCasters::dither).defines, Contains("CASTER_NODE"));

@@ -35,7 +35,7 @@ void addPrimitive(Placed& placed, int material, std::uint32_t fullClusters, cons
 Placed threePrimitives() {
   Placed placed;
   placed.scene.materials.resize(3);
-  placed.scene.materials[1].alphaMode = AlphaMode::mask;
+  placed.scene.materials[1].cutoff = 0.5f;
   placed.scene.materials[2].doubleSided = true;
   addPrimitive(placed, 0, 4, glm::dmat4(1));
   addPrimitive(placed, 1, 2, glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)));

@@ -118,10 +118,10 @@ TEST(TextureImages, HolesAreReadOfMasksAndBlendsOnly) {
   Scene scene;
   scene.materials.resize(4);
   for (int i = 0; i < 4; ++i) scene.materials[static_cast<std::size_t>(i)].baseColor = TextureUse{.image = i};
-  scene.materials[1].alphaMode = AlphaMode::mask;
-  scene.materials[2].alphaMode = AlphaMode::blend;
-  scene.materials[3].alphaMode = AlphaMode::blend;
-  scene.materials[3].uniformAlpha = true;
+  scene.materials[1].cutoff = 0.5f;
+  scene.materials[2].cutoff = 0.5f;
+  scene.materials[2].lightOpacity = 1.0f;
+  scene.materials[3].lightOpacity = 0.5f;
   scene.primitives.resize(1);
   SceneView view;
   for (const int material : {2, 0, 1, 3, 2}) view.instances.emplace_back().material = material;

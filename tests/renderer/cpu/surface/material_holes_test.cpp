@@ -50,7 +50,7 @@ HoledPlaces block(const MadeScene& made, std::uint32_t number, bool counterClock
 
 std::vector<Material> maskedMaterials() {
   std::vector<Material> materials(3);
-  for (Material& material : materials) material.alphaMode = AlphaMode::mask;
+  for (Material& material : materials) material.cutoff = 0.5f;
   materials[0].baseColor = TextureUse{};
   materials[0].baseColor->image = 0;
   materials[0].baseColor->texCoord = 1;
@@ -58,7 +58,7 @@ std::vector<Material> maskedMaterials() {
   materials[1] = materials[0];
   materials[1].baseColor->transform.reset();
   materials[1].baseColorFactor.a = 0.75f;
-  materials[1].alphaCutoff = 0.25f;
+  materials[1].cutoff = 0.25f;
   materials[1].hasVertexColors = true;
   materials[2].hasVertexColors = true;
   return materials;
@@ -84,7 +84,7 @@ TEST(CpuMaterialHoles, LeaveOutWhatTheCutoffDoes) {
         const unsigned found = holes.filled(placed(made, seen.triangle, pixel, filled % 16), bit);
         ASSERT_TRUE(found == 0 || found == bit) << "no place that isn't asked for";
         const Place place(made, seen);
-        const double over = place.alpha() - static_cast<double>(place.material().alphaCutoff);
+        const double over = place.alpha() - static_cast<double>(*place.material().cutoff);
         off += std::abs(over) > 0.01 && (found != 0) != (over > 0) ? 1 : 0;
         filled += found != 0 ? 1 : 0;
       }
@@ -98,9 +98,9 @@ TEST(CpuMaterialHoles, LeaveOutWhatTheCutoffDoes) {
 TEST(CpuMaterialHoles, DitherAsManyTexelsAsAlphaSays) {
   std::vector<Material> materials(16);
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    materials[i].alphaMode = AlphaMode::blend;
-    materials[i].uniformAlpha = true;
-    materials[i].baseColorFactor.a = static_cast<float>(i) / 16.0f;
+    materials[i].cutoff = 0.5f;
+    materials[i].lightOpacity = i % 2 == 0 ? 1.0f : 0.5f;
+    materials[i].baseColorFactor.a = static_cast<float>(i) / 16.0f / *materials[i].lightOpacity;
   }
   MadeScene made(true);
   made.place(materials);
@@ -123,7 +123,7 @@ TEST(CpuMaterialHoles, DitherAsManyTexelsAsAlphaSays) {
       EXPECT_EQ(std::popcount(back), static_cast<int>(instance));
       // The pattern lies still in the atlas: column 1 from the first corner is column 0 from the next.
       EXPECT_EQ(front >> 1 & 0x7777u, beside.filled(counterClockwise, 0xffff) & 0x7777u);
-      EXPECT_EQ(masked.filled(counterClockwise, 0xffff), instance >= 8 ? 0xffffu : 0u);
+      EXPECT_EQ(masked.filled(counterClockwise, 0xffff), materials[instance].baseColorFactor.a >= 0.5f ? 0xffffu : 0u);
     }
     const std::uint32_t half = made.frameScene().geometry.firstSlot[8] * kClusterTriangles + 7;
     EXPECT_NE(dithered.filled(block(made, half, true), 0xffff), dithered.filled(block(made, half, false), 0xffff));

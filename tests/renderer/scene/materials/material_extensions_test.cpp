@@ -61,15 +61,14 @@ TEST(MaterialExtensions, G2_GlassCastsByWhatItKeepsAndIsWarnedOf) {
   json glass = {{"name", "Glass"}, {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}};
   Scene scene = load(withMaterial(glass));
   EXPECT_EQ(onlyMaterial(scene).transmission, 0.75f);
-  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::blend);
-  EXPECT_TRUE(onlyMaterial(scene).uniformAlpha);
-  EXPECT_EQ(onlyMaterial(scene).baseColorFactor.a, 0.25f);
-  EXPECT_EQ(onlyMaterial(scene).alphaCutoff, 0);
+  EXPECT_EQ(onlyMaterial(scene).lightOpacity, 0.25f);
+  EXPECT_FALSE(hasHoles(onlyMaterial(scene)));
+  EXPECT_EQ(onlyMaterial(scene).baseColorFactor.a, 1);
   EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\" is transmissive")));
 
   glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0;
   scene = load(withMaterial(glass));
-  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::opaque);
+  EXPECT_TRUE(stopsAllLight(onlyMaterial(scene)));
 
   glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 2;
   EXPECT_THAT(problemsOf(withMaterial(glass)),

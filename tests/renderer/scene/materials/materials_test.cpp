@@ -52,7 +52,7 @@ TEST(Materials, DefaultsAreThoseOfGltf) {
   EXPECT_EQ(material.metallicFactor, 1);
   EXPECT_EQ(material.roughnessFactor, 1);
   EXPECT_EQ(material.emissiveFactor, glm::vec3(0));
-  EXPECT_EQ(material.alphaMode, AlphaMode::opaque);
+  EXPECT_TRUE(stopsAllLight(material));
   EXPECT_FALSE(material.doubleSided);
   EXPECT_FALSE(material.baseColor);
 }
@@ -71,8 +71,8 @@ TEST(Materials, ReadsEveryFactor) {
   EXPECT_EQ(material.emissiveFactor, glm::vec3(1, 2, 3));
   EXPECT_EQ(material.metallicFactor, 0.5f);
   EXPECT_EQ(material.roughnessFactor, 0.75f);
-  EXPECT_EQ(material.alphaMode, AlphaMode::mask);
-  EXPECT_EQ(material.alphaCutoff, 0.25f);
+  EXPECT_EQ(material.cutoff, 0.25f);
+  EXPECT_FALSE(material.lightOpacity);
   EXPECT_TRUE(material.doubleSided);
 }
 
@@ -81,8 +81,8 @@ TEST(Materials, G2_BlendIsKeptAndWarnedOf) {
   builder.add("materials", {{"name", "Glass"}, {"alphaMode", "BLEND"}, {"alphaCutoff", 0.1}});
   builder.json["meshes"][0]["primitives"][0]["material"] = 0;
   const Scene scene = load(builder);
-  EXPECT_EQ(onlyMaterial(scene).alphaMode, AlphaMode::blend);
-  EXPECT_EQ(onlyMaterial(scene).alphaCutoff, 0.5f);
+  EXPECT_EQ(onlyMaterial(scene).lightOpacity, 1);
+  EXPECT_EQ(onlyMaterial(scene).cutoff, 0.5f);
   EXPECT_THAT(scene.summary.warnings, ElementsAre(HasSubstr("\"Glass\"")));
 }
 
