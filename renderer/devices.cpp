@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "protocol/spec/shadow_volume_places.h"
+#include "protocol/spec/enum_rows.h"
 #include "renderer/cpu/cpu_device.h"
 #include "renderer/passes/gl_device.h"
 #include "renderer/render.h"
@@ -33,59 +33,49 @@ Result<DeviceChoice> askedDevice(const BackendOptions& backend) {
 
 } // namespace
 
-struct Devices::Choice {
-  DeviceChoice device = DeviceChoice::auto_;
-  GlOptions gl;
-  CpuOptions cpu;
-};
-
-Devices::Devices(std::unique_ptr<Device> only) : only_(std::move(only)), standard_(only_.get()) {}
+Devices::Devices(std::unique_ptr<Device> only) : standard_(std::move(only)) {}
 
 Result<Devices> Devices::open(const RendererOptions& options) {
-  Devices devices;
   const auto asked = askedDevice(options.backend);
   if (!asked) return asked.problems();
-  const Choice choice{
-      *asked, {options.backend, options.gpuSceneBytes, options.tileCacheBytes}, {options.tileCacheBytes}};
-  devices.choice_ = std::make_shared<const Choice>(choice);
-  if (choice.device == DeviceChoice::gl) {
-    auto made = createGlDevice(choice.gl);
-    if (!made) return made.problems();
-    devices.gl_ = std::move(*made);
-  } else if (choice.device == DeviceChoice::auto_ && mayHaveGpu()) {
-    GlOptions onGpu = choice.gl;
-    onGpu.backend.requireGpu = true;
-    if (auto made = createGlDevice(onGpu)) devices.gl_ = std::move(*made);
+  std::unique_ptr<Device> device;
+  const bool isOpen = *asked == DeviceChoice::auto_;
+  if (*asked == DeviceChoice::gl || (isOpen && mayHaveGpu())) {
+    BackendOptions backend = options.backend;
+    backend.requireGpu = backend.requireGpu || isOpen;
+    auto made = createGlDevice({backend, options.gpuSceneBytes, options.tileCacheBytes});
+    if (!made && !isOpen) return made.problems();
+    if (made) device = *std::move(made);
   }
-  if (!devices.gl_) {
-    auto made = createCpuDevice(choice.cpu);
+  const bool mayOpenProcessor = isOpen && device != nullptr;
+  if (!device) {
+    auto made = createCpuDevice({options.tileCacheBytes});
     if (!made) return made.problems();
-    devices.cpu_ = std::move(*made);
+    device = *std::move(made);
   }
-  devices.standard_ = devices.gl_ ? devices.gl_.get() : devices.cpu_.get();
+  Devices devices(std::move(device));
+  devices.isOnly_ = false;
+  devices.mayOpenProcessor_ = mayOpenProcessor;
+  devices.tileCacheBytes_ = options.tileCacheBytes;
   return devices;
 }
 
 Result<Device*> Devices::of(const FrameSpec& spec) {
-  if (only_) return only_.get();
-  DeviceChoice wanted = spec.device;
-  if (wanted == DeviceChoice::auto_) {
-    const bool needsGl = choice_->device == DeviceChoice::auto_ && !placesOfShadowVolumes(spec).empty();
-    if (!needsGl) return standard_;
-    wanted = DeviceChoice::gl;
+  const DeviceChoice drawing = standard_->info().device;
+  if (isOnly_ || spec.device == DeviceChoice::auto_ || spec.device == drawing) return standard_.get();
+  if (!mayOpenProcessor_) {
+    const std::string used(spell(drawing));
+    const std::string named(spell(spec.device));
+    return Problem{ProblemCode::unsupportedFeature, "/device",
+                   "The device " + used + " draws here: start with --device " + named + " for the other.",
+                   "auto or " + used, named};
   }
-  const char* name = wanted == DeviceChoice::cpu ? "cpu" : "gl";
-  if (choice_->device != DeviceChoice::auto_ && choice_->device != wanted) {
-    return Problem{ProblemCode::unsupportedFeature, "/device", "This renderer was started for one device only.",
-                   wanted == DeviceChoice::cpu ? "gl or auto" : "cpu or auto", name};
-  }
-  std::unique_ptr<Device>& device = wanted == DeviceChoice::cpu ? cpu_ : gl_;
-  if (!device) {
-    auto made = wanted == DeviceChoice::cpu ? createCpuDevice(choice_->cpu) : createGlDevice(choice_->gl);
+  if (!processor_) {
+    auto made = createCpuDevice({tileCacheBytes_});
     if (!made) return made.problems();
-    device = std::move(*made);
+    processor_ = *std::move(made);
   }
-  return device.get();
+  return processor_.get();
 }
 
 } // namespace gnomon

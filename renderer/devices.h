@@ -10,28 +10,26 @@ namespace gnomon {
 
 struct RendererOptions;
 
-/// The devices that one renderer may draw by, each opened when it is first needed. Used on one thread.
+/// The devices of one renderer. Used on one thread.
 class Devices {
  public:
-  /// Opens the one that draws what leaves the choice open: OpenGL where the options ask for it or there is a GPU, else
-  /// the processor, for which no display is opened and no driver loaded.
+  /// Opens the one that draws: OpenGL where the options ask for it, or leave the choice open and there is a GPU; else
+  /// the processor, for which no display is opened and no driver loaded, then or later.
   static Result<Devices> open(const RendererOptions& options);
-  /// Only that one.
+  /// Only that one, whatever specs name.
   explicit Devices(std::unique_ptr<Device> only);
 
   const Device& standard() const { return *standard_; }
 
-  /// The device that a spec, as it was asked for, is drawn by: the one that it names, or else the standard one, but for
-  /// what only OpenGL draws. A problem at /device where the options leave it out, or it can't be opened.
+  /// The device that draws a spec: the processor where that is named and the choice was left open, else the standard
+  /// one. A problem at /device where the spec names another, or it can't be opened.
   Result<Device*> of(const FrameSpec& spec);
 
  private:
-  struct Choice; ///< what the options leave
-  Devices() = default;
-
-  std::shared_ptr<const Choice> choice_;
-  std::unique_ptr<Device> cpu_, gl_, only_;
-  Device* standard_ = nullptr;
+  std::unique_ptr<Device> standard_, processor_;
+  bool isOnly_ = true;
+  bool mayOpenProcessor_ = false;
+  std::size_t tileCacheBytes_ = 0; ///< of the processor, where that is opened later
 };
 
 } // namespace gnomon

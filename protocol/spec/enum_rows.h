@@ -21,7 +21,7 @@ inline constexpr std::array kSpellings<ShadowTechnique>{
     spelling(ShadowTechnique::shadowMap, "shadowMap",
              "depths seen from the light, filtered: fast, and as exact as its texels are fine"),
     spelling(ShadowTechnique::shadowVolume, "shadowVolume",
-             "stencilled shadow volumes: exact and sharp, drawn by the device"),
+             "stencilled shadow volumes: exact and sharp, drawn by the device `gl` alone"),
     spelling(ShadowTechnique::rayTraced, "rayTraced",
              "rays for every pixel: exact, and soft where the light has a size"),
     spelling(

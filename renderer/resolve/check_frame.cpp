@@ -34,8 +34,9 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
   if (device.device == DeviceChoice::cpu) {
     for (const std::string& place : placesOfShadowVolumes(spec)) {
       problems.add({ProblemCode::unsupportedFeature, place,
-                    "The device `cpu` draws no shadow volumes, which are OpenGL's.",
-                    "another technique, or a server that draws by OpenGL", "shadowVolume"});
+                    "The device cpu draws no shadow volumes (technique shadowVolume): choose another technique, as "
+                    "rayTraced, or draw by OpenGL, started with --device gl.",
+                    "shadowMap, rayTraced or lightMap", "shadowVolume"});
     }
   }
   if (problems.empty()) return Done{};

@@ -48,17 +48,14 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
   for (std::size_t i = 0; i < dispatcher->options_.workers; ++i) {
     dispatcher->slots_.push_back(std::make_unique<Slot>());
   }
-  if (mayStartDriverWorker(dispatcher->options_.each.device)) {
-    dispatcher->slots_.push_back(std::make_unique<Slot>());
-    dispatcher->slots_.back()->loadsDrivers = true;
-  }
-  for (const auto& slot : dispatcher->slots_) {
-    if (!slot->loadsDrivers && !dispatcher->startSlot(*slot)) return noThreadFor("a worker");
-  }
+  const auto& startThread = dispatcher->options_.startThread;
   try {
-    dispatcher->watching_ = dispatcher->options_.startThread([&dispatcher = *dispatcher] { dispatcher.watch(); });
+    for (const auto& slot : dispatcher->slots_) {
+      slot->thread = startThread([&dispatcher = *dispatcher, &slot = *slot] { dispatcher.keepWorking(slot); });
+    }
+    dispatcher->watching_ = startThread([&dispatcher = *dispatcher] { dispatcher.watch(); });
   } catch (const std::system_error&) {
-    return noThreadFor("watching the workers");
+    return noThreadFor("a worker");
   }
   Lock lock(dispatcher->mutex_);
   const auto anyReady = [&] {
@@ -68,7 +65,7 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
   // All of them, so that scenes go to the workers where they stay.
   const auto allReady = [&] {
     return std::all_of(dispatcher->slots_.begin(), dispatcher->slots_.end(),
-                       [](const auto& slot) { return slot->ready || slot->loadsDrivers; });
+                       [](const auto& slot) { return slot->ready; });
   };
   dispatcher->changed_.wait(lock, [&] { return allReady() || dispatcher->refusal_; });
   if (!anyReady()) {
@@ -77,16 +74,6 @@ Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options)
     return problems;
   }
   return dispatcher;
-}
-
-/// False where the system has no thread for it.
-bool Dispatcher::startSlot(Slot& slot) {
-  try {
-    slot.thread = options_.startThread([this, &slot] { keepWorking(slot); });
-    return true;
-  } catch (const std::system_error&) {
-    return false;
-  }
 }
 
 Dispatcher::~Dispatcher() {
@@ -195,8 +182,7 @@ DispatcherState Dispatcher::state() const {
   const Lock lock(mutex_);
   DispatcherState state{.workers = options_.workers, .waiting = waiting_.size(), .limit = options_.queueLimit};
   for (const auto& slot : slots_) {
-    state.ready += slot->ready && !slot->loadsDrivers ? 1 : 0;
-    state.isDriverReady = state.isDriverReady || (slot->ready && slot->loadsDrivers);
+    state.ready += slot->ready ? 1 : 0;
     state.running += slot->running.size();
     for (const auto& [number, ticket] : slot->running)
       ++state.runningByLane[static_cast<std::size_t>(ticket->task.lane)];

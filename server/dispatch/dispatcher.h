@@ -42,11 +42,6 @@ struct DispatcherOptions {
   };
 };
 
-/// Whether a server whose workers draw with this may start a further one, for requests that ask for OpenGL.
-inline bool mayStartDriverWorker(DeviceChoice device) {
-  return device == DeviceChoice::auto_;
-}
-
 /// Why a worker had to be replaced.
 enum class WorkerEnd {
   crash,       ///< it ended by itself, or sent what is no message
@@ -59,9 +54,8 @@ inline constexpr std::array<std::string_view, kWorkerEnds> kWorkerEndNames{"cras
 
 /// What the workers are doing.
 struct DispatcherState {
-  std::size_t workers = 0;                               ///< that are to run, without the one for OpenGL
+  std::size_t workers = 0;                               ///< that are to run
   std::size_t ready = 0;                                 ///< of these
-  bool isDriverReady = false;                            ///< the one for OpenGL, which draws for no other request
   std::size_t waiting = 0;                               ///< tasks
   std::size_t running = 0;                               ///< tasks
   std::size_t limit = 0;                                 ///< tasks that may wait
@@ -72,10 +66,9 @@ struct DispatcherState {
   std::uint64_t reusedImages = 0; ///< alike
 };
 
-/// Workers, and the queue before them. Where the processor draws, but requests may ask for OpenGL, those go to a
-/// further worker, which is started for the first of them: only that one may open files, as drivers do. A worker that
-/// ends, falls silent, does not stop, or takes too much memory is replaced; each task that it had is tried once more,
-/// with no other beside it, and if that ends its worker too, it is a problem. Any thread.
+/// Workers, and the queue before them. A worker that ends, falls silent, does not stop, or takes too much memory is
+/// replaced; each task that it had is tried once more, with no other beside it, and if that ends its worker too, it is
+/// a problem. Any thread.
 class Dispatcher {
  public:
   /// Returns once all workers are ready, or one of them can't start: with those that can, or why none can.
@@ -85,8 +78,8 @@ class Dispatcher {
   Dispatcher& operator=(const Dispatcher&) = delete;
 
   /// Waits for the task's result. Problems beside the worker's own: busy where too many tasks wait,
-  /// deadlineExceeded, unavailable where `gone` became true, the server ends or has no thread for the task's worker,
-  /// internal where workers ended over it or it could not be sent to one.
+  /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it or
+  /// it could not be sent to one.
   /// `gone` is asked some fifty times a second, on the calling thread, as are `events`.
   TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
@@ -133,8 +126,6 @@ class Dispatcher {
   void placeWaiting();
   void refuse(const TicketPtr& ticket, TaskResult result);
   void refuseOne();
-  bool suits(const Slot& slot, bool needsDriver) const;
-  bool startSlot(Slot& slot);
   bool send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
   void callOff(const TicketPtr& ticket);

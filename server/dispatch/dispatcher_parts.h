@@ -39,7 +39,6 @@ struct Dispatcher::Ticket {
 
 /// One of the places for workers, and the one that is there.
 struct Dispatcher::Slot {
-  bool loadsDrivers = false;              ///< for tasks that need one; its first worker starts with the first of them
   std::shared_ptr<WorkerProcess> process; ///< null between two
   bool ready = false;
   Clock::time_point heard; ///< its last sign of life, or its start

@@ -10,14 +10,8 @@
 #include "protocol/base/elapsed.h"
 #include "server/dispatch/dispatcher_parts.h"
 #include "server/system/log.h"
-#include "server/system/no_thread.h"
 
 namespace gnomon {
-
-bool Dispatcher::suits(const Slot& slot, bool needsDriver) const {
-  const bool apart = info_.device == DeviceChoice::cpu && options_.each.device == DeviceChoice::auto_;
-  return slot.loadsDrivers == (needsDriver && apart);
-}
 
 /// Ends a task that no worker has. How long it was there says nothing about how long tasks take.
 void Dispatcher::refuse(const TicketPtr& ticket, TaskResult result) {
@@ -31,21 +25,10 @@ void Dispatcher::refuse(const TicketPtr& ticket, TaskResult result) {
 /// progress, then who came first.
 void Dispatcher::placeWaiting() {
   std::map<std::string, int> inProgress;
+  std::vector<WorkerView> workers;
   for (const auto& slot : slots_) {
+    workers.push_back(slot->view());
     for (const auto& [number, ticket] : slot->running) ++inProgress[ticket->task.client];
-  }
-  // Those for tasks that need no driver, and those for tasks that do.
-  struct Group {
-    std::vector<std::size_t> slots;
-    std::vector<WorkerView> workers;
-  };
-  std::array<Group, 2> groups;
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    for (const bool needsDriver : {false, true}) {
-      if (!suits(*slots_[i], needsDriver)) continue;
-      groups[needsDriver].slots.push_back(i);
-      groups[needsDriver].workers.push_back(slots_[i]->view());
-    }
   }
   std::vector<TicketPtr> order(waiting_.begin(), waiting_.end());
   while (!order.empty()) {
@@ -55,11 +38,6 @@ void Dispatcher::placeWaiting() {
     });
     const TicketPtr ticket = *next;
     order.erase(next);
-    auto& [slots, workers] = groups[ticket->task.needsDriver];
-    if (slots.size() == 1 && !slots_[slots[0]]->thread.joinable() && !startSlot(*slots_[slots[0]])) {
-      refuse(ticket, failed(noThreadFor("the worker that draws with OpenGL")));
-      continue;
-    }
     std::optional<std::size_t> place;
     if (ticket->mustBeAlone()) {
       const auto lone = lonePlaceFor(ticket->task, workers);
@@ -70,13 +48,13 @@ void Dispatcher::placeWaiting() {
     }
     if (!place) continue;
     try {
-      if (!send(ticket, slots[*place])) {
+      if (!send(ticket, *place)) {
         workers[*place].ready = false;
         continue;
       }
     } catch (const std::exception& error) { // as where there is no memory; this task alone has no turn then
       logEvent("worker", error.what());
-      slots_[slots[*place]]->running.erase(ticket->task.order.number);
+      slots_[*place]->running.erase(ticket->task.order.number);
       refuse(ticket, failed({ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}));
       continue;
     }

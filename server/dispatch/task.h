@@ -25,7 +25,7 @@ enum class Lane {
 inline constexpr std::size_t kLanes = 4;
 inline constexpr std::array<std::string_view, kLanes> kLaneNames{"interactive", "batch", "load", "sequence"};
 
-/// Work for whichever worker suits it.
+/// Work for a worker.
 struct Task {
   Order order; ///< its number and times are filled in when it is sent
   std::shared_ptr<const FileDescriptor> bundle;
@@ -35,7 +35,6 @@ struct Task {
       allowed{}; ///< from the request's first byte to the deadline, for the problem that quotes it
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
-  bool needsDriver = false;   ///< OpenGL draws some of it, whatever the server draws with
   std::string client;         ///< who asks: tasks of different clients take turns
   std::string kin{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };

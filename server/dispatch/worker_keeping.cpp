@@ -75,9 +75,7 @@ bool Dispatcher::startWorker(Slot& slot) {
   slot.fault = {};
   slot.isHandled = false;
   if (ending_) slot.process->kill();
-  WorkerOptions start = options_.each;
-  start.loadsDrivers = slot.loadsDrivers;
-  return slot.process->channel().send(textOf(ToWorker{.start = start}));
+  return slot.process->channel().send(textOf(ToWorker{.start = options_.each}));
 }
 
 /// Until the worker's end of the channel is closed.

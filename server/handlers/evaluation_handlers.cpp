@@ -51,8 +51,6 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   Task task = taskFor(call, OrderKind::evaluation, id, *std::move(bundle), std::move(body), services.evaluationTimeout);
   task.lane = Lane::batch;
   task.order.mediaType = kForms[*form];
-  task.needsDriver = std::any_of(evaluation->variants.begin(), evaluation->variants.end(),
-                                 [](const Variant& variant) { return needsDriver(variant.spec); });
   const EventedWork work = [&services, permit, task = std::move(task)](const std::function<bool()>& gone,
                                                                        const TaskEvents& events) {
     TaskResult result = runTask(services, task, gone, events);

@@ -162,7 +162,6 @@ HttpReply postPlan(Services& services, RouteCall call) {
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   Task task = taskFor(call, OrderKind::plan, id, *std::move(bundle), jsonText(toJson(*spec)), services.requestTimeout);
-  task.needsDriver = needsDriver(*spec);
   return replyOf(runTask(services, std::move(task), call.clientGone), call.request.id);
 }
 

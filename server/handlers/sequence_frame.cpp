@@ -21,7 +21,6 @@ Task taskOfFrame(Services& services, const FrameToDraw& call) {
   Task task = call.task;
   task.request = jsonText(toJson(spec));
   task.allowed = services.requestTimeout;
-  task.needsDriver = needsDriver(spec);
   task.holdsRenderer = services.workers.milliseconds(spec, call.counts) > kLongFrame;
   return task;
 }

@@ -11,7 +11,6 @@
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/spec/shadow_volume_places.h"
 #include "server/handlers/event_reply.h"
 #include "server/system/memory_file.h"
 
@@ -66,10 +65,6 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
   return task;
 }
 
-bool needsDriver(const FrameSpec& spec) {
-  return spec.device == DeviceChoice::gl || (spec.device != DeviceChoice::cpu && !placesOfShadowVolumes(spec).empty());
-}
-
 std::string secondsText(double milliseconds) {
   return std::to_string(static_cast<std::int64_t>(std::ceil(milliseconds / 1000))) + " seconds";
 }
@@ -90,7 +85,6 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
   const bool isLong = hasTarget || estimate > kLongFrame;
   task.lane = isLong ? Lane::batch : Lane::interactive;
   task.holdsRenderer = isLong && !hasTarget;
-  task.needsDriver = needsDriver(spec);
   return task;
 }
 

@@ -26,9 +26,6 @@ bool prefersAsync(const HttpRequest& request);
 Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredBundle bundle, std::string request,
              std::chrono::milliseconds timeout);
 
-/// Whether OpenGL draws it, whatever the server draws with: since it says so, or since nothing else can.
-bool needsDriver(const FrameSpec& spec);
-
 /// An estimate of a frame's time counts work that it may be spared, and may be wrong by as much as this.
 inline constexpr double kDoubt = 4;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "server/dispatch/dispatcher.h"
 #include "server/process/store_opening.h"
 
 namespace gnomon {
@@ -34,10 +33,6 @@ std::size_t usualWorkers(int cores, std::uint64_t memoryBytes) {
   constexpr std::uint64_t kBytes = 400u << 20;
   const auto wanted = static_cast<std::uint64_t>(std::max(2, cores / kCores));
   return static_cast<std::size_t>(std::clamp<std::uint64_t>(memoryBytes / kBytes, 1, wanted));
-}
-
-std::size_t mostWorkers(const ServeOptions& options, std::size_t workers) {
-  return workers + (mayStartDriverWorker(options.device) ? 1 : 0);
 }
 
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes) {

@@ -14,9 +14,6 @@ ServeOptions fittedTo(std::uint64_t memoryBytes);
 /// them, and at least two, so that a long frame leaves one to short ones; but one where memory is short.
 std::size_t usualWorkers(int cores, std::uint64_t memoryBytes);
 
-/// How many may run at once where `workers` are to: one more where requests may ask for OpenGL besides.
-std::size_t mostWorkers(const ServeOptions& options, std::size_t workers);
-
 /// What one of `workers` may hold before it is replaced: an equal part of what the process that listens leaves.
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes);
 

@@ -145,17 +145,11 @@ std::size_t workersOf(const ServeOptions& options) {
   return options.workers > 0 ? options.workers : usualWorkers(coresToUse(), memoryLimit());
 }
 
-/// With the one for OpenGL, whether or not it runs.
-std::size_t mostWorkersOf(const ServeOptions& options) {
-  return mostWorkers(options, workersOf(options));
-}
-
 std::size_t jobFramesOf(const ServeOptions& options) {
   return options.jobFrames > 0 ? options.jobFrames : workersOf(options);
 }
 
-/// What all workers may keep together is shared out. The one that starts only when OpenGL is asked for has as much as
-/// one of them, on top.
+/// What all workers may keep together is shared out.
 DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr<StoredLightMaps> lightMaps,
                                     metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
@@ -218,7 +212,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
   if (!trusted) return failed(trusted.problems());
   const auto descriptors =
       planDescriptors(raiseDescriptorLimit(), {.httpThreads = options.httpThreads,
-                                               .workers = mostWorkersOf(options),
+                                               .workers = workersOf(options),
                                                .jobFrames = jobFramesOf(options),
                                                .keepsScenesInMemory = keepsScenesInMemory(options)});
   if (!descriptors) return failed(descriptors.problems());

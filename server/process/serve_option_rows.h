@@ -90,8 +90,9 @@ inline constexpr std::array kRendererRows{
            "Started as `PROGRAM worker` for each worker, e.g. a script that chooses a GPU or sets limits and then "
            "executes gnomon with the same arguments"),
     option("device", &ServeOptions::device, {},
-           "What draws; `auto` = OpenGL on a GPU, or else the processor, and requests may name another. `cpu` opens no "
-           "display and loads no driver"),
+           "What draws; `auto` = `gl` on a GPU, where requests may still name `cpu`, or else `cpu`, which opens no "
+           "display "
+           "and loads no driver. `gl` without a GPU is Mesa's software"),
     option("backend", &ServeOptions::backend, {},
            "OpenGL's context; `auto` = EGL, or else OSMesa. Another means `--device gl`, and is refused beside "
            "`--device cpu`"),

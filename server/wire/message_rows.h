@@ -40,8 +40,7 @@ inline constexpr auto kRows<WorkerOptions> =
          field("frameMemoryBytes", &WorkerOptions::frameMemoryBytes, {.says = "Pictures.", .unit = "bytes"}),
          field("maxSceneBytes", &WorkerOptions::maxSceneBytes, {.says = "The largest bundle.", .unit = "bytes"}),
          field("memoryBytes", &WorkerOptions::memoryBytes, {.says = "The whole process.", .unit = "bytes"}),
-         field("keepsLightMaps", &WorkerOptions::keepsLightMaps, {.says = "The front stores light maps."}),
-         field("loadsDrivers", &WorkerOptions::loadsDrivers, {.says = "OpenGL may be wanted."}));
+         field("keepsLightMaps", &WorkerOptions::keepsLightMaps, {.says = "The front stores light maps."}));
 static_assert(kRowsAreComplete<WorkerOptions>);
 
 template <>

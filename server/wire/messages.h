@@ -32,7 +32,6 @@ struct WorkerOptions {
   std::uint64_t memoryBytes = 0; ///< of the whole process; 0 = as much as there is
 
   bool keepsLightMaps = false; ///< the front stores light maps
-  bool loadsDrivers = false;   ///< OpenGL may be wanted, though the processor draws: files stay open to its drivers
 };
 
 /// The media type of results that are told as events.

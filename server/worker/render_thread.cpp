@@ -5,7 +5,6 @@
 #include <future>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/spec/shadow_volume_places.h"
 #include "server/worker/first_frame.h"
 
 namespace gnomon {
@@ -100,8 +99,7 @@ Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions&
 }
 
 Result<RendererInfo> RenderThread::infoFor(const FrameSpec& spec, const GoOn& goOn) {
-  const bool isOpen = spec.device == DeviceChoice::auto_ && placesOfShadowVolumes(spec).empty();
-  if (isOpen || spec.device == info_.device) return info_;
+  if (spec.device == DeviceChoice::auto_ || spec.device == info_.device) return info_;
   return ask<RendererInfo>(goOn, [&] { return renderer_->infoFor(spec); });
 }
 

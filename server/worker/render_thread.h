@@ -32,7 +32,7 @@ class RenderThread {
 
   const RendererInfo& info() const { return info_; }
 
-  /// Renderer::infoFor; waits for its turn only where that may be another device than `info` tells of. A problem of
+  /// Renderer::infoFor; waits for its turn only where that may be another device than that of `info`. A problem of
   /// code unavailable where it was asked to stop before.
   Result<RendererInfo> infoFor(const FrameSpec& spec, const GoOn& goOn);
 

@@ -139,7 +139,7 @@ class Worker {
                                                             {},
                                                             {},
                                                             options.keepsLightMaps ? lightMaps_ : nullptr});
-    const bool drivers = options.loadsDrivers || renderer_->info().device == DeviceChoice::gl;
+    const bool drivers = renderer_->info().device == DeviceChoice::gl;
     if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
       say({.refusal = Refusal{sealed.problems()}});
       end(1);

@@ -2,10 +2,11 @@
 
 import json
 import struct
+import time
 import unittest
 from urllib.parse import urlencode
 
-from shipped_server import SCENES, SMALL, ServerTest
+from shipped_server import SCENES, SMALL, TIMEOUT, ServerTest
 
 JSON = {"Content-Type": "application/json"}
 CLOUD = {"file": "none.npy", "box": {"min": [-1, 0, -1], "max": [1, 1, 1]}, "transferFunction": [{"value": 0}]}
@@ -68,6 +69,19 @@ class Refusing(ServerTest):
     def post(self, route, spec):
         return self.server.ask("POST", f"/v1/scenes/{self.scene}/{route}", json.dumps(spec), JSON)
 
+    def job(self, spec):
+        """A job of one frame, once it has ended."""
+        headers = JSON | {"Prefer": "respond-async"}
+        reply = self.server.ask("POST", f"/v1/scenes/{self.scene}/sequences", json.dumps({"spec": spec, "frames": [{}]}),
+                                headers)
+        self.assertEqual(reply.status, 202, reply.body)
+        end = time.monotonic() + TIMEOUT
+        while time.monotonic() < end:
+            job = self.server.get(reply.headers["Location"] + "?wait=5").json()
+            if job["state"] not in ("queued", "running"):
+                return job
+        raise AssertionError("the job does not end")
+
     def replies(self, spec):
         """(HEAD, GET, POST frames, POST plan)"""
         path = f"/v1/scenes/{self.scene}/frame?" + urlencode({key: json.dumps(value) for key, value in spec.items()})
@@ -97,7 +111,6 @@ class Refusals(Refusing):
         self.assert_drawn(SMALL)
         self.assert_drawn(SMALL | {"views": ["motion"], "motionFrom": {"animation": {"index": 0, "timeSeconds": 1}}})
         self.assert_drawn(SMALL | {"shadow": {"technique": "lightMap", "lightMap": {"size": 64}}})
-        self.assert_drawn(SMALL | {"shadow": {"technique": "shadowVolume"}})  # by OpenGL, whatever draws the others
 
     def test_sequences_and_bakes_refuse_it_too(self):
         pose = {"animation": {"index": 0, "timeSeconds": 1}}
@@ -114,13 +127,36 @@ class Refusals(Refusing):
         self.assertEqual(self.server.ask("HEAD", path).status, 200)
 
 
+VOLUMES = SMALL | {"shadow": {"technique": "shadowVolume"}}
+
+
+class WithOpenGl(Refusing):
+    flags = ("--device", "gl", "--workers", "1")
+
+    def test_what_only_opengl_draws_is_drawn(self):
+        self.assert_drawn(SMALL | {"device": "gl"})
+        self.assert_drawn(VOLUMES)
+        self.assertEqual(self.job(VOLUMES)["state"], "done")
+
+    def test_the_processor_is_refused(self):
+        self.assert_refused(SMALL | {"device": "cpu"}, ["/device"])
+
+
 class WithoutOpenGl(Refusing):
-    flags = ("--device", "cpu")
+    flags = ("--device", "cpu", "--workers", "1")
 
     def test_what_only_opengl_draws_is_refused(self):
         self.assert_refused(SMALL | {"device": "gl"}, ["/device"])
-        self.assert_refused(SMALL | {"shadow": {"technique": "shadowVolume"}, "debug": {"light": 9}},
-                            ["/debug/light", "/shadow/technique"])
+        self.assert_refused(VOLUMES | {"debug": {"light": 9}}, ["/debug/light", "/shadow/technique"])
+
+    def test_the_refusal_names_the_technique_the_device_and_a_way_out(self):
+        (problem,) = self.post("frames", VOLUMES).json()["problems"]
+        for word in ("shadowVolume", "device cpu", "--device gl", "rayTraced"):
+            self.assertIn(word, problem["detail"])
+        ended = self.job(VOLUMES)
+        self.assertEqual(ended["state"], "failed")
+        self.assertEqual([(each["pointer"], each["detail"]) for each in ended["problems"]],
+                         [("/frames/0/shadow/technique", problem["detail"])])
 
 
 class LittleMemory(Refusing):

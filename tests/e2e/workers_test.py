@@ -154,19 +154,14 @@ class SealedWorkers(unittest.TestCase):
                 names = {leads_to(entry).split(":")[0] for entry in Path(f"/proc/{pid}/fd").iterdir()}
                 self.assertFalse({name for name in names if name.endswith((".bundle", ".map"))}, "work is done")
 
-    def test_opengl_has_a_worker_of_its_own(self):
-        with Server("--workers", "1") as server:
+    def test_workers_that_draw_by_opengl_are_sealed_too(self):
+        with Server("--workers", "1", "--device", "gl") as server:
             scene = server.upload("box_on_plane")
-            if server.get("/v1/capabilities").json()["renderer"]["device"] != "cpu":
-                self.skipTest("OpenGL draws everything here")
-            (first,) = workers_of(server)
-            reply = server.frame(scene, SMALL | {"device": "gl"}, "application/json")
-            self.assertEqual(reply.status, 200, reply.body)
-            self.assertEqual(len(workers_of(server)), 2)
-            for pid in workers_of(server):
-                self.assert_sealed(pid)
-            self.assertNotIn("swrast_dri", Path(f"/proc/{first}/maps").read_text())
-            self.assertEqual(server.frame(scene, SMALL).status, 200)
+            for technique in ("shadowMap", "shadowVolume"):
+                reply = server.frame(scene, SMALL | {"shadow": {"technique": technique}}, "application/json")
+                self.assertEqual(reply.status, 200, reply.body)
+            (only,) = workers_of(server)
+            self.assert_sealed(only)
 
 
 class FaultyWorkers(ServerTest):

@@ -27,10 +27,11 @@ std::string specOn(const char* device, const char* target, View view = View::col
 
 /// Drawn by the device that the spec names.
 Result<Frame> rendered(const ScenePtr& scene, const std::string& spec) {
-  static Renderer renderer = *Renderer::create(RendererOptions{});
+  static Renderer cpu = *Renderer::create({.backend = {.device = DeviceChoice::cpu}});
+  static Renderer gl = *Renderer::create({.backend = {.device = DeviceChoice::gl}});
   const auto decoded = decodeFrameSpec(spec);
   if (!decoded) return decoded.problems();
-  return renderer.render(scene, *decoded);
+  return (decoded->device == DeviceChoice::cpu ? cpu : gl).render(scene, *decoded);
 }
 
 constexpr const char* kDown = "[0,0,0]";

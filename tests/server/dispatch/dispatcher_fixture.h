@@ -19,11 +19,10 @@ inline const std::function<bool()> kStays = [] { return false; };
 /// Real workers, behind relays that make them go wrong on request (faulty_worker.cpp).
 class DispatcherTest : public ::testing::Test {
  protected:
-  std::unique_ptr<Dispatcher> start(std::size_t workers, DispatcherOptions options = {},
-                                    DeviceChoice device = DeviceChoice::cpu) {
+  std::unique_ptr<Dispatcher> start(std::size_t workers, DispatcherOptions options = {}) {
     if (options.program == DispatcherOptions().program) options.program = GNOMON_FAULTY_WORKER;
     options.workers = workers;
-    options.each.device = device;
+    options.each.device = DeviceChoice::cpu;
     auto started = Dispatcher::start(options);
     EXPECT_TRUE(started);
     return started ? *std::move(started) : nullptr;

@@ -29,34 +29,6 @@ class BrokenLightMaps : public StoredLightMaps {
   void cleanUp() override {}
 };
 
-TEST_F(DispatcherTest, WithoutAThreadForTheWorkerOfDriversItsTasksAreProblemsAndOthersGoOn) {
-  std::atomic<bool> hasThreads = true;
-  std::atomic<int> asked = 0;
-  DispatcherOptions options;
-  options.startThread = [&](std::function<void()> work) {
-    ++asked;
-    if (!hasThreads) throw std::system_error(EAGAIN, std::generic_category());
-    return std::thread(std::move(work));
-  };
-  const auto dispatcher = start(1, options, DeviceChoice::auto_);
-  ASSERT_TRUE(dispatcher);
-  if (dispatcher->info().device != DeviceChoice::cpu) GTEST_SKIP() << "The only worker has a driver here.";
-  hasThreads = false;
-  Task drawn = frame();
-  drawn.needsDriver = true;
-  for (int i = 0; i < 2; ++i) {
-    const int before = asked;
-    EXPECT_EQ(problemOf(dispatcher->run(drawn, kStays)), "unavailable");
-    EXPECT_EQ(asked, before + 1);
-    EXPECT_EQ(dispatcher->state().waiting, 0u);
-    EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "") << "its end places what waits";
-  }
-  hasThreads = true;
-  const int before = asked;
-  for (int i = 0; i < 2; ++i) dispatcher->run(drawn, [] { return true; });
-  EXPECT_EQ(asked, before + 1) << "the next task starts it, once";
-}
-
 TEST_F(DispatcherTest, ATaskThatCannotBeSentIsAProblemAndOthersGoOn) {
   std::atomic<bool> throws = true;
   const auto dispatcher = start(1, {.waited = [&](Lane, double) {

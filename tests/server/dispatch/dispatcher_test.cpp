@@ -29,24 +29,6 @@ TEST_F(DispatcherTest, DrawsFrames) {
   EXPECT_EQ(result.outcome.stages.front().stage, "queue");
 }
 
-TEST_F(DispatcherTest, TheWorkerForOpenGlIsCountedApart) {
-  DispatcherOptions options;
-  options.program = GNOMON_FAULTY_WORKER;
-  options.each.device = DeviceChoice::auto_;
-  const auto started = Dispatcher::start(options);
-  ASSERT_TRUE(started);
-  Dispatcher& dispatcher = **started;
-  if (dispatcher.info().device != DeviceChoice::cpu) GTEST_SKIP() << "OpenGL draws everything here";
-  EXPECT_EQ(dispatcher.state().ready, 1u);
-  EXPECT_FALSE(dispatcher.state().isDriverReady);
-  Task task = frame();
-  task.needsDriver = true;
-  ASSERT_EQ(problemOf(dispatcher.run(task, kStays)), "");
-  EXPECT_TRUE(dispatcher.state().isDriverReady);
-  EXPECT_EQ(dispatcher.state().ready, 1u) << "it draws nothing for those who ask for no OpenGL";
-  EXPECT_EQ(dispatcher.state().workers, 1u);
-}
-
 TEST_F(DispatcherTest, WhatEndsItsWorkerTwiceIsAProblemAndHarmsNobodyElse) {
   const auto dispatcher = start(2);
   for (const char* fault : {"fault-abort", "fault-garbage"}) {

@@ -39,16 +39,6 @@ TEST(MemoryPlan, WorkersAndTheProcessThatListensFitTogether) {
   }
 }
 
-TEST(MemoryPlan, AWorkerForOpenGlComesOnTop) {
-  ServeOptions options = fittedTo(4 * kGiB);
-  options.device = DeviceChoice::auto_;
-  EXPECT_EQ(mostWorkers(options, 2), 3u);
-  for (const DeviceChoice only : {DeviceChoice::cpu, DeviceChoice::gl}) {
-    options.device = only;
-    EXPECT_EQ(mostWorkers(options, 2), 2u) << "requests can't ask for another device";
-  }
-}
-
 TEST(MemoryPlan, WorkersFollowCoresAndMemory) {
   EXPECT_EQ(usualWorkers(1, 16 * kGiB), 2u);
   EXPECT_EQ(usualWorkers(16, 16 * kGiB), 4u);
