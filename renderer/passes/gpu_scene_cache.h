@@ -4,7 +4,7 @@
 
 #include "protocol/base/lru.h"
 #include "renderer/passes/gpu_scene.h"
-#include "renderer/scene/mesh_edges.h"
+#include "renderer/passes/stencil/stencil_outlines.h"
 
 namespace gnomon {
 

@@ -10,8 +10,8 @@
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
+#include "renderer/passes/stencil/stencil_pass.h"
 #include "renderer/passes/views/shown_triangles.h"
-#include "renderer/passes/views/volume_pass.h"
 #include "renderer/techniques/baked_shadow.h"
 #include "renderer/techniques/traced_shadow.h"
 
@@ -20,16 +20,16 @@ namespace gnomon {
 namespace {
 
 /// Draws the next light's layer by shadow volumes; `counts` is made for the first of them.
-Status volumeShadow(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces, const Light& light,
-                    std::optional<VolumeCounts>& counts, ExactShadows& shadows) {
+Status stencilShadow(const PassInputs& inputs, const Shading& shading, const Surfaces& surfaces, const Light& light,
+                     std::optional<StencilCounts>& counts, ExactShadows& shadows) {
   if (!counts) {
-    auto made = volumeCounts(inputs, depthOf(surfaces, shading.survey));
+    auto made = stencilCounts(inputs, depthOf(surfaces, shading.survey));
     if (!made) return made.problems();
     counts = std::move(*made);
     shadows.countBytes = counts->depthStencil.bytes();
   }
   const auto volumes =
-      drawVolumes(inputs, *counts, light, shadows.layers.texture, static_cast<int>(shadows.lights.size()));
+      drawStencil(inputs, *counts, light, shadows.layers.texture, static_cast<int>(shadows.lights.size()));
   if (!volumes) return volumes.problems();
   shadows.triangles += volumes->triangles;
   shadows.drawCalls += volumes->drawCalls;
@@ -91,7 +91,7 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
   if (!layers) return layers.problems();
   ExactShadows shadows{std::move(*layers), {}, gl::Timer::start()};
   std::unique_ptr<ShownPicture> picture;
-  std::optional<VolumeCounts> counts;
+  std::optional<StencilCounts> counts;
   for (const int light : layered) {
     const auto start = std::chrono::steady_clock::now();
     LayerFacts facts{light};
@@ -105,7 +105,7 @@ Result<ExactShadows> exactShadows(const PassInputs& inputs, const Shading& shadi
       const TracedShadow found = shadowOf(work, *picture->points, light);
       writeVisibility(shadows.layers, static_cast<int>(shadows.lights.size()), found.values);
       facts.tracedPixels = found.tracedPixels;
-    } else if (const Status drawn = volumeShadow(inputs, shading, surfaces, source, counts, shadows); !drawn) {
+    } else if (const Status drawn = stencilShadow(inputs, shading, surfaces, source, counts, shadows); !drawn) {
       return drawn.problems();
     }
     facts.cpuMilliseconds = millisecondsSince(start);

@@ -1,10 +1,11 @@
+#include "renderer/passes/stencil/stencil_outlines.h"
+
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <map>
 #include <rapidcheck.h>
 
-#include "renderer/scene/mesh_edges.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

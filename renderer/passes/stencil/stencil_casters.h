@@ -4,23 +4,23 @@
 #include <vector>
 
 #include "renderer/core/camera_view.h"
+#include "renderer/passes/stencil/stencil_outlines.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/scene/mesh_edges.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
 
 /// Which triangles of a connected piece throw its shadow.
-enum class VolumeCaps {
+enum class StencilCaps {
   turnedAway, ///< of a solid, those that face away from the light: no lit surface touches the volume
   turnedTo,   ///< of a solid, those that face the light: its inside is in shadow too, if the light stands outside
   all         ///< of anything else
 };
 
-struct VolumeCaster {
-  std::uint32_t instance = 0;   ///< index into SceneView::instances
-  std::vector<VolumeCaps> caps; ///< of a solid that is not flattened, one a piece (EdgeMesh::pieces); else one for all
+struct StencilCaster {
+  std::uint32_t instance = 0;    ///< index into SceneView::instances
+  std::vector<StencilCaps> caps; ///< of a solid that is not flattened, one a piece (EdgeMesh::pieces); else one for all
 };
 
 /// What throws a shadow of `light` into the view. The inside of a solid counts where the camera may see it: where the
@@ -28,8 +28,8 @@ struct VolumeCaster {
 /// may stand in a street, and the light in one of its houses, all of them one primitive. Where light and camera may
 /// both be inside of a piece, all of its triangles throw. `edges`: one a primitive. `nodes`: one a node of the file;
 /// empty = every node has the defaults. Pure.
-std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
-                                        const CameraView& camera, const Light& light, std::span<const EdgeMesh> edges,
-                                        std::span<const NodeSwitches> nodes);
+std::vector<StencilCaster> stencilCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
+                                          const CameraView& camera, const Light& light, std::span<const EdgeMesh> edges,
+                                          std::span<const NodeSwitches> nodes);
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-#include "renderer/prepare/volume_casters.h"
+#include "renderer/passes/stencil/stencil_casters.h"
 
 #include <algorithm>
 #include <optional>
@@ -67,29 +67,29 @@ Aabb widened(const Aabb& box) {
 
 /// One a piece of a solid. `nearest`: where the camera may look into it; absent = everywhere. `light`: relative to the
 /// eye.
-std::vector<VolumeCaps> capsOfPieces(const EdgeMesh& mesh, const glm::dmat4& relativeFromLocal,
-                                     const std::optional<Aabb>& nearest, const glm::dvec4& light) {
-  std::vector<VolumeCaps> caps(mesh.pieces.size(), VolumeCaps::turnedAway);
+std::vector<StencilCaps> capsOfPieces(const EdgeMesh& mesh, const glm::dmat4& relativeFromLocal,
+                                      const std::optional<Aabb>& nearest, const glm::dvec4& light) {
+  std::vector<StencilCaps> caps(mesh.pieces.size(), StencilCaps::turnedAway);
   for (std::size_t i = 0; i < caps.size(); ++i) {
     const Aabb box = widened(transformed(relativeFromLocal, mesh.pieces[i]));
     if (nearest && !overlap(box, *nearest)) continue;
     const bool lightMayBeInside = light.w > 0 && squaredDistance(box, glm::dvec3(light)) == 0;
-    caps[i] = lightMayBeInside ? VolumeCaps::all : VolumeCaps::turnedTo;
+    caps[i] = lightMayBeInside ? StencilCaps::all : StencilCaps::turnedTo;
   }
   return caps;
 }
 
 } // namespace
 
-std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
-                                        const CameraView& camera, const Light& light, std::span<const EdgeMesh> edges,
-                                        std::span<const NodeSwitches> nodes) {
+std::vector<StencilCaster> stencilCasters(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,
+                                          const CameraView& camera, const Light& light, std::span<const EdgeMesh> edges,
+                                          std::span<const NodeSwitches> nodes) {
   const glm::dvec4 place = placeOf(light);
   const glm::dvec4 relativeLight = place - place.w * glm::dvec4(camera.eye, 0.0);
   const Frustum frustum = frustumOf(camera);
   const Aabb nearest = nearBox(camera);
 
-  std::vector<VolumeCaster> casters;
+  std::vector<StencilCaster> casters;
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const Instance& instance = view.instances[i];
     const NodeSwitches node = switchesOf(nodes, instance.node);
@@ -98,7 +98,7 @@ std::vector<VolumeCaster> volumeCasters(const Scene& scene, const SceneView& vie
     if (place.w > 0 && light.range && squaredDistance(box, glm::dvec3(relativeLight)) > *light.range * *light.range) {
       continue;
     }
-    VolumeCaster caster{static_cast<std::uint32_t>(i), {VolumeCaps::all}};
+    StencilCaster caster{static_cast<std::uint32_t>(i), {StencilCaps::all}};
     const auto primitive = static_cast<std::size_t>(instance.primitive);
     if (scene.primitives[primitive].solid && !isFlat(instance.worldFromLocal)) {
       caster.caps = capsOfPieces(edges[primitive], geometry.instances[i].relativeFromLocal,

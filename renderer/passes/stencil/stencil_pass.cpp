@@ -1,4 +1,4 @@
-#include "renderer/passes/views/volume_pass.h"
+#include "renderer/passes/stencil/stencil_pass.h"
 
 #include <algorithm>
 #include <array>
@@ -8,13 +8,12 @@
 #include "renderer/gl/texture.h"
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
-#include "renderer/prepare/volume_mesh.h"
-#include "renderer/scene/mesh_edges.h"
+#include "renderer/passes/stencil/stencil_mesh.h"
 
 namespace gnomon {
 namespace {
 
-int samplesOf(const VolumeCounts& counts) {
+int samplesOf(const StencilCounts& counts) {
   return std::max(1, counts.depthStencil.shape().samples);
 }
 
@@ -53,9 +52,9 @@ constexpr gl::DepthOffset kBehindTheirPlane{-0.0078125f, -2.0f};
 
 /// Draws parts of volumes into the stencil: +1 for each back face behind the surface, -1 for each front face. Equal
 /// depth is behind, so that no surface is in the volume that begins at it.
-class VolumeDraws {
+class StencilDraws {
  public:
-  VolumeDraws(const PassInputs& inputs, const VolumeCounts& counts, DrawnVolumes& drawn)
+  StencilDraws(const PassInputs& inputs, const StencilCounts& counts, DrawnStencil& drawn)
       : inputs_(inputs), drawn_(drawn) {
     state_.framebuffer = counts.framebuffer.id();
     state_.viewport = {0, 0, inputs.width, inputs.height};
@@ -66,16 +65,17 @@ class VolumeDraws {
   }
 
   /// What would be behind the far plane is flattened onto it.
-  Status walls(const VolumeMesh& mesh) {
+  Status walls(const StencilMesh& mesh) {
     const gl::Buffer places(gl::bytesOf(mesh.places), "shadow volume places");
     gl::PipelineState state = state_;
     state.depthClamp = true;
-    return draw(mesh.walls, {{{&places, sizeof(glm::vec4), 0, 0}, instances()}}, true, {"volume.vert", "", {}}, state);
+    return draw(mesh.walls, {{{&places, sizeof(glm::vec4), 0, 0}, instances()}}, true, {"stencil_walls.vert", "", {}},
+                state);
   }
 
   /// The near ends are drawn as the survey drew them, bit by bit: what it clipped is clipped. Before the near plane,
   /// nothing counts; behind the far one, `beyond` draws the rest.
-  Status caps(const VolumeEnds& ends, const gl::DepthOffset& offset) {
+  Status caps(const StencilEnds& ends, const gl::DepthOffset& offset) {
     for (const int side : {0, 1}) {
       const auto frontFace = side == 0 ? gl::FrontFace::counterClockwise : gl::FrontFace::clockwise;
       if (const Status done = capsOf(ends.sides[side], frontFace, offset, false); !done) return done;
@@ -118,22 +118,23 @@ class VolumeDraws {
   }
 
   const PassInputs& inputs_;
-  DrawnVolumes& drawn_;
+  DrawnStencil& drawn_;
   gl::PipelineState state_;
 };
 
-Status countVolumes(const PassInputs& inputs, const VolumeCounts& counts, const VolumeMesh& mesh, DrawnVolumes& drawn) {
+Status countFaces(const PassInputs& inputs, const StencilCounts& counts, const StencilMesh& mesh, DrawnStencil& drawn) {
   bindInputs(inputs);
-  VolumeDraws draws(inputs, counts, drawn);
+  StencilDraws draws(inputs, counts, drawn);
   if (const Status done = draws.walls(mesh); !done) return done;
   if (const Status done = draws.caps(mesh.caps, kBehindTheirPlane); !done) return done;
   if (const Status done = draws.caps(mesh.awayCaps, gl::DepthOffset{}); !done) return done;
   return Done{};
 }
 
-Status writeVisibility(const PassInputs& inputs, const VolumeCounts& counts, const gl::Texture& visibility, int layer) {
+Status writeVisibility(const PassInputs& inputs, const StencilCounts& counts, const gl::Texture& visibility,
+                       int layer) {
   const auto program =
-      inputs.programs.get({"fullscreen.vert", "volume_visibility.frag", samplesDefine(samplesOf(counts))});
+      inputs.programs.get({"fullscreen.vert", "stencil_visibility.frag", samplesDefine(samplesOf(counts))});
   if (!program) return program.problems();
   const auto target = gl::Framebuffer::create({{{&visibility, 0, layer}}, {}}, "visibility");
   if (!target) return target.problems();
@@ -144,8 +145,8 @@ Status writeVisibility(const PassInputs& inputs, const VolumeCounts& counts, con
 
 } // namespace
 
-Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& depth) {
-  VolumeCounts counts;
+Result<StencilCounts> stencilCounts(const PassInputs& inputs, const gl::Texture& depth) {
+  StencilCounts counts;
   const int stored = depth.shape().samples;
   counts.depthStencil =
       gl::Texture({GL_DEPTH32F_STENCIL8, inputs.width, inputs.height, 1, stored}, "shadow volume counts");
@@ -153,7 +154,7 @@ Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& d
   auto target = gl::Framebuffer::create({{}, {&counts.depthStencil}}, "shadow volume counts");
   if (!target) return target.problems();
   counts.framebuffer = std::move(*target);
-  const auto program = inputs.programs.get({"fullscreen.vert", "volume_depth.frag", samplesDefine(samplesOf(counts))});
+  const auto program = inputs.programs.get({"fullscreen.vert", "stencil_depth.frag", samplesDefine(samplesOf(counts))});
   if (!program) return program.problems();
 
   gl::PipelineState state;
@@ -171,21 +172,21 @@ Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& d
   return counts;
 }
 
-Result<DrawnVolumes> drawVolumes(const PassInputs& inputs, VolumeCounts& counts, const Light& light,
+Result<DrawnStencil> drawStencil(const PassInputs& inputs, StencilCounts& counts, const Light& light,
                                  const gl::Texture& visibility, int layer) {
-  DrawnVolumes drawn;
+  DrawnStencil drawn;
   drawn.timer = gl::Timer::start();
-  const std::vector<VolumeCaster> casters =
-      volumeCasters(inputs.scene, inputs.view, inputs.geometry, inputs.camera, light, inputs.edges, inputs.nodes);
+  const std::vector<StencilCaster> casters =
+      stencilCasters(inputs.scene, inputs.view, inputs.geometry, inputs.camera, light, inputs.edges, inputs.nodes);
   drawn.casters = casters.size();
-  const VolumeMesh mesh = volumeMesh(inputs.scene, inputs.view, inputs.camera, placeOf(light), casters, inputs.edges);
+  const StencilMesh mesh = stencilMesh(inputs.scene, inputs.view, inputs.camera, placeOf(light), casters, inputs.edges);
 
   gl::PipelineState clear;
   clear.framebuffer = counts.framebuffer.id();
   clear.viewport = {0, 0, inputs.width, inputs.height};
   gl::apply(clear);
   counts.framebuffer.clearStencil(0);
-  if (const Status counted = countVolumes(inputs, counts, mesh, drawn); !counted) return counted.problems();
+  if (const Status counted = countFaces(inputs, counts, mesh, drawn); !counted) return counted.problems();
   if (const Status written = writeVisibility(inputs, counts, visibility, layer); !written) return written.problems();
   drawn.timer.stop();
   return drawn;

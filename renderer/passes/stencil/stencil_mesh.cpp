@@ -1,10 +1,8 @@
-#include "renderer/prepare/volume_mesh.h"
+#include "renderer/passes/stencil/stencil_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include "renderer/scene/mesh_edges.h"
 
 namespace gnomon {
 namespace {
@@ -20,20 +18,20 @@ void endDraw(IndexedDraws& draws, std::size_t firstIndex, std::int32_t baseVerte
 }
 
 /// Which triangles throw, of the piece that triangle `t` is part of.
-VolumeCaps capsAt(const VolumeCaster& caster, const EdgeMesh& mesh, std::size_t t) {
+StencilCaps capsAt(const StencilCaster& caster, const EdgeMesh& mesh, std::size_t t) {
   return caster.caps.size() == 1 ? caster.caps.front() : caster.caps[mesh.pieceOf[t]];
 }
 
 /// The triangles of a caster that throw its shadow: how each is turned to the light, 0 = it does not.
 std::vector<std::int8_t> throwers(const Scene& scene, const Instance& instance, const glm::dvec4& light,
-                                  const VolumeCaster& caster, const EdgeMesh& mesh) {
+                                  const StencilCaster& caster, const EdgeMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   std::vector<std::int8_t> turns = facings(scene, primitive, instance.worldFromLocal, light);
   const bool mirrored = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0;
   for (std::size_t t = 0; t < turns.size(); ++t) {
-    const VolumeCaps caps = capsAt(caster, mesh, t);
-    const std::int8_t wanted = (caps == VolumeCaps::turnedTo) != mirrored ? 1 : -1;
-    if (caps != VolumeCaps::all && turns[t] != wanted) turns[t] = 0;
+    const StencilCaps caps = capsAt(caster, mesh, t);
+    const std::int8_t wanted = (caps == StencilCaps::turnedTo) != mirrored ? 1 : -1;
+    if (caps != StencilCaps::all && turns[t] != wanted) turns[t] = 0;
   }
   return turns;
 }
@@ -153,20 +151,20 @@ std::vector<std::uint8_t> beyondFar(const Scene& scene, const Primitive& primiti
   return beyond;
 }
 
-void addCaps(const Scene& scene, const VolumeCaster& caster, const Instance& instance, const CameraView& camera,
-             std::span<const std::int8_t> turns, const EdgeMesh& edges, VolumeMesh& mesh) {
+void addCaps(const Scene& scene, const StencilCaster& caster, const Instance& instance, const CameraView& camera,
+             std::span<const std::int8_t> turns, const EdgeMesh& edges, StencilMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const std::vector<std::uint8_t> beyond = beyondFar(scene, primitive, instance, camera);
   const auto baseVertex = static_cast<std::int32_t>(primitive.baseVertex);
   for (const bool away : {false, true}) {
-    VolumeEnds& ends = away ? mesh.awayCaps : mesh.caps;
+    StencilEnds& ends = away ? mesh.awayCaps : mesh.caps;
     for (const int side : {0, 1}) {
       IndexedDraws& caps = ends.sides[side];
       IndexedDraws& capsBeyond = ends.beyond[side];
       const std::size_t first = caps.indices.size();
       const std::size_t firstBeyond = capsBeyond.indices.size();
       for (std::size_t t = 0; t < turns.size(); ++t) {
-        if (turns[t] != (side == 0 ? 1 : -1) || (capsAt(caster, edges, t) == VolumeCaps::turnedAway) != away) continue;
+        if (turns[t] != (side == 0 ? 1 : -1) || (capsAt(caster, edges, t) == StencilCaps::turnedAway) != away) continue;
         const auto corners = std::span(scene.welded).subspan(primitive.firstIndex + 3 * t, 3);
         caps.indices.insert(caps.indices.end(), corners.begin(), corners.end());
         if (std::any_of(corners.begin(), corners.end(),
@@ -180,9 +178,9 @@ void addCaps(const Scene& scene, const VolumeCaster& caster, const Instance& ins
   }
 }
 
-void addWalls(const Scene& scene, const VolumeCaster& caster, const Instance& instance,
+void addWalls(const Scene& scene, const StencilCaster& caster, const Instance& instance,
               std::span<const std::int8_t> turns, const FarEnds& farEnds, std::span<const MeshEdge> edges,
-              VolumeMesh& mesh) {
+              StencilMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   Places places(mesh.places, scene, primitive, instance, farEnds);
   std::vector<std::uint32_t>& indices = mesh.walls.indices;
@@ -210,10 +208,10 @@ void addWalls(const Scene& scene, const VolumeCaster& caster, const Instance& in
 
 } // namespace
 
-VolumeMesh volumeMesh(const Scene& scene, const SceneView& view, const CameraView& camera, const glm::dvec4& light,
-                      std::span<const VolumeCaster> casters, std::span<const EdgeMesh> edges) {
-  VolumeMesh mesh;
-  for (const VolumeCaster& caster : casters) {
+StencilMesh stencilMesh(const Scene& scene, const SceneView& view, const CameraView& camera, const glm::dvec4& light,
+                        std::span<const StencilCaster> casters, std::span<const EdgeMesh> edges) {
+  StencilMesh mesh;
+  for (const StencilCaster& caster : casters) {
     const Instance& instance = view.instances[caster.instance];
     const EdgeMesh& edgeMesh = edges[static_cast<std::size_t>(instance.primitive)];
     const std::vector<std::int8_t> turns = throwers(scene, instance, light, caster, edgeMesh);

@@ -12,16 +12,16 @@
 namespace gnomon {
 
 /// A depth buffer of the frame with a stencil beside it, where shadow volumes are counted.
-struct VolumeCounts {
+struct StencilCounts {
   gl::Texture depthStencil; ///< D32F S8; as many samples as the depth buffer that it was copied from
   gl::Framebuffer framebuffer;
 };
 
 /// `depth`: reversed, of the frame's size, 1 or 4 samples a pixel.
-Result<VolumeCounts> volumeCounts(const PassInputs& inputs, const gl::Texture& depth);
+Result<StencilCounts> stencilCounts(const PassInputs& inputs, const gl::Texture& depth);
 
 /// What drawing one light's volumes took.
-struct DrawnVolumes {
+struct DrawnStencil {
   std::size_t casters = 0;
   std::uint64_t triangles = 0; ///< of volumes
   std::size_t drawCalls = 0;
@@ -32,7 +32,7 @@ struct DrawnVolumes {
 /// buffer shows sees the light, else 0; one channel a sample. Written into a layer of `visibility` (R16 or RGBA16).
 /// The stencil counts the volumes' faces behind each surface (depth-fail: Everitt and Kilgard, 2002), modulo 256: what
 /// lies in 256 volumes at once, or a multiple, is taken for lit. REQUIRES: what casts from the light is opaque.
-Result<DrawnVolumes> drawVolumes(const PassInputs& inputs, VolumeCounts& counts, const Light& light,
+Result<DrawnStencil> drawStencil(const PassInputs& inputs, StencilCounts& counts, const Light& light,
                                  const gl::Texture& visibility, int layer);
 
 } // namespace gnomon
