@@ -5,27 +5,20 @@
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
-namespace {
-
-/// Triangles whose materials have holes, or let light through.
-std::uint64_t holedTriangles(const Scene& scene, const SceneView& view) {
-  std::uint64_t holed = 0;
+SceneCounts shadowCounts(const Scene& scene, const SceneView& view) {
+  SceneCounts counts{.triangles = view.triangles};
   for (const Instance& instance : view.instances) {
-    const Material& material = scene.materials[static_cast<std::size_t>(materialOf(scene, instance))];
-    if (material.alphaMode == AlphaMode::opaque) continue;
-    holed += scene.primitives[static_cast<std::size_t>(instance.primitive)].indexCount / 3;
+    if (stopsAllLight(scene.materials[static_cast<std::size_t>(materialOf(scene, instance))])) continue;
+    counts.holed += scene.primitives[static_cast<std::size_t>(instance.primitive)].indexCount / 3;
   }
-  return holed;
+  return counts;
 }
-
-} // namespace
 
 void chooseTechniques(const Scene& scene, DeviceKind device, std::size_t layers, ResolvedFrame& frame) {
   std::vector<Light>& lights = *frame.spec.lights;
   const auto isOpen = [](const Light& light) { return light.shadow->technique == ShadowTechnique::auto_; };
   if (std::none_of(lights.begin(), lights.end(), isOpen)) return;
-  const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
-  const SceneCounts counts{.triangles = view.triangles, .holed = holedTriangles(scene, view)};
+  const SceneCounts counts = shadowCounts(scene, scene.scenes[static_cast<std::size_t>(frame.scene)]);
   const std::vector<int> layered = layeredLights(frame);
   auto used = static_cast<std::size_t>(
       std::count_if(layered.begin(), layered.end(), [&](int light) { return !techniqueOf(frame, light).baked; }));

@@ -7,6 +7,9 @@
 
 namespace gnomon {
 
+/// What estimates of shadows know of a scene; its lights are left out.
+SceneCounts shadowCounts(const Scene& scene, const SceneView& view);
+
 /// Settles technique auto of every light that throws a shadow, by chooseTechnique, and keeps what was chosen in
 /// `frame.choices`. `layers`: lights whose visibility a frame may keep; beyond them lights get maps. REQUIRES: the
 /// frame has its scene.
