@@ -114,7 +114,7 @@ class Dispatcher {
   bool startWorker(Slot& slot);
   void listen(Slot& slot);
   bool take(Slot& slot, Packet packet);
-  void answerWish(Slot& slot, const LightMapWish& wish);
+  void answerRequest(Slot& slot, const LightMapRequest& request);
   void replaceWorker(Slot& slot);
   void watch();
   struct Fault {

@@ -12,7 +12,7 @@ namespace {
 
 /// Workers by descending weight for this scene and all that are kin to it.
 std::vector<std::size_t> preference(const Task& task, std::size_t workers) {
-  const std::uint64_t seed = std::hash<std::string>()(task.kin.empty() ? task.order.scene : task.kin);
+  const std::uint64_t seed = std::hash<std::string>()(task.affinityKey.empty() ? task.order.scene : task.affinityKey);
   std::vector<std::size_t> order(workers);
   for (std::size_t i = 0; i < workers; ++i) order[i] = i;
   const auto weight = [&](std::size_t worker) { return mixed(seed ^ mixed(worker + 1)); };

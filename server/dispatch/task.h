@@ -36,7 +36,7 @@ struct Task {
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
   std::string client;         ///< who asks: tasks of different clients take turns
-  std::string kin{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
+  std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 
 /// Why the dispatcher itself refused a task.

@@ -138,10 +138,10 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     finish(ticket, std::move(result));
     placeWaiting();
   }
-  if ((message->wish || message->made) && options_.lightMaps) {
+  if ((message->request || message->made) && options_.lightMaps) {
     slot.isHandled = true;
     lock.unlock();
-    if (message->wish) answerWish(slot, *message->wish);
+    if (message->request) answerRequest(slot, *message->request);
     if (message->made && !packet.files.empty()) options_.lightMaps->write(message->made->key, packet.files.front());
     lock.lock();
     slot.heard = Clock::now();
@@ -150,10 +150,10 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
   return true;
 }
 
-void Dispatcher::answerWish(Slot& slot, const LightMapWish& wish) {
-  const FileDescriptor file = options_.lightMaps->open(wish.key);
+void Dispatcher::answerRequest(Slot& slot, const LightMapRequest& request) {
+  const FileDescriptor file = options_.lightMaps->open(request.key);
   const std::array files{file.get()};
-  slot.process->channel().send(textOf(ToWorker{.lightMap = LightMapFound{wish.number}}),
+  slot.process->channel().send(textOf(ToWorker{.lightMap = LightMapFound{request.number}}),
                                std::span(files).first(file ? 1 : 0));
 }
 

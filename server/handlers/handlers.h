@@ -9,7 +9,7 @@
 
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"
-#include "server/bakes/bake_book.h"
+#include "server/bakes/bake_registry.h"
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
 #include "server/frames/shared_frames.h"
@@ -42,7 +42,7 @@ struct Services {
   std::counting_semaphore<> bakes{1};       ///< the same
   std::counting_semaphore<> sequences{1};   ///< the same
   ByteBudget videoMemory{0};                ///< of the encoders of videos that are being sent
-  BakeBook bakeBook{};
+  BakeRegistry bakeBook{};
   SharedFrames shared{};
   ReplyCache replies{0};
   FrameSpec drakeColors{};                ///< how Drake's color pictures are drawn

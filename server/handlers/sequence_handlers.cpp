@@ -139,8 +139,8 @@ HttpReply postSequence(Services& services, RouteCall call) {
   task.lane = Lane::sequence;
   if (isVideo) task.order.mediaType = kRawVideo;
   const Sequence& sequence = asked->sequence;
-  const VideoWish wish{sequence.framesPerSecond, sequence.videoQuality, sequence.count - sequence.first};
-  const SequenceReport report{.framesPerSecond = wish.framesPerSecond, .renderer = services.workers.info()};
+  const VideoSettings settings{sequence.framesPerSecond, sequence.videoQuality, sequence.count - sequence.first};
+  const SequenceReport report{.framesPerSecond = settings.framesPerSecond, .renderer = services.workers.info()};
   auto frames = std::make_shared<SequenceFrames>(services, std::move(asked->sequence), asked->counts, std::move(task),
                                                  permit, call.clientGone);
   std::optional<DoneFrame> first;
@@ -152,7 +152,7 @@ HttpReply postSequence(Services& services, RouteCall call) {
     }
   }
   if (!isVideo) return sequenceReply(sequenceForm(type, call), call, std::move(frames), std::move(first), report);
-  auto video = videoForm(wish, *first, services.videoMemory);
+  auto video = videoForm(settings, *first, services.videoMemory);
   if (!video) return refusal(video.problems().front(), RefusalReason::memory, requestId);
   return sequenceReply(*std::move(video), call, std::move(frames), std::move(first), report);
 }

@@ -39,7 +39,7 @@ std::string bytesText(std::size_t bytes) {
 
 } // namespace
 
-Result<TypedForm> videoForm(const VideoWish& wish, const DoneFrame& first, ByteBudget& memory) {
+Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& first, ByteBudget& memory) {
   const PictureNews& picture = first.pictures.front();
   constexpr int kMostSide = 65'535;
   if (picture.width < 1 || picture.height < 1 || picture.width > kMostSide || picture.height > kMostSide) {
@@ -55,7 +55,7 @@ Result<TypedForm> videoForm(const VideoWish& wish, const DoneFrame& first, ByteB
   if (!lease->grow(bytes)) {
     return Problem{ProblemCode::busy, "", "Other videos use the memory for videos.", bytesText(memory.total()), ""};
   }
-  auto file = VideoFile::create({picture.width, picture.height, wish.framesPerSecond, wish.frames}, wish.quality);
+  auto file = VideoFile::create({picture.width, picture.height, settings.framesPerSecond, settings.frames}, settings.quality);
   if (!file) return file.problems();
   return TypedForm{std::string(kVideoType), std::make_shared<VideoForm>(std::move(lease), *std::move(file))};
 }

@@ -11,7 +11,7 @@ namespace gnomon {
 inline constexpr std::string_view kVideoType = "video/webm";
 
 /// What a video is, beside its size.
-struct VideoWish {
+struct VideoSettings {
   double framesPerSecond = 30;
   int quality = 75;
   int frames = 0;
@@ -20,6 +20,6 @@ struct VideoWish {
 /// A sequence as WebM of the size that its first frame has; its report, or its problem, is a tag at the end. Frames are
 /// encoded where they are sent from, while workers draw the next ones. What that takes is held of `memory` as long as
 /// the form lives: tooLarge where it never can be had, busy where others have it. REQUIRES: frames of kRawVideo.
-Result<TypedForm> videoForm(const VideoWish& wish, const DoneFrame& first, ByteBudget& memory);
+Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& first, ByteBudget& memory);
 
 } // namespace gnomon

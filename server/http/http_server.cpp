@@ -27,9 +27,9 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const HttpServerOptions& 
 
 bool HttpServer::run() {
   const bool inOrder = listener_.run(
-      context_.stop, [this](OpenConnection connection) { lobby_.admit(std::move(connection)); },
-      [this] { lobby_.makeRoom(); });
-  lobby_.finish();
+      context_.stop, [this](OpenConnection connection) { pending_.admit(std::move(connection)); },
+      [this] { pending_.makeRoom(); });
+  pending_.finish();
   return inOrder;
 }
 

@@ -5,7 +5,7 @@
 
 #include "server/http/connection.h"
 #include "server/http/listener.h"
-#include "server/http/lobby.h"
+#include "server/http/pending_connections.h"
 
 namespace gnomon {
 
@@ -37,7 +37,7 @@ class HttpServer {
   /// After stop(): requests that have not come whole are waited for no longer, and get 503.
   void cutBodies() {
     context_.cutBodies.raise();
-    lobby_.cutOff();
+    pending_.cutOff();
   }
 
   /// After cutBodies(): neither are clients that are taking their replies.
@@ -45,11 +45,11 @@ class HttpServer {
 
  private:
   HttpServer(Listener listener, ConnectionContext& context, const HttpServerOptions& options)
-      : context_(context), listener_(std::move(listener)), lobby_(context, options.threads, options.perClient) {}
+      : context_(context), listener_(std::move(listener)), pending_(context, options.threads, options.perClient) {}
 
   ConnectionContext& context_;
   Listener listener_;
-  Lobby lobby_;
+  PendingConnections pending_;
 };
 
 } // namespace gnomon

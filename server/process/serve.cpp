@@ -17,7 +17,7 @@
 #include "server/access/access_check.h"
 #include "server/access/key_ring.h"
 #include "server/handlers/drake_form.h"
-#include "server/handlers/job_takers.h"
+#include "server/handlers/job_runners.h"
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
@@ -282,7 +282,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
     if (!opened) return failed(opened.problems());
     admin = *std::move(opened);
   }
-  const JobTakers takers(services, jobFramesOf(options));
+  const JobRunners takers(services, jobFramesOf(options));
   const std::string address = addressOf(options.bind, (*server)->port());
   logEvent("listening", address);
   std::printf("listening on %s\n", address.c_str());

@@ -23,11 +23,11 @@ std::string errorText(int error) {
 }
 
 Endpoints endpointsOf(const std::string& host, std::uint16_t port, int flags) {
-  addrinfo wish{};
-  wish.ai_flags = flags | AI_NUMERICSERV;
-  wish.ai_socktype = SOCK_STREAM;
+  addrinfo hints{};
+  hints.ai_flags = flags | AI_NUMERICSERV;
+  hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const bool known = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wish, &found) == 0;
+  const bool known = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found) == 0;
   return {known ? found : nullptr, [](addrinfo* list) { list != nullptr ? ::freeaddrinfo(list) : void(); }};
 }
 

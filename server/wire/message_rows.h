@@ -75,8 +75,8 @@ inline constexpr auto kRows<Forget> = rows("Forget", "A scene was deleted.",
                                            field("scene", &Forget::scene, {.says = "Its id."}));
 
 template <>
-inline constexpr auto kRows<LightMapFound> = rows("LightMapFound", "Answers a wish.",
-                                                  field("number", &LightMapFound::number, {.says = "The wish."}));
+inline constexpr auto kRows<LightMapFound> = rows("LightMapFound", "Answers a request.",
+                                                  field("number", &LightMapFound::number, {.says = "The request."}));
 
 template <>
 inline constexpr auto kRows<ToWorker> = rows("ToWorker", "A message to a worker.",
@@ -85,7 +85,7 @@ inline constexpr auto kRows<ToWorker> = rows("ToWorker", "A message to a worker.
                                              field("cancel", &ToWorker::cancel,
                                                    {.says = "Work that nobody waits for."}),
                                              field("forget", &ToWorker::forget, {.says = "A deleted scene."}),
-                                             field("lightMap", &ToWorker::lightMap, {.says = "An answered wish."}));
+                                             field("lightMap", &ToWorker::lightMap, {.says = "An answered request."}));
 static_assert(kRowsAreComplete<ToWorker>);
 
 template <>
@@ -122,10 +122,10 @@ inline constexpr auto kRows<Refusal> = rows("Refusal", "A worker that can't star
                                             field("problems", &Refusal::problems, {.says = "Why not."}));
 
 template <>
-inline constexpr auto kRows<LightMapWish> = rows("LightMapWish", "Asks for a stored light map.",
-                                                 field("number", &LightMapWish::number, {.says = "Names it."}),
-                                                 field("key", &LightMapWish::key, {.says = "Of the light map."}));
-static_assert(kRowsAreComplete<LightMapWish>);
+inline constexpr auto kRows<LightMapRequest> = rows("LightMapRequest", "Asks for a stored light map.",
+                                                 field("number", &LightMapRequest::number, {.says = "Names it."}),
+                                                 field("key", &LightMapRequest::key, {.says = "Of the light map."}));
+static_assert(kRowsAreComplete<LightMapRequest>);
 
 template <>
 inline constexpr auto kRows<LightMapMade> = rows("LightMapMade", "A light map to be stored.",
@@ -138,7 +138,7 @@ inline constexpr auto kRows<ToFront> = rows("ToFront", "A message to the front."
                                             field("outcome", &ToFront::outcome, {.says = "The result of an order."}),
                                             field("event", &ToFront::event, {.says = "An order's progress."}),
                                             field("beat", &ToFront::beat, {.says = "A sign of life."}),
-                                            field("wish", &ToFront::wish, {.says = "A light map that is wanted."}),
+                                            field("request", &ToFront::request, {.says = "A light map that is wanted."}),
                                             field("made", &ToFront::made, {.says = "A light map that was made."}));
 static_assert(kRowsAreComplete<ToFront>);
 

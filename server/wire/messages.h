@@ -77,7 +77,7 @@ struct Forget {
   std::string scene{};
 };
 
-/// What became of a wish for a light map; its bytes go along where there are any.
+/// What became of a request for a light map; its bytes go along where there are any.
 struct LightMapFound {
   std::uint64_t number = 0;
 };
@@ -124,7 +124,7 @@ struct Refusal {
 };
 
 /// Asks for a stored light map.
-struct LightMapWish {
+struct LightMapRequest {
   std::uint64_t number = 0;
   std::string key{};
 };
@@ -140,7 +140,7 @@ struct ToFront {
   std::optional<Outcome> outcome{};
   std::optional<OrderEvent> event{};
   std::optional<Beat> beat{};
-  std::optional<LightMapWish> wish{};
+  std::optional<LightMapRequest> request{};
   std::optional<LightMapMade> made{};
 };
 

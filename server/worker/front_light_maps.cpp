@@ -10,17 +10,17 @@ namespace gnomon {
 
 std::optional<Bytes> FrontLightMaps::read(const std::string& key) {
   constexpr std::chrono::seconds kPatience{10}; ///< a map that takes longer is baked again
-  LightMapWish wish{0, key};
+  LightMapRequest request{0, key};
   std::future<std::optional<Bytes>> answer;
   {
     const std::lock_guard lock(mutex_);
-    wish.number = ++wishes_;
-    answer = waiting_[wish.number].get_future();
+    request.number = ++requests_;
+    answer = waiting_[request.number].get_future();
   }
-  const bool asked = channel_.send(textOf(ToFront{.wish = wish}));
+  const bool asked = channel_.send(textOf(ToFront{.request = request}));
   if (asked && answer.wait_for(kPatience) == std::future_status::ready) return answer.get();
   const std::lock_guard lock(mutex_);
-  waiting_.erase(wish.number);
+  waiting_.erase(request.number);
   return std::nullopt;
 }
 

@@ -21,13 +21,13 @@ class FrontLightMaps : public LightMapStore {
   std::optional<Bytes> read(const std::string& key) override;
   void write(const std::string& key, const Bytes& lightMap) override;
 
-  /// The front's answer to the wish of this number; nullptr = it keeps no such map.
+  /// The front's answer to the request of this number; nullptr = it keeps no such map.
   void found(std::uint64_t number, const FileDescriptor* file);
 
  private:
   Channel& channel_;
   std::mutex mutex_;
-  std::uint64_t wishes_ = 0;
+  std::uint64_t requests_ = 0;
   std::map<std::uint64_t, std::promise<std::optional<Bytes>>> waiting_;
 };
 

@@ -168,7 +168,7 @@ def messages(folder):
         {"beat": {"scenes": 1, "sceneBytes": 100}},
         {"ready": {"backend": "cpu", "software": True, "device": "cpu"}},
         {"refusal": {"problems": []}},
-        {"wish": {"number": 1, "key": "a-b"}},
+        {"request": {"number": 1, "key": "a-b"}},
         {"made": {"key": "a-b"}},
     )
     for text in texts:

@@ -32,7 +32,7 @@ TEST(Placement, KinStayTogether) {
   std::map<std::size_t, int> places;
   for (int i = 0; i < 100; ++i) {
     Task made = task(std::to_string(i));
-    made.kin = "of one client";
+    made.affinityKey = "of one client";
     ++places[placeFor(made, ready(4)).value()];
   }
   EXPECT_EQ(places.size(), 1u);

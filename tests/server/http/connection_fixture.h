@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "server/http/connection.h"
-#include "server/http/lobby.h"
+#include "server/http/pending_connections.h"
 #include "server/http/reply.h"
 #include "server/http/socket_io.h"
 
@@ -60,8 +60,8 @@ class ConnectionTest : public ::testing::Test {
   }
 
   /// The server's side of the pair goes to a lobby with two threads.
-  std::unique_ptr<Lobby> enter() {
-    auto lobby = std::make_unique<Lobby>(context_, 2, 2);
+  std::unique_ptr<PendingConnections> enter() {
+    auto lobby = std::make_unique<PendingConnections>(context_, 2, 2);
     lobby->adopt({std::move(server_), {"client", "client"}});
     return lobby;
   }

@@ -33,7 +33,7 @@ class LeavingTest : public ConnectionTest {
     };
   }
 
-  std::unique_ptr<Lobby> begin(const std::string& request) {
+  std::unique_ptr<PendingConnections> begin(const std::string& request) {
     auto lobby = enter();
     EXPECT_TRUE(sendAll(client_.get(), request, Pace{}));
     begun_.get_future().wait();

@@ -1,10 +1,10 @@
-#include "server/bakes/bake_book.h"
+#include "server/bakes/bake_registry.h"
 
 #include <algorithm>
 
 namespace gnomon {
 
-std::shared_ptr<const std::atomic<bool>> BakeBook::begin(const BakeName& name, const FrameSpec& spec) {
+std::shared_ptr<const std::atomic<bool>> BakeRegistry::begin(const BakeName& name, const FrameSpec& spec) {
   const std::lock_guard lock(mutex_);
   if (const Entry* const known = entries_.find(name, &Entry::name)) return known->removed;
   const Entry& added = entries_.add({name, spec, false, std::make_shared<std::atomic<bool>>(false)});
@@ -12,7 +12,7 @@ std::shared_ptr<const std::atomic<bool>> BakeBook::begin(const BakeName& name, c
   return added.removed;
 }
 
-void BakeBook::end(const BakeName& name, bool made) {
+void BakeRegistry::end(const BakeName& name, bool made) {
   const std::lock_guard lock(mutex_);
   if (!made) {
     entries_.eraseIf([&](const Entry& entry) { return entry.name == name && !entry.done; });
@@ -21,13 +21,13 @@ void BakeBook::end(const BakeName& name, bool made) {
   }
 }
 
-std::optional<FrameSpec> BakeBook::find(const BakeName& name) {
+std::optional<FrameSpec> BakeRegistry::find(const BakeName& name) {
   const std::lock_guard lock(mutex_);
   const Entry* const entry = entries_.findIf([&](const Entry& each) { return each.name == name && each.done; });
   return entry ? std::optional(entry->spec) : std::nullopt;
 }
 
-bool BakeBook::remove(const BakeName& name) {
+bool BakeRegistry::remove(const BakeName& name) {
   const std::lock_guard lock(mutex_);
   const Entry* const entry = entries_.find(name, &Entry::name);
   if (!entry) return false;

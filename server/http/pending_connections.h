@@ -8,7 +8,7 @@
 
 #include "server/http/client_shares.h"
 #include "server/http/connection.h"
-#include "server/http/guests.h"
+#include "server/http/connection_set.h"
 #include "server/http/request_log.h"
 #include "server/http/worker_pool.h"
 
@@ -18,14 +18,14 @@ namespace gnomon {
 /// those that only wait to be closed. One thread watches them all, so that a silent client holds no other, and gives
 /// each complete head to a thread of its own. Where none is free, it answers itself: probes as ever, anything else with
 /// 503, and with 429 where this client alone takes too many.
-class Lobby {
+class PendingConnections {
  public:
   /// `threads` serve requests, at most `perClient` of them for one client. Throws std::system_error where the system
   /// refuses a thread.
-  Lobby(ConnectionContext& context, std::size_t threads, std::size_t perClient);
-  ~Lobby() { finish(); }
-  Lobby(const Lobby&) = delete;
-  Lobby& operator=(const Lobby&) = delete;
+  PendingConnections(ConnectionContext& context, std::size_t threads, std::size_t perClient);
+  ~PendingConnections() { finish(); }
+  PendingConnections(const PendingConnections&) = delete;
+  PendingConnections& operator=(const PendingConnections&) = delete;
 
   /// Takes the connection over. Where too many wait, the client that has the most of them loses its oldest that has
   /// not asked for anything yet; if all have, its newest is refused.
@@ -51,14 +51,14 @@ class Lobby {
   bool isOver();
   bool isSettled();
   void takeAdopted();
-  void hear(int fd, bool lost);
+  void onReadable(int fd, bool lost);
   PeerAddress clientOf(const OpenConnection& connection, std::size_t headBytes) const;
-  void weigh(Guest& guest, bool headBegins);
+  void checkHead(PendingConnection& pending, bool headBegins);
   void placeReady();
-  Place place(int fd, const Guest& guest);
-  void answer(Guest& guest, Place why);
-  void refuse(Guest& guest, Problem problem);
-  void sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool bodyless);
+  Place place(int fd, const PendingConnection& pending);
+  void answer(PendingConnection& pending, Place why);
+  void refuse(PendingConnection& pending, Problem problem);
+  void sendLast(PendingConnection& pending, RequestRecord& record, HttpReply reply, bool bodyless);
   void refuseLate();
   void dropIdle();
   void refuseWaiting();
@@ -73,8 +73,8 @@ class Lobby {
   std::vector<OpenConnection> adopted_;
   std::condition_variable taken_; ///< adopted_ was emptied
   // Of the watching thread alone:
-  Guests guests_{wake_};
-  std::vector<int> ready_; ///< descriptors of guests that wait for a thread, in order
+  ConnectionSet connections_{wake_};
+  std::vector<int> ready_; ///< descriptors of connections that wait for a thread, in order
   bool isDrained_ = false; ///< finishing, and no thread serves any longer
   WorkerPool pool_;
   std::thread thread_;

@@ -1,4 +1,4 @@
-#include "server/http/lobby.h"
+#include "server/http/pending_connections.h"
 
 #include <array>
 #include <atomic>
@@ -82,8 +82,8 @@ class FullLobbyTest : public ConnectionTest {
     int fds[2];
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     holder_ = FileDescriptor(fds[0]);
-    lobby_.emplace(context_, 2, 1);
-    lobby_->adopt({FileDescriptor(fds[1]), {"holder", "holder"}});
+    pending_.emplace(context_, 2, 1);
+    pending_->adopt({FileDescriptor(fds[1]), {"holder", "holder"}});
     EXPECT_TRUE(sendAll(holder_.get(), "GET /hold HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
     held_.get_future().wait();
   }
@@ -91,7 +91,7 @@ class FullLobbyTest : public ConnectionTest {
 
   /// What a client gets; `network`: "holder" has its share of the threads already.
   std::string ask(const std::string& sent, const std::string& network) {
-    lobby_->adopt({std::move(server_), {network, network}});
+    pending_->adopt({std::move(server_), {network, network}});
     EXPECT_TRUE(sendAll(client_.get(), sent, Pace{}));
     ::shutdown(client_.get(), SHUT_WR);
     return readAll();
@@ -99,7 +99,7 @@ class FullLobbyTest : public ConnectionTest {
 
   std::promise<void> held_, released_;
   FileDescriptor holder_;
-  std::optional<Lobby> lobby_;
+  std::optional<PendingConnections> pending_;
 };
 
 TEST_F(FullLobbyTest, AnswersProbes) {
@@ -122,7 +122,7 @@ TEST_F(FullLobbyTest, WhoAsksMostIsRefusedWhereAllAsk) {
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     many.emplace_back(fds[0]);
     ASSERT_TRUE(sendAll(fds[0], "GET /a HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
-    lobby_->admit({FileDescriptor(fds[1]), {"holder", "holder"}});
+    pending_->admit({FileDescriptor(fds[1]), {"holder", "holder"}});
   }
   EXPECT_TRUE(ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "other").starts_with("HTTP/1.1 200 OK"));
   std::array<char, 12> status{};

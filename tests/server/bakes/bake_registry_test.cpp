@@ -1,12 +1,12 @@
-#include "server/bakes/bake_book.h"
+#include "server/bakes/bake_registry.h"
 
 #include <gtest/gtest.h>
 
 namespace gnomon {
 namespace {
 
-TEST(BakeBook, IsFoundOnceItIsDone) {
-  BakeBook book;
+TEST(BakeRegistry, IsFoundOnceItIsDone) {
+  BakeRegistry book;
   FrameSpec spec;
   spec.scene = 3;
   book.begin({"a", "1"}, spec);
@@ -18,8 +18,8 @@ TEST(BakeBook, IsFoundOnceItIsDone) {
   EXPECT_FALSE(book.find({"a", "2"}));
 }
 
-TEST(BakeBook, WhatFailsIsForgottenButNotWhatWasMadeBefore) {
-  BakeBook book;
+TEST(BakeRegistry, WhatFailsIsForgottenButNotWhatWasMadeBefore) {
+  BakeRegistry book;
   book.begin({"a", "1"}, {});
   book.end({"a", "1"}, false);
   EXPECT_FALSE(book.remove({"a", "1"}));
@@ -30,8 +30,8 @@ TEST(BakeBook, WhatFailsIsForgottenButNotWhatWasMadeBefore) {
   EXPECT_TRUE(book.find({"a", "1"}));
 }
 
-TEST(BakeBook, RemovingStopsAndForgets) {
-  BakeBook book;
+TEST(BakeRegistry, RemovingStopsAndForgets) {
+  BakeRegistry book;
   const auto removed = book.begin({"a", "1"}, {});
   EXPECT_FALSE(*removed);
   EXPECT_TRUE(book.remove({"a", "1"}));
@@ -42,9 +42,9 @@ TEST(BakeBook, RemovingStopsAndForgets) {
   EXPECT_FALSE(*book.begin({"a", "1"}, {})) << "a bake after it is another";
 }
 
-TEST(BakeBook, ForgetsTheOldest) {
-  BakeBook book;
-  for (std::size_t i = 0; i <= BakeBook::kMost; ++i) {
+TEST(BakeRegistry, ForgetsTheOldest) {
+  BakeRegistry book;
+  for (std::size_t i = 0; i <= BakeRegistry::kMost; ++i) {
     book.begin({"a", std::to_string(i)}, {});
     book.end({"a", std::to_string(i)}, true);
   }

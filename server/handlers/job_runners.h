@@ -34,13 +34,13 @@ class JobSequences {
 };
 
 /// Threads that take frames of jobs and have workers draw them, until the server drains.
-class JobTakers {
+class JobRunners {
  public:
   /// `threads`: frames at once. `services` outlives them.
-  JobTakers(Services& services, std::size_t threads);
-  ~JobTakers(); ///< gives back what is in work
-  JobTakers(const JobTakers&) = delete;
-  JobTakers& operator=(const JobTakers&) = delete;
+  JobRunners(Services& services, std::size_t threads);
+  ~JobRunners(); ///< gives back what is in work
+  JobRunners(const JobRunners&) = delete;
+  JobRunners& operator=(const JobRunners&) = delete;
 
  private:
   void takeFrames();

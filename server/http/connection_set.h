@@ -14,7 +14,7 @@
 namespace gnomon {
 
 /// A connection that no thread serves.
-struct Guest {
+struct PendingConnection {
   OpenConnection connection;
   Clock::time_point since;
   Clock::time_point deadline;
@@ -24,51 +24,51 @@ struct Guest {
 };
 
 /// Those connections, and what the system tells of them (epoll). One thread at a time.
-class Guests {
+class ConnectionSet {
  public:
-  /// `wake` interrupts listen(). Throws std::system_error.
-  explicit Guests(StopSignal& wake);
+  /// `wake` interrupts wait(). Throws std::system_error.
+  explicit ConnectionSet(StopSignal& wake);
 
-  std::map<int, Guest>& all() { return all_; } ///< by descriptor
-  Guest* find(int fd);                         ///< nullptr = it is gone
+  std::map<int, PendingConnection>& all() { return all_; } ///< by descriptor
+  PendingConnection* find(int fd);                         ///< nullptr = it is gone
 
   /// nullptr where the system has no memory to watch the connection, which is closed then.
-  Guest* admit(OpenConnection connection);
+  PendingConnection* admit(OpenConnection connection);
   OpenConnection release(int fd); ///< one of them leaves with its connection open
   void drop(int fd) { all_.erase(fd); }
 
-  void ignore(const Guest& guest); ///< what it sends stays in its socket
-  void heed(const Guest& guest);   ///< again
+  void stopReading(const PendingConnection& pending); ///< what it sends stays in its socket
+  void resumeReading(const PendingConnection& pending);   ///< again
 
-  void expectBy(Guest& guest, std::chrono::milliseconds patience); ///< its deadline, from now
-  void hurry(Guest& guest, std::chrono::milliseconds patience);    ///< the same, if that is earlier
+  void setDeadline(PendingConnection& pending, std::chrono::milliseconds patience); ///< its deadline, from now
+  void shortenDeadline(PendingConnection& pending, std::chrono::milliseconds patience);    ///< the same, if that is earlier
 
-  /// Drops whoever is late and has no request, and gives those that have begun one. Guests that are ready are left.
-  std::vector<Guest*> takeLate();
+  /// Drops whoever is late and has no request, and gives those that have begun one. ConnectionSet that are ready are left.
+  std::vector<PendingConnection*> takeExpired();
 
-  /// Of the client that has the most guests, the one that has waited longest; nothing where every head is complete.
-  std::optional<int> leastWanted() const;
+  /// Of the client that has the most connections, the one that has waited longest; nothing where every head is complete.
+  std::optional<int> evictionCandidate() const;
 
   /// Of the client that has the most complete heads, the newest; nothing where there are none.
-  std::optional<int> lastToAsk() const;
+  std::optional<int> newestReady() const;
 
-  struct Heard {
+  struct Readable {
     int fd = -1;
     bool isLost = false; ///< nothing can be sent to it any more
   };
 
   /// Sleeps until somebody sends something, someone is late, `until`, or the wake.
-  std::vector<Heard> listen(Clock::time_point until);
+  std::vector<Readable> wait(Clock::time_point until);
 
  private:
   /// Among those that are ready, or those that are not, and of the client with most of them: who comes first.
-  std::optional<int> ofWhoHasMost(bool ready,
+  std::optional<int> firstOfBusiestClient(bool ready,
                                   const std::function<bool(Clock::time_point, Clock::time_point)>& isBefore) const;
 
   StopSignal& wake_;
   FileDescriptor poll_;
-  std::map<int, Guest> all_;
-  Clock::time_point nextDeadline_ = Clock::time_point::max(); ///< no guest's is earlier
+  std::map<int, PendingConnection> all_;
+  Clock::time_point nextDeadline_ = Clock::time_point::max(); ///< no pending's is earlier
 };
 
 } // namespace gnomon

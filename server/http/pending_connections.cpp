@@ -1,4 +1,4 @@
-#include "server/http/lobby.h"
+#include "server/http/pending_connections.h"
 
 #include <algorithm>
 #include <array>
@@ -33,10 +33,10 @@ Problem noPlace(bool clientHasItsShare) {
 
 } // namespace
 
-Lobby::Lobby(ConnectionContext& context, std::size_t threads, std::size_t perClient)
+PendingConnections::PendingConnections(ConnectionContext& context, std::size_t threads, std::size_t perClient)
     : context_(context), shares_(perClient), pool_(threads), thread_([this] { watch(); }) {}
 
-void Lobby::finish() {
+void PendingConnections::finish() {
   finishing_ = true;
   wake_.raise();
   if (thread_.joinable()) {
@@ -44,7 +44,7 @@ void Lobby::finish() {
   }
 }
 
-void Lobby::adopt(OpenConnection connection) noexcept {
+void PendingConnections::adopt(OpenConnection connection) noexcept {
   try {
     const std::lock_guard lock(mutex_);
     adopted_.push_back(std::move(connection));
@@ -54,25 +54,25 @@ void Lobby::adopt(OpenConnection connection) noexcept {
   wake_.raise();
 }
 
-void Lobby::admit(OpenConnection connection) noexcept {
+void PendingConnections::admit(OpenConnection connection) noexcept {
   adopt(std::move(connection));
   std::unique_lock lock(mutex_);
   taken_.wait_for(lock, kLongestUnseen, [this] { return adopted_.size() < kMostUnseen; });
 }
 
-void Lobby::makeRoom() noexcept {
+void PendingConnections::makeRoom() noexcept {
   roomWanted_ = true;
   wake_.raise();
 }
 
-bool Lobby::isSettled() {
+bool PendingConnections::isSettled() {
   const std::lock_guard lock(mutex_);
-  const auto& guests = guests_.all();
+  const auto& connections = connections_.all();
   return adopted_.empty() &&
-         std::all_of(guests.begin(), guests.end(), [](const auto& guest) { return guest.second.connection.ending; });
+         std::all_of(connections.begin(), connections.end(), [](const auto& pending) { return pending.second.connection.ending; });
 }
 
-void Lobby::watch() {
+void PendingConnections::watch() {
   constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread
   while (true) {
     try {
@@ -80,8 +80,8 @@ void Lobby::watch() {
         return;
       }
       for (const auto& [fd, isLost] :
-           guests_.listen(ready_.empty() ? Clock::time_point::max() : Clock::now() + kRetry)) {
-        hear(fd, isLost);
+           connections_.wait(ready_.empty() ? Clock::time_point::max() : Clock::now() + kRetry)) {
+        onReadable(fd, isLost);
       }
       placeReady();
       if (roomWanted_.exchange(false)) {
@@ -95,7 +95,7 @@ void Lobby::watch() {
 }
 
 /// Finishing goes in order: heads, the threads that answer them, what these hand back.
-bool Lobby::isOver() {
+bool PendingConnections::isOver() {
   takeAdopted();
   if (!finishing_) {
     return false;
@@ -110,10 +110,10 @@ bool Lobby::isOver() {
     takeAdopted();
     dropIdle();
   }
-  return isDrained_ && guests_.all().empty();
+  return isDrained_ && connections_.all().empty();
 }
 
-void Lobby::takeAdopted() {
+void PendingConnections::takeAdopted() {
   std::vector<OpenConnection> adopted;
   {
     const std::lock_guard lock(mutex_);
@@ -121,111 +121,111 @@ void Lobby::takeAdopted() {
   }
   taken_.notify_all();
   for (OpenConnection& connection : adopted) {
-    if (guests_.all().size() >= context_.limits.maxWaiting) {
+    if (connections_.all().size() >= context_.limits.maxWaiting) {
       dropOne();
     }
-    Guest* const guest = guests_.admit(std::move(connection));
-    if (guest == nullptr) {
+    PendingConnection* const pending = connections_.admit(std::move(connection));
+    if (pending == nullptr) {
       continue;
     }
-    const OpenConnection& own = guest->connection;
-    guests_.expectBy(*guest, own.ending          ? context_.limits.linger
+    const OpenConnection& own = pending->connection;
+    connections_.setDeadline(*pending, own.ending          ? context_.limits.linger
                              : own.requests == 0 ? context_.limits.firstByte
                                                  : context_.limits.idle);
     if (!own.ending && !own.isSilent()) {
-      weigh(*guest, true);
+      checkHead(*pending, true);
     }
   }
 }
 
-/// Takes what a guest has sent.
-void Lobby::hear(int fd, bool lost) {
-  Guest* const guest = guests_.find(fd);
-  if (guest == nullptr) {
+/// Takes what a pending has sent.
+void PendingConnections::onReadable(int fd, bool lost) {
+  PendingConnection* const pending = connections_.find(fd);
+  if (pending == nullptr) {
     return;
   }
-  if (guest->isReady) { // its body waits in the socket
-    if (lost) guests_.drop(fd);
+  if (pending->isReady) { // its body waits in the socket
+    if (lost) connections_.drop(fd);
     return;
   }
-  OpenConnection& connection = guest->connection;
+  OpenConnection& connection = pending->connection;
   std::array<char, 16 * 1024> bytes;
   const ssize_t count = ::recv(fd, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) {
     return;
   }
   if (connection.ending) {
-    if (count <= 0) guests_.drop(fd);
+    if (count <= 0) connections_.drop(fd);
     return;
   }
   const bool wasSilent = connection.isSilent();
   if (count > 0) {
     if (wasSilent) connection.arrived = Clock::now();
     connection.received.append(bytes.data(), static_cast<std::size_t>(count));
-    weigh(*guest, wasSilent);
+    checkHead(*pending, wasSilent);
   } else if (wasSilent) {
-    guests_.drop(fd);
+    connections_.drop(fd);
   } else {
-    refuse(*guest, {ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""});
+    refuse(*pending, {ProblemCode::malformed, "", "The connection ended before the headers did.", "", ""});
   }
 }
 
 /// Who sent a complete head. It is parsed here only where a proxy may have passed it on.
-PeerAddress Lobby::clientOf(const OpenConnection& connection, std::size_t headBytes) const {
+PeerAddress PendingConnections::clientOf(const OpenConnection& connection, std::size_t headBytes) const {
   if (context_.trustedProxies.empty()) return connection.peer;
   const auto head = parseRequestHead(std::string_view(connection.received).substr(0, headBytes));
   return head ? clientAddress(connection.peer, head->headers, context_.trustedProxies) : connection.peer;
 }
 
 /// What has come of a head decides what becomes of its sender.
-void Lobby::weigh(Guest& guest, bool headBegins) {
-  const OpenConnection& connection = guest.connection;
+void PendingConnections::checkHead(PendingConnection& pending, bool headBegins) {
+  const OpenConnection& connection = pending.connection;
   const auto length = headLength(connection.received);
   if (length.value_or(connection.received.size()) > kMaxHeadBytes) {
-    refuse(guest, {ProblemCode::tooLarge, "", "The request line and headers are too long.",
+    refuse(pending, {ProblemCode::tooLarge, "", "The request line and headers are too long.",
                    std::to_string(kMaxHeadBytes) + " bytes", ""});
   } else if (length) {
-    guest.isReady = true;
-    guest.client = clientOf(connection, *length);
-    guests_.ignore(guest);
-    guests_.expectBy(guest, context_.limits.threadWait);
+    pending.isReady = true;
+    pending.client = clientOf(connection, *length);
+    connections_.stopReading(pending);
+    connections_.setDeadline(pending, context_.limits.threadWait);
     ready_.push_back(connection.socket.get());
   } else if (headBegins && !connection.isSilent()) {
-    guests_.expectBy(guest, context_.limits.head);
+    connections_.setDeadline(pending, context_.limits.head);
   }
 }
 
 /// Gives a thread to each complete head, or an answer to those that have waited for one in vain.
-void Lobby::placeReady() {
+void PendingConnections::placeReady() {
   std::vector<int> still;
   for (const int fd : std::exchange(ready_, {})) {
-    Guest* const guest = guests_.find(fd);
-    if (guest == nullptr || !guest->isReady) {
+    PendingConnection* const pending = connections_.find(fd);
+    if (pending == nullptr || !pending->isReady) {
       continue;
     }
-    const Place where = place(fd, *guest);
+    const Place where = place(fd, *pending);
     if (where == Place::taken) {
       continue;
     }
-    if (!guest->isWaiting || Clock::now() >= guest->deadline) {
-      answer(*guest, where);
+    if (!pending->isWaiting || Clock::now() >= pending->deadline) {
+      answer(*pending, where);
     }
-    if (guest->isReady) {
+    if (pending->isReady) {
       still.push_back(fd);
     }
   }
   ready_ = std::move(still);
 }
 
-Lobby::Place Lobby::place(int fd, const Guest& guest) {
-  const std::string network = guest.client.network;
+PendingConnections::Place PendingConnections::place(int fd, const PendingConnection& pending) {
+  const std::string network = pending.client.network;
   if (!pool_.hasIdle()) {
     return Place::noThread;
   }
   if (!shares_.take(network)) {
     return Place::noShare;
   }
-  const auto connection = std::make_shared<OpenConnection>(guests_.release(fd));
+  const auto connection = std::make_shared<OpenConnection>(connections_.release(fd));
   pool_.tryRun([this, connection, network] {
     auto kept = serveConnection(std::move(*connection), context_, [this] { return pool_.hasIdle(); });
     shares_.giveBack(network);
@@ -237,27 +237,27 @@ Lobby::Place Lobby::place(int fd, const Guest& guest) {
 }
 
 /// For a head that found no thread: probes are answered, others go on waiting, and are refused when they are late.
-void Lobby::answer(Guest& guest, Place why) {
-  const std::string& received = guest.connection.received;
-  const auto refusal = Clock::now() >= guest.deadline ? std::optional(noPlace(why == Place::noShare)) : std::nullopt;
+void PendingConnections::answer(PendingConnection& pending, Place why) {
+  const std::string& received = pending.connection.received;
+  const auto refusal = Clock::now() >= pending.deadline ? std::optional(noPlace(why == Place::noShare)) : std::nullopt;
   auto told = replyToUnserved(context_.service, std::string_view(received).substr(0, headLength(received).value_or(0)),
                               refusal);
   if (told) {
-    sendLast(guest, told->record, told->reply, told->bodyless);
+    sendLast(pending, told->record, told->reply, told->bodyless);
   }
-  guest.isWaiting = !told;
+  pending.isWaiting = !told;
 }
 
-void Lobby::refuse(Guest& guest, Problem problem) {
+void PendingConnections::refuse(PendingConnection& pending, Problem problem) {
   RequestRecord record;
   record.id = requestId(std::nullopt);
-  sendLast(guest, record, problemReply({std::move(problem)}, record.id, {.read = RequestPart::head}), false);
+  sendLast(pending, record, problemReply({std::move(problem)}, record.id, {.read = RequestPart::head}), false);
 }
 
-void Lobby::sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool bodyless) {
-  OpenConnection& connection = guest.connection;
+void PendingConnections::sendLast(PendingConnection& pending, RequestRecord& record, HttpReply reply, bool bodyless) {
+  OpenConnection& connection = pending.connection;
   record.start = connection.arrived;
-  record.client = guest.isReady ? guest.client.text : connection.peer.text;
+  record.client = pending.isReady ? pending.client.text : connection.peer.text;
   record.proxy = record.client == connection.peer.text ? "" : connection.peer.text;
   addTrace(reply, record.trace);
   const std::string text = replyHead(reply, record.id, false) + std::string(bodyless ? "" : reply.body.view());
@@ -267,54 +267,54 @@ void Lobby::sendLast(Guest& guest, RequestRecord& record, HttpReply reply, bool 
   context_.ended(record, reply);
   connection.ending = true;
   connection.received = {};
-  guest.isReady = false;
-  guests_.heed(guest);
-  guests_.expectBy(guest, context_.limits.linger);
+  pending.isReady = false;
+  connections_.resumeReading(pending);
+  connections_.setDeadline(pending, context_.limits.linger);
 }
 
-void Lobby::refuseLate() {
-  for (Guest* const guest : guests_.takeLate()) {
-    refuse(*guest, {ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""});
+void PendingConnections::refuseLate() {
+  for (PendingConnection* const pending : connections_.takeExpired()) {
+    refuse(*pending, {ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""});
   }
 }
 
 /// The server ends: who has asked for nothing is let go, and who has its answer has little time to take it.
-void Lobby::dropIdle() {
-  auto& guests = guests_.all();
+void PendingConnections::dropIdle() {
+  auto& connections = connections_.all();
   std::erase_if(
-      guests, [](const auto& guest) { return !guest.second.connection.ending && guest.second.connection.isSilent(); });
-  for (auto& [fd, guest] : guests) {
-    if (guest.connection.ending) guests_.hurry(guest, kLastLinger);
+      connections, [](const auto& pending) { return !pending.second.connection.ending && pending.second.connection.isSilent(); });
+  for (auto& [fd, pending] : connections) {
+    if (pending.connection.ending) connections_.shortenDeadline(pending, kLastLinger);
   }
 }
 
 /// The server does not wait for them any longer.
-void Lobby::refuseWaiting() {
-  for (auto& [fd, guest] : guests_.all()) {
-    if (guest.connection.ending) continue;
-    refuse(guest, {ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
-    guests_.hurry(guest, kLastLinger);
+void PendingConnections::refuseWaiting() {
+  for (auto& [fd, pending] : connections_.all()) {
+    if (pending.connection.ending) continue;
+    refuse(pending, {ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
+    connections_.shortenDeadline(pending, kLastLinger);
   }
 }
 
-/// Makes room for one. Whoever is chosen is heard first: its whole head may have come in this moment.
-void Lobby::dropOne() {
-  while (const auto chosen = guests_.leastWanted()) {
-    hear(*chosen, false);
-    const Guest* const guest = guests_.find(*chosen);
-    if (guest == nullptr) {
+/// Makes room for one. Whoever is chosen is readable first: its whole head may have come in this moment.
+void PendingConnections::dropOne() {
+  while (const auto chosen = connections_.evictionCandidate()) {
+    onReadable(*chosen, false);
+    const PendingConnection* const pending = connections_.find(*chosen);
+    if (pending == nullptr) {
       return;
     }
-    if (!guest->isReady) {
-      guests_.drop(*chosen);
+    if (!pending->isReady) {
+      connections_.drop(*chosen);
       return;
     }
   }
-  if (const auto chosen = guests_.lastToAsk()) {
-    Guest& guest = *guests_.find(*chosen);
-    guest.deadline = Clock::now();
-    answer(guest, Place::noThread);
-    guests_.drop(*chosen);
+  if (const auto chosen = connections_.newestReady()) {
+    PendingConnection& pending = *connections_.find(*chosen);
+    pending.deadline = Clock::now();
+    answer(pending, Place::noThread);
+    connections_.drop(*chosen);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "server/handlers/job_takers.h"
+#include "server/handlers/job_runners.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -46,21 +46,21 @@ Result<std::shared_ptr<const Sequence>> JobSequences::of(const std::string& job)
   return sequence;
 }
 
-JobTakers::JobTakers(Services& services, std::size_t threads) : services_(services), sequences_(services.jobs) {
+JobRunners::JobRunners(Services& services, std::size_t threads) : services_(services), sequences_(services.jobs) {
   for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { takeFrames(); });
 }
 
-JobTakers::~JobTakers() {
+JobRunners::~JobRunners() {
   stop_.raise();
   for (std::thread& thread : threads_) thread.join();
 }
 
-void JobTakers::pause(std::chrono::milliseconds time) const {
+void JobRunners::pause(std::chrono::milliseconds time) const {
   pollfd waiting{stop_.fd(), POLLIN, 0};
   ::poll(&waiting, 1, static_cast<int>(time.count()));
 }
 
-void JobTakers::takeFrames() {
+void JobRunners::takeFrames() {
   constexpr std::chrono::milliseconds kPatience{500};
   auto pauseAfter = kShortest;
   while (!stopping()) {
@@ -81,7 +81,7 @@ void JobTakers::takeFrames() {
   }
 }
 
-void JobTakers::draw(const FrameTurn& turn) {
+void JobRunners::draw(const FrameTurn& turn) {
   const auto sequence = sequences_.of(turn.job);
   if (!sequence) return giveBack(turn, false);
   if (*sequence == nullptr) return count(FrameEnd::unwanted);
@@ -138,7 +138,7 @@ void JobTakers::draw(const FrameTurn& turn) {
 }
 
 /// What was drawn is not thrown away because the queue can't be reached for a while.
-void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
+void JobRunners::keep(const FrameTurn& turn, const JobFrame& frame) {
   constexpr std::chrono::minutes kPatience{5}; // others have long taken the frame then
   const auto until = Clock::now() + kPatience;
   for (auto wait = kShortest;; wait = std::min(wait * 2, kLongest)) {
@@ -151,14 +151,14 @@ void JobTakers::keep(const FrameTurn& turn, const JobFrame& frame) {
 }
 
 /// Where that can't be told, the frame is silent and goes to others.
-void JobTakers::fail(const FrameTurn& turn, const Problems& problems) {
+void JobRunners::fail(const FrameTurn& turn, const Problems& problems) {
   count(FrameEnd::failed);
   const auto told = services_.jobs.fail(turn, problems);
   if (!told) logEvent("jobs", told.problems().front().detail);
 }
 
 /// The same.
-void JobTakers::giveBack(const FrameTurn& turn, bool isTried) {
+void JobRunners::giveBack(const FrameTurn& turn, bool isTried) {
   count(FrameEnd::givenBack);
   const auto told = services_.jobs.giveBack(turn, isTried);
   if (!told) logEvent("jobs", told.problems().front().detail);

@@ -20,7 +20,7 @@ struct BakeName {
 };
 
 /// Bakes by name, in progress or done; those that were done or asked for longest ago are forgotten. Any thread.
-class BakeBook {
+class BakeRegistry {
  public:
   static constexpr std::size_t kMost = 1024; ///< a few kilobytes each
 
