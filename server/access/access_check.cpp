@@ -133,9 +133,7 @@ class AccessCheck {
       return notSigned(kSignatureKey, "No key has signed this address as it is.", request);
     }
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()).time_since_epoch();
-    if (now.count() >= target->expires) {
-      return notSigned(kExpiresKey, "The time of this address is over.", request);
-    }
+    if (now.count() >= target->expires) return notSigned(kExpiresKey, "The time of this address is over.", request);
     return *std::move(key);
   }
 

@@ -24,7 +24,7 @@ class BakeRegistry {
  public:
   static constexpr std::size_t kMost = 1024; ///< a few kilobytes each
 
-  /// Writes down a bake that begins. The flag becomes true once somebody removes it.
+  /// Registers a bake that begins. The flag becomes true once it is removed.
   std::shared_ptr<const std::atomic<bool>> begin(const BakeName& name, const FrameSpec& spec);
 
   /// Keeps a bake that was begun, or forgets one that failed.

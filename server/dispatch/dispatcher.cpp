@@ -118,10 +118,10 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
     const auto deadline = std::min(ticket->task.deadline, endAt_);
     ticket->changed.wait_until(lock, std::min(deadline, Clock::now() + kPause),
                                [&] { return ticket->state == Ticket::State::done || !ticket->events.empty(); });
-    const auto told = std::exchange(ticket->events, {});
+    const auto arrived = std::exchange(ticket->events, {});
     const bool done = ticket->state == Ticket::State::done;
     lock.unlock();
-    if (events) std::for_each(told.begin(), told.end(), events);
+    if (events) std::for_each(arrived.begin(), arrived.end(), events);
     if (done) return std::move(ticket->result);
     const bool left = gone();
     lock.lock();

@@ -24,15 +24,15 @@
 namespace gnomon {
 
 struct DispatcherOptions {
-  std::string program = "/proc/self/exe";       ///< what workers run; see WorkerProcess
-  std::size_t workers = 1;                      ///< >= 1
-  std::size_t queueLimit = 64;                  ///< >= 1; tasks that may wait
-  WorkerOptions each{};                         ///< for every worker
-  std::chrono::milliseconds silence{10'000};    ///< a worker that says nothing for so long is killed
-  std::chrono::milliseconds stopping{1'000};    ///< and one that does not stop a task that was called off
-  std::shared_ptr<StoredLightMaps> lightMaps{}; ///< nullptr = light maps are not stored
+  std::string program = "/proc/self/exe";            ///< what workers run; see WorkerProcess
+  std::size_t workers = 1;                           ///< >= 1
+  std::size_t queueLimit = 64;                       ///< >= 1; tasks that may wait
+  WorkerOptions each{};                              ///< for every worker
+  std::chrono::milliseconds responseTimeout{10'000}; ///< a worker that sends nothing for so long is killed
+  std::chrono::milliseconds stopping{1'000};         ///< and one that does not stop a task that was called off
+  std::shared_ptr<StoredLightMaps> lightMaps{};      ///< nullptr = light maps are not stored
 
-  /// Told of each task that goes to a worker, and how long it waited. It must return at once.
+  /// Called for each task that goes to a worker, with how long it waited. It must return at once.
   std::function<void(Lane, double seconds)> waited{};
 
   /// Starts each thread of the dispatcher. It may throw std::system_error, as std::thread does where the system has no
@@ -45,8 +45,8 @@ struct DispatcherOptions {
 /// Why a worker had to be replaced.
 enum class WorkerEnd {
   crash,       ///< it ended by itself, or sent what is no message
-  silence,     ///< it said nothing any more, or never became ready
-  notStopping, ///< it went on with work that nobody waited for
+  silence,     ///< it stopped sending, or never became ready
+  notStopping, ///< it went on with work that was cancelled
   memory       ///< it used more than it may
 };
 inline constexpr std::size_t kWorkerEnds = 4;
@@ -63,10 +63,10 @@ struct DispatcherState {
   std::array<std::size_t, kLanes> runningByLane{};       ///< tasks
   std::array<std::uint64_t, kWorkerEnds> replacements{}; ///< workers, since the start
   std::uint64_t reusedMeshes = 0; ///< by loads, since the start: found in a scene that a worker had
-  std::uint64_t reusedImages = 0; ///< alike
+  std::uint64_t reusedImages = 0; ///< the same of images
 };
 
-/// Workers, and the queue before them. A worker that ends, falls silent, does not stop, or takes too much memory is
+/// Workers, and the queue before them. A worker that ends, stops sending, does not stop, or takes too much memory is
 /// replaced; each task that it had is tried once more, with no other beside it, and if that ends its worker too, it is
 /// a problem. Any thread.
 class Dispatcher {

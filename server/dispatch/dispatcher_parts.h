@@ -21,10 +21,10 @@ struct Dispatcher::Ticket {
   Clock::time_point since = Clock::now(); ///< that it waits, or runs
   double waitedMilliseconds = 0;
   int ends = 0;                               ///< of workers that had it
-  int kills = 0;                              ///< of them, those that somebody else killed
+  int kills = 0;                              ///< of them, those that another process killed
   std::size_t slot = 0;                       ///< where it runs
-  std::optional<Clock::time_point> calledOff; ///< nobody waits for it any more
-  std::deque<OrderEvent> events;              ///< not told yet
+  std::optional<Clock::time_point> calledOff; ///< no caller waits for it any more
+  std::deque<OrderEvent> events;              ///< not delivered yet
   bool hasEvents = false;                     ///< some came, so that it can't be tried again
   TaskResult result;
   std::condition_variable changed;
@@ -32,7 +32,7 @@ struct Dispatcher::Ticket {
   /// Its worker ended: it is tried again, with no other task beside it.
   bool mustBeAlone() const { return ends > 0; }
 
-  /// Not once two workers ended over it. It is hardly why a worker is killed from outside; but the system kills who
+  /// Not once two workers ended over it. It is hardly why a worker is killed from outside; but the system kills what
   /// takes too much memory, so that there is an end to that, too.
   bool mayBeTriedAgain() const { return ends - kills < 2 && ends < 5 && !hasEvents; }
 };
@@ -41,10 +41,10 @@ struct Dispatcher::Ticket {
 struct Dispatcher::Slot {
   std::shared_ptr<WorkerProcess> process; ///< null between two
   bool ready = false;
-  Clock::time_point heard; ///< its last sign of life, or its start
-  bool isHandled = false;  ///< a message of it is being handled, so that it can't be heard
-  Fault fault{};           ///< why it was killed; no detail = it wasn't
-  int failures = 0;        ///< in a row, before it was ready
+  Clock::time_point lastMessage; ///< when its last message came, or its start
+  bool isHandled = false;        ///< a message of it is being handled, so that no other is read
+  Fault fault{};                 ///< why it was killed; no detail = it wasn't
+  int failures = 0;              ///< in a row, before it was ready
   std::map<std::uint64_t, TicketPtr> running;
   Beat beat;
   std::thread thread;

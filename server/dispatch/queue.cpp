@@ -1,4 +1,5 @@
-// The queue: whose turn it is, where each task goes, and who is refused once too many wait. All with the mutex held.
+// The queue: which task is next, where each task goes, and which is refused once too many wait. All with the mutex
+// held.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -21,8 +22,8 @@ void Dispatcher::refuse(const TicketPtr& ticket, TaskResult result) {
   ticket->changed.notify_one();
 }
 
-/// Gives workers what they can take. Those who have to be alone come first, then whoever has the fewest tasks in
-/// progress, then who came first.
+/// Gives workers what they can take. Tasks that must be alone come first, then those of the client with the fewest
+/// tasks in progress, then the oldest.
 void Dispatcher::placeWaiting() {
   std::map<std::string, int> inProgress;
   std::vector<WorkerView> workers;
@@ -64,7 +65,7 @@ void Dispatcher::placeWaiting() {
   }
 }
 
-/// False where the worker can't be told of it: it is replaced then, and the task, which it never had, waits on.
+/// False where the worker can't be sent it: it is replaced then, and the task, which it never had, waits on.
 bool Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   Slot& slot = *slots_[worker];
   Channel& channel = slot.process->channel();
@@ -91,7 +92,7 @@ bool Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   return true;
 }
 
-/// The newest of whoever has the most in the queue, so that a client that fills it takes no other's place.
+/// The newest task of the client that has the most in the queue, so that a client that fills it takes no other's place.
 void Dispatcher::refuseOne() {
   std::map<std::string, std::size_t> counts;
   for (const TicketPtr& ticket : waiting_) ++counts[ticket->task.client];

@@ -17,7 +17,7 @@ namespace gnomon {
 
 /// Tasks of one lane never stand before those of another.
 enum class Lane {
-  interactive, ///< somebody waits for it
+  interactive, ///< a client waits for it
   batch,       ///< may take minutes
   load,        ///< scenes that are uploaded
   sequence     ///< frames of sequences
@@ -35,7 +35,7 @@ struct Task {
       allowed{}; ///< from the request's first byte to the deadline, for the problem that quotes it
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
-  std::string client;         ///< who asks: tasks of different clients take turns
+  std::string client;         ///< its address: tasks of different clients take turns
   std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 
@@ -54,7 +54,7 @@ struct TaskResult {
   ReplyRoom room{}; ///< for the body, once it may be read as a reply
 };
 
-/// Told of a task's events, in order, on the thread that waits for the task.
+/// Takes a task's events, in order, on the thread that waits for the task.
 using TaskEvents = std::function<void(const OrderEvent&)>;
 
 } // namespace gnomon

@@ -8,7 +8,7 @@
 #include "server/system/log.h"
 #include "server/system/memory_file.h"
 
-/// How a dispatcher starts its workers, hears them, watches them and replaces them.
+/// How a dispatcher starts its workers, reads their messages, watches and replaces them.
 namespace gnomon {
 namespace {
 
@@ -17,8 +17,8 @@ constexpr std::chrono::milliseconds kWatchPause{50};
 
 Problem endedOver(int times, const Problem& fault) {
   Problem problem = fault;
-  const std::string who = times == 1 ? "A worker" : times == 2 ? "Two workers" : std::to_string(times) + " workers";
-  problem.detail = who + " ended over this request. " + fault.detail;
+  const std::string workers = times == 1 ? "A worker" : times == 2 ? "Two workers" : std::to_string(times) + " workers";
+  problem.detail = workers + " ended over this request. " + fault.detail;
   return problem;
 }
 
@@ -71,7 +71,7 @@ bool Dispatcher::startWorker(Slot& slot) {
     return false;
   }
   slot.process = *std::move(started);
-  slot.heard = Clock::now();
+  slot.lastMessage = Clock::now();
   slot.fault = {};
   slot.isHandled = false;
   if (ending_) slot.process->kill();
@@ -96,7 +96,7 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
   auto message = readToFront(packet.text);
   if (!message) return false;
   Lock lock(mutex_);
-  slot.heard = Clock::now();
+  slot.lastMessage = Clock::now();
   if (message->beat) {
     const auto since = [](std::uint64_t before, std::uint64_t now) { return now >= before ? now - before : now; };
     reusedMeshes_ += since(slot.beat.reusedMeshes, message->beat->reusedMeshes); // a new worker begins at 0
@@ -124,7 +124,7 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     const auto found = slot.running.find(message->event->number);
     if (found == slot.running.end()) return false;
     Ticket& ticket = *found->second;
-    ticket.hasEvents = ticket.task.order.kind != OrderKind::sequenceFrame; // which tells the same again
+    ticket.hasEvents = ticket.task.order.kind != OrderKind::sequenceFrame; // which sends the same again
     ticket.events.push_back(*std::move(message->event));
     ticket.changed.notify_one();
   }
@@ -144,7 +144,7 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     if (message->request) answerRequest(slot, *message->request);
     if (message->made && !packet.files.empty()) options_.lightMaps->write(message->made->key, packet.files.front());
     lock.lock();
-    slot.heard = Clock::now();
+    slot.lastMessage = Clock::now();
     slot.isHandled = false;
   }
   return true;
@@ -163,7 +163,7 @@ void Dispatcher::replaceWorker(Slot& slot) {
     ++slot.failures;
     return;
   }
-  slot.process->kill(); // whoever closed the channel is of no use
+  slot.process->kill(); // without its channel it is of no use
   const WorkerProcess::Ending ending = slot.process->end();
   const Lock lock(mutex_);
   const bool isForeign = ending.isKilled && slot.fault.problem.detail.empty(); // we did not kill it
@@ -215,15 +215,15 @@ void Dispatcher::watch() {
 /// Why a worker must be replaced. With the mutex held.
 std::optional<Dispatcher::Fault> Dispatcher::faultOf(const Slot& slot) const {
   const auto now = Clock::now();
-  if (!slot.ready && now - slot.heard > kStartPatience) {
+  if (!slot.ready && now - slot.lastMessage > kStartPatience) {
     return Fault{faultProblem("It did not become ready."), WorkerEnd::silence};
   }
-  if (slot.ready && !slot.isHandled && now - slot.heard > options_.silence) {
-    return Fault{faultProblem("It said nothing any more."), WorkerEnd::silence};
+  if (slot.ready && !slot.isHandled && now - slot.lastMessage > options_.responseTimeout) {
+    return Fault{faultProblem("It stopped responding."), WorkerEnd::silence};
   }
   for (const auto& [number, ticket] : slot.running) {
     if (ticket->calledOff && now - *ticket->calledOff > options_.stopping) {
-      return Fault{faultProblem("It did not stop work that nobody waited for."), WorkerEnd::notStopping};
+      return Fault{faultProblem("It did not stop work that was cancelled."), WorkerEnd::notStopping};
     }
   }
   if (options_.each.memoryBytes > 0 && slot.process->residentBytes() > options_.each.memoryBytes) {

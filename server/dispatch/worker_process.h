@@ -30,13 +30,13 @@ class WorkerProcess {
 
   struct Ending {
     std::string how;       ///< "exit status 0", "signal 9"
-    bool isKilled = false; ///< by SIGKILL, whoever sent it
+    bool isKilled = false; ///< by SIGKILL, from any process
   };
 
   /// Waits until it has ended, and ends what it has started. Once, by one thread.
   Ending end();
 
-  /// Bytes of memory that it has now; 0 where the system doesn't tell.
+  /// Bytes of memory that it has now; 0 where that is unknown.
   std::uint64_t residentBytes() const;
 
  private:

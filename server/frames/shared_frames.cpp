@@ -34,7 +34,7 @@ HttpReply SharedFrames::run(const std::string& etag, Clock::time_point deadline,
   const auto flight = std::make_shared<Flight>();
   flights_[etag] = flight;
   lock.unlock();
-  // Nobody waits for what has ended, however it did. Those who wait go on once the lock is let go.
+  // What has ended is joined no more, however it ended. Waiting callers go on once the lock is released.
   const auto land = [&] {
     lock.lock();
     flights_.erase(etag);

@@ -14,16 +14,16 @@
 
 namespace gnomon {
 
-/// Frames in progress by entity tag: who asks for one that is being drawn waits for it, instead of having it drawn
+/// Frames in progress by entity tag: a request for one that is being drawn waits for it, instead of having it drawn
 /// again. Any thread.
 class SharedFrames {
  public:
   using Gone = std::function<bool()>;
 
-  /// The reply of `draw`, or of another call's with the same tag. `draw` is given what tells it that nobody waits any
-  /// more: neither this caller nor those who joined. A reply that is not 200 is nobody else's, nor is what `draw`
-  /// throws: who waited for it calls its own `draw`. `gone` is asked some fifty times a second; once it is true, or the
-  /// deadline has passed, `draw` is called at once, which tells why nothing comes of it.
+  /// The reply of `draw`, or of another call's with the same tag. `draw` is given what says whether any
+  /// caller still waits, this one or one that joined. A reply that is not 200 is this caller's alone, as is what `draw`
+  /// throws: a caller that waited for it calls its own `draw`. `gone` is asked some fifty times a second; once it is
+  /// true, or the deadline has passed, `draw` is called at once, and reports why it fails.
   HttpReply run(const std::string& etag, Clock::time_point deadline, const Gone& gone,
                 const std::function<HttpReply(const Gone&)>& draw);
 

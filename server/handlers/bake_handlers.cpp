@@ -35,9 +35,7 @@ HttpReply postBake(Services& services, RouteCall call) {
   if (!spec) return problemReply(spec.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kReportForms);
-  if (!form) {
-    return problemReply({notAcceptable("A bake's progress", accept, kReportForms)}, requestId);
-  }
+  if (!form) return problemReply({notAcceptable("A bake's progress", accept, kReportForms)}, requestId);
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);
   const Permit permit = permitOf(services.bakes);
@@ -55,12 +53,13 @@ HttpReply postBake(Services& services, RouteCall call) {
   const EventedWork work = [&services, permit, task = std::move(task), name = BakeName{id, bakeKey(id, *spec)},
                             spec = bakedParts(*spec)](const std::function<bool()>& gone, const TaskEvents& events) {
     const auto removed = services.bakeBook.begin(name, spec);
-    const auto tell = [&](const OrderEvent& event) {
-      if (event.name == "result") services.bakeBook.end(name, true); // who reads it may ask for the file at once
+    const auto onEvent = [&](const OrderEvent& event) {
+      if (event.name == "result")
+        services.bakeBook.end(name, true); // a client that reads it may ask for the file at once
       if (events) events(event);
     };
     TaskResult result = runTask(
-        services, task, [&] { return *removed || gone(); }, tell);
+        services, task, [&] { return *removed || gone(); }, onEvent);
     services.bakeBook.end(name, result.outcome.problems.empty());
     return result;
   };
@@ -76,19 +75,13 @@ HttpReply getBake(Services& services, RouteCall call) {
   const BakeName name = nameOf(call);
   if (const auto there = services.store.contains(name.scene); !there) return problemReply(there.problems(), requestId);
   const auto spec = services.bakeBook.find(name);
-  if (!spec) {
-    return problemReply({unknownBake(name)}, requestId);
-  }
+  if (!spec) return problemReply({unknownBake(name)}, requestId);
   const auto light =
       queryNumber(call.request.query, "light", 0, services.limits.maxLights - 1, "This is no index of a light.");
-  if (!light) {
-    return problemReply(light.problems(), requestId);
-  }
+  if (!light) return problemReply(light.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kBakeFileTypes);
-  if (!form) {
-    return problemReply({notAcceptable("A bake", accept, kBakeFileTypes)}, requestId);
-  }
+  if (!form) return problemReply({notAcceptable("A bake", accept, kBakeFileTypes)}, requestId);
   auto bundle = services.store.bundle(name.scene);
   if (!bundle) return problemReply(bundle.problems(), requestId);
   Task task = taskFor(call, OrderKind::bakeFile, name.scene, *std::move(bundle), jsonText(toJson(*spec)),

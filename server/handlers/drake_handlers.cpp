@@ -31,7 +31,7 @@ HttpReply refused(const Problems& problems, const RouteCall& call) {
   return asText(problemReply(problems, call.request.id), problems);
 }
 
-/// Of depth: metres or, for those who want a PNG, millimetres.
+/// Of depth: metres or, in a PNG, millimetres.
 constexpr std::array<std::string_view, 2> kDepthTypes{"image/tiff", "image/png"};
 constexpr std::array<std::string_view, 1> kColorTypes{"image/png"};
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kEvaluationRetrySeconds = 10; ///< where the most evaluations run
 constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv", "image/svg+xml", kEventStream};
 
-/// Tells the report, which has come as the result's body, as the last event.
+/// Sends the report, which has come as the result's body, as the last event.
 void tellReport(TaskResult& result, const TaskEvents& events) {
   if (auto report = bodyOf(result)) {
     events({.number = result.outcome.number, .name = "result", .data = *std::move(report)});
@@ -35,9 +35,7 @@ HttpReply postEvaluation(Services& services, RouteCall call) {
   if (!evaluation) return problemReply(evaluation.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kForms);
-  if (!form) {
-    return problemReply({notAcceptable("An evaluation", accept, kForms)}, requestId);
-  }
+  if (!form) return problemReply({notAcceptable("An evaluation", accept, kForms)}, requestId);
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), requestId);
   const Permit permit = permitOf(services.evaluations);

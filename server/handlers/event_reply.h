@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// Work that puts its progress and its result as events, and returns what became of it. `gone` may be called by any
-/// thread; true = nobody listens any more, and the work should end soon.
+/// thread; true = the client is gone, and the work should end soon.
 using EventWork = std::function<StreamResult(const std::function<bool()>& gone, EventStream& events)>;
 
 /// A reply of events that are sent while `work` runs, on a thread of its own. An exception becomes an event `problem`.

@@ -89,9 +89,7 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
   const HttpRequest& request = call.request;
   const auto accept = headerValue(request.headers, "accept");
   const auto form = negotiate(accept, frame.spec.output.format);
-  if (!form) {
-    return problemReply({notAcceptable("A frame", accept, kFrameTypes)}, request.id);
-  }
+  if (!form) return problemReply({notAcceptable("A frame", accept, kFrameTypes)}, request.id);
   frame.spec.output.format = form->format;
   const std::string etag = frameEtag(frame.sceneId, frame.spec, services.workers.info().fingerprint, *form);
 
@@ -117,9 +115,7 @@ HttpReply answerStored(Services& services, const RouteCall& call, Result<FrameSp
                        std::string request = {}) {
   const std::string& id = call.values.at("id");
   if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
-  if (!spec) {
-    return problemReply(spec.problems(), call.request.id);
-  }
+  if (!spec) return problemReply(spec.problems(), call.request.id);
   return answer(services, call,
                 {id, *std::move(spec), [&services, id] { return services.store.bundle(id); }, std::move(cacheControl),
                  services.store.counts(id).value_or(SceneCounts()), std::move(request)});
@@ -168,15 +164,11 @@ HttpReply postPlan(Services& services, RouteCall call) {
 HttpReply renderOnce(Services& services, RouteCall call) {
   const std::string id = call.request.id;
   const auto parts = partsOf(call.request, services.limits);
-  if (!parts) {
-    return problemReply(parts.problems(), id);
-  }
+  if (!parts) return problemReply(parts.problems(), id);
   Result<FrameSpec> spec = FrameSpec{};
   bool hasSpec = false;
   for (const FormPart& part : *parts) {
-    if (part.name != "spec") {
-      continue;
-    }
+    if (part.name != "spec") continue;
     if (hasSpec) {
       return problemReply({{ProblemCode::invalidValue, "spec", "The form has two parts of this name.", "", ""}}, id);
     }
@@ -189,18 +181,12 @@ HttpReply renderOnce(Services& services, RouteCall call) {
     spec = decodeFrameSpec(part.content);
     hasSpec = true;
   }
-  if (!spec) {
-    return problemReply(spec.problems(), id);
-  }
+  if (!spec) return problemReply(spec.problems(), id);
   const auto strict = queryFlag(call.request.query, "strict");
   if (!strict) return problemReply(strict.problems(), id);
   auto bundle = bundleFromParts(*parts, {"spec"});
-  if (!bundle) {
-    return problemReply(bundle.problems(), id);
-  }
-  if (auto fits = checkBundleSize(*bundle, services.limits); !fits) {
-    return problemReply(fits.problems(), id);
-  }
+  if (!bundle) return problemReply(bundle.problems(), id);
+  if (auto fits = checkBundleSize(*bundle, services.limits); !fits) return problemReply(fits.problems(), id);
   call.request.body = Bytes();
   const auto pack = packed(*bundle);
   if (!pack) return problemReply(pack.problems(), id);

@@ -6,7 +6,7 @@
 #include "protocol/job/job.h"
 #include "server/handlers/handlers.h"
 
-/// How jobs are told about.
+/// Replies about jobs.
 namespace gnomon {
 
 /// The job as clients see it.

@@ -75,7 +75,7 @@ void JobRunners::takeFrames() {
       pauseAfter = kShortest;
       if (*turn) draw(**turn);
     } catch (const std::exception& error) {
-      logEvent("jobs", error.what()); // out of memory: the frame is given to others once this one is silent
+      logEvent("jobs", error.what()); // out of memory: the frame is given to others once this one is not renewed
       pause(kLongest);
     }
   }
@@ -95,9 +95,9 @@ void JobRunners::draw(const FrameTurn& turn) {
   bool isWanted = true;
   auto renewed = Clock::now();
   const auto gone = [&] {
-    if (Clock::now() - renewed > services_.jobLimits.silence / 4) {
-      const auto told = services_.jobs.renew(turn);
-      isWanted = !told || *told;
+    if (Clock::now() - renewed > services_.jobLimits.lease / 4) {
+      const auto renewal = services_.jobs.renew(turn);
+      isWanted = !renewal || *renewal;
       renewed = Clock::now();
     }
     return !isWanted || stop_.raised();
@@ -150,18 +150,18 @@ void JobRunners::keep(const FrameTurn& turn, const JobFrame& frame) {
   }
 }
 
-/// Where that can't be told, the frame is silent and goes to others.
+/// Where that can't be stored, the frame is not renewed and goes to others.
 void JobRunners::fail(const FrameTurn& turn, const Problems& problems) {
   count(FrameEnd::failed);
-  const auto told = services_.jobs.fail(turn, problems);
-  if (!told) logEvent("jobs", told.problems().front().detail);
+  const auto stored = services_.jobs.fail(turn, problems);
+  if (!stored) logEvent("jobs", stored.problems().front().detail);
 }
 
 /// The same.
 void JobRunners::giveBack(const FrameTurn& turn, bool isTried) {
   count(FrameEnd::givenBack);
-  const auto told = services_.jobs.giveBack(turn, isTried);
-  if (!told) logEvent("jobs", told.problems().front().detail);
+  const auto stored = services_.jobs.giveBack(turn, isTried);
+  if (!stored) logEvent("jobs", stored.problems().front().detail);
   if (!stopping()) pause(kShortest);
 }
 

@@ -49,9 +49,7 @@ HttpReply getReadyz(Services& services, RouteCall call) {
                        : state.ready == 0                     ? "No worker is ready."
                        : state.waiting * 4 >= state.limit * 3 ? "The queue before the workers is nearly full."
                                                               : nullptr;
-  if (reason != nullptr) {
-    return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
-  }
+  if (reason != nullptr) return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
   // What is in memory is served without it.
   const bool hasStore = services.store.state().isReachable;
   return probeReply(hasStore ? "ready\n" : "ready, but for scenes that are not in memory: the store's Redis is away\n");
@@ -105,9 +103,7 @@ std::function<HttpReply(RouteCall)> pageHandler(const StaticFile& file) {
 
 std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRequest& request) {
   auto found = router.find(request.method, request.path);
-  if (auto* match = std::get_if<RouteMatch>(&found)) {
-    return std::move(*match);
-  }
+  if (auto* match = std::get_if<RouteMatch>(&found)) return std::move(*match);
   if (const auto* refused = std::get_if<MethodRefused>(&found)) {
     if (request.method == "OPTIONS") {
       HttpReply reply;
@@ -127,9 +123,7 @@ std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRe
 
 /// Why this route does not accept the body that the request's head announces.
 std::optional<Problem> refuseContent(const Route& route, const HttpRequest& request) {
-  if (route.contentTypes.empty() || !request.hasBody) {
-    return std::nullopt;
-  }
+  if (route.contentTypes.empty() || !request.hasBody) return std::nullopt;
   const std::string type = mediaType(headerValue(request.headers, "content-type").value_or(""));
   if (std::find(route.contentTypes.begin(), route.contentTypes.end(), type) == route.contentTypes.end()) {
     std::string accepted;
@@ -216,9 +210,7 @@ HttpService makeService(std::vector<Route> routes) {
   const auto router = std::make_shared<const Router>(std::move(routes));
   return [router](const HttpRequest& head) -> std::variant<RequestHandler, HttpReply> {
     auto found = findRoute(*router, head);
-    if (auto* refused = std::get_if<HttpReply>(&found)) {
-      return std::move(*refused);
-    }
+    if (auto* refused = std::get_if<HttpReply>(&found)) return std::move(*refused);
     auto& match = std::get<RouteMatch>(found);
     const Route& route = *match.route;
     const std::string& name = route.name.empty() ? route.pattern : route.name;

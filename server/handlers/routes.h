@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Where a server tells how it is.
+/// The addresses of a server's state.
 enum class Addresses {
   one, ///< beside everything else
   two  ///< at an address of its own; probes are answered at both

@@ -111,9 +111,11 @@ class EventForm final : public SequenceForm {
   bool begin(const BodySink& sink) override { return sink(":\n\n"); }
   bool waiting(const BodySink& sink) override { return sink(":\n\n"); } // keeps proxies from closing the connection
   bool frame(const BodySink& sink, const DoneFrame& frame, int of) override {
-    SequenceFrame told{.index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
-    for (const PictureNews& picture : frame.pictures) told.images.push_back({picture.view, picture.contentType, ""});
-    const std::string event = eventText("frame", jsonText(toJson(told)));
+    SequenceFrame described{
+        .index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
+    for (const PictureNews& picture : frame.pictures)
+      described.images.push_back({picture.view, picture.contentType, ""});
+    const std::string event = eventText("frame", jsonText(toJson(described)));
     std::string_view rest = event;
     const bool isThere = eachPicture(frame, [&](const PictureNews&, const SentFile& file) {
       constexpr std::string_view kData = R"("data":")"; // no text of JSON holds it: its quotes would be escaped

@@ -14,7 +14,7 @@ namespace gnomon {
 /// What sequences and jobs are sent as: the first is the choice without an Accept header.
 inline constexpr std::array<std::string_view, 3> kSequenceForms{"multipart/mixed", "application/zip", kEventStream};
 
-/// How a sequence is written. Functions that return bool send, and tell whether the client is still there.
+/// How a sequence is written. Functions that return bool send; false = the client is gone.
 class SequenceForm {
  public:
   virtual ~SequenceForm() = default;

@@ -44,7 +44,7 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
              std::to_string(kLimits.maxSpecBytes) + " bytes", std::to_string(task.request.size()) + " bytes"}};
   }
   bool isDrawn = false;
-  const auto hear = [&](const OrderEvent& event) {
+  const auto onEvent = [&](const OrderEvent& event) {
     auto news = event.name == kSequenceNews ? readSequenceNews(event.data) : std::nullopt;
     if (!news) return;
     if (news->drawn && !isDrawn) {
@@ -62,7 +62,7 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
       return {noReplyRoom()};
     }
     task.deadline = std::min(call.task.deadline, Clock::now() + services.requestTimeout);
-    frame.result = runPatiently(services, call, task, hear);
+    frame.result = runPatiently(services, call, task, onEvent);
     if (!frame.result.outcome.problems.empty()) return std::move(frame.result.outcome.problems);
     if (!call.takeRoom || call.takeRoom(bytesOf(frame.pictures))) break;
   }

@@ -18,7 +18,7 @@ namespace gnomon {
 struct DoneFrame {
   int index = 0;
   Problems problems{}; ///< with places in the request
-  TaskResult result{}; ///< where there are problems: who refused
+  TaskResult result{}; ///< where there are problems: what refused
   std::vector<PictureNews> pictures{};
   Bytes bytes{};                     ///< of the pictures, one after the other
   std::unique_ptr<ByteLease> room{}; ///< for the bytes, beside all replies that clients are taking
@@ -37,7 +37,7 @@ struct FrameToDraw {
   Task task{};            ///< all but the frame's own; its deadline is that of all frames
   bool isPatient = false; ///< asks again where too many tasks wait
   std::function<bool()> gone;
-  std::function<void(const DoneFrame&)> drawn{}; ///< told what it carries, once the next one can begin
+  std::function<void(const DoneFrame&)> drawn{}; ///< called with what it carries, once the next one can begin
 
   // Room for its bytes; absent = they need none
   std::function<bool()> awaitRoom{};                 ///< before it is drawn; false = there will be none

@@ -97,7 +97,7 @@ bool SequenceFrames::isNext(const FrameInWork& inWork) const {
   return &first == &inWork || first.isDone;
 }
 
-/// Whatever waits for room holds nothing meanwhile, so that no two sequences wait for each other.
+/// A waiting sequence holds no room meanwhile, so that no two sequences wait for each other.
 bool SequenceFrames::awaitRoom(FrameInWork& inWork) {
   if (inWork.expected == 0) return true;
   const bool isFirst = inWork.frame.index == sequence_.first;

@@ -25,8 +25,9 @@ class FrameSource {
 };
 
 /// Has workers draw the frames of a sequence, each as a task of its own, at most two at once: a frame begins once the
-/// one before it is drawn, while that is encoded and sent. Who takes frames slowly holds up the frames after the next.
-/// A frame for whose bytes there is no room is dropped, and drawn again once there is: only the first one gives up.
+/// one before it is drawn, while that is encoded and sent. A slow reader delays later frames: one frame is rendered
+/// ahead. A frame for whose bytes there is no room is dropped, and drawn again once there is: only the first one gives
+/// up.
 class SequenceFrames final : public FrameSource {
  public:
   /// `task`: what every frame's task begins with; its deadline is that of the whole sequence. `permit` is held as long

@@ -96,9 +96,9 @@ HttpReply putJob(Services& services, const RouteCall& call, const AskedSequence&
                    .isChained = asked.isChained,
                    .carried = asked.sequence.carried};
   if (const auto kept = services.jobs.put(job); !kept) return jobProblem(kept.problems(), call);
-  const Job told = jobOf(queuedProgress(job), services.jobLimits.age);
-  HttpReply reply = jsonReply(toJson(told), 202);
-  reply.headers = {{"Location", told.address},
+  const Job described = jobOf(queuedProgress(job), services.jobLimits.age);
+  HttpReply reply = jsonReply(toJson(described), 202);
+  reply.headers = {{"Location", described.address},
                    {"Preference-Applied", "respond-async"},
                    {"Vary", "Prefer"},
                    {"Cache-Control", "no-store"}};

@@ -31,14 +31,13 @@ StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, FrameSource
   while (isThere) {
     DoneFrame frame =
         first ? *std::exchange(first, std::nullopt) : frames.next([&] { isThere = form.waiting(sink) && isThere; });
-    if (frame.problems.empty()) {
+    if (frame.problems.empty())
       if (auto encoded = form.encode(frame); !encoded) frame.problems = encoded.problems();
-    }
     if (!frame.problems.empty()) {
       form.problem(sink, problemText(frame.problems, requestId));
-      StreamResult told{.problem = frame.problems.front().detail};
-      told.refusal = refusalOfStatus(statusOf(frame.problems.front().code));
-      return told;
+      StreamResult ended{.problem = frame.problems.front().detail};
+      ended.refusal = refusalOfStatus(statusOf(frame.problems.front().code));
+      return ended;
     }
     note(frame, report);
     isThere = form.frame(sink, frame, frames.count()) && isThere;
@@ -58,7 +57,7 @@ HttpReply sequenceReply(TypedForm form, const RouteCall& call, std::shared_ptr<F
   HttpReply reply;
   reply.contentType = std::move(form.contentType);
   reply.headers.emplace_back("X-Accel-Buffering", "no");   // asks proxies to pass frames on at once
-  reply.headers.emplace_back("Cache-Control", "no-store"); // it tells times
+  reply.headers.emplace_back("Cache-Control", "no-store"); // it contains times
   reply.headers.emplace_back("Vary", "Accept");
   const auto result = std::make_shared<StreamResult>();
   reply.streamed = result;

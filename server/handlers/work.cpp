@@ -181,14 +181,14 @@ HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork
   return eventReply(call, [work = std::move(work), requestId = call.request.id](const std::function<bool()>& gone,
                                                                                 EventStream& events) {
     const TaskResult result = work(gone, [&](const OrderEvent& event) { events.put(event.name, event.data); });
-    StreamResult told{.stages = result.outcome.stages, .refusal = refusalOf(result.refusal)};
+    StreamResult ended{.stages = result.outcome.stages, .refusal = refusalOf(result.refusal)};
     if (!result.outcome.problems.empty()) {
       const Problem& first = result.outcome.problems.front();
-      told.problem = first.detail;
-      if (told.refusal == RefusalReason::none) told.refusal = refusalOfStatus(statusOf(first.code));
+      ended.problem = first.detail;
+      if (ended.refusal == RefusalReason::none) ended.refusal = refusalOfStatus(statusOf(first.code));
       events.put("problem", problemText(result.outcome.problems, requestId));
     }
-    return told;
+    return ended;
   });
 }
 

@@ -40,8 +40,8 @@ inline constexpr double kLongFrame = 1'000; ///< milliseconds
 Result<Task> frameTask(const Services& services, const RouteCall& call, const std::string& scene, StoredBundle bundle,
                        const FrameSpec& spec, const SceneCounts& counts);
 
-/// Takes room for the body of a result before a byte of it is read. Where there is none by the deadline, or nobody
-/// wants it any more, the body is let go and the result is the problem of noReplyRoom().
+/// Takes room for the body of a result before a byte of it is read. Where there is none by the deadline, or it is not
+/// wanted any more, the body is let go and the result is the problem of noReplyRoom().
 void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
               const std::function<bool()>& unwanted);
 
@@ -65,7 +65,7 @@ HttpReply loadScene(Services& services, const RouteCall& call, const std::string
 /// problems.
 HttpReply replyOf(TaskResult result, std::string_view requestId);
 
-/// Does the work, given who asks whether it is still wanted and who is told of events.
+/// Does the work. `gone`: its result is not wanted any more. `events`: takes its events.
 using EventedWork = std::function<TaskResult(const std::function<bool()>& gone, const TaskEvents& events)>;
 
 /// The result of the work as `mediaType`: where that is kEventStream, events are sent while it is done, and problems

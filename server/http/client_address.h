@@ -10,7 +10,7 @@
 #include "server/http/open_connection.h"
 #include "server/http/request.h"
 
-/// Who asks, where proxies stand in between.
+/// The client's address behind trusted proxies.
 namespace gnomon {
 
 /// An address of IPv4, or of IPv6. One of IPv4 that is written as IPv6 (::ffff:192.0.2.1) is one of IPv4.
@@ -41,7 +41,7 @@ Result<std::vector<IpNetwork>> ipNetworks(const std::vector<std::string>& texts)
 /// The client of a request: its peer, unless that is a trusted proxy. Then it is the last address that no trusted proxy
 /// has, in X-Forwarded-For or Forwarded (RFC 7239), read from their ends: what is before it a client may have made up.
 /// Reading ends at what is no address: then the client is the proxy that passed it on. So it is where both headers
-/// came, and tell of different clients: a proxy writes one of them.
+/// came, and name different clients: a proxy writes one of them.
 PeerAddress clientAddress(const PeerAddress& peer, const Headers& headers, const std::vector<IpNetwork>& trusted);
 
 } // namespace gnomon

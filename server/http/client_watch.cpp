@@ -27,9 +27,7 @@ bool ClientWatch::isReset(int milliseconds) const {
 
 bool ClientWatch::left() {
   const std::lock_guard lock(mutex_);
-  if (left_ || ended_) {
-    return left_;
-  }
+  if (left_ || ended_) return left_;
   pollfd waiting{fd_, POLLRDHUP, 0};
   ::poll(&waiting, 1, 0);
   left_ = (waiting.revents & (POLLHUP | POLLERR)) != 0;

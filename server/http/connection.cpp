@@ -14,7 +14,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kStatusClientLeft = 499; ///< in the log alone: there is nobody to send it to
+constexpr int kStatusClientLeft = 499; ///< in the log alone: there is no client to send it to
 
 /// Counts one more while it lives.
 class Counted {
@@ -50,7 +50,7 @@ class Connection {
   }
 
  private:
-  /// The next head, for which a thread that nobody else wants waits a moment: sooner than by way of the lobby.
+  /// The next head, for which a thread that is not needed elsewhere waits a moment: sooner than by way of epoll.
   std::optional<std::size_t> nextHead(const std::function<bool()>& mayStay) {
     if (reader_.buffered().empty() && mayStay()) {
       reader_.receive(kMaxHeadBytes, Clock::now() + context_.limits.stay, &context_.stop);
@@ -120,19 +120,13 @@ class Connection {
 
   std::optional<Problem> receiveBody(const RequestHead& head, const BodyRule& rule, HttpRequest& request,
                                      ByteLease& lease) {
-    if (auto refused = refuseBody(head, rule)) {
-      return refused;
-    }
-    if (!head.hasBody()) {
-      return std::nullopt;
-    }
+    if (auto refused = refuseBody(head, rule)) return refused;
+    if (!head.hasBody()) return std::nullopt;
     if (head.expectsContinue) {
       sendAll(connection_.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n", context_.limits.pace, &context_.cutReplies);
     }
     auto body = readBody(reader_, head, rule, context_.limits.pace, lease, &context_.cutBodies);
-    if (!body) {
-      return body.problems().front();
-    }
+    if (!body) return body.problems().front();
     request.body = *std::move(body);
     return std::nullopt;
   }
@@ -187,9 +181,7 @@ class Connection {
     std::string head = replyHead(reply, record.id, keepAlive);
     const bool withBody = !bodyless && reply.status != 204 && reply.status != 304;
     constexpr std::size_t kOnePacket = 1400; // small replies leave in one piece
-    if (withBody && reply.body.size() <= kOnePacket) {
-      head += reply.body;
-    }
+    if (withBody && reply.body.size() <= kOnePacket) head += reply.body;
     const bool bodyFollows = withBody && reply.body.size() > kOnePacket;
     bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace, &context_.cutReplies, bodyFollows);
     if (sent && bodyFollows) {

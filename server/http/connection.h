@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// What answers one request. Knows nothing of sockets.
+/// Answers one request, without access to its socket.
 struct RequestHandler {
   BodyRule body;
   Scope scope = Scope::none;   ///< what a key must allow, where the server has keys
@@ -43,7 +43,7 @@ struct ConnectionLimits {
   std::size_t maxWaiting = 2'048; ///< connections that have no request to serve
 };
 
-/// Told of each request as it ends, on the thread that served it.
+/// Called for each request as it ends, on the thread that served it.
 class RequestObserver {
  public:
   virtual ~RequestObserver() = default;
@@ -59,8 +59,8 @@ struct ConnectionContext {
   StopSignal stop;                         ///< once raised: no further request is read, the running one is answered
   StopSignal cutBodies{};                  ///< once raised: what is still to come of requests is not waited for: 503
   StopSignal cutReplies{};                 ///< once raised: no client that takes a reply is waited for
-  std::vector<IpNetwork> trustedProxies{}; ///< whose word about their clients counts
-  RequestObserver* observer = nullptr;     ///< outlives the context; nullptr = nobody
+  std::vector<IpNetwork> trustedProxies{}; ///< whose X-Forwarded-For is trusted
+  RequestObserver* observer = nullptr;     ///< outlives the context; nullptr = none
   std::atomic<std::size_t> inProgress{0};  ///< requests that have a thread
 
   /// A request's end: its line in the log, and the observer's.

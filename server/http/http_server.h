@@ -19,7 +19,7 @@ struct HttpServerOptions {
 /// "http://127.0.0.1:8080".
 std::string addressOf(const std::string& bind, int port);
 
-/// Listens, accepts, and hands connections to the lobby.
+/// Listens, accepts, and hands over connections.
 class HttpServer {
  public:
   /// Listening once it returns; nothing is accepted before run(). `context` outlives the server.

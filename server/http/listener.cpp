@@ -48,13 +48,9 @@ PeerAddress peerOf(const sockaddr_storage& address) {
 
 FileDescriptor listenOn(const addrinfo& address) {
   FileDescriptor socket(::socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!socket) {
-    return socket;
-  }
+  if (!socket) return socket;
   set(socket.get(), SOL_SOCKET, SO_REUSEADDR, 1); // not REUSEPORT: two servers must not share a port
-  if (address.ai_family == AF_INET6) {
-    set(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, 0);
-  }
+  if (address.ai_family == AF_INET6) set(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, 0);
   if (::bind(socket.get(), address.ai_addr, address.ai_addrlen) != 0 || ::listen(socket.get(), kBacklog) != 0) {
     socket.reset();
   }
@@ -86,14 +82,10 @@ std::optional<Listener> Listener::open(const std::string& bind, int port) {
   wanted.ai_socktype = SOCK_STREAM;
   wanted.ai_flags = AI_PASSIVE;
   addrinfo* found = nullptr;
-  if (::getaddrinfo(bind.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0) {
-    return std::nullopt;
-  }
+  if (::getaddrinfo(bind.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0) return std::nullopt;
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, &::freeaddrinfo);
   for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
-    if (FileDescriptor socket = listenOn(*each)) {
-      return Listener(std::move(socket));
-    }
+    if (FileDescriptor socket = listenOn(*each)) return Listener(std::move(socket));
   }
   return std::nullopt;
 }
@@ -101,9 +93,7 @@ std::optional<Listener> Listener::open(const std::string& bind, int port) {
 int Listener::port() const {
   sockaddr_storage address{};
   socklen_t length = sizeof address;
-  if (::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &length) != 0) {
-    return 0;
-  }
+  if (::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &length) != 0) return 0;
   return ntohs(address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
                                              : reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
@@ -115,7 +105,7 @@ bool Listener::run(const StopSignal& stop, const std::function<void(OpenConnecti
     std::array<pollfd, 2> waiting{{{stop.fd(), POLLIN, 0}, {isScarce ? -1 : socket_.get(), POLLIN, 0}}};
     ::poll(waiting.data(), waiting.size(), isScarce ? kPauseMilliseconds : -1);
     if (waiting[0].revents != 0) {
-      socket_.reset(); // who connects now is refused, instead of waiting for nobody
+      socket_.reset(); // a client that connects now is refused, instead of waiting in vain
       return true;
     }
     sockaddr_storage address{};
@@ -135,9 +125,7 @@ bool Listener::run(const StopSignal& stop, const std::function<void(OpenConnecti
       return false;
     }
     if (after == AfterAccept::pause) {
-      if (!isScarce) {
-        logEvent("listener", "Connections must wait: " + std::generic_category().message(error) + ".");
-      }
+      if (!isScarce) logEvent("listener", "Connections must wait: " + std::generic_category().message(error) + ".");
       scarce();
     }
     isScarce = after == AfterAccept::pause;

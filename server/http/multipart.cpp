@@ -39,14 +39,10 @@ std::string unescaped(std::string_view text) {
 /// `; key=value` and `; key="value"`, one at a time from the front of `text`. False at the end or where it is broken.
 bool nextParameter(std::string_view& text, std::string& key, std::string& value) {
   text = trimmed(text);
-  if (text.empty() || text.front() != ';') {
-    return false;
-  }
+  if (text.empty() || text.front() != ';') return false;
   text = trimmed(text.substr(1));
   const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) {
-    return false;
-  }
+  if (equals == std::string_view::npos) return false;
   key = lowerCase(trimmed(text.substr(0, equals)));
   text = trimmed(text.substr(equals + 1));
   value.clear();
@@ -61,9 +57,7 @@ bool nextParameter(std::string_view& text, std::string& key, std::string& value)
       text.remove_prefix(i + 1);
       return true;
     }
-    if (text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == '"' || text[i + 1] == '\\')) {
-      ++i;
-    }
+    if (text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == '"' || text[i + 1] == '\\')) ++i;
     value.push_back(text[i]);
   }
   return false; // the quote is never closed
@@ -102,9 +96,7 @@ Result<FormPart> readPartHead(std::string_view& rest) {
   FormPart part;
   bool disposed = false;
   const std::size_t end = rest.find("\r\n\r\n");
-  if (end == std::string_view::npos || end > kMaxPartHead) {
-    return malformedForm("A part's headers do not end.");
-  }
+  if (end == std::string_view::npos || end > kMaxPartHead) return malformedForm("A part's headers do not end.");
   std::string_view head = rest.substr(0, end + 2);
   rest.remove_prefix(end + 4);
   while (!head.empty()) {
@@ -112,18 +104,12 @@ Result<FormPart> readPartHead(std::string_view& rest) {
     const std::string_view line = head.substr(0, lineEnd);
     head.remove_prefix(lineEnd + 2);
     const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos) {
-      return malformedForm("A part's header is not a name, a colon and a value.");
-    }
+    if (colon == std::string_view::npos) return malformedForm("A part's header is not a name, a colon and a value.");
     const std::string name = lowerCase(line.substr(0, colon));
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (name == "content-disposition") {
-      if (disposed) {
-        return malformedForm("A part has two Content-Dispositions.");
-      }
-      if (auto read = readDisposition(value, part); !read) {
-        return std::move(read).problems();
-      }
+      if (disposed) return malformedForm("A part has two Content-Dispositions.");
+      if (auto read = readDisposition(value, part); !read) return std::move(read).problems();
       disposed = true;
     } else if (name == "content-type") {
       part.contentType = value;
@@ -132,9 +118,7 @@ Result<FormPart> readPartHead(std::string_view& rest) {
       return malformedForm("A part's Content-Transfer-Encoding is not binary.");
     }
   }
-  if (!disposed) {
-    return malformedForm("A part has no Content-Disposition.");
-  }
+  if (!disposed) return malformedForm("A part has no Content-Disposition.");
   return part;
 }
 
@@ -145,9 +129,7 @@ std::optional<std::string> boundaryOf(std::string_view contentType) {
   std::string key;
   std::string value;
   while (nextParameter(rest, key, value)) {
-    if (key == "boundary") {
-      return isBoundary(value) ? std::optional(value) : std::nullopt;
-    }
+    if (key == "boundary") return isBoundary(value) ? std::optional(value) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -162,29 +144,21 @@ Result<std::vector<FormPart>> parseMultipart(std::string_view body, std::string_
   rest.remove_prefix(opening.size());
   std::vector<FormPart> parts;
   while (!rest.starts_with("--")) {
-    if (!rest.starts_with("\r\n")) {
-      return malformedForm("A boundary line contains more than the boundary.");
-    }
+    if (!rest.starts_with("\r\n")) return malformedForm("A boundary line contains more than the boundary.");
     rest.remove_prefix(2);
     if (parts.size() == maxParts) {
       return Problem{ProblemCode::tooLarge, "", "The form has too many parts.", std::to_string(maxParts), ""};
     }
     auto part = readPartHead(rest);
-    if (!part) {
-      return std::move(part).problems();
-    }
+    if (!part) return std::move(part).problems();
     const std::size_t end = rest.find(delimiter);
-    if (end == std::string_view::npos) {
-      return malformedForm("The form ends inside a part.");
-    }
+    if (end == std::string_view::npos) return malformedForm("The form ends inside a part.");
     part->content = rest.substr(0, end);
     rest.remove_prefix(end + delimiter.size());
     parts.push_back(*std::move(part));
   }
   rest.remove_prefix(2);
-  if (!rest.empty() && rest != "\r\n") {
-    return malformedForm("Bytes follow the form's end.");
-  }
+  if (!rest.empty() && rest != "\r\n") return malformedForm("Bytes follow the form's end.");
   return parts;
 }
 

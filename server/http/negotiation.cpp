@@ -28,15 +28,11 @@ std::vector<MediaRange> rangesOf(std::string_view accept) {
   std::vector<MediaRange> ranges;
   for (const std::string& entry : splitTrimmed(accept, ',')) {
     const std::vector<std::string> parts = splitTrimmed(entry, ';');
-    if (parts.empty() || parts.front().empty()) {
-      continue;
-    }
+    if (parts.empty() || parts.front().empty()) continue;
     MediaRange range{lowerCase(parts.front())};
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const std::string parameter = lowerCase(parts[i]);
-      if (parameter.starts_with("q=")) {
-        range.quality = qualityOf(std::string_view(parameter).substr(2));
-      }
+      if (parameter.starts_with("q=")) range.quality = qualityOf(std::string_view(parameter).substr(2));
     }
     ranges.push_back(std::move(range));
   }
@@ -45,12 +41,8 @@ std::vector<MediaRange> rangesOf(std::string_view accept) {
 
 /// 3 = the type itself, 2 = "image/*", 1 = "*/*", 0 = not covered.
 int specificityOf(std::string_view range, std::string_view type) {
-  if (range == type) {
-    return 3;
-  }
-  if (range == "*/*") {
-    return 1;
-  }
+  if (range == type) return 3;
+  if (range == "*/*") return 1;
   const bool group = range.ends_with("/*") && type.starts_with(range.substr(0, range.size() - 1));
   return group ? 2 : 0;
 }
@@ -74,9 +66,7 @@ Rating ratingOf(const std::vector<MediaRange>& ranges, std::string_view type) {
   Rating rating;
   for (const MediaRange& range : ranges) {
     const int specific = specificityOf(range.type, type);
-    if (specific > rating.specificity) {
-      rating = {range.quality, specific};
-    }
+    if (specific > rating.specificity) rating = {range.quality, specific};
   }
   return rating;
 }
@@ -88,9 +78,7 @@ std::string_view withoutWeakness(std::string_view tag) {
 } // namespace
 
 std::optional<std::size_t> preferred(std::optional<std::string_view> accept, std::span<const std::string_view> offers) {
-  if (!accept || trimmed(*accept).empty()) {
-    return 0;
-  }
+  if (!accept || trimmed(*accept).empty()) return 0;
   const std::vector<MediaRange> ranges = rangesOf(*accept);
   std::vector<Rating> ratings;
   for (const std::string_view offer : offers) ratings.push_back(ratingOf(ranges, offer));
@@ -144,13 +132,9 @@ std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, Image
 }
 
 bool etagMatches(std::string_view ifNoneMatch, std::string_view etag) {
-  if (trimmed(ifNoneMatch) == "*") {
-    return true;
-  }
+  if (trimmed(ifNoneMatch) == "*") return true;
   for (const std::string& listed : splitTrimmed(ifNoneMatch, ',')) { // our tags hold no comma
-    if (withoutWeakness(listed) == withoutWeakness(etag)) {
-      return true;
-    }
+    if (withoutWeakness(listed) == withoutWeakness(etag)) return true;
   }
   return false;
 }

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// Who is at the other end of a connection.
+/// The other end of a connection.
 struct PeerAddress {
   std::string text;    ///< for the log: "192.0.2.7", "2001:db8::1"
   std::string network; ///< what counts as one client: the address, or the first 64 bits of one of IPv6

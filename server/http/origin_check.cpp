@@ -22,9 +22,7 @@ constexpr const char* kPreflightSeconds = "600";
 
 /// The host of "host:port", without the brackets of an IPv6 address.
 std::string_view hostOf(std::string_view authority) {
-  if (authority.starts_with('[')) {
-    return authority.substr(1, std::min(authority.find(']'), authority.size()) - 1);
-  }
+  if (authority.starts_with('[')) return authority.substr(1, std::min(authority.find(']'), authority.size()) - 1);
   return authority.substr(0, authority.find(':'));
 }
 
@@ -51,9 +49,7 @@ class OriginCheck {
   std::variant<RequestHandler, HttpReply> operator()(const HttpRequest& request) const {
     auto found = service_(request);
     auto* handler = std::get_if<RequestHandler>(&found);
-    if (handler != nullptr && handler->isProbe) {
-      return found;
-    }
+    if (handler != nullptr && handler->isProbe) return found;
     const auto refuse = [&](Problem problem) {
       HttpReply reply = problemReply({std::move(problem)}, request.id);
       reply.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
@@ -71,9 +67,7 @@ class OriginCheck {
       return refuse({ProblemCode::forbidden, "Origin", "Pages of this origin may not send this request.",
                      "the server's own page, or an origin of --allowed-origins", asciiExcerpt(origin)});
     }
-    if (rules_.allowedOrigins.empty()) {
-      return found;
-    }
+    if (rules_.allowedOrigins.empty()) return found;
     const std::string reader = isAllowed ? origin : "";
     if (handler != nullptr) {
       handler->answer = [answer = handler->answer, reader](HttpRequest asked, const std::function<bool()>& clientGone) {
@@ -99,9 +93,7 @@ class OriginCheck {
 
   /// A request that may change something, sent for a page of another server.
   static bool isCrossSite(const HttpRequest& request, const std::string& host, const std::string& origin) {
-    if (request.method == "GET" || request.method == "HEAD" || request.method == "OPTIONS") {
-      return false;
-    }
+    if (request.method == "GET" || request.method == "HEAD" || request.method == "OPTIONS") return false;
     if (!origin.empty()) {
       const std::size_t scheme = origin.find("://"); // which a proxy may have changed
       return scheme == std::string::npos || origin.substr(scheme + 3) != host;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLastLinger{500}; ///< once the server ends
 constexpr std::size_t kMostUnseen = 32;               ///< connections that the watching thread has not seen yet
-constexpr std::chrono::seconds kLongestUnseen{1};     ///< that a new one waits for it, whatever keeps it
+constexpr std::chrono::seconds kLongestUnseen{1};     ///< that a new one waits for it at most
 
 Problem noPlace(bool clientHasItsShare) {
   if (clientHasItsShare) {
@@ -39,9 +39,7 @@ PendingConnections::PendingConnections(ConnectionContext& context, std::size_t t
 void PendingConnections::finish() {
   finishing_ = true;
   wake_.raise();
-  if (thread_.joinable()) {
-    thread_.join();
-  }
+  if (thread_.joinable()) thread_.join();
 }
 
 void PendingConnections::adopt(OpenConnection connection) noexcept {
@@ -68,28 +66,24 @@ void PendingConnections::makeRoom() noexcept {
 bool PendingConnections::isSettled() {
   const std::lock_guard lock(mutex_);
   const auto& connections = connections_.all();
-  return adopted_.empty() &&
-         std::all_of(connections.begin(), connections.end(), [](const auto& pending) { return pending.second.connection.ending; });
+  return adopted_.empty() && std::all_of(connections.begin(), connections.end(),
+                                         [](const auto& pending) { return pending.second.connection.ending; });
 }
 
 void PendingConnections::watch() {
   constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread
   while (true) {
     try {
-      if (isOver()) {
-        return;
-      }
+      if (isOver()) return;
       for (const auto& [fd, isLost] :
            connections_.wait(ready_.empty() ? Clock::time_point::max() : Clock::now() + kRetry)) {
         onReadable(fd, isLost);
       }
       placeReady();
-      if (roomWanted_.exchange(false)) {
-        dropOne();
-      }
+      if (roomWanted_.exchange(false)) dropOne();
       refuseLate();
     } catch (const std::exception& error) {
-      logEvent("connection", error.what()); // out of memory: whom it hit is dropped when late
+      logEvent("connection", error.what()); // out of memory: the connection that met it is dropped at its deadline
     }
   }
 }
@@ -97,13 +91,9 @@ void PendingConnections::watch() {
 /// Finishing goes in order: heads, the threads that answer them, what these hand back.
 bool PendingConnections::isOver() {
   takeAdopted();
-  if (!finishing_) {
-    return false;
-  }
+  if (!finishing_) return false;
   dropIdle();
-  if (context_.cutBodies.raised()) {
-    refuseWaiting();
-  }
+  if (context_.cutBodies.raised()) refuseWaiting();
   if (!isDrained_ && isSettled()) {
     pool_.shutdown();
     isDrained_ = true;
@@ -121,29 +111,21 @@ void PendingConnections::takeAdopted() {
   }
   taken_.notify_all();
   for (OpenConnection& connection : adopted) {
-    if (connections_.all().size() >= context_.limits.maxWaiting) {
-      dropOne();
-    }
+    if (connections_.all().size() >= context_.limits.maxWaiting) dropOne();
     PendingConnection* const pending = connections_.admit(std::move(connection));
-    if (pending == nullptr) {
-      continue;
-    }
+    if (pending == nullptr) continue;
     const OpenConnection& own = pending->connection;
     connections_.setDeadline(*pending, own.ending          ? context_.limits.linger
-                             : own.requests == 0 ? context_.limits.firstByte
-                                                 : context_.limits.idle);
-    if (!own.ending && !own.isSilent()) {
-      checkHead(*pending, true);
-    }
+                                       : own.requests == 0 ? context_.limits.firstByte
+                                                           : context_.limits.idle);
+    if (!own.ending && !own.isSilent()) checkHead(*pending, true);
   }
 }
 
 /// Takes what a pending has sent.
 void PendingConnections::onReadable(int fd, bool lost) {
   PendingConnection* const pending = connections_.find(fd);
-  if (pending == nullptr) {
-    return;
-  }
+  if (pending == nullptr) return;
   if (pending->isReady) { // its body waits in the socket
     if (lost) connections_.drop(fd);
     return;
@@ -151,9 +133,7 @@ void PendingConnections::onReadable(int fd, bool lost) {
   OpenConnection& connection = pending->connection;
   std::array<char, 16 * 1024> bytes;
   const ssize_t count = ::recv(fd, bytes.data(), bytes.size(), MSG_DONTWAIT);
-  if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) {
-    return;
-  }
+  if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
   if (connection.ending) {
     if (count <= 0) connections_.drop(fd);
     return;
@@ -170,7 +150,7 @@ void PendingConnections::onReadable(int fd, bool lost) {
   }
 }
 
-/// Who sent a complete head. It is parsed here only where a proxy may have passed it on.
+/// The client that sent a complete head. It is parsed here only where a proxy may have passed it on.
 PeerAddress PendingConnections::clientOf(const OpenConnection& connection, std::size_t headBytes) const {
   if (context_.trustedProxies.empty()) return connection.peer;
   const auto head = parseRequestHead(std::string_view(connection.received).substr(0, headBytes));
@@ -183,7 +163,7 @@ void PendingConnections::checkHead(PendingConnection& pending, bool headBegins) 
   const auto length = headLength(connection.received);
   if (length.value_or(connection.received.size()) > kMaxHeadBytes) {
     refuse(pending, {ProblemCode::tooLarge, "", "The request line and headers are too long.",
-                   std::to_string(kMaxHeadBytes) + " bytes", ""});
+                     std::to_string(kMaxHeadBytes) + " bytes", ""});
   } else if (length) {
     pending.isReady = true;
     pending.client = clientOf(connection, *length);
@@ -200,38 +180,24 @@ void PendingConnections::placeReady() {
   std::vector<int> still;
   for (const int fd : std::exchange(ready_, {})) {
     PendingConnection* const pending = connections_.find(fd);
-    if (pending == nullptr || !pending->isReady) {
-      continue;
-    }
+    if (pending == nullptr || !pending->isReady) continue;
     const Place where = place(fd, *pending);
-    if (where == Place::taken) {
-      continue;
-    }
-    if (!pending->isWaiting || Clock::now() >= pending->deadline) {
-      answer(*pending, where);
-    }
-    if (pending->isReady) {
-      still.push_back(fd);
-    }
+    if (where == Place::taken) continue;
+    if (!pending->isWaiting || Clock::now() >= pending->deadline) answer(*pending, where);
+    if (pending->isReady) still.push_back(fd);
   }
   ready_ = std::move(still);
 }
 
 PendingConnections::Place PendingConnections::place(int fd, const PendingConnection& pending) {
   const std::string network = pending.client.network;
-  if (!pool_.hasIdle()) {
-    return Place::noThread;
-  }
-  if (!shares_.take(network)) {
-    return Place::noShare;
-  }
+  if (!pool_.hasIdle()) return Place::noThread;
+  if (!shares_.take(network)) return Place::noShare;
   const auto connection = std::make_shared<OpenConnection>(connections_.release(fd));
   pool_.tryRun([this, connection, network] {
     auto kept = serveConnection(std::move(*connection), context_, [this] { return pool_.hasIdle(); });
     shares_.giveBack(network);
-    if (kept) {
-      adopt(*std::move(kept));
-    }
+    if (kept) adopt(*std::move(kept));
   });
   return Place::taken;
 }
@@ -240,12 +206,10 @@ PendingConnections::Place PendingConnections::place(int fd, const PendingConnect
 void PendingConnections::answer(PendingConnection& pending, Place why) {
   const std::string& received = pending.connection.received;
   const auto refusal = Clock::now() >= pending.deadline ? std::optional(noPlace(why == Place::noShare)) : std::nullopt;
-  auto told = replyToUnserved(context_.service, std::string_view(received).substr(0, headLength(received).value_or(0)),
-                              refusal);
-  if (told) {
-    sendLast(pending, told->record, told->reply, told->bodyless);
-  }
-  pending.isWaiting = !told;
+  auto unserved = replyToUnserved(context_.service,
+                                  std::string_view(received).substr(0, headLength(received).value_or(0)), refusal);
+  if (unserved) sendLast(pending, unserved->record, unserved->reply, unserved->bodyless);
+  pending.isWaiting = !unserved;
 }
 
 void PendingConnections::refuse(PendingConnection& pending, Problem problem) {
@@ -278,11 +242,12 @@ void PendingConnections::refuseLate() {
   }
 }
 
-/// The server ends: who has asked for nothing is let go, and who has its answer has little time to take it.
+/// The server ends: connections without a request are closed, and those with their reply get little time to take it.
 void PendingConnections::dropIdle() {
   auto& connections = connections_.all();
-  std::erase_if(
-      connections, [](const auto& pending) { return !pending.second.connection.ending && pending.second.connection.isSilent(); });
+  std::erase_if(connections, [](const auto& pending) {
+    return !pending.second.connection.ending && pending.second.connection.isSilent();
+  });
   for (auto& [fd, pending] : connections) {
     if (pending.connection.ending) connections_.shortenDeadline(pending, kLastLinger);
   }
@@ -297,14 +262,12 @@ void PendingConnections::refuseWaiting() {
   }
 }
 
-/// Makes room for one. Whoever is chosen is readable first: its whole head may have come in this moment.
+/// Makes room for one. The chosen one is read first: its whole head may have come in this moment.
 void PendingConnections::dropOne() {
   while (const auto chosen = connections_.evictionCandidate()) {
     onReadable(*chosen, false);
     const PendingConnection* const pending = connections_.find(*chosen);
-    if (pending == nullptr) {
-      return;
-    }
+    if (pending == nullptr) return;
     if (!pending->isReady) {
       connections_.drop(*chosen);
       return;

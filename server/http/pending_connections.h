@@ -15,7 +15,7 @@
 namespace gnomon {
 
 /// Holds every connection that has no request to serve: new ones, idle ones, slow ones whose head is still coming, and
-/// those that only wait to be closed. One thread watches them all, so that a silent client holds no other, and gives
+/// those that only wait to be closed. One thread watches them all, so that an idle client holds up no other, and gives
 /// each complete head to a thread of its own. Where none is free, it answers itself: probes as ever, anything else with
 /// 503, and with 429 where this client alone takes too many.
 class PendingConnections {
@@ -31,8 +31,8 @@ class PendingConnections {
   /// not asked for anything yet; if all have, its newest is refused.
   void adopt(OpenConnection connection) noexcept;
 
-  /// The same for a new connection, and returns once the lobby keeps up: until then others wait in the system's queue,
-  /// where they take no descriptors.
+  /// The same for a new connection, and returns once this thread keeps up: until then others wait in the system's
+  /// queue, where they take no descriptors.
   void admit(OpenConnection connection) noexcept;
 
   /// Closes one connection that waits: the system has no further descriptors. Takes effect a little later.

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Why a server that works did not do what a well-formed request asked, for those who watch it. A problem's sentence is
+/// Why a server that works did not do what a well-formed request asked, for logs and metrics. A problem's sentence is
 /// for the client.
 enum class RefusalReason {
   none,
@@ -39,7 +39,7 @@ inline constexpr std::array<std::pair<RefusalReason, std::string_view>, 12> kRef
      {RefusalReason::keys, "keys"},
      {RefusalReason::origin, "origin"}}};
 
-/// What a status alone tells, where nothing else was noted.
+/// What a status alone means, where nothing else was noted.
 inline constexpr std::array<std::pair<int, RefusalReason>, 5> kRefusalOfStatus{{{408, RefusalReason::deadline},
                                                                                 {413, RefusalReason::size},
                                                                                 {431, RefusalReason::size},

@@ -91,18 +91,14 @@ std::string replyHead(const HttpReply& reply, std::string_view requestId, bool k
   head.append(reasonPhrase(reply.status)).append("\r\n");
   addHeader(head, "Date", dateText());
   addHeader(head, "X-Request-ID", requestId);
-  if (!reply.contentType.empty()) {
-    addHeader(head, "Content-Type", reply.contentType);
-  }
+  if (!reply.contentType.empty()) addHeader(head, "Content-Type", reply.contentType);
   if (reply.status != 204 && reply.status != 304 && !reply.bodyOmitted && !reply.stream) {
     addHeader(head, "Content-Length", std::to_string(reply.body.size()));
   }
   for (const auto& [name, value] : reply.headers) {
     addHeader(head, name, value);
   }
-  if (!brings(reply, "Content-Security-Policy")) {
-    addHeader(head, "Content-Security-Policy", "default-src 'none'");
-  }
+  if (!brings(reply, "Content-Security-Policy")) addHeader(head, "Content-Security-Policy", "default-src 'none'");
   addHeader(head, "X-Content-Type-Options", "nosniff");
   addHeader(head, "Connection", keepAlive && !reply.stream ? "keep-alive" : "close");
   head.append("\r\n");

@@ -84,9 +84,7 @@ Status readHeader(std::string_view line, RequestHead& head) {
     return malformedHead("A header line is not a name, a colon and a value.");
   }
   const std::string_view value = trimmed(line.substr(colon + 1));
-  if (!isFieldValue(value)) {
-    return malformedHead("A header's value contains a control character.");
-  }
+  if (!isFieldValue(value)) return malformedHead("A header's value contains a control character.");
   head.headers.emplace_back(lowerCase(line.substr(0, colon)), std::string(value));
   return Done{};
 }
@@ -100,9 +98,7 @@ std::size_t countOf(const Headers& headers, std::string_view name) {
 Status readFraming(RequestHead& head) {
   const auto encoding = headerValue(head.headers, "transfer-encoding");
   const auto length = headerValue(head.headers, "content-length");
-  if (encoding && length) {
-    return malformedHead("A request must not have both Content-Length and Transfer-Encoding.");
-  }
+  if (encoding && length) return malformedHead("A request must not have both Content-Length and Transfer-Encoding.");
   if (encoding) {
     if (!head.isHttp11 || lowerCase(*encoding) != "chunked") {
       return malformedHead("The only Transfer-Encoding accepted is 'chunked', with HTTP/1.1.");
@@ -146,9 +142,7 @@ std::string newRequestId() {
 std::optional<std::string> headerValue(const Headers& headers, std::string_view name) {
   std::optional<std::string> value;
   for (const auto& [key, text] : headers) {
-    if (key == name) {
-      value = value ? *value + ", " + text : text;
-    }
+    if (key == name) value = value ? *value + ", " + text : text;
   }
   return value;
 }
@@ -159,9 +153,7 @@ std::string mediaType(std::string_view contentType) {
 
 std::optional<std::size_t> headLength(std::string_view bytes) {
   const std::size_t end = bytes.find("\r\n\r\n");
-  if (end == std::string_view::npos) {
-    return std::nullopt;
-  }
+  if (end == std::string_view::npos) return std::nullopt;
   return end + 4;
 }
 
@@ -169,19 +161,13 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
   RequestHead head;
   std::string authority;
   bool first = true;
-  if (bytes.starts_with("\r\n")) {
-    bytes.remove_prefix(2);
-  }
+  if (bytes.starts_with("\r\n")) bytes.remove_prefix(2);
   while (true) {
     const std::size_t end = bytes.find("\r\n");
-    if (end == std::string_view::npos) {
-      return malformedHead("The headers do not end with an empty line.");
-    }
+    if (end == std::string_view::npos) return malformedHead("The headers do not end with an empty line.");
     const std::string_view line = bytes.substr(0, end);
     bytes.remove_prefix(end + 2);
-    if (line.empty() && !first) {
-      break;
-    }
+    if (line.empty() && !first) break;
     if (!first && head.headers.size() == kMaxHeaders) {
       return Problem{ProblemCode::tooLarge, "", "The request has too many headers.", std::to_string(kMaxHeaders), ""};
     }
@@ -190,9 +176,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
     }
     first = false;
   }
-  if (auto framing = readFraming(head); !framing) {
-    return std::move(framing).problems();
-  }
+  if (auto framing = readFraming(head); !framing) return std::move(framing).problems();
   if (countOf(head.headers, "host") != 1 && (head.isHttp11 || countOf(head.headers, "host") > 1)) {
     return malformedHead("The request must have exactly one Host header.");
   }
@@ -209,9 +193,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
 
 Result<HttpRequest> requestFromHead(const RequestHead& head) {
   auto url = parseTarget(head.target);
-  if (!url) {
-    return std::move(url).problems();
-  }
+  if (!url) return std::move(url).problems();
   HttpRequest request;
   request.id = requestId(headerValue(head.headers, "x-request-id"));
   request.method = head.method;

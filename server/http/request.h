@@ -52,7 +52,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes);
 struct TraceContext {
   std::string traceId;  ///< 32 lower-case hexadecimal digits; empty = the request has none
   std::string spanId;   ///< 16 such digits: this request
-  std::string parentId; ///< 16 such digits: who sent it; empty = this request begins the trace
+  std::string parentId; ///< 16 such digits: the sender's span; empty = this request begins the trace
   bool sampled = false; ///< the sender keeps the trace
 };
 

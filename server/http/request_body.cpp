@@ -40,9 +40,7 @@ class BodyReader {
   /// Appends `count` bytes to the body; false = refused.
   bool append(std::size_t count) {
     while (count > 0) {
-      if (reader_.buffered().empty() && !more(std::min<std::size_t>(count, 64 * 1024))) {
-        return false;
-      }
+      if (reader_.buffered().empty() && !more(std::min<std::size_t>(count, 64 * 1024))) return false;
       const std::string_view bytes = reader_.buffered().substr(0, count);
       if (!lease_.grow(bytes.size())) {
         refused = {ProblemCode::busy, "", "Other uploads in progress use all the memory for uploads.", "", ""};
@@ -74,34 +72,26 @@ class BodyReader {
         refused = brokenChunks("A chunk's line is too long.");
         return false;
       }
-      if (!more(kMost)) {
-        return false;
-      }
+      if (!more(kMost)) return false;
     }
   }
 
   bool chunks() {
     std::string text;
     while (true) {
-      if (!line(text)) {
-        return false;
-      }
+      if (!line(text)) return false;
       const std::optional<std::size_t> announced = chunkSize(text);
       if (!announced) {
         refused = brokenChunks("A chunk's size is not a hexadecimal number.");
         return false;
       }
       const std::size_t size = *announced;
-      if (size == 0) {
-        return trailers();
-      }
+      if (size == 0) return trailers();
       if (size > rule_.maxBytes - body.size()) {
         refused = bodyTooLarge(rule_.maxBytes, "");
         return false;
       }
-      if (!append(size) || !line(text)) {
-        return false;
-      }
+      if (!append(size) || !line(text)) return false;
       if (!text.empty()) {
         refused = brokenChunks("A chunk is longer than its size.");
         return false;
@@ -116,12 +106,8 @@ class BodyReader {
   bool trailers() {
     std::string text;
     for (std::size_t count = 0; count <= kMaxHeaders; ++count) {
-      if (!line(text)) {
-        return false;
-      }
-      if (text.empty()) {
-        return true;
-      }
+      if (!line(text)) return false;
+      if (text.empty()) return true;
     }
     refused = brokenChunks("The chunked body has too many trailers.");
     return false;
@@ -152,9 +138,7 @@ class BodyReader {
 
 std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule) {
   if (rule.framing == BodyRule::Framing::none) {
-    if (head.hasBody()) {
-      return Problem{ProblemCode::tooLarge, "", "This route accepts no body.", "0 bytes", ""};
-    }
+    if (head.hasBody()) return Problem{ProblemCode::tooLarge, "", "This route accepts no body.", "0 bytes", ""};
     return std::nullopt;
   }
   const bool isOptional = rule.framing == BodyRule::Framing::length;
@@ -172,9 +156,7 @@ Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const Body
   BodyReader body(reader, rule, pace, lease, cut);
   const bool whole =
       head.chunked ? body.chunks() : body.append(static_cast<std::size_t>(head.contentLength.value_or(0)));
-  if (!whole) {
-    return std::move(body.refused);
-  }
+  if (!whole) return std::move(body.refused);
   return std::move(body.body);
 }
 

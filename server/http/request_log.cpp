@@ -60,7 +60,7 @@ class LineText {
   std::string text_ = "{";
 };
 
-/// The beginning of a target, without its signature: whoever reads the log could use it.
+/// The beginning of a target, without its signature: readers of the log could use it.
 std::string readableTarget(const std::string& target) {
   constexpr std::size_t kMost = 512;
   return target.substr(0, std::min(kMost, target.find("signature=")));

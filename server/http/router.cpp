@@ -17,9 +17,7 @@ bool isName(std::string_view segment) {
 }
 
 std::optional<PathValues> matched(const std::vector<std::string>& pattern, const std::vector<std::string>& path) {
-  if (pattern.size() != path.size()) {
-    return std::nullopt;
-  }
+  if (pattern.size() != path.size()) return std::nullopt;
   PathValues values;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (isName(pattern[i])) {
@@ -45,28 +43,18 @@ std::variant<RouteMatch, MethodRefused, NoSuchPath> Router::find(std::string_vie
   std::set<std::string> allowed;
   for (std::size_t i = 0; i < routes_.size(); ++i) {
     auto values = matched(patterns_[i], path);
-    if (!values) {
-      continue;
-    }
+    if (!values) continue;
     const Route& route = routes_[i];
     allowed.insert(route.method);
-    if (route.method == "GET") {
-      allowed.insert("HEAD");
-    }
+    if (route.method == "GET") allowed.insert("HEAD");
     const bool exact = route.method == method;
     const bool asHead = method == "HEAD" && route.method == "GET";
     const bool better = !best || values->size() < best->values.size() ||
                         (values->size() == best->values.size() && exact && best->route->method != method);
-    if ((exact || asHead) && better) {
-      best = RouteMatch{&route, *std::move(values)};
-    }
+    if ((exact || asHead) && better) best = RouteMatch{&route, *std::move(values)};
   }
-  if (best) {
-    return *std::move(best);
-  }
-  if (allowed.empty()) {
-    return NoSuchPath{};
-  }
+  if (best) return *std::move(best);
+  if (allowed.empty()) return NoSuchPath{};
   allowed.insert("OPTIONS");
   std::string allow;
   for (const std::string& name : allowed) {

@@ -25,27 +25,17 @@ SocketWait SocketReader::receive(std::size_t most, Clock::time_point deadline, c
   while (true) {
     std::array<pollfd, 2> waiting{{{fd_, POLLIN, 0}, {cut ? cut->fd() : -1, POLLIN, 0}}};
     const int ready = ::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline));
-    if (ready < 0 && errno != EINTR) {
-      return SocketWait::closed;
-    }
-    if (ready > 0 && waiting[1].revents != 0) {
-      return SocketWait::cutOff;
-    }
-    if (ready == 0 && Clock::now() >= deadline) {
-      return SocketWait::timedOut;
-    }
+    if (ready < 0 && errno != EINTR) return SocketWait::closed;
+    if (ready > 0 && waiting[1].revents != 0) return SocketWait::cutOff;
+    if (ready == 0 && Clock::now() >= deadline) return SocketWait::timedOut;
     if (ready > 0) {
       const std::size_t held = buffer_.size();
       buffer_.resize(held + std::min<std::size_t>(most, 64 * 1024));
       const ssize_t count = ::recv(fd_, buffer_.data() + held, buffer_.size() - held, MSG_DONTWAIT);
       const int error = errno;
       buffer_.resize(held + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-      if (count > 0) {
-        return SocketWait::ready;
-      }
-      if (count == 0 || !mayComeLater(error)) {
-        return SocketWait::closed;
-      }
+      if (count > 0) return SocketWait::ready;
+      if (count == 0 || !mayComeLater(error)) return SocketWait::closed;
     }
   }
 }
@@ -78,9 +68,7 @@ bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal*
       meter.moved(static_cast<std::size_t>(count), Clock::now());
       continue;
     }
-    if (count < 0 && !mayComeLater(errno)) {
-      return false;
-    }
+    if (count < 0 && !mayComeLater(errno)) return false;
     const auto deadline = meter.deadline(Clock::now());
     std::array<pollfd, 2> waiting{{{fd, POLLOUT, 0}, {cut ? cut->fd() : -1, POLLIN, 0}}};
     if (::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline)) == 0 || waiting[1].revents != 0) {

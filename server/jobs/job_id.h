@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// 32 lower-case hexadecimal digits that nobody can guess.
+/// 32 lower-case hexadecimal digits, unguessable.
 std::string newJobId();
 
 } // namespace gnomon

@@ -39,7 +39,7 @@ Problem noRoomForFrame(std::uint64_t bytes) {
 
 Problem poisonProblem(int index, int deliveries) {
   return {ProblemCode::internal, "",
-          "Frame " + std::to_string(index) + " was begun again and again, and nobody finished it.", "",
+          "Frame " + std::to_string(index) + " was begun again and again, and never finished.", "",
           std::to_string(deliveries) + " times"};
 }
 

@@ -6,18 +6,18 @@
 
 #include "server/jobs/job_queue.h"
 
-/// What every queue says alike.
+/// Problems common to all queues.
 namespace gnomon {
 
 std::int64_t unixMilliseconds();
 
-/// A job that nobody has begun.
+/// The progress of a job that has not begun.
 JobProgress queuedProgress(const NewJob& job);
 
 Problem tooManyJobs(std::size_t most);            ///< busy: of one client
 Problem noRoomForJobs(std::uint64_t bytes);       ///< insufficientStorage: for a new job
 Problem noRoomForFrame(std::uint64_t bytes);      ///< insufficientStorage: for the pictures of one in work
-Problem poisonProblem(int index, int deliveries); ///< internal: whoever took the frame was heard of no more
+Problem poisonProblem(int index, int deliveries); ///< internal: every server that took the frame died
 Problem unknownJob(std::string_view id);          ///< notFound
 
 } // namespace gnomon

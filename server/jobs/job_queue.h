@@ -12,18 +12,17 @@
 #include "protocol/sequence/sequence.h"
 #include "server/wire/sequence_news.h"
 
-/// Frames of sequences that wait for whoever can draw them, and what was drawn.
+/// Frames of sequences that wait to be drawn, and what was drawn.
 namespace gnomon {
 
 /// How much jobs may keep, and for how long.
 struct JobLimits {
-  std::size_t jobs = 256;           ///< of all clients, where each has a descriptor (insufficientStorage)
-  std::size_t jobsOfClient = 16;    ///< that are kept for one client, in any state (busy)
-  std::uint64_t bytes = 1ull << 30; ///< of all jobs: requests and pictures (insufficientStorage)
-  std::chrono::seconds age{86'400}; ///< a job goes so long after its last frame
-  int deliveries = 5;               ///< >= 1; a frame that was taken more often fails its job
-  std::chrono::milliseconds silence{
-      15'000}; ///< a frame of whose taker nothing was heard for so long is given to others
+  std::size_t jobs = 256;                  ///< of all clients, where each has a descriptor (insufficientStorage)
+  std::size_t jobsOfClient = 16;           ///< that are kept for one client, in any state (busy)
+  std::uint64_t bytes = 1ull << 30;        ///< of all jobs: requests and pictures (insufficientStorage)
+  std::chrono::seconds age{86'400};        ///< a job goes so long after its last frame
+  int deliveries = 5;                      ///< >= 1; a frame that was taken more often fails its job
+  std::chrono::milliseconds lease{15'000}; ///< a frame that was not renewed for so long is given to other takers
 };
 
 /// A job as it was asked for.
@@ -68,7 +67,7 @@ struct JobsSize {
   std::uint64_t bytes = 0;    ///< of requests and pictures
 };
 
-/// A frame that somebody is to draw.
+/// A frame to be drawn by the caller that took it.
 struct FrameTurn {
   std::string job{};
   int index = 0;
@@ -111,7 +110,7 @@ class JobQueue {
   /// The request of a job; nothing where the job is gone.
   virtual Result<std::optional<std::string>> request(const std::string& job) = 0;
 
-  /// Tells that the frame is still being drawn. False = nobody wants it any more.
+  /// Says that the frame is still being drawn. False = it is not wanted any more.
   virtual Result<bool> renew(const FrameTurn& turn) = 0;
 
   /// Keeps what was drawn, once: the second to come with the same frame changes nothing, and neither does a job that is
@@ -122,7 +121,7 @@ class JobQueue {
   /// The job fails, and its other frames are not drawn any more. Problems are placed in the job's request.
   virtual Status fail(const FrameTurn& turn, const Problems& problems) = 0;
 
-  /// Somebody else may take it, at once. `isTried`: it counts as one of the deliveries.
+  /// Others may take it, at once. `isTried`: it counts as one of the deliveries.
   virtual Status giveBack(const FrameTurn& turn, bool isTried) = 0;
 
   virtual Result<std::optional<JobProgress>> find(const std::string& job) = 0;

@@ -90,12 +90,12 @@ return 'ok'
 )lua");
 
 const redis::Script kTake = script(R"lua(
-local consumer, silence, deliveries, age, poison = unpack(ARGV)
+local consumer, lease, deliveries, age, poison = unpack(ARGV)
 removeOld(tonumber(age))
 local function silentEntry(stream)
   local cursor = '0-0'
   repeat
-    local claimed = call('XAUTOCLAIM', stream, 'takers', consumer, silence, cursor, 'COUNT', 1)
+    local claimed = call('XAUTOCLAIM', stream, 'takers', consumer, lease, cursor, 'COUNT', 1)
     if claimed[2][1] then return claimed[2][1] end
     cursor = claimed[1]
   until cursor == '0-0'
@@ -169,11 +169,11 @@ return 'ok'
 )lua");
 
 const redis::Script kGiveBack = script(R"lua(
-local id, entry, silence, times, consumer = unpack(ARGV)
+local id, entry, lease, times, consumer = unpack(ARGV)
 if not isOpen(id) then return 0 end
 local pending = call('XPENDING', P .. 'stream:' .. id, 'takers', entry, entry, 1)[1]
 if not pending or pending[2] ~= consumer then return 0 end
-call('XCLAIM', P .. 'stream:' .. id, 'takers', consumer, 0, entry, 'IDLE', silence, 'RETRYCOUNT', times, 'JUSTID')
+call('XCLAIM', P .. 'stream:' .. id, 'takers', consumer, 0, entry, 'IDLE', lease, 'RETRYCOUNT', times, 'JUSTID')
 return 1
 )lua");
 

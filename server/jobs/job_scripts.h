@@ -9,7 +9,7 @@
 ///   stream:ID        stream of the frames that wait or are in work, with the consumer group "takers"
 ///   frame:ID:INDEX   hash: what was drawn, as note and pictures
 ///   ring             list of clients that have unfinished jobs, the next in turn first
-///   ring:CLIENT      list of these jobs, alike
+///   ring:CLIENT      list of these jobs, in the same order
 ///   client:CLIENT    set of all jobs of a client
 ///   key:KEY          sorted set of all jobs of a key, by their number
 ///   changed          sorted set of all jobs, by the millisecond of their last change
@@ -17,11 +17,11 @@
 namespace gnomon::job_scripts {
 
 extern const redis::Script kPut;      ///< id, key, client, scene, request, first, count, isChained, carried, limits
-extern const redis::Script kTake;     ///< consumer, silence, deliveries, age -> a frame, or nil
+extern const redis::Script kTake;     ///< consumer, lease, deliveries, age -> a frame, or nil
 extern const redis::Script kRenew;    ///< id, entry, consumer -> 1 where the frame is still wanted
 extern const redis::Script kFinish;   ///< id, entry, index, note, pictures, carried, limit of bytes, problems
 extern const redis::Script kFail;     ///< id, entry, index, problems
-extern const redis::Script kGiveBack; ///< id, entry, silence, deliveries
+extern const redis::Script kGiveBack; ///< id, entry, lease, deliveries
 extern const redis::Script kFind;     ///< id, age -> the job's fields, or nil
 extern const redis::Script kList;     ///< key, age -> the fields of each
 extern const redis::Script kRemove;   ///< id -> 1 where there was one

@@ -41,10 +41,10 @@ void LocalJobs::end(Entry& entry, JobState state, const Problems& problems) {
 }
 
 void LocalJobs::takeBackSilent() {
-  const auto oldest = Clock::now() - limits_.silence;
+  const auto oldest = Clock::now() - limits_.lease;
   for (Entry& entry : entries_) {
     for (auto taken = entry.taken.begin(); taken != entry.taken.end();) {
-      if (taken->second.heard >= oldest) {
+      if (taken->second.renewed >= oldest) {
         ++taken;
         continue;
       }
@@ -101,7 +101,7 @@ Result<std::optional<FrameTurn>> LocalJobs::take(std::chrono::milliseconds patie
     Entry* const entry = nextInTurn();
     if (entry == nullptr) {
       if (Clock::now() >= until) return std::optional<FrameTurn>();
-      queued_.wait_until(lock, std::min(until, Clock::now() + limits_.silence));
+      queued_.wait_until(lock, std::min(until, Clock::now() + limits_.lease));
       continue;
     }
     WaitingFrame frame = std::move(entry->waiting.front());
@@ -136,7 +136,7 @@ Result<bool> LocalJobs::renew(const FrameTurn& turn) {
   if (entry == nullptr) return false;
   const auto taken = entry->taken.find(turn.receipt);
   if (taken == entry->taken.end()) return false;
-  taken->second.heard = Clock::now();
+  taken->second.renewed = Clock::now();
   return true;
 }
 

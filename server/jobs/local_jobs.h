@@ -40,7 +40,7 @@ class LocalJobs final : public JobQueue {
   };
   struct TakenFrame {
     WaitingFrame frame;
-    Clock::time_point heard;
+    Clock::time_point renewed;
   };
   struct KeptFrame {
     FrameNote note;

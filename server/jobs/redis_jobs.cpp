@@ -29,9 +29,7 @@ std::string frameKey(const std::string& job, int index) {
 /// Of a command that Redis did not carry out.
 Problem refused(const redis::Reply& error) {
   logEvent("jobs", error.text);
-  if (error.isError("OOM")) {
-    return {ProblemCode::insufficientStorage, "", "What keeps the jobs is full.", "", ""};
-  }
+  if (error.isError("OOM")) return {ProblemCode::insufficientStorage, "", "What keeps the jobs is full.", "", ""};
   return {ProblemCode::unavailable, "", "What keeps the jobs does not take them now.", "", ""};
 }
 
@@ -120,7 +118,7 @@ Result<std::optional<FrameTurn>> RedisJobs::take(std::chrono::milliseconds patie
   poison.detail.replace(poison.detail.find('0'), 1, "INDEX");
   for (auto pause = kShortest;; pause = std::min(pause * 2, kLongest)) {
     const auto reply = run(job_scripts::kTake,
-                           {consumer_, silence(), std::to_string(limits_.deliveries), age(), textOf(Problems{poison})});
+                           {consumer_, lease(), std::to_string(limits_.deliveries), age(), textOf(Problems{poison})});
     if (!reply) return reply.problems();
     if (reply->elements.size() == 7) {
       const auto& fields = reply->elements;
@@ -172,7 +170,7 @@ Status RedisJobs::fail(const FrameTurn& turn, const Problems& problems) {
 
 Status RedisJobs::giveBack(const FrameTurn& turn, bool isTried) {
   const int times = isTried ? turn.deliveries : turn.deliveries - 1;
-  const auto reply = run(job_scripts::kGiveBack, {turn.job, turn.receipt, silence(), std::to_string(times), consumer_});
+  const auto reply = run(job_scripts::kGiveBack, {turn.job, turn.receipt, lease(), std::to_string(times), consumer_});
   if (!reply) return reply.problems();
   return Done{};
 }

@@ -6,7 +6,7 @@
 namespace gnomon {
 
 /// A queue in Redis, shared by all servers that name it: jobs outlive each of them. The frames of a job wait in a
-/// stream with one consumer group (job_scripts.h); whoever is silent loses its frames to others. Redis' clock counts.
+/// stream with one consumer group (job_scripts.h). A server that stops renewing loses its frames; times are Redis time.
 class RedisJobs final : public JobQueue {
  public:
   RedisJobs(JobLimits limits, std::shared_ptr<redis::Redis> redis);
@@ -29,7 +29,7 @@ class RedisJobs final : public JobQueue {
   Result<redis::Reply> run(const redis::Script& script, const std::vector<std::string>& arguments) const;
   Result<redis::Reply> ask(const redis::Command& command, std::size_t mostBytes) const;
   std::string age() const { return std::to_string(std::chrono::milliseconds(limits_.age).count()); }
-  std::string silence() const { return std::to_string(limits_.silence.count()); }
+  std::string lease() const { return std::to_string(limits_.lease.count()); }
 
   const JobLimits limits_;
   const std::shared_ptr<redis::Redis> redis_;

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-/// The values that labels may have. Whatever a client or a worker sends becomes one of these, so that nobody can make
-/// the server count ever more series.
+/// The values that labels may have. Whatever a client or a worker sends becomes one of these, so that no client can
+/// make the server count ever more series.
 namespace gnomon::metrics {
 
 inline constexpr std::string_view kOther = "other";

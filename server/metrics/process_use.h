@@ -4,7 +4,7 @@
 
 namespace gnomon::metrics {
 
-/// What this process takes, as proc(5) tells; 0 where it doesn't.
+/// What this process takes, by proc(5); 0 where that is unknown.
 struct ProcessUse {
   std::uint64_t residentBytes = 0;
   std::uint64_t virtualBytes = 0;

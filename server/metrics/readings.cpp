@@ -130,7 +130,7 @@ constexpr std::array kRows{
                [](const Snapshot& s) { return ofJobs(s, [](const JobsSize& jobs) { return jobs.framesLeft; }); }},
     ReadingRow{"gnomon_job_frames_total", kCounter, "Frames of jobs that this server took, by what became of them.",
                [](const Snapshot& s) { return by("end", kFrameEndNames, s.jobFrames); }},
-    ReadingRow{"gnomon_log_lines_dropped_total", kCounter, "Lines of the log that nobody read in time.",
+    ReadingRow{"gnomon_log_lines_dropped_total", kCounter, "Log lines dropped because the reader was too slow.",
                [](const Snapshot& s) { return one(s.logLinesDropped); }},
     ReadingRow{"process_resident_memory_bytes", kGauge, "Memory of the process that listens.",
                [](const Snapshot& s) { return one(s.process.residentBytes); }},

@@ -45,7 +45,7 @@ Family<Histogram>& histograms(prometheus::Registry& registry, const EventMetric&
   return prometheus::BuildHistogram().Name(row.name).Help(row.help).Register(registry);
 }
 
-/// A member of the family for each label that there is, so that all of them are told from the start.
+/// A member of the family for each label that there is, so that all of them are exposed from the start.
 template <class Metric, class Names, class... More>
 std::map<std::string, Metric*, std::less<>> membersOf(Family<Metric>& family, const char* label, const Names& names,
                                                       const More&... more) {

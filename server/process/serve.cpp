@@ -104,8 +104,8 @@ void finish(Signals& signals, HttpServer& server, const StopSignal& done, Clock:
   if (!waitUntil(grace + kForEverything)) endNow("The grace period is over and work is still running.");
 }
 
-/// Runs the listener until a signal arrives, then finishes the requests in progress; at once where nobody is left who
-/// waits for them. 0, or 1 where accepting failed.
+/// Runs the listener until a signal arrives, then finishes the requests in progress; at once where no client is left
+/// that waits for them. 0, or 1 where accepting failed.
 int runUntilSignalled(const ServeOptions& options, Signals& signals, HttpServer& server, Services& services) {
   const int port = server.port();
   StopSignal listenerEnded;
@@ -174,7 +174,7 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
           .waited = [&counted](Lane lane, double seconds) { counted.waited(lane, seconds); }};
 }
 
-/// A store in Redis is told of uses, and tells of what is too old, within a second.
+/// A store in Redis learns of uses, and removes what is too old, within a second.
 KeepingPeriod keepingOf(const ServeOptions& options) {
   KeepingPeriod period{.age = std::chrono::seconds(options.storeAgeSeconds)};
   if (redis::isAddress(options.store)) period.longest = std::chrono::seconds(1);
@@ -217,7 +217,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
                                                .keepsScenesInMemory = keepsScenesInMemory(options)});
   if (!descriptors) return failed(descriptors.problems());
   boundHeaps(coresToUse() + 1);
-  std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more must not end the server
+  std::signal(SIGPIPE, SIG_IGN); // a log without a reader must not end the server
 
   Limits limits;
   limits.maxSceneBytes = options.maxSceneBytes;
@@ -225,9 +225,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
   if (!store) return failed(store.problems());
   metrics::RequestMetrics counted;
   auto workers = Dispatcher::start(dispatcherOptions(options, store->lightMaps, counted));
-  if (!workers) {
-    return failed(workers.problems());
-  }
+  if (!workers) return failed(workers.problems());
   ByteBudget replyBytes(options.replyMemoryBytes);
   const JobLimits jobLimits{.jobs = descriptors->jobs,
                             .jobsOfClient = options.jobsPerClient,
@@ -273,9 +271,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
                                     ? options.maxConnectionsPerAddress
                                     : std::max<std::size_t>(options.httpThreads * 3 / 4, 1);
   auto server = HttpServer::listen({options.bind, options.port, options.httpThreads, perClient}, context);
-  if (!server) {
-    return failed(server.problems());
-  }
+  if (!server) return failed(server.problems());
   std::unique_ptr<AdminAddress> admin;
   if (options.adminPort) {
     auto opened = AdminAddress::open({options.adminBind, *options.adminPort, options.allowedHosts}, services, counted);

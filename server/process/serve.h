@@ -76,7 +76,7 @@ struct ServeOptions {
   bool untilStdinCloses = false;
 };
 
-/// Serves, with this web page, until SIGTERM, SIGINT, or as untilStdinCloses has it, then ends in order: 0. Tells a
+/// Serves, with this web page, until SIGTERM, SIGINT, or as untilStdinCloses has it, then ends in order: 0. Notifies a
 /// service manager how it is doing. A second signal ends at once. 1 = it could not start, or could not go on; the
 /// reason is on standard error. Once requests are accepted, the address is printed on standard output: "listening on
 /// http://127.0.0.1:8080". Call it before starting other threads: it blocks those two signals, and SIGHUP where there

@@ -10,8 +10,9 @@
 #include "server/process/serve_flags.h"
 #include "server/scenes/whole_file.h"
 
-// CLI11 has a reader of its own (2.1). It tells no lines, cuts a quoted text at its '#', passes over keys that are set
-// twice, and lets the file win over the environment. What a value means and may be is still for the options to say.
+// CLI11 has a reader of its own (2.1). It gives no line numbers, cuts a quoted text at its '#', passes over keys that
+// are set twice, and lets the file win over the environment. What a value means and may be is still for the options to
+// say.
 namespace gnomon {
 namespace {
 
@@ -65,7 +66,7 @@ Status applyConfig(CLI::App& command, const std::string& file) {
   if (!text) return text.problems();
   const auto entries = parseConfig(*text, file);
   if (!entries) return entries.problems();
-  CLI::App checked; // options that nobody has set yet: a value is checked even where a flag comes before it
+  CLI::App checked; // options that are not set yet: a value is checked even where a flag comes before it
   ServeOptions values;
   addServeFlags(checked, values);
   const std::vector<std::string> keys = keysOf(command);

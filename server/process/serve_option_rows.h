@@ -52,8 +52,8 @@ inline constexpr std::array kStorageRows{
            "Address to listen on; `0.0.0.0` = every IPv4 address, `::` = every address"),
     option("port", &ServeOptions::port, kPort, "Port to listen on; 0 = any free one, which is printed"),
     option("admin-port", &ServeOptions::adminPort, kPort,
-           "Port of a second address, which alone serves [metrics](#metrics), and probes; 0 = any free one, which the "
-           "log tells (`\"event\": \"admin\"`). Without it `/metrics` is served with all else"),
+           "Port of a second address, which alone serves [metrics](#metrics), and probes; 0 = any free one, named "
+           "in the log (`\"event\": \"admin\"`). Without it `/metrics` is served with all else"),
     option("admin-bind", &ServeOptions::adminBind, kAddress, "Address of `--admin-port`, which needs no API key"),
     option("allowed-hosts", &ServeOptions::allowedHosts, {"NAMES"},
            "Names by which clients may [reach the server](#security), beside its addresses and `localhost`; "
@@ -79,7 +79,8 @@ inline constexpr std::array kStorageRows{
     option("redis-password-file", &ServeOptions::redisPasswordFile, kFile,
            "File whose first line is the password of that Redis server, and of that of `--jobs`"),
     option("redis-authorities", &ServeOptions::redisAuthorities, kFile,
-           "PEM file of who may sign that Redis server's certificate; without it those whom the system trusts"),
+           "PEM file of the authorities that may sign that Redis server's certificate; without it those that the "
+           "system trusts"),
 };
 
 inline constexpr std::array kRendererRows{

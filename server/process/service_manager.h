@@ -7,7 +7,7 @@
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
 
-/// What a service manager is told (sd_notify(3)), where one has started this process: systemd with Type=notify.
+/// Notifications to a service manager (sd_notify(3)) that has started this process: systemd with Type=notify.
 namespace gnomon {
 
 /// Whether one listens.
@@ -23,7 +23,7 @@ void tellStopping(std::chrono::seconds needed);
 /// are reached by the loopback interface.
 bool answersLivez(const std::string& bind, int port, std::chrono::milliseconds patience);
 
-/// Where the service manager wants to hear that the process is well (WatchdogSec=), tells it so for as long as `isWell`
+/// Where the service manager has a watchdog (WatchdogSec=), notifies it for as long as `isWell`
 /// says it, three times in the time that it gives.
 class Watchdog {
  public:

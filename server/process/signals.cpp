@@ -29,9 +29,7 @@ Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline)
         {{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}, {starter_.get(), POLLIN, 0}}}; // poll(2) skips -1
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
-    if (waiting[1].revents != 0) {
-      return Event::done;
-    }
+    if (waiting[1].revents != 0) return Event::done;
     signalfd_siginfo info{};
     if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {
       if (info.ssi_signo != SIGHUP) return Event::signal;
@@ -41,9 +39,7 @@ Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline)
       starter_.reset();
       return Event::abandoned;
     }
-    if (Clock::now() >= deadline) {
-      return Event::timeout;
-    }
+    if (Clock::now() >= deadline) return Event::timeout;
   }
 }
 

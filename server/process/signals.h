@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// SIGTERM and SIGINT, received by waiting, SIGHUP while something is to be read again, and the end of whoever holds
-/// the other end of a pipe. Blocks these signals for the calling thread and those that it starts later.
+/// SIGTERM and SIGINT, received by waiting, SIGHUP while something is to be read again, and the end of the process that
+/// holds the other end of a pipe. Blocks these signals for the calling thread and those that it starts later.
 class Signals {
  public:
   /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone. `starter`: a pipe's
@@ -17,8 +17,8 @@ class Signals {
 
   enum class Event { signal, abandoned, done, timeout };
 
-  /// Waits for SIGTERM or SIGINT, for the starter's end of the pipe to be closed (told once), for `done`, or for the
-  /// deadline.
+  /// Waits for SIGTERM or SIGINT, for the starter's end of the pipe to be closed (reported once), for `done`, or for
+  /// the deadline.
   Event wait(const StopSignal& done, Clock::time_point deadline);
 
  private:

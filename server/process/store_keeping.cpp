@@ -36,11 +36,11 @@ StoreKeeping::StoreKeeping(SceneStore& store, Dispatcher& workers, const Keeping
           keepClean(store, workers);
         } while (!stopped());
       }) {
-  store.tellRemoved([&workers](const std::string& id) { workers.forget(id); });
+  store.onRemoved([&workers](const std::string& id) { workers.forget(id); });
 }
 
 StoreKeeping::~StoreKeeping() {
-  store_.tellRemoved(nullptr);
+  store_.onRemoved(nullptr);
   stop_.raise();
   thread_.join();
 }

@@ -8,7 +8,7 @@
 
 namespace gnomon::redis {
 
-/// Where a Redis server is, and who asks it.
+/// Where a Redis server is, and as which user to connect.
 struct Address {
   std::string host;          ///< a name, or an IPv4 or IPv6 address without brackets
   std::uint16_t port = 6379; ///< 1..65535
@@ -16,7 +16,7 @@ struct Address {
   std::string password;      ///< empty = none is sent
   int database = 0;          ///< 0..65535
   bool isEncrypted = false;  ///< TLS: the server's certificate has to be valid for `host`
-  std::string authorities;   ///< a PEM file of those who may sign that certificate; empty = the system's
+  std::string authorities;   ///< a PEM file of authorities that may sign that certificate; empty = the system's
 };
 
 /// Whether a text is meant to be an address, rather than a path.

@@ -75,7 +75,7 @@ Result<std::vector<Reply>> Connection::exchange(std::span<const Command> command
   return replies;
 }
 
-Result<std::optional<Reply>> Connection::hear(const Call& call) {
+Result<std::optional<Reply>> Connection::receive(const Call& call) {
   std::string_view nothing;
   reader_.allow(call.limits);
   while (true) {
@@ -86,7 +86,7 @@ Result<std::optional<Reply>> Connection::hear(const Call& call) {
   }
 }
 
-Status Connection::tell(const Command& command, const Call& call) {
+Status Connection::send(const Command& command, const Call& call) {
   const std::string text = wireText(command);
   std::string_view unsent = text;
   reader_.allow(call.limits);

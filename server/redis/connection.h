@@ -33,12 +33,12 @@ class Connection {
   Result<std::vector<Reply>> exchange(std::span<const Command> commands, const Call& call);
 
   /// What the server sends by itself: one reply, or nothing at the deadline.
-  Result<std::optional<Reply>> hear(const Call& call);
+  Result<std::optional<Reply>> receive(const Call& call);
 
-  /// Sends a command whose reply is left for hear().
-  Status tell(const Command& command, const Call& call);
+  /// Sends a command whose reply is left for receive().
+  Status send(const Command& command, const Call& call);
 
-  /// False where it has ended, or bytes have come that nobody asked for.
+  /// False where it has ended, or bytes have come that no command asked for.
   bool isQuiet();
 
  private:

@@ -31,7 +31,7 @@ Endpoints endpointsOf(const std::string& host, std::uint16_t port, int flags) {
   return {known ? found : nullptr, [](addrinfo* list) { list != nullptr ? ::freeaddrinfo(list) : void(); }};
 }
 
-/// What a thread that asks for a name leaves. The system's resolver knows no deadline of ours, so that nobody may wait
+/// The result of a thread that resolves a name. The system's resolver knows no deadline of ours, so no caller may wait
 /// for the thread: it may outlive the question.
 struct Resolution {
   StopSignal done;
@@ -62,7 +62,7 @@ Endpoints resolve(const std::string& host, std::uint16_t port, Clock::time_point
   return std::move(resolution->endpoints);
 }
 
-/// Empty, with errno, where nobody answers.
+/// Empty, with errno, where no address answers.
 FileDescriptor connectTo(const addrinfo& endpoint, Clock::time_point deadline, const StopSignal* cut) {
   FileDescriptor socket(
       ::socket(endpoint.ai_family, endpoint.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, endpoint.ai_protocol));
@@ -74,9 +74,7 @@ FileDescriptor connectTo(const addrinfo& endpoint, Clock::time_point deadline, c
   if (errno != EINPROGRESS) return {};
   int error = ETIMEDOUT;
   socklen_t size = sizeof error;
-  if (waitFor(socket.get(), POLLOUT, deadline, cut)) {
-    ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
-  }
+  if (waitFor(socket.get(), POLLOUT, deadline, cut)) ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
   if (error == 0) return socket;
   errno = error;
   return {};

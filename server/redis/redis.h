@@ -36,9 +36,9 @@ struct Use {
 /// Calls to one Redis server over connections that are kept. Any thread.
 ///
 /// A call either has a reply to each of its commands, which may be errors of the server, or it has a problem:
-/// unavailable, where the server is away or does not answer by the call's deadline. Nobody knows then whether the
+/// unavailable, where the server is away or does not answer by the call's deadline. It is unknown then whether the
 /// commands were carried out; none is sent twice. While a server is away, most calls fail at once: it is tried again at
-/// intervals that grow (backoffDelay), by whoever calls then. The log tells when it goes and comes.
+/// growing intervals (backoffDelay), by the call that comes then. The log says when it goes and comes.
 class Redis {
  public:
   explicit Redis(Options options);
@@ -59,7 +59,7 @@ class Redis {
   /// A connection for the caller alone, as for what it subscribes to.
   Result<std::unique_ptr<Connection>> connect(const Call& call);
 
-  Clock::time_point nextAttempt() const; ///< before it, nobody connects; a time that has passed = now
+  Clock::time_point nextAttempt() const; ///< before it, no call connects; a time that has passed = now
   Use use() const;
   const Address& address() const { return options_.address; }
 

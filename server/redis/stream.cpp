@@ -28,7 +28,7 @@ bool isNumeric(const std::string& host) {
   return octets != nullptr;
 }
 
-/// Whom the session may take for its server. False where the system refuses.
+/// The certificates that the session trusts. False where the system refuses.
 bool expectHost(SSL* session, const std::string& host) {
   if (isNumeric(host)) return X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(session), host.c_str()) == 1;
   return SSL_set1_host(session, host.c_str()) == 1 && SSL_set_tlsext_host_name(session, host.c_str()) == 1;

@@ -50,26 +50,26 @@ void Subscription::run() {
 /// Until the connection ends, or does not answer. False where it was not subscribed.
 bool Subscription::listen(Connection& connection) {
   const auto call = [this](std::chrono::seconds patience) { return Call{Clock::now() + patience, {}, &stop_}; };
-  if (!connection.tell({"SUBSCRIBE", channel_}, call(kPatience))) return false;
+  if (!connection.send({"SUBSCRIBE", channel_}, call(kPatience))) return false;
   bool isSubscribed = false;
   bool isAsked = true;
   while (!stop_.raised()) {
-    auto heard = connection.hear(call(isAsked ? kPatience : kQuiet));
-    if (!heard || (!*heard && isAsked)) return isSubscribed;
-    if (!*heard) {
-      if (!connection.tell({"PING"}, call(kPatience))) return isSubscribed;
+    auto received = connection.receive(call(isAsked ? kPatience : kQuiet));
+    if (!received || (!*received && isAsked)) return isSubscribed;
+    if (!*received) {
+      if (!connection.send({"PING"}, call(kPatience))) return isSubscribed;
       isAsked = true;
       continue;
     }
     isAsked = false;
-    const std::vector<Reply>& parts = (*heard)->elements;
-    if ((*heard)->isError()) logEvent("redis", "A subscription is refused: " + (*heard)->text);
+    const std::vector<Reply>& parts = (*received)->elements;
+    if ((*received)->isError()) logEvent("redis", "A subscription is refused: " + (*received)->text);
     if (parts.empty()) return isSubscribed;
     if (parts[0].text == "subscribe") {
       isSubscribed = true;
       callSafely(listener_.begun);
     }
-    if (parts[0].text == "message" && parts.size() == 3) callSafely(listener_.told, parts[2].text);
+    if (parts[0].text == "message" && parts.size() == 3) callSafely(listener_.message, parts[2].text);
   }
   return isSubscribed;
 }

@@ -10,13 +10,13 @@
 
 namespace gnomon::redis {
 
-/// What a channel tells, on a thread and a connection of its own, for as long as this exists. Where the connection
+/// The messages of a channel, on a thread and a connection of its own, for as long as this exists. Where the connection
 /// ends, another is made: while a server is away, this is what finds it again.
 class Subscription {
  public:
   struct Listener {
-    std::function<void()> begun;                          ///< subscribed, again too: what was told before may be missed
-    std::function<void(const std::string& message)> told; ///< in the order of the channel
+    std::function<void()> begun; ///< subscribed, also again: earlier messages may have been missed
+    std::function<void(const std::string& message)> message; ///< in the order of the channel
   };
 
   /// Both functions are called by the subscription's thread; what they throw is logged. `redis` outlives it.

@@ -11,7 +11,7 @@ namespace gnomon {
 /// Scenes in a directory that other servers may share.
 class DirectoryBackend : public SceneBackend {
  public:
-  /// `quotaBytes`: of their bundles together; 0 = none. `age`: scenes that nobody used for so long go; 0 = never.
+  /// `quotaBytes`: of their bundles together; 0 = none. `age`: scenes not used for so long go; 0 = never.
   static Result<std::unique_ptr<SceneBackend>> open(const std::string& path, std::uint64_t quotaBytes,
                                                     std::chrono::seconds age);
 
@@ -27,7 +27,7 @@ class DirectoryBackend : public SceneBackend {
   void setAside(const std::string& id) override { directory_.setAside(id); }
   Status remove(const std::string& id) override;
   void keepClean(const SceneListener& removed) override;
-  void tellRemoved(SceneListener) override {} ///< shared file systems tell nobody: each use looks
+  void onRemoved(SceneListener) override {} ///< shared file systems send no notice: each use looks
 
  private:
   DirectoryBackend(SceneDirectory directory, std::uint64_t quotaBytes, std::chrono::seconds age);

@@ -21,8 +21,8 @@ bool isOlder(const struct stat& status, std::chrono::milliseconds age) {
   return lastUse(status) < std::chrono::system_clock::now() - age;
 }
 
-/// Who removes a file holds it locked for some microseconds. Where locks are refused for longer, or are not known, the
-/// file is used without one.
+/// A process that removes a file holds it locked for some microseconds. Where locks are refused for longer, or are not
+/// known, the file is used without one.
 void lockShared(int fd) {
   constexpr int kTries = 50;
   for (int i = 0; i < kTries && ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++i) {
@@ -59,7 +59,7 @@ bool removeIfUnused(const std::string& path, std::chrono::seconds age) {
   if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || !isOlder(status, age)) return false;
   const FileDescriptor file = openToLock(path);
   if (!file || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return false;
-  // Nobody can begin to use it now; but somebody may have, before the lock.
+  // No reader can begin to use it now; but one may have, before the lock.
   if (::fstat(file.get(), &status) != 0 || status.st_nlink == 0 || !isOlder(status, age)) return false;
   return ::unlink(path.c_str()) == 0;
 }

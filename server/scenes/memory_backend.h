@@ -22,7 +22,7 @@ class MemoryBackend : public SceneBackend {
   void setAside(const std::string&) override {}                        ///< bytes in memory are not damaged
   Status remove(const std::string& id) override;
   void keepClean(const SceneListener&) override {}
-  void tellRemoved(SceneListener) override {} ///< nobody else removes any
+  void onRemoved(SceneListener) override {} ///< this process alone removes any
 
  private:
   SceneMemory scenes_;

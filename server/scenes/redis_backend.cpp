@@ -51,7 +51,7 @@ void RedisBackend::forget(const std::string& id) {
   if (listener_) listener_(id);
 }
 
-/// After a time in which removals may not have been told.
+/// After a time in which notices of removals may have been lost.
 void RedisBackend::checkMemory() {
   const auto ids = memory_.page("", options_.memoryScenes).ids;
   constexpr std::size_t kAtOnce = 1'000;
@@ -94,13 +94,13 @@ Status RedisBackend::checkRoom(std::uint64_t bytes) {
 
 Result<bool> RedisBackend::put(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
                                const std::string& summary) {
-  if (bytes > options_.memoryBytes) return tooLargeForMemory(options_.memoryBytes, bytes); // nobody could read it
+  if (bytes > options_.memoryBytes) return tooLargeForMemory(options_.memoryBytes, bytes); // it could never be read
   auto isNew = uploadToRedis(*redis_, options_.quotaBytes, {id, *bundle, bytes, summary});
   if (isNew && *isNew) (void)keepInMemory(id, std::move(bundle), bytes, summary); // it may be removed by now
   return isNew;
 }
 
-/// Whoever removes a scene tells it after that: what is in memory first, and found in Redis then, is told of.
+/// A removed scene is published after its removal: what is in memory first, and found in Redis then, is covered.
 Status RedisBackend::keepInMemory(const std::string& id, BundlePtr bundle, std::uint64_t bytes,
                                   const std::string& summary) {
   memory_.put(id, std::move(bundle), bytes, summary);
@@ -241,7 +241,7 @@ void RedisBackend::keepClean(const SceneListener& removed) {
   }
 }
 
-void RedisBackend::tellRemoved(SceneListener listener) {
+void RedisBackend::onRemoved(SceneListener listener) {
   const std::lock_guard lock(telling_);
   listener_ = std::move(listener);
 }

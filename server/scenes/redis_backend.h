@@ -22,7 +22,7 @@ class RedisBackend : public SceneBackend {
     std::size_t memoryBytes = 0;  ///< of bundles in memory
     std::size_t memoryScenes = 1; ///< >= 1; and as many of them at most
     std::uint64_t quotaBytes = 0; ///< of all bundles; 0 = as many as Redis takes
-    std::chrono::seconds age{};   ///< scenes that nobody used for so long go; 0 = never
+    std::chrono::seconds age{};   ///< scenes not used for so long go; 0 = never
   };
 
   RedisBackend(std::shared_ptr<redis::Redis> redis, Options options);
@@ -40,7 +40,7 @@ class RedisBackend : public SceneBackend {
   void setAside(const std::string& id) override;
   Status remove(const std::string& id) override;
   void keepClean(const SceneListener& removed) override;
-  void tellRemoved(SceneListener listener) override;
+  void onRemoved(SceneListener listener) override;
 
  private:
   Status keepInMemory(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary);

@@ -17,7 +17,7 @@
 ///   gnomon:maps          sorted set: every light map's key by the time of its last use
 ///   gnomon:maps:bytes    bytes of all light maps
 ///
-/// Times are those of the Redis server. A channel tells the id of each scene that is removed.
+/// Times are those of the Redis server. The id of each removed scene is published on a channel.
 namespace gnomon {
 
 inline const std::string kScenesKey = "gnomon:scenes";

@@ -23,7 +23,7 @@ struct StoredBundle {
   bool isStored = false; ///< it comes from a disk, and may be damaged
 };
 
-/// Told the id of a scene that is there no longer.
+/// Takes the id of a scene that is there no longer.
 using SceneListener = std::function<void(const std::string& id)>;
 
 /// Where bundles and summaries are kept by id: in this process, in a directory, or in Redis. Any thread.
@@ -68,13 +68,13 @@ class SceneBackend {
 
   virtual Status remove(const std::string& id) = 0; ///< or notFound
 
-  /// Removes what nobody used for so long, where that is asked for, telling each, and what servers that died have left.
-  /// One thread.
+  /// Removes what was not used for so long, where that is asked for, reporting each, and what servers that died have
+  /// left. One thread.
   virtual void keepClean(const SceneListener& removed) = 0;
 
-  /// From now on tells of scenes that others remove; nullptr = nobody. It may be called by any thread, until the next
-  /// call of this has returned. Whoever is told nothing finds out when the scene is used next.
-  virtual void tellRemoved(SceneListener listener) = 0;
+  /// From now on `listener` gets each scene that others remove; nullptr = none. Any thread may call it, until the next
+  /// call of this has returned. Without it a removal is found when the scene is used next.
+  virtual void onRemoved(SceneListener listener) = 0;
 };
 
 } // namespace gnomon

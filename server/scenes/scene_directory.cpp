@@ -138,18 +138,14 @@ void SceneDirectory::setAside(const std::string& id) const {
 
 std::optional<std::string> SceneDirectory::readSummary(const std::string& id) const {
   const auto bytes = readWhole(pathOf(id, kSummary), SceneBackend::kMaxSummaryBytes);
-  if (!bytes) {
-    return std::nullopt;
-  }
+  if (!bytes) return std::nullopt;
   return std::string(bytes->begin(), bytes->end());
 }
 
 bool SceneDirectory::remove(const std::string& id) const {
   const bool removed = ::unlink(pathOf(id, kBundle).c_str()) == 0;
   ::unlink(pathOf(id, kSummary).c_str());
-  if (removed && !syncDirectory(path_)) {
-    diskProblem("A removal may not outlive a power cut.");
-  }
+  if (removed && !syncDirectory(path_)) diskProblem("A removal may not outlive a power cut.");
   return removed;
 }
 

@@ -17,8 +17,8 @@ namespace gnomon {
 
 /// Bundles on disk, one file each, named by id: "<id>.bundle", beside it "<id>.json" with the summary's text.
 /// Files appear by rename only, so that a crash leaves a whole file or none. A bundle's time of change says when its
-/// scene was used last, and whoever has it open holds a shared lock on it (flock), so that all who share the directory
-/// agree on what is in use. Any thread, and any number of processes.
+/// scene was used last, and each process that has it open holds a shared lock on it (flock), so that all that share the
+/// directory agree on what is in use. Any thread, and any number of processes.
 class SceneDirectory {
  public:
   /// Makes the directory if need be, and cleans up. `age` is the least for which removeUnused() will be asked; 0 =
@@ -57,7 +57,7 @@ class SceneDirectory {
   /// Removes what servers that died have left: unfinished files, and summaries without a bundle.
   void cleanUp() const;
 
-  /// Removes the scenes that nobody has used for so long, and tells each of them; and bundles set aside as long ago.
+  /// Removes the scenes that were not used for so long, and reports each of them; and bundles set aside as long ago.
   void removeUnused(std::chrono::seconds age, const std::function<void(const std::string& id)>& removed) const;
 
  private:

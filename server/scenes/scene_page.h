@@ -36,7 +36,7 @@ class PageFinder {
  private:
   std::string after_;
   std::size_t limit_;
-  std::set<std::string, std::less<>> found_; ///< one more than the page has, which tells that there are others
+  std::set<std::string, std::less<>> found_; ///< one more than the page has, which shows that there are others
 };
 
 } // namespace gnomon

@@ -14,9 +14,7 @@ namespace gnomon {
 namespace {
 
 Result<std::unique_ptr<SceneBackend>> openBackend(const SceneStoreOptions& options) {
-  if (!options.directory.empty()) {
-    return DirectoryBackend::open(options.directory, options.storedBytes, options.age);
-  }
+  if (!options.directory.empty()) return DirectoryBackend::open(options.directory, options.storedBytes, options.age);
   if (options.redis) {
     return std::unique_ptr<SceneBackend>(std::make_unique<RedisBackend>(
         options.redis,
@@ -57,7 +55,7 @@ Result<StoredBundle> SceneStore::bundle(const std::string& id) {
 }
 
 /// Passes on what was found. A scene that was known here, and is there no longer, was removed by another server.
-Status SceneStore::told(const std::string& id, Status found) {
+Status SceneStore::reported(const std::string& id, Status found) {
   if (found || found.problems().front().code != ProblemCode::notFound || !counts_.forget(id)) return found;
   const std::lock_guard lock(telling_);
   if (listener_) listener_(id);
@@ -66,12 +64,12 @@ Status SceneStore::told(const std::string& id, Status found) {
 
 Status SceneStore::contains(const std::string& id) {
   if (!isSceneId(id)) return unknownScene(id);
-  return told(id, backend_->contains(id));
+  return reported(id, backend_->contains(id));
 }
 
 Status SceneStore::use(const std::string& id) {
   if (!isSceneId(id)) return unknownScene(id);
-  return told(id, backend_->use(id));
+  return reported(id, backend_->use(id));
 }
 
 std::optional<std::string> SceneStore::summary(const std::string& id) {
@@ -105,14 +103,14 @@ Status SceneStore::remove(const std::string& id) {
 void SceneStore::keepClean(const SceneListener& removed) {
   backend_->keepClean([&](const std::string& id) {
     if (lightMaps_) lightMaps_->removeScene(id);
-    logEvent("store", "Scene " + id + " is removed: nobody has used it for " + std::to_string(age_.count()) + " s.");
+    logEvent("store", "Scene " + id + " is removed: it was not used for " + std::to_string(age_.count()) + " s.");
     removed(id);
   });
   if (lightMaps_) lightMaps_->cleanUp();
 }
 
-void SceneStore::tellRemoved(SceneListener listener) {
-  backend_->tellRemoved(listener);
+void SceneStore::onRemoved(SceneListener listener) {
+  backend_->onRemoved(listener);
   const std::lock_guard lock(telling_);
   listener_ = std::move(listener);
 }

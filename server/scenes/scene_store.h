@@ -21,7 +21,7 @@ struct SceneStoreOptions {
   std::size_t memoryBytes = 1ull << 30;         ///< of bundles in memory, where no directory keeps them
   std::size_t memoryScenes = 4'096;             ///< and as many of them at most: each has a descriptor
   std::uint64_t storedBytes = 0;                ///< of bundles in the directory or in Redis; 0 = as many as that takes
-  std::chrono::seconds age{};                   ///< scenes there that nobody used for so long go; 0 = never
+  std::chrono::seconds age{};                   ///< scenes not used for so long go; 0 = never
   std::shared_ptr<redis::Redis> redis{};        ///< nullptr = none
   std::shared_ptr<StoredLightMaps> lightMaps{}; ///< those of a scene go with it; nullptr = there are none
 };
@@ -63,17 +63,17 @@ class SceneStore {
 
   Status remove(const std::string& id); ///< or notFound
 
-  /// Removes what nobody used for the age of the options, telling each scene, and what servers that died have left. To
-  /// be called ever so often, by one thread.
+  /// Removes what was not used for the age of the options, reporting each scene, and what servers that died have left.
+  /// To be called ever so often, by one thread.
   void keepClean(const SceneListener& removed);
 
-  /// From now on tells of scenes that other servers have removed: at once, or when they are asked for next. nullptr =
-  /// nobody. Any thread may call it, until the next call of this has returned.
-  void tellRemoved(SceneListener listener);
+  /// From now on `listener` gets each scene that another server removed: at once, or when it is asked for next. nullptr
+  /// = none. Any thread may call it, until the next call of this has returned.
+  void onRemoved(SceneListener listener);
 
  private:
   SceneStore(const SceneStoreOptions& options, std::unique_ptr<SceneBackend> backend);
-  Status told(const std::string& id, Status found);
+  Status reported(const std::string& id, Status found);
 
   const std::chrono::seconds age_;
   const std::unique_ptr<SceneBackend> backend_;

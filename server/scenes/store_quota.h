@@ -14,14 +14,14 @@ namespace gnomon {
 /// The insufficientStorage problem of a scene of so many bytes, where `taken` of a quota are taken.
 Problem noRoom(std::uint64_t quota, std::uint64_t taken, std::uint64_t bytes);
 
-/// How many bytes the scenes of a directory may take together, whoever writes them. What is there is counted anew ever
-/// so often, so that what other servers wrote or removed counts, too: as often as counting takes a twentieth of the
-/// time. Any thread.
+/// How many bytes the scenes of a directory may take together, all writers included. What is there is counted again
+/// ever so often, so that what other servers wrote or removed counts, too: as often as counting takes a twentieth of
+/// the time. Any thread.
 class StoreQuota {
  public:
   using SceneIds = std::multiset<std::string>;
 
-  /// `bytes` 0 = no quota. `count` tells how many bytes are there without these scenes.
+  /// `bytes` 0 = no quota. `count` gives the bytes there without these scenes.
   StoreQuota(std::uint64_t bytes, std::function<std::uint64_t(const SceneIds& without)> count)
       : bytes_(bytes), count_(std::move(count)) {}
 

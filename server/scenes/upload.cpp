@@ -12,9 +12,7 @@ namespace gnomon {
 
 Result<std::vector<FormPart>> partsOf(const HttpRequest& request, const Limits& limits) {
   const auto boundary = boundaryOf(headerValue(request.headers, "content-type").value_or(""));
-  if (!boundary) {
-    return Problem{ProblemCode::malformed, "", "The Content-Type of the form names no boundary.", "", ""};
-  }
+  if (!boundary) return Problem{ProblemCode::malformed, "", "The Content-Type of the form names no boundary.", "", ""};
   constexpr std::size_t kOthers = 3; // the model, the spec and strict
   return parseMultipart(asText(request.body), *boundary, limits.maxBundleFiles + kOthers);
 }
@@ -24,9 +22,7 @@ Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const st
   Problems problems;
   bool hasModel = false;
   for (const FormPart& part : parts) {
-    if (std::find(others.begin(), others.end(), part.name) != others.end()) {
-      continue;
-    }
+    if (std::find(others.begin(), others.end(), part.name) != others.end()) continue;
     const auto content = [&] { return Bytes(part.content.begin(), part.content.end()); };
     if (part.name == "scene") {
       if (hasModel) {
@@ -60,9 +56,7 @@ Result<SceneBundle> bundleFromParts(const std::vector<FormPart>& parts, const st
     problems.push_back(
         {ProblemCode::invalidValue, "scene", "The form has no part of this name; it holds the model.", "", ""});
   }
-  if (!problems.empty()) {
-    return problems;
-  }
+  if (!problems.empty()) return problems;
   return bundle;
 }
 
@@ -100,25 +94,17 @@ Result<SceneBundle> bundleFromRequest(HttpRequest& request, const Limits& limits
   SceneBundle bundle;
   if (mediaType(headerValue(request.headers, "content-type").value_or("")) == "multipart/form-data") {
     const auto parts = partsOf(request, limits);
-    if (!parts) {
-      return parts.problems();
-    }
+    if (!parts) return parts.problems();
     auto made = bundleFromParts(*parts, {});
-    if (!made) {
-      return made;
-    }
+    if (!made) return made;
     bundle = *std::move(made);
     request.body = Bytes();
   } else {
     bundle.model = std::move(request.body);
   }
   bundle.strict = bundle.strict || *strict;
-  if (bundle.model.empty()) {
-    return Problem{ProblemCode::malformed, "", "The model is empty.", "", ""};
-  }
-  if (auto fits = checkBundleSize(bundle, limits); !fits) {
-    return std::move(fits).problems();
-  }
+  if (bundle.model.empty()) return Problem{ProblemCode::malformed, "", "The model is empty.", "", ""};
+  if (auto fits = checkBundleSize(bundle, limits); !fits) return std::move(fits).problems();
   return bundle;
 }
 

@@ -54,12 +54,8 @@ Temporary makeTemporary(const std::filesystem::path& directory) {
     std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random()); });
     std::string path = directory / (std::string(kTemporary) + hexText(bytes));
     FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640));
-    if (file) {
-      ::flock(file.get(), LOCK_EX | LOCK_NB); // until it is closed: its writer lives
-    }
-    if (file || errno != EEXIST) {
-      return {std::move(path), std::move(file)};
-    }
+    if (file) ::flock(file.get(), LOCK_EX | LOCK_NB); // until it is closed: its writer lives
+    if (file || errno != EEXIST) return {std::move(path), std::move(file)};
   }
 }
 
@@ -67,12 +63,8 @@ Temporary makeTemporary(const std::filesystem::path& directory) {
 
 bool placeFile(const std::string& path, const std::function<void(const FileSink&)>& produce) {
   const Temporary temporary = makeTemporary(std::filesystem::path(path).parent_path());
-  if (!temporary.file) {
-    return false;
-  }
-  if (writeThrough(temporary.file, produce) && ::rename(temporary.path.c_str(), path.c_str()) == 0) {
-    return true;
-  }
+  if (!temporary.file) return false;
+  if (writeThrough(temporary.file, produce) && ::rename(temporary.path.c_str(), path.c_str()) == 0) return true;
   const int reason = errno;
   ::unlink(temporary.path.c_str());
   errno = reason;

@@ -24,7 +24,7 @@ std::optional<Bytes> readWhole(const std::string& path, std::size_t most = std::
 /// Makes it lasting that files of this directory appeared or went. False, with errno, where the disk refuses.
 bool syncDirectory(const std::string& path);
 
-/// Removes what placeFile has left in a directory where its process died: files that nobody has locked, and nobody has
+/// Removes what placeFile has left in a directory where its process died: files without a lock that were not
 /// written to for a minute.
 void removeUnfinished(const std::string& directory);
 

@@ -29,9 +29,7 @@ class ByteBudget {
   bool takeBy(std::size_t bytes, Clock::time_point deadline) {
     std::unique_lock lock(mutex_);
     const auto enough = [&] { return left_ >= bytes; };
-    if (!enough() && (Clock::now() >= deadline || !freed_.wait_until(lock, deadline, enough))) {
-      return false;
-    }
+    if (!enough() && (Clock::now() >= deadline || !freed_.wait_until(lock, deadline, enough))) return false;
     left_ -= bytes;
     return true;
   }
@@ -63,9 +61,7 @@ class ByteLease {
 
   /// Waits for them until the deadline.
   bool growBy(std::size_t bytes, Clock::time_point deadline) {
-    if (!budget_->takeBy(bytes, deadline)) {
-      return false;
-    }
+    if (!budget_->takeBy(bytes, deadline)) return false;
     held_ += bytes;
     return true;
   }

@@ -21,9 +21,7 @@ int FileDescriptor::release() {
 }
 
 void FileDescriptor::reset() {
-  if (fd_ >= 0) {
-    ::close(release());
-  }
+  if (fd_ >= 0) ::close(release());
 }
 
 StopSignal::StopSignal() : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}

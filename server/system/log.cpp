@@ -78,15 +78,13 @@ void LineWriter::write() {
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || !waiting_.empty() || dropped_ > 0; });
     changed_.wait_for(lock, kGather, [this] { return stopping_ || flushing_ > 0; });
-    if (stopping_) {
-      return;
-    }
+    if (stopping_) return;
     std::string lines = std::exchange(waiting_, {});
     const std::size_t dropped = std::exchange(dropped_, 0);
     writing_ = true;
     lock.unlock();
     if (dropped > 0) {
-      lines += eventLine("log", std::to_string(dropped) + " lines were dropped because nobody read the log.") + "\n";
+      lines += eventLine("log", std::to_string(dropped) + " lines were dropped because the log was not read.") + "\n";
     }
     writeAll(lines);
     lock.lock();
@@ -95,17 +93,13 @@ void LineWriter::write() {
   }
 }
 
-/// What the descriptor refuses is lost: there is no other place to tell of it.
+/// What the descriptor refuses is lost: there is no other place to report it.
 void LineWriter::writeAll(std::string_view bytes) {
   constexpr std::size_t kAtomic = 4096; // a pipe that is ready takes so much without making the writer wait
   while (!bytes.empty()) {
     std::array<pollfd, 2> waiting{{{fd_, POLLOUT, 0}, {stop_.fd(), POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
-      continue;
-    }
-    if (waiting[1].revents != 0) {
-      return;
-    }
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) continue;
+    if (waiting[1].revents != 0) return;
     const ssize_t count = ::write(fd_, bytes.data(), std::min(bytes.size(), kAtomic));
     if (count > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));

@@ -13,8 +13,8 @@
 
 namespace gnomon {
 
-/// Lines on their way to a descriptor whose reader may be slow or gone. Nobody waits for it: beyond a bound lines are
-/// dropped and counted, and a line tells how many once the reader goes on. Any thread.
+/// Lines on their way to a descriptor whose reader may be slow or gone. No caller waits for it: beyond a bound lines
+/// are dropped and counted, and a line says how many once the reader goes on. Any thread.
 class LineWriter {
  public:
   /// `fd` outlives the writer. `mostBytes` of lines may wait, and as many again may be on their way.
@@ -62,7 +62,7 @@ void logLine(std::string_view line) noexcept;
 /// Never throws, never waits.
 void logEvent(std::string_view event, std::string_view detail, std::string_view traceId = {}) noexcept;
 
-/// Lines of the log that were dropped, since nobody read it.
+/// Lines of the log that were dropped, because it was not read.
 std::uint64_t logLinesDropped() noexcept;
 
 /// Before the process ends: gives the log's reader this long to take what still waits.

@@ -20,7 +20,7 @@ class MemoryFileWriter {
   /// Appends. Once the system has refused memory, nothing more is written.
   void add(std::span<const std::uint8_t> bytes);
 
-  /// The file, sealed: nobody can change or shorten it any more. Nothing where the system refused memory.
+  /// The file, sealed: no process can change or shorten it any more. Nothing where the system refused memory.
   std::optional<FileDescriptor> finish();
 
  private:
@@ -30,7 +30,7 @@ class MemoryFileWriter {
 
 std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes);
 
-/// How many bytes a file has; nothing where the system does not tell.
+/// How many bytes a file has; nothing where that is unknown.
 std::optional<std::size_t> sizeOf(const FileDescriptor& file);
 
 /// All bytes of a file, from its begin on, wherever its offset is; nothing where there are more than `most`, or where

@@ -14,7 +14,7 @@ namespace gnomon {
 inline constexpr std::size_t kSmallReply = 64 * 1024;
 
 /// What the bytes of one reply hold of the budget for replies, from before they are read until the client has them. A
-/// copy holds nothing: whoever sends the copied bytes takes room for them.
+/// copy holds nothing: the sender of the copied bytes takes room for them.
 class ReplyRoom {
  public:
   ReplyRoom() = default;

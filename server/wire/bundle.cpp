@@ -55,29 +55,21 @@ Result<SceneBundle> readBundle(Bytes bytes, const Limits& limits) {
   }
   rest = rest.subspan(kMagic.size());
   for (std::size_t entries = 0; !rest.empty(); ++entries) {
-    if (rest.size() < kNameLength + kContentLength || entries > limits.maxBundleFiles) {
-      return brokenBundle();
-    }
+    if (rest.size() < kNameLength + kContentLength || entries > limits.maxBundleFiles) return brokenBundle();
     const std::uint64_t nameLength = littleEndian(rest.first(kNameLength));
     const std::uint64_t contentLength = littleEndian(rest.subspan(kNameLength, kContentLength));
     rest = rest.subspan(kNameLength + kContentLength);
-    if (nameLength > rest.size() || contentLength > rest.size() - nameLength) {
-      return brokenBundle();
-    }
+    if (nameLength > rest.size() || contentLength > rest.size() - nameLength) return brokenBundle();
     const std::string name(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(nameLength));
     const auto content = rest.subspan(nameLength, contentLength);
     rest = rest.subspan(nameLength + contentLength);
     if (entries == 0) {
-      if (!name.empty()) {
-        return brokenBundle();
-      }
+      if (!name.empty()) return brokenBundle();
       bundle.model.assign(content.begin(), content.end());
       continue;
     }
     const bool ascends = bundle.files.empty() || bundle.files.rbegin()->first < name;
-    if (!ascends || !isBundleFileName(name)) {
-      return brokenBundle();
-    }
+    if (!ascends || !isBundleFileName(name)) return brokenBundle();
     bundle.files.emplace(name, Bytes(content.begin(), content.end()));
   }
   if (bundle.files.empty()) { // a model alone is its own bytes

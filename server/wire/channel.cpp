@@ -80,7 +80,7 @@ bool Channel::send(std::string_view text, std::span<const int> files) {
 }
 
 bool Channel::hasEnded() const {
-  pollfd end{socket_.get(), 0, 0}; // POLLHUP and POLLERR are told unasked
+  pollfd end{socket_.get(), 0, 0}; // POLLHUP and POLLERR are always reported
   return ::poll(&end, 1, 0) > 0;
 }
 

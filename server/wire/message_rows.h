@@ -67,7 +67,7 @@ inline constexpr auto kRows<Order> =
 static_assert(kRowsAreComplete<Order>);
 
 template <>
-inline constexpr auto kRows<Cancel> = rows("Cancel", "Nobody waits for an order any more.",
+inline constexpr auto kRows<Cancel> = rows("Cancel", "Cancels an order.",
                                            field("number", &Cancel::number, {.says = "The order."}));
 
 template <>
@@ -82,8 +82,7 @@ template <>
 inline constexpr auto kRows<ToWorker> = rows("ToWorker", "A message to a worker.",
                                              field("start", &ToWorker::start, {.says = "The first."}),
                                              field("order", &ToWorker::order, {.says = "Work."}),
-                                             field("cancel", &ToWorker::cancel,
-                                                   {.says = "Work that nobody waits for."}),
+                                             field("cancel", &ToWorker::cancel, {.says = "Work that is cancelled."}),
                                              field("forget", &ToWorker::forget, {.says = "A deleted scene."}),
                                              field("lightMap", &ToWorker::lightMap, {.says = "An answered request."}));
 static_assert(kRowsAreComplete<ToWorker>);
@@ -112,7 +111,7 @@ inline constexpr auto kRows<Beat> = rows("Beat", "A sign of life.",
                                          field("scenes", &Beat::scenes, {.says = "Loaded scenes."}),
                                          field("sceneBytes", &Beat::sceneBytes, {.says = "Of them.", .unit = "bytes"}),
                                          field("reusedMeshes", &Beat::reusedMeshes, {.says = "Found in other scenes."}),
-                                         field("reusedImages", &Beat::reusedImages, {.says = "Alike."}),
+                                         field("reusedImages", &Beat::reusedImages, {.says = "The same of images."}),
                                          field("costFactors", &Beat::costFactors,
                                                {.says = "Of each part of a frame.", .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<Beat>);
@@ -123,8 +122,8 @@ inline constexpr auto kRows<Refusal> = rows("Refusal", "A worker that can't star
 
 template <>
 inline constexpr auto kRows<LightMapRequest> = rows("LightMapRequest", "Asks for a stored light map.",
-                                                 field("number", &LightMapRequest::number, {.says = "Names it."}),
-                                                 field("key", &LightMapRequest::key, {.says = "Of the light map."}));
+                                                    field("number", &LightMapRequest::number, {.says = "Names it."}),
+                                                    field("key", &LightMapRequest::key, {.says = "Of the light map."}));
 static_assert(kRowsAreComplete<LightMapRequest>);
 
 template <>
@@ -138,7 +137,8 @@ inline constexpr auto kRows<ToFront> = rows("ToFront", "A message to the front."
                                             field("outcome", &ToFront::outcome, {.says = "The result of an order."}),
                                             field("event", &ToFront::event, {.says = "An order's progress."}),
                                             field("beat", &ToFront::beat, {.says = "A sign of life."}),
-                                            field("request", &ToFront::request, {.says = "A light map that is wanted."}),
+                                            field("request", &ToFront::request,
+                                                  {.says = "A light map that is wanted."}),
                                             field("made", &ToFront::made, {.says = "A light map that was made."}));
 static_assert(kRowsAreComplete<ToFront>);
 

@@ -10,7 +10,7 @@
 #include "protocol/report/replies.h"
 #include "protocol/report/sensor_range.h"
 
-/// What the process that listens (the front) and a worker tell each other, over a Channel. Each message is one JSON
+/// The messages between the process that listens (the front) and a worker, over a Channel. Each message is one JSON
 /// object with one member; files go with some.
 namespace gnomon {
 
@@ -34,7 +34,7 @@ struct WorkerOptions {
   bool keepsLightMaps = false; ///< the front stores light maps
 };
 
-/// The media type of results that are told as events.
+/// The media type of results that are sent as events.
 inline constexpr std::string_view kEventStream = "text/event-stream";
 
 enum class OrderKind {
@@ -45,7 +45,7 @@ enum class OrderKind {
   bake,         ///< a BakeReport, as JSON or events
   bakeFile,     ///< a bake as a file
   nodes,        ///< a NodeList; the request is a NodePage
-  sequenceFrame ///< a frame of a sequence: its pictures' bytes one after the other, told about as in sequence_news.h
+  sequenceFrame ///< a frame of a sequence: its pictures' bytes one after the other, described as in sequence_news.h
 };
 
 /// Work for a worker. Two files go with it: the scene's bundle, and the JSON text of the request (a FrameSpec or an
@@ -67,7 +67,7 @@ struct Order {
   bool labels = false;                     ///< of a frame: the colors of its materials
 };
 
-/// Nobody waits for an order any more; its outcome still comes.
+/// An order is cancelled; its outcome still comes.
 struct Cancel {
   std::uint64_t number = 0;
 };
@@ -90,7 +90,7 @@ struct ToWorker {
   std::optional<LightMapFound> lightMap{};
 };
 
-/// The result of an order. Its bytes go along, unless there are problems or it was told as events.
+/// The result of an order. Its bytes go along, unless there are problems or it was sent as events.
 struct Outcome {
   std::uint64_t number = 0;
   std::vector<Problem> problems{};
@@ -114,7 +114,7 @@ struct Beat {
   std::uint64_t scenes = 0;          ///< loaded
   std::uint64_t sceneBytes = 0;      ///< of them
   std::uint64_t reusedMeshes = 0;    ///< found in a scene that was loaded before
-  std::uint64_t reusedImages = 0;    ///< alike
+  std::uint64_t reusedImages = 0;    ///< the same of images
   std::vector<double> costFactors{}; ///< milliseconds for a unit of each part of a FrameCost, learned there
 };
 

@@ -8,7 +8,7 @@
 
 #include "protocol/sequence/sequence.h"
 
-/// What an order of kind sequenceFrame tells as its event kSequenceNews: first that the frame is drawn, so that the
+/// What an order of kind sequenceFrame sends as its event kSequenceNews: first that the frame is drawn, so that the
 /// next one can begin, and then, once it is encoded, what its bytes are.
 namespace gnomon {
 
@@ -28,7 +28,7 @@ struct PictureNews {
   std::string contentType{};
   std::uint64_t bytes = 0;
   int width = 0;  ///< pixels, of a raw picture; else 0
-  int height = 0; ///< pixels, alike
+  int height = 0; ///< pixels
 };
 
 struct SequenceNews {

@@ -3,7 +3,7 @@
 #include "protocol/sequence/sequence_rows.h"
 #include "server/wire/sequence_news.h"
 
-/// The rows of what is told of a sequence's frames; see fields.h.
+/// The rows of reports about a sequence's frames; see fields.h.
 namespace gnomon {
 
 template <>

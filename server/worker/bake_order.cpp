@@ -10,12 +10,12 @@
 namespace gnomon {
 namespace {
 
-/// Tells of progress, a few times a second and at each light.
+/// Sends progress, a few times a second and at each light.
 class BakeEvents {
  public:
   explicit BakeEvents(const OrderCall& call) : call_(call) {}
 
-  void tell(const BakeStep& step) {
+  void send(const BakeStep& step) {
     constexpr std::chrono::milliseconds kPause{100};
     if (step.light == light_ && Clock::now() < told_ + kPause) return;
     call_.event("progress", jsonText(toJson(step)));
@@ -46,7 +46,7 @@ Answer bakeOrder(WorkContext& context, const OrderCall& call) {
   auto report =
       context.renderer.baker().bake(std::get<LoadedScene>(loaded).scene, bakedParts(*spec), [&](BakeStep step) {
         step.key = key;
-        if (asEvents) events.tell(step);
+        if (asEvents) events.send(step);
         return call.goOn();
       });
   if (!report) return {.problems = call.goOn() ? report.problems() : Problems{stoppedProblem("the bake", call)}};

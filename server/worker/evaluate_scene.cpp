@@ -18,7 +18,7 @@ std::string keyOf(const std::string& sceneId, const std::string& viewClass, Fram
   return sceneId + "\n" + viewClass + "\n" + jsonText(toJson(spec));
 }
 
-/// The key by which a choice is stored for all who draw alike, with as many cores.
+/// The key by which a choice is stored for all servers with the same renderer and as many cores.
 std::string storedKey(const std::string& sceneId, const std::string& key, const RendererInfo& renderer) {
   Sha256 hash;
   hash.add("quality\n" + renderer.renderer + "\n" + renderer.fingerprint + "\n" + std::to_string(coresToUse()) + "\n" +

@@ -50,9 +50,7 @@ FrameSpec firstSpec() {
 bool showsShadow(const Image& image) {
   return std::visit(
       [&](const auto& pixels) {
-        if (pixels.empty() || image.channels.empty()) {
-          return false;
-        }
+        if (pixels.empty() || image.channels.empty()) return false;
         auto darkest = pixels.front();
         auto brightest = pixels.front();
         for (std::size_t i = 0; i < pixels.size(); i += image.channels.size()) {
@@ -68,13 +66,9 @@ bool showsShadow(const Image& image) {
 
 Status drawFirstFrame(Renderer& renderer) {
   auto scene = loadScene(firstBundle());
-  if (!scene) {
-    return std::move(scene).problems();
-  }
+  if (!scene) return std::move(scene).problems();
   auto frame = renderer.render(*scene, firstSpec());
-  if (!frame) {
-    return std::move(frame).problems();
-  }
+  if (!frame) return std::move(frame).problems();
   if (frame->images.size() != 1 || !showsShadow(frame->images.front().image)) {
     return Problem{ProblemCode::backend, "", "The test frame that the renderer drew has no shadow in it.", "", ""};
   }

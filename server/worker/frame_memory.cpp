@@ -19,9 +19,7 @@ bool tellsOfTriangles(View view) {
 }
 
 std::size_t longerSide(const Shadow& shadow) {
-  if (!traitsOf(shadow.technique).baked) {
-    return 0;
-  }
+  if (!traitsOf(shadow.technique).baked) return 0;
   const LightMapOptions& options = shadow.lightMap;
   return static_cast<std::size_t>(options.texelsPerMetre ? kLimits.maxLightMapSide : options.size);
 }

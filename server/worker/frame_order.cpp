@@ -70,9 +70,7 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
     context.costs.learn(frameCost(report.spec, sceneCounts(scene.summary)), report);
     file = fileOf(std::move(frame.frame), scene.scene, spec, call);
   });
-  if (!drawn) {
-    return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
-  }
+  if (!drawn) return {.problems = call.goOn() ? drawn.problems() : Problems{stoppedProblem("the frame", call)}};
   if (!*file) return {.problems = call.goOn() ? file->problems() : Problems{stoppedProblem("the frame", call)}};
   FrameFile& made = **file;
   return {.contentType = std::move(made.contentType),

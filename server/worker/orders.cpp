@@ -51,7 +51,7 @@ std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall&
 
 Problem stoppedProblem(std::string_view what, const OrderCall& call) {
   if (Clock::now() < call.deadline) {
-    return {ProblemCode::unavailable, "", "Nobody waited for " + std::string(what) + " any more.", "", ""};
+    return {ProblemCode::unavailable, "", "The client no longer waited for " + std::string(what) + ".", "", ""};
   }
   return {ProblemCode::deadlineExceeded, "", "The deadline came before " + std::string(what) + " was done.", "", ""};
 }

@@ -31,11 +31,11 @@ struct OrderCall {
   FileDescriptor bundle;
   std::string request; ///< JSON
   Clock::time_point deadline;
-  GoOn goOn; ///< false once the deadline has passed or nobody waits any more
+  GoOn goOn; ///< false once the deadline has passed or no client waits any more
   std::function<void(std::string_view name, std::string_view data)> event;
 };
 
-/// The result of an order: problems, or a body, or neither where all of it was told as events.
+/// The result of an order: problems, or a body, or neither where all of it was sent as events.
 struct Answer {
   Problems problems{};
   bool damaged = false; ///< as in Outcome
@@ -68,7 +68,7 @@ Status checkMemory(const ByteBudget& budget, std::size_t bytes, std::string_view
 Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes, std::string_view pointer,
                   const OrderCall& call);
 
-/// The problem of work that was stopped: at its deadline, or since nobody waits for it.
+/// The problem of work that was stopped: at its deadline, or because no client waits for it.
 Problem stoppedProblem(std::string_view what, const OrderCall& call);
 
 inline constexpr std::string_view kJson = "application/json";

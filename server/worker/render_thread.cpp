@@ -58,7 +58,7 @@ bool RenderThread::givesUp(const std::shared_ptr<Turn>& turn, const GoOn& goOn) 
 template <class T>
 Result<T> RenderThread::ask(const GoOn& goOn, const std::function<Result<T>()>& work) {
   constexpr std::chrono::milliseconds kAskAgain{10};
-  // Not on this stack: the thread may still be telling of the answer when this function has it.
+  // Not on this stack: the thread may still be setting the answer when this function has it.
   const auto answer = std::make_shared<std::promise<Result<T>>>();
   auto answered = answer->get_future();
   const auto turn = std::make_shared<Turn>();

@@ -44,8 +44,8 @@ class RenderThread {
   Result<DrawnFrame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn);
 
   /// The same, and calls `finish` with the frame, which encodes it: on this thread where that keeps all cores busy and
-  /// nobody waits for them, since the cores that have drawn it are awake; else on the caller's. Throws what `finish`
-  /// throws.
+  /// no other call waits for them, since the cores that have drawn it are awake; else on the caller's. Throws what
+  /// `finish` throws.
   using Finish = std::function<void(DrawnFrame&)>;
   Status renderAndFinish(const ScenePtr& scene, const FrameSpec& spec, const GoOn& goOn, const Finish& finish);
 
@@ -58,7 +58,7 @@ class RenderThread {
   /// A caller's place in the queue. It leaves the queue when its work begins, or when its caller gives up.
   struct Turn {
     std::function<void()> work; ///< may refer to the caller's stack: the caller stays until it has ended
-    std::mutex asking;          ///< held by whoever asks the caller's goOn, which one thread does at a time
+    std::mutex asking;          ///< held while the caller's goOn is asked, by one thread at a time
   };
 
   /// The result of `work`, which runs on the thread; a problem of code unavailable, and no run, where `goOn` says false

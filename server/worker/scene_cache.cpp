@@ -5,9 +5,7 @@ namespace gnomon {
 std::optional<LoadedScene> SceneCache::get(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = byId_.find(id);
-  if (found == byId_.end()) {
-    return std::nullopt;
-  }
+  if (found == byId_.end()) return std::nullopt;
   scenes_.splice(scenes_.begin(), scenes_, found->second);
   return scenes_.front();
 }
@@ -31,9 +29,7 @@ void SceneCache::put(LoadedScene loaded) {
 bool SceneCache::remove(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = byId_.find(id);
-  if (found == byId_.end()) {
-    return false;
-  }
+  if (found == byId_.end()) return false;
   bytes_ -= found->second->summary.memoryBytes;
   scenes_.erase(found->second);
   byId_.erase(found);

@@ -21,9 +21,7 @@ bool isBundleOf(const std::string& id, std::span<const std::uint8_t> bytes) {
 std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, const BundleFile& bundle,
                                                          const GoOn& goOn) {
   auto bytes = readFile(bundle.file, std::numeric_limits<std::size_t>::max()); // the front has bounded it
-  if (!bytes) {
-    return LoadFailure{{{ProblemCode::unavailable, "", "The scene's bytes could not be read.", "", ""}}};
-  }
+  if (!bytes) return LoadFailure{{{ProblemCode::unavailable, "", "The scene's bytes could not be read.", "", ""}}};
   const std::size_t size = bytes->size();
   if (bundle.isStored && !isBundleOf(id, *bytes)) return LoadFailure{{}, true};
   auto read = readBundle(*std::move(bytes), limits_);

@@ -24,8 +24,8 @@ struct LoadFailure {
   bool damaged = false; ///< the bytes are not those that the id names
 };
 
-/// Loads scenes from their bundles and keeps them, within a budget. A scene is loaded once for all who want it at the
-/// same time, and shares the meshes and images that it has in common with those that are kept. Any thread.
+/// Loads scenes from their bundles and keeps them, within a budget. A scene is loaded once for all requests for it at
+/// the same time, and shares the meshes and images that it has in common with those that are kept. Any thread.
 class SceneLoader {
  public:
   /// `memoryBytes`: what loaded scenes may take together, and so the most for one. `limits`: of a single scene.

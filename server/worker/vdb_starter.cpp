@@ -30,7 +30,7 @@ class DistantVdb : public VdbProcess {
   FileDescriptor control_;
 };
 
-/// Starts the reader and stays until it has ended, or until whoever asked for it is gone.
+/// Starts the reader and stays until it has ended, or its caller has.
 [[noreturn]] void attend(const std::string& text, const std::vector<FileDescriptor>& files) {
   std::vector<std::filesystem::path> programs;
   std::istringstream lines(text);
@@ -39,7 +39,7 @@ class DistantVdb : public VdbProcess {
   while (std::getline(lines, line)) programs.emplace_back(line);
   const int control = files[2].get();
   ::signal(SIGCHLD, SIG_DFL);
-  int status = 127 << 8; // as a shell tells of what can't be started
+  int status = 127 << 8; // a shell's status for what can't be started
   auto reader = startVdbAsChild(programs, name, files[0].get(), files[1].get());
   ::close(files[1].get()); // its end is the end of the voxels
   if (reader) {
@@ -56,7 +56,7 @@ class DistantVdb : public VdbProcess {
 
 /// The starter's process.
 [[noreturn]] void serve(Channel channel) {
-  ::signal(SIGCHLD, SIG_IGN); // nobody waits for its children
+  ::signal(SIGCHLD, SIG_IGN); // its children are not waited for
   while (true) {
     Packet packet;
     const ChannelEvent event = channel.receive(packet, std::chrono::seconds(10));

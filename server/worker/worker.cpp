@@ -34,9 +34,9 @@ constexpr std::chrono::seconds kSendPatience{10}; ///< the front reads at once, 
   ::_exit(status);
 }
 
-/// Of what an order tells, where that does not fit a message.
+/// The problem of an event that does not fit a message.
 Problem tooLongProblem(std::size_t bytes) {
-  return {ProblemCode::tooLarge, "", "The result of this request is too long to be told.",
+  return {ProblemCode::tooLarge, "", "The result of this request is too long for a message.",
           std::to_string(Channel::kMostText) + " bytes", std::to_string(bytes) + " bytes"};
 }
 
@@ -177,7 +177,7 @@ class Worker {
                  if (!Channel::fits(text)) {
                    tooLong = text.size();
                  } else {
-                   tell(text);
+                   send(text);
                  }
                }},
               tooLong);
@@ -188,7 +188,7 @@ class Worker {
     }
   }
 
-  /// `tooLong`: bytes of an event that could not be told; the order has failed then, and is stopped by its goOn.
+  /// `tooLong`: bytes of an event that could not be sent; the order has failed then, and is stopped by its goOn.
   void carry(const OrderCall& call, const std::atomic<std::size_t>& tooLong) {
     Answer answer = carryOut(*context_, call);
     if (tooLong > 0) answer = {.problems = {tooLongProblem(tooLong)}};
@@ -199,15 +199,15 @@ class Worker {
                     .stages = std::move(answer.stages),
                     .warnings = std::move(answer.warnings)};
     std::optional<FileDescriptor> body;
-    const bool wasTold = outcome.contentType == kEventStream && answer.body.empty();
-    if (outcome.problems.empty() && !outcome.damaged && !wasTold) {
+    const bool wasSent = outcome.contentType == kEventStream && answer.body.empty();
+    if (outcome.problems.empty() && !outcome.damaged && !wasSent) {
       body = memoryFile(asBytes(answer.body));
       if (!body)
         outcome.problems.push_back({ProblemCode::unavailable, "", "There is no memory for the reply.", "", ""});
     }
     orders_.end(outcome.number);
     const std::array files{body ? body->get() : -1};
-    tell(messageOf(std::move(outcome)), std::span(files).first(body ? 1 : 0));
+    send(messageOf(std::move(outcome)), std::span(files).first(body ? 1 : 0));
   }
 
   Beat beat() const {
@@ -218,10 +218,10 @@ class Worker {
     return {scenes_->count(), scenes_->bytes(), reused.meshes, reused.images, {factors.begin(), factors.end()}};
   }
 
-  void say(const ToFront& message) { tell(textOf(message)); }
+  void say(const ToFront& message) { send(textOf(message)); }
 
   /// `text`: of a message.
-  void tell(const std::string& text, std::span<const int> files = {}) {
+  void send(const std::string& text, std::span<const int> files = {}) {
     if (!channel_.send(text, files)) end(1);
   }
 

@@ -158,7 +158,7 @@ TEST_F(DispatcherTest, WhoLeavesIsNotWaitedFor) {
 }
 
 TEST_F(DispatcherTest, ASilentWorkerIsReplaced) {
-  const auto dispatcher = start(1, {.silence = 1500ms});
+  const auto dispatcher = start(1, {.responseTimeout = 1500ms});
   EXPECT_EQ(problemOf(dispatcher->run(frame("fault-silence"), kStays)), "internal");
   EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
 }

@@ -59,16 +59,16 @@ class ConnectionTest : public ::testing::Test {
     context_.limits.linger = 50ms;
   }
 
-  /// The server's side of the pair goes to a lobby with two threads.
+  /// The server's side of the pair goes to PendingConnections with two threads.
   std::unique_ptr<PendingConnections> enter() {
-    auto lobby = std::make_unique<PendingConnections>(context_, 2, 2);
-    lobby->adopt({std::move(server_), {"client", "client"}});
-    return lobby;
+    auto pending = std::make_unique<PendingConnections>(context_, 2, 2);
+    pending->adopt({std::move(server_), {"client", "client"}});
+    return pending;
   }
 
   /// Everything that comes back when the client sends this and then only listens.
   std::string exchange(const std::string& sent) {
-    const auto lobby = enter();
+    const auto pending = enter();
     EXPECT_TRUE(sendAll(client_.get(), sent, Pace{}));
     ::shutdown(client_.get(), SHUT_WR);
     return readAll();

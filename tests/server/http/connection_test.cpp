@@ -68,12 +68,12 @@ TEST_F(ConnectionTest, AStreamLearnsThatItsClientIsGone) {
     };
     return handler;
   };
-  const auto lobby = enter();
+  const auto pending = enter();
   EXPECT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
   char first = 0;
   EXPECT_EQ(::recv(client_.get(), &first, 1, 0), 1);
   client_.reset();
-  lobby->finish();
+  pending->finish();
   EXPECT_TRUE(told);
 }
 
@@ -111,15 +111,15 @@ TEST_F(ConnectionTest, RefusesBrokenHeads) {
 
 TEST_F(ConnectionTest, GivesUpOnAHeadThatNeverEnds) {
   context_.limits.head = 20ms;
-  const auto lobby = enter();
+  const auto pending = enter();
   EXPECT_TRUE(sendAll(client_.get(), "GET / HT", Pace{}));
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 408 "));
 }
 
 TEST_F(ConnectionTest, StopsBetweenRequests) {
   context_.limits.firstByte = 1h;
-  const auto lobby = enter();
-  lobby->finish();
+  const auto pending = enter();
+  pending->finish();
   EXPECT_EQ(readAll(), "");
 }
 
@@ -140,7 +140,7 @@ TEST_F(ConnectionTest, AnEmptyLineMayPrecedeARequest) {
 
 TEST_F(ConnectionTest, AnEmptyLineAfterABodyIsNoSlowRequest) {
   context_.limits.head = 20ms;
-  const auto lobby = enter();
+  const auto pending = enter();
   EXPECT_TRUE(sendAll(client_.get(), "POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\nhi\r\n", Pace{}));
   std::this_thread::sleep_for(100ms);
   EXPECT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
@@ -159,7 +159,7 @@ TEST_F(ConnectionTest, SaysHowLongItWaitsForTheNextRequest) {
 
 TEST_F(ConnectionTest, ClosesWhatIsIdleForTooLong) {
   context_.limits.idle = 50ms;
-  const auto lobby = enter();
+  const auto pending = enter();
   EXPECT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
   const auto start = Clock::now();
   EXPECT_TRUE(has(readAll(), "Connection: keep-alive\r\n"));
@@ -167,7 +167,7 @@ TEST_F(ConnectionTest, ClosesWhatIsIdleForTooLong) {
 }
 
 TEST_F(ConnectionTest, AStrayByteAfterTheLastReplyDoesNotResetIt) {
-  const auto lobby = enter();
+  const auto pending = enter();
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.0\r\n\r\n\r\n", Pace{}));
   EXPECT_TRUE(readAll().ends_with("GET 0 "));
   char byte = 0;
@@ -186,12 +186,12 @@ TEST_F(ConnectionTest, RepliesThatNobodyTakesLeaveRoomForNoOther) {
     };
     return std::variant<RequestHandler, HttpReply>(handler);
   };
-  const auto lobby = enter();
+  const auto pending = enter();
   int fds[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
   const FileDescriptor taker(fds[0]);
   ASSERT_TRUE(sendAll(taker.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
-  lobby->adopt({FileDescriptor(fds[1]), {"other", "other"}});
+  pending->adopt({FileDescriptor(fds[1]), {"other", "other"}});
   char byte = 0;
   ASSERT_EQ(::recv(taker.get(), &byte, 1, 0), 1);
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
@@ -229,7 +229,7 @@ TEST_F(ConnectionTest, ABodyIsGivenBackBeforeItsReplyIsTaken) {
     };
     return std::variant<RequestHandler, HttpReply>(handler);
   };
-  const auto lobby = enter();
+  const auto pending = enter();
   ASSERT_TRUE(sendAll(client_.get(),
                       "POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 1000\r\n\r\n" + std::string(1000, 'x'), Pace{}));
   char byte = 0;

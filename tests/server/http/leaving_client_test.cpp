@@ -34,10 +34,10 @@ class LeavingTest : public ConnectionTest {
   }
 
   std::unique_ptr<PendingConnections> begin(const std::string& request) {
-    auto lobby = enter();
+    auto pending = enter();
     EXPECT_TRUE(sendAll(client_.get(), request, Pace{}));
     begun_.get_future().wait();
-    return lobby;
+    return pending;
   }
 
   std::promise<void> begun_;
@@ -45,16 +45,16 @@ class LeavingTest : public ConnectionTest {
 };
 
 TEST_F(LeavingTest, BytesThatWereSentAheadHideNothing) {
-  const auto lobby = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\nGET /next");
+  const auto pending = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\nGET /next");
   const auto start = Clock::now();
   client_.reset();
-  lobby->finish();
+  pending->finish();
   EXPECT_TRUE(left_);
   EXPECT_LT(Clock::now() - start, 1s);
 }
 
 TEST_F(LeavingTest, AClientThatSendsNoMoreStillGetsItsReply) {
-  const auto lobby = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+  const auto pending = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
   ::shutdown(client_.get(), SHUT_WR);
   std::this_thread::sleep_for(50ms);
   EXPECT_FALSE(left_);
@@ -65,7 +65,7 @@ TEST_F(LeavingTest, AClientThatSendsNoMoreStillGetsItsReply) {
 }
 
 TEST_F(LeavingTest, AnOldClientIsNotSentWhatItDoesNotKnow) {
-  const auto lobby = begin("GET / HTTP/1.0\r\n\r\n");
+  const auto pending = begin("GET / HTTP/1.0\r\n\r\n");
   ::shutdown(client_.get(), SHUT_WR);
   std::this_thread::sleep_for(50ms);
   enough_ = true;

@@ -17,13 +17,13 @@ namespace gnomon {
 namespace {
 
 TEST_F(ConnectionTest, IdleConnectionsHoldNoThread) {
-  const auto lobby = enter(); // of two threads
+  const auto pending = enter(); // of two threads
   std::vector<FileDescriptor> idle;
   for (int i = 0; i < 10; ++i) {
     int fds[2];
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     idle.emplace_back(fds[0]);
-    lobby->adopt({FileDescriptor(fds[1]), {"idle", "idle"}});
+    pending->adopt({FileDescriptor(fds[1]), {"idle", "idle"}});
     ASSERT_TRUE(sendAll(fds[0], "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
     char bytes[4096];
     ASSERT_GT(::recv(fds[0], bytes, sizeof bytes, 0), 0);
@@ -34,14 +34,14 @@ TEST_F(ConnectionTest, IdleConnectionsHoldNoThread) {
 
 TEST_F(ConnectionTest, WhoWaitsMostGivesRoom) {
   context_.limits.maxWaiting = 4;
-  const auto lobby = enter();
+  const auto pending = enter();
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHos", Pace{}));
   std::vector<FileDescriptor> many;
   for (int i = 0; i < 40; ++i) {
     int fds[2];
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     many.emplace_back(fds[0]);
-    lobby->adopt({FileDescriptor(fds[1]), {"many", "many"}});
+    pending->adopt({FileDescriptor(fds[1]), {"many", "many"}});
   }
   ASSERT_TRUE(sendAll(client_.get(), "t: x\r\nConnection: close\r\n\r\n", Pace{}));
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK"));
@@ -52,21 +52,21 @@ TEST_F(ConnectionTest, WhoWaitsMostGivesRoom) {
 TEST_F(ConnectionTest, AWholeHeadIsNotDroppedForRoom) {
   context_.limits.maxWaiting = 2;
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
-  const auto lobby = enter();
+  const auto pending = enter();
   std::vector<FileDescriptor> many;
   for (int i = 0; i < 40; ++i) {
     int fds[2];
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
     many.emplace_back(fds[0]);
-    lobby->adopt({FileDescriptor(fds[1]), {"client", "client"}});
+    pending->adopt({FileDescriptor(fds[1]), {"client", "client"}});
   }
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK"));
 }
 
 /// No thread is free: another client's request holds the only one until it is released.
-class FullLobbyTest : public ConnectionTest {
+class FullServerTest : public ConnectionTest {
  protected:
-  FullLobbyTest() {
+  FullServerTest() {
     context_.service = [this, echoes = echoService()](const HttpRequest& head) {
       if (head.path != std::vector<std::string>{"hold"}) {
         return echoes(head);
@@ -87,7 +87,7 @@ class FullLobbyTest : public ConnectionTest {
     EXPECT_TRUE(sendAll(holder_.get(), "GET /hold HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
     held_.get_future().wait();
   }
-  ~FullLobbyTest() override { released_.set_value(); }
+  ~FullServerTest() override { released_.set_value(); }
 
   /// What a client gets; `network`: "holder" has its share of the threads already.
   std::string ask(const std::string& sent, const std::string& network) {
@@ -102,18 +102,18 @@ class FullLobbyTest : public ConnectionTest {
   std::optional<PendingConnections> pending_;
 };
 
-TEST_F(FullLobbyTest, AnswersProbes) {
+TEST_F(FullServerTest, AnswersProbes) {
   EXPECT_TRUE(ask("GET /probe HTTP/1.1\r\nHost: x\r\n\r\n", "holder").starts_with("HTTP/1.1 200 OK"));
 }
 
-TEST_F(FullLobbyTest, AClientWithItsShareIsTurnedAway) {
+TEST_F(FullServerTest, AClientWithItsShareIsTurnedAway) {
   const std::string received = ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "holder");
   EXPECT_TRUE(received.starts_with("HTTP/1.1 429 "));
   EXPECT_TRUE(has(received, "Retry-After: 1\r\n"));
   EXPECT_TRUE(has(received, "Connection: close\r\n"));
 }
 
-TEST_F(FullLobbyTest, WhoAsksMostIsRefusedWhereAllAsk) {
+TEST_F(FullServerTest, WhoAsksMostIsRefusedWhereAllAsk) {
   context_.limits.maxWaiting = 4;
   context_.limits.threadWait = std::chrono::seconds(30);
   std::vector<FileDescriptor> many;
@@ -131,11 +131,11 @@ TEST_F(FullLobbyTest, WhoAsksMostIsRefusedWhereAllAsk) {
   EXPECT_LT(::recv(many.front().get(), status.data(), status.size(), MSG_DONTWAIT), 0) << "it waits still";
 }
 
-TEST_F(FullLobbyTest, AnotherClientIsServed) {
+TEST_F(FullServerTest, AnotherClientIsServed) {
   EXPECT_TRUE(ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "other").starts_with("HTTP/1.1 200 OK"));
 }
 
-TEST_F(FullLobbyTest, AReplyToABrokenHeadHasAnId) {
+TEST_F(FullServerTest, AReplyToABrokenHeadHasAnId) {
   const std::string received = ask("nonsense\r\n\r\n", "holder");
   EXPECT_TRUE(received.starts_with("HTTP/1.1 400 "));
   EXPECT_FALSE(has(received, "X-Request-ID: \r\n"));

@@ -235,7 +235,7 @@ TEST_P(JobQueueTest, AFrameThatIsGivenBackComesAgain) {
 }
 
 TEST_P(JobQueueTest, AFrameWhoseTakerIsSilentGoesToOthersAndTheFirstToFinishCounts) {
-  open({.silence = 40ms});
+  open({.lease = 40ms});
   put(jobOfFrames("job", 1));
   const FrameTurn first = take();
   const FrameTurn second = take(); // waits until the first taker was silent for long enough
@@ -249,7 +249,7 @@ TEST_P(JobQueueTest, AFrameWhoseTakerIsSilentGoesToOthersAndTheFirstToFinishCoun
 }
 
 TEST_P(JobQueueTest, AFrameThatNobodySurvivesFailsItsJob) {
-  open({.deliveries = 3, .silence = 20ms});
+  open({.deliveries = 3, .lease = 20ms});
   put(jobOfFrames("poison", 1));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(take().deliveries, i + 1);
   const auto end = Clock::now() + 10s;
@@ -322,7 +322,7 @@ TEST_P(JobQueueTest, AJobGoesWhenItIsTooOld) {
 TEST_P(JobQueueTest, WhateverHappensEachFrameIsThereOnceAsItWasFirstFinished) {
   rc::check([&] {
     GetParam().clear();
-    open({.deliveries = 1'000'000, .silence = 0ms}); // whoever took a frame may lose it at once
+    open({.deliveries = 1'000'000, .lease = 0ms}); // whoever took a frame may lose it at once
     std::map<std::string, int> counts;
     for (const char* id : {"a", "b", "c"}) {
       NewJob job = jobOfFrames(id, *rc::gen::inRange(1, 5), *rc::gen::element("ann", "bob"));

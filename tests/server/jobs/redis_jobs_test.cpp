@@ -82,7 +82,7 @@ TEST_F(RedisJobsTest, WhileRedisIsAwayEverythingIsUnavailableAndNothingIsLost) {
 }
 
 TEST_F(RedisJobsTest, AFrameOfAProcessThatDiedIsTakenOverByAnother) {
-  JobLimits limits{.silence = 50ms};
+  JobLimits limits{.lease = 50ms};
   {
     const auto dead = open(limits);
     ASSERT_TRUE(dead->put(jobOfFrames("job", 1)));
@@ -97,7 +97,7 @@ TEST_F(RedisJobsTest, AFrameOfAProcessThatDiedIsTakenOverByAnother) {
 }
 
 TEST_F(RedisJobsTest, AFrameThatIsRenewedIsNotTakenOver) {
-  JobLimits limits{.silence = 300ms};
+  JobLimits limits{.lease = 300ms};
   const auto slow = open(limits);
   const auto other = open(limits);
   ASSERT_TRUE(slow->put(jobOfFrames("job", 1)));

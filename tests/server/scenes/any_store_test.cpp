@@ -167,7 +167,7 @@ TEST_P(AnyStore, OthersSeeWhatOneDoes) {
   EXPECT_TRUE(other->bundle(first.id));
   EXPECT_TRUE(other->counts(first.id));
   std::atomic<int> told = 0;
-  other->tellRemoved([&](const std::string& id) { told += id == first.id ? 1 : 0; });
+  other->onRemoved([&](const std::string& id) { told += id == first.id ? 1 : 0; });
   EXPECT_TRUE(one->remove(first.id));
   const auto begun = Clock::now();
   while (other->use(first.id) && Clock::now() < begun + std::chrono::seconds(10)) {
@@ -180,7 +180,7 @@ TEST_P(AnyStore, OthersSeeWhatOneDoes) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_GE(told, 1);
-  other->tellRemoved(nullptr);
+  other->onRemoved(nullptr);
 }
 
 TEST_P(AnyStore, AQuotaCountsWhatIsThereAndWhatGoes) {
