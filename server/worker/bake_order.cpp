@@ -17,15 +17,15 @@ class BakeEvents {
 
   void send(const BakeStep& step) {
     constexpr std::chrono::milliseconds kPause{100};
-    if (step.light == light_ && Clock::now() < told_ + kPause) return;
+    if (step.light == light_ && Clock::now() < sentAt_ + kPause) return;
     call_.event("progress", jsonText(toJson(step)));
-    told_ = Clock::now();
+    sentAt_ = Clock::now();
     light_ = step.light;
   }
 
  private:
   const OrderCall& call_;
-  Clock::time_point told_{};
+  Clock::time_point sentAt_{};
   int light_ = -1;
 };
 

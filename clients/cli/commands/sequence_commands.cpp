@@ -141,16 +141,8 @@ int submitJob(const SequenceOptions& options, const std::string& requestJson, co
   if (!bundle) return printProblems(bundle.problems());
   auto progress = ProgressLine::onTerminal();
   std::string id;
-  const auto callOf = [&](const std::string& scene) {
-    HttpCall call;
-    call.method = "POST";
-    call.path = "/v1/scenes/" + scene + "/sequences";
-    call.headers = {{"Prefer", "respond-async"}};
-    call.contentType = "application/json";
-    call.body = requestJson;
-    return call;
-  };
-  const auto reply = callAbout(*remote, *bundle, id, callOf, "asking for a job", progress);
+  const ScenePost post{"/sequences", requestJson, "asking for a job", {"Prefer", "respond-async"}};
+  const auto reply = callAbout(*remote, *bundle, id, post, progress);
   progress.finish();
   if (!reply) return printProblems(ofScene(options.scene, reply.problems()), origins);
   const auto job = reply->status == 202 ? readJob(reply->body) : std::nullopt;

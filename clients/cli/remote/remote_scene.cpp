@@ -162,21 +162,68 @@ Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, Pro
   return id;
 }
 
-Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id,
-                            const std::function<HttpCall(const std::string& id)>& callOf, const std::string& stage,
+Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const ScenePost& post,
                             ProgressLine& progress) {
   constexpr int kMostUploads = 3; // a server that keeps dropping the scene has no room for it
+  HttpCall call;
+  call.method = "POST";
+  call.headers = {post.header};
+  call.contentType = "application/json";
+  call.body = post.body;
+  call.onReceived = post.onReceived;
+  call.onRestart = post.onRestart;
   for (int uploads = 1;; ++uploads) {
     if (id.empty()) {
       auto found = sceneId(remote, bundle, progress);
       if (!found) return found.problems();
       id = *std::move(found);
     }
-    progress.stage(stage);
-    auto reply = callPatiently(remote, callOf(id), progress);
+    progress.stage(std::string(post.stage));
+    call.path = "/v1/scenes/" + id + post.route;
+    auto reply = callPatiently(remote, call, progress);
     if (!reply || reply->status != 404 || bundle.model.empty() || uploads == kMostUploads) return reply;
     id.clear();
   }
+}
+
+Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const ScenePost& post,
+                             ProgressLine& progress) {
+  auto reply = callAbout(remote, bundle, id, post, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
+  return std::move(reply->body);
+}
+
+Result<std::string> askWithEvents(const Remote& remote, const SceneBundle& bundle, std::string& id, ScenePost post,
+                                  const std::string& what, const std::function<void(const ServerEvent&)>& onEvent,
+                                  ProgressLine& progress) {
+  EventReader reader;
+  std::optional<ServerEvent> last;
+  post.header.second = "text/event-stream";
+  post.onReceived = [&](std::string_view bytes) {
+    for (ServerEvent& event : reader.read(bytes)) {
+      const bool isLast = event.name == "result" || event.name == "problem";
+      if (!isLast) onEvent(event);
+      if (isLast) last = std::move(event);
+    }
+  };
+  post.onRestart = [&] { reader = {}; };
+  const auto reply = askAbout(remote, bundle, id, post, progress);
+  if (!reply) return reply.problems();
+  if (!last) {
+    return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the " + what + " did.", "", ""};
+  }
+  if (last->name == "problem") return problemsOf(remote.url, {200, "", last->data, 0});
+  return std::move(last->data);
+}
+
+void showProgress(const ServerEvent& event, ProgressLine& progress) {
+  const Json json = Json::parse(event.data, nullptr, false);
+  const auto number = [&](const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0;
+  };
+  const double of = number("of");
+  if (event.name == "progress" && of > 0) progress.share((number("done") + number("share")) / of);
 }
 
 } // namespace gnomon::cli

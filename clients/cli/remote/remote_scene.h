@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/terminal/messages.h"
@@ -44,11 +45,32 @@ Result<HttpReply> callPatiently(const Remote& remote, const HttpCall& call, Prog
 /// The scene's id on the server, where it is uploaded unless it is there.
 Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, ProgressLine& progress);
 
-/// A call about a scene: `callOf` makes it from the scene's id. `id` may be empty, or known from an earlier call; it is
-/// kept for the next. A server that has dropped the scene meanwhile is given it again, unless the bundle has no model:
-/// of such a scene nothing but its id is known here.
-Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id,
-                            const std::function<HttpCall(const std::string& id)>& callOf, const std::string& stage,
+/// JSON to be posted about a scene.
+struct ScenePost {
+  std::string route;      ///< what follows /v1/scenes/ID
+  std::string_view body;  ///< must live as long as the call
+  std::string_view stage; ///< shown meanwhile
+  std::pair<std::string, std::string> header{"Accept", "application/json"};
+  std::function<void(std::string_view)> onReceived{}; ///< as in HttpCall
+  std::function<void()> onRestart{};
+};
+
+/// A call about a scene. `id` may be empty, or known from an earlier call; it is kept for the next. A server that has
+/// dropped the scene meanwhile is given it again, unless the bundle has no model: of such a scene nothing but its id is
+/// known here.
+Result<HttpReply> callAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const ScenePost& post,
                             ProgressLine& progress);
+
+/// The body of a 200; else the server's problems.
+Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const ScenePost& post,
+                             ProgressLine& progress);
+
+/// Asks for events, passes each but the last to `onEvent`, and returns the last one's data. `what` is awaited: "bake".
+Result<std::string> askWithEvents(const Remote& remote, const SceneBundle& bundle, std::string& id, ScenePost post,
+                                  const std::string& what, const std::function<void(const ServerEvent&)>& onEvent,
+                                  ProgressLine& progress);
+
+/// Shows an event `progress`: how many are done of how many, and the share of the next.
+void showProgress(const ServerEvent& event, ProgressLine& progress);
 
 } // namespace gnomon::cli

@@ -27,30 +27,12 @@ std::optional<Rendered> renderedOf(const std::string& text) {
   return rendered;
 }
 
-/// What the server says to a spec sent to `route` of the scene; `id` as callAbout takes it.
-Result<std::string> askAbout(const Remote& remote, const SceneBundle& bundle, std::string& id, const std::string& route,
-                             const FrameSpec& spec, ProgressLine& progress) {
-  const std::string body = toJson(spec).dump();
-  const auto callOf = [&](const std::string& scene) {
-    HttpCall call;
-    call.method = "POST";
-    call.path = "/v1/scenes/" + scene + route;
-    call.headers = {{"Accept", "application/json"}};
-    call.contentType = "application/json";
-    call.body = body;
-    return call;
-  };
-  auto reply = callAbout(remote, bundle, id, callOf, "working on the server", progress);
-  if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(remote.url, *reply);
-  return std::move(reply->body);
-}
-
 } // namespace
 
 Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
                            ProgressLine& progress) {
-  const auto reply = askAbout(remote, bundle, id, "/frames", spec, progress);
+  const std::string body = toJson(spec).dump();
+  const auto reply = askAbout(remote, bundle, id, {"/frames", body, "working on the server"}, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
   if (!rendered) return Problem{ProblemCode::internal, remote.url, "The reply is not a frame.", "", ""};
@@ -60,50 +42,21 @@ Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std:
 Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, const FrameSpec& spec,
                               ProgressLine& progress) {
   std::string id;
-  const auto reply = askAbout(remote, bundle, id, "/plan", spec, progress);
+  const std::string body = toJson(spec).dump();
+  const auto reply = askAbout(remote, bundle, id, {"/plan", body, "working on the server"}, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
   if (!plan.is_object()) return Problem{ProblemCode::internal, remote.url, "The reply is not a plan.", "", ""};
   return plan.dump(2) + "\n";
 }
 
-namespace {
-
-void showStep(const std::string& data, ProgressLine& progress) {
-  const Json json = Json::parse(data, nullptr, false);
-  if (!json.is_object() || !json.contains("done") || !json.contains("of")) return;
-  const Json &done = json["done"], &of = json["of"];
-  if (done.is_number() && of.is_number()) progress.share(of > 0 ? done.get<double>() / of.get<double>() : 0);
-}
-
-} // namespace
-
 Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
                                        const std::string& requestJson, ProgressLine& progress) {
-  EventReader reader;
-  std::optional<ServerEvent> last;
-  const auto callOf = [&](const std::string& scene) {
-    HttpCall call;
-    call.method = "POST";
-    call.path = "/v1/scenes/" + scene + "/evaluations";
-    call.headers = {{"Accept", "text/event-stream"}};
-    call.contentType = "application/json";
-    call.body = requestJson;
-    call.onReceived = [&](std::string_view bytes) {
-      for (ServerEvent& event : reader.read(bytes)) {
-        if (event.name == "progress") showStep(event.data, progress);
-        if (event.name == "result" || event.name == "problem") last = std::move(event);
-      }
-    };
-    call.onRestart = [&] { reader = {}; };
-    return call;
-  };
-  const auto reply = callAbout(remote, bundle, id, callOf, "measuring on the server", progress);
-  if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(remote.url, *reply);
-  if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the evaluation did.", "", ""};
-  if (last->name == "problem") return problemsOf(remote.url, {reply->status, "", last->data, 0});
-  auto report = readEvaluationReport(last->data);
+  const auto show = [&](const ServerEvent& event) { showProgress(event, progress); };
+  const auto text = askWithEvents(remote, bundle, id, {"/evaluations", requestJson, "measuring on the server"},
+                                  "evaluation", show, progress);
+  if (!text) return text.problems();
+  auto report = readEvaluationReport(*text);
   if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not an evaluation.", "", ""};
   return *std::move(report);
 }

@@ -94,12 +94,9 @@ std::optional<SentFrame> frameOf(const std::string& data) {
 
 Result<std::string> sequenceThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
                                   const std::string& requestJson, const TakeFrame& take, ProgressLine& progress) {
-  EventReader reader;
-  std::optional<ServerEvent> last;
   Status taken = Done{};
   std::optional<int> first;
-  const auto hear = [&](ServerEvent& event) {
-    if (event.name == "result" || event.name == "problem") last = std::move(event);
+  const auto onEvent = [&](const ServerEvent& event) {
     if (event.name != "frame" || !taken) return;
     const auto frame = frameOf(event.data);
     if (!frame) {
@@ -110,26 +107,11 @@ Result<std::string> sequenceThere(const Remote& remote, const SceneBundle& bundl
     taken = take(frame->index, frame->pictures);
     showFrame(frame->index, *first, frame->of, progress);
   };
-  const auto callOf = [&](const std::string& scene) {
-    HttpCall call;
-    call.method = "POST";
-    call.path = "/v1/scenes/" + scene + "/sequences";
-    call.headers = {{"Accept", "text/event-stream"}};
-    call.contentType = "application/json";
-    call.body = requestJson;
-    call.onReceived = [&](std::string_view bytes) {
-      for (ServerEvent& event : reader.read(bytes)) hear(event);
-    };
-    call.onRestart = [&] { reader = {}; };
-    return call;
-  };
-  const auto reply = callAbout(remote, bundle, id, callOf, "rendering on the server", progress);
+  const auto report = askWithEvents(remote, bundle, id, {"/sequences", requestJson, "rendering on the server"},
+                                    "sequence", onEvent, progress);
   if (!taken) return taken.problems();
-  if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(remote.url, *reply);
-  if (!last) return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the sequence did.", "", ""};
-  if (last->name == "problem") return problemsOf(remote.url, {reply->status, "", last->data, 0});
-  return last->data + "\n";
+  if (!report) return report.problems();
+  return *report + "\n";
 }
 
 } // namespace gnomon::cli

@@ -44,28 +44,19 @@ Result<std::string> videoThere(const Remote& remote, const SceneBundle& bundle, 
                                ProgressLine& progress) {
   WebmWatch watch;
   Status taken = Done{};
-  const auto callOf = [&](const std::string& scene) {
-    HttpCall call;
-    call.method = "POST";
-    call.path = "/v1/scenes/" + scene + "/sequences";
-    call.headers = {{"Accept", "video/webm"}};
-    call.contentType = "application/json";
-    call.body = requestJson;
-    call.onReceived = [&](std::string_view bytes) {
-      if (!taken) return;
-      taken = take(bytes);
-      watch.read(bytes);
-      showFrame(sequence.first + watch.frames() - 1, sequence.first, sequence.count, progress);
-    };
-    return call;
+  ScenePost post{"/sequences", requestJson, "rendering on the server", {"Accept", "video/webm"}};
+  post.onReceived = [&](std::string_view bytes) {
+    if (!taken) return;
+    taken = take(bytes);
+    watch.read(bytes);
+    showFrame(sequence.first + watch.frames() - 1, sequence.first, sequence.count, progress);
   };
-  const auto reply = callAbout(remote, bundle, id, callOf, "rendering on the server", progress);
+  const auto reply = askAbout(remote, bundle, id, post, progress);
   if (!taken) return taken.problems();
   if (!reply) return reply.problems();
-  if (reply->status != 200) return problemsOf(remote.url, *reply);
   if (watch.tag() && watch.tag()->name == kVideoReportTag) return watch.tag()->text + "\n";
   if (watch.tag() && watch.tag()->name == kVideoProblemTag) {
-    return problemsOf(remote.url, {reply->status, "", watch.tag()->text, 0});
+    return problemsOf(remote.url, {200, "", watch.tag()->text, 0});
   }
   return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the video did.", "", ""};
 }
