@@ -16,7 +16,6 @@
 #include "server/http/connection.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
-#include "server/jobs/frame_ends.h"
 #include "server/jobs/job_queue.h"
 #include "server/scenes/scene_store.h"
 #include "server/system/byte_budget.h"

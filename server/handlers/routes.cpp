@@ -11,7 +11,7 @@
 #include "server/handlers/handlers.h"
 #include "server/http/negotiation.h"
 #include "server/http/reply.h"
-#include "server/metrics/metrics_text.h"
+#include "server/metrics/request_metrics.h"
 
 namespace gnomon {
 namespace {

@@ -13,7 +13,6 @@
 #include "server/handlers/video_form.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
-#include "server/jobs/job_id.h"
 #include "server/jobs/job_problems.h"
 
 namespace gnomon {

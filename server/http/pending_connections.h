@@ -6,7 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include "server/http/client_shares.h"
 #include "server/http/connection.h"
 #include "server/http/connection_set.h"
 #include "server/http/request_log.h"

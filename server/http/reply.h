@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,10 +12,28 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "server/http/refusal.h"
-#include "server/http/reply_body.h"
 #include "server/system/reply_room.h"
 
 namespace gnomon {
+
+/// The bytes of a reply. Copies share them, so that what is kept or drawn once is sent to many clients from one place.
+class ReplyBody {
+ public:
+  ReplyBody() = default;
+  ReplyBody(std::string bytes) : bytes_(std::make_shared<const std::string>(std::move(bytes))) {}
+  ReplyBody(std::string_view bytes) : ReplyBody(std::string(bytes)) {}
+  ReplyBody(const char* text) : ReplyBody(std::string(text)) {}
+
+  std::string_view view() const { return bytes_ ? std::string_view(*bytes_) : std::string_view(); }
+  operator std::string_view() const { return view(); }
+  std::size_t size() const { return view().size(); }
+  bool empty() const { return view().empty(); }
+
+  friend bool operator==(const ReplyBody& a, std::string_view b) { return a.view() == b; }
+
+ private:
+  std::shared_ptr<const std::string> bytes_;
+};
 
 /// Sends a piece of a body at once; false = the client is gone, and nothing more need be made.
 using BodySink = std::function<bool(std::string_view)>;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "server/http/pace.h"
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
 #include "server/system/byte_budget.h"

@@ -1,5 +1,11 @@
 #include "server/jobs/job_problems.h"
 
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <sys/random.h>
+
+#include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {
@@ -47,6 +53,14 @@ Problem unknownJob(std::string_view id) {
   return {ProblemCode::notFound, "id",
           "There is no job with this id: it was never made, was removed, or is older than --job-age allows.", "",
           asciiExcerpt(id)};
+}
+
+std::string newJobId() {
+  std::array<std::uint8_t, 16> bytes;
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw std::runtime_error("The system gives no random bytes.");
+  }
+  return hexText(bytes);
 }
 
 } // namespace gnomon

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "server/jobs/job_queue.h"
 
-/// Problems common to all queues.
+/// Common to all queues: problems, and ids.
 namespace gnomon {
 
 std::int64_t unixMilliseconds();
@@ -19,5 +20,8 @@ Problem noRoomForJobs(std::uint64_t bytes);       ///< insufficientStorage: for 
 Problem noRoomForFrame(std::uint64_t bytes);      ///< insufficientStorage: for the pictures of one in work
 Problem poisonProblem(int index, int deliveries); ///< internal: every server that took the frame died
 Problem unknownJob(std::string_view id);          ///< notFound
+
+/// 32 lower-case hexadecimal digits, unguessable.
+std::string newJobId();
 
 } // namespace gnomon

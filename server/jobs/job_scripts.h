@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/redis/script.h"
+#include "server/redis/reply.h"
 
 /// The steps of a queue in Redis, each of which is done whole or not at all.
 ///

@@ -8,7 +8,6 @@
 #include "protocol/fields/fields.h"
 #include "protocol/job/job_rows.h"
 #include "protocol/sequence/carry.h"
-#include "server/jobs/job_id.h"
 #include "server/jobs/job_problems.h"
 #include "server/jobs/job_scripts.h"
 #include "server/jobs/job_text.h"

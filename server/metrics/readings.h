@@ -8,7 +8,6 @@
 #include "protocol/report/replies.h"
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
-#include "server/jobs/frame_ends.h"
 #include "server/jobs/job_queue.h"
 #include "server/metrics/process_use.h"
 #include "server/scenes/store_size.h"

@@ -2,12 +2,16 @@
 
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <prometheus/counter.h>
 #include <prometheus/family.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "server/metrics/labels.h"
 
@@ -120,6 +124,15 @@ void RequestMetrics::waited(Lane lane, double seconds) noexcept {
 
 std::vector<prometheus::MetricFamily> RequestMetrics::collect() const {
   return families_->registry.Collect();
+}
+
+std::string metricsText(const RequestMetrics& counted, const Snapshot& snapshot) {
+  auto families = readingsOf(snapshot);
+  auto more = counted.collect();
+  families.insert(families.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  std::ostringstream text;
+  prometheus::TextSerializer().Serialize(text, families);
+  return text.str();
 }
 
 } // namespace gnomon::metrics

@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <prometheus/metric_family.h>
+#include <string>
 #include <vector>
 
 #include "server/dispatch/task.h"
 #include "server/http/connection.h"
+#include "server/metrics/readings.h"
 
 namespace gnomon::metrics {
 
@@ -27,5 +29,11 @@ class RequestMetrics : public RequestObserver {
   struct Families;
   std::unique_ptr<Families> families_;
 };
+
+/// The Content-Type of metricsText().
+inline constexpr const char* kTextFormat = "text/plain; version=0.0.4; charset=utf-8";
+
+/// Everything in Prometheus' text format.
+std::string metricsText(const RequestMetrics& counted, const Snapshot& snapshot);
 
 } // namespace gnomon::metrics

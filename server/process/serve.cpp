@@ -21,7 +21,7 @@
 #include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
-#include "server/metrics/metrics_text.h"
+#include "server/metrics/request_metrics.h"
 #include "server/process/admin_address.h"
 #include "server/process/descriptor_plan.h"
 #include "server/process/memory_plan.h"

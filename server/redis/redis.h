@@ -12,7 +12,6 @@
 #include "server/redis/address.h"
 #include "server/redis/connection.h"
 #include "server/redis/reply.h"
-#include "server/redis/script.h"
 
 /// A client of Redis 7, by the protocol RESP2.
 namespace gnomon::redis {

@@ -1,8 +1,13 @@
 #include "server/redis/reply.h"
 
+#include <array>
 #include <hiredis/hiredis.h>
 #include <new>
+#include <openssl/evp.h>
+#include <span>
 #include <stdexcept>
+
+#include "protocol/base/bytes.h"
 
 namespace gnomon::redis {
 namespace {
@@ -95,6 +100,13 @@ std::optional<Reply> ReplyReader::next() {
   broken_ = redisReaderGetReply(reader_.get(), &root) != REDIS_OK;
   const std::unique_ptr<Reply> reply(static_cast<Reply*>(root));
   return reply && !broken_ ? std::optional(std::move(*reply)) : std::nullopt;
+}
+
+Script::Script(std::string_view text) : text_(text) {
+  std::array<std::uint8_t, EVP_MAX_MD_SIZE> digest;
+  unsigned int size = 0;
+  EVP_Digest(text_.data(), text_.size(), digest.data(), &size, EVP_sha1(), nullptr);
+  sha1_ = hexText(std::span(digest).first(size));
 }
 
 } // namespace gnomon::redis

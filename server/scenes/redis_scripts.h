@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "server/redis/script.h"
+#include "server/redis/reply.h"
 
 /// What a store in Redis is made of, and the steps that change it, each of which happens whole or not at all.
 ///

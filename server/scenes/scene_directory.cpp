@@ -11,7 +11,6 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/scene_id.h"
 #include "server/scenes/file_use.h"
-#include "server/scenes/folder_names.h"
 #include "server/scenes/scene_backend.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"

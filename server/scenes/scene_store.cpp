@@ -3,15 +3,50 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/scene_id.h"
+#include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "server/scenes/directory_backend.h"
-#include "server/scenes/memory_backend.h"
 #include "server/scenes/redis_backend.h"
+#include "server/scenes/scene_memory.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {
 namespace {
+
+/// Scenes that this process alone keeps, the least recently used dropped first.
+class MemoryBackend : public SceneBackend {
+ public:
+  MemoryBackend(std::size_t budgetBytes, std::size_t most) : scenes_(budgetBytes, most) {}
+
+  Status checkRoom(std::uint64_t) override { return Done{}; }
+  Result<bool> put(const std::string& id, BundlePtr bundle, std::uint64_t bytes, const std::string& summary) override {
+    return scenes_.put(id, std::move(bundle), bytes, summary);
+  }
+  Result<StoredBundle> bundle(const std::string& id) override {
+    BundlePtr file = scenes_.bundle(id);
+    if (!file) return unknownScene(id);
+    return StoredBundle{std::move(file), false};
+  }
+  Status contains(const std::string& id) override { return found(id, scenes_.contains(id)); }
+  Status use(const std::string& id) override { return found(id, scenes_.bundle(id) != nullptr); }
+  Result<ScenePage> page(std::string_view after, std::size_t limit) override { return scenes_.page(after, limit); }
+  StoreSize size() override { return scenes_.size(); }
+  std::optional<std::string> summary(const std::string& id) override { return scenes_.summary(id); }
+  void keepSummary(const std::string&, const std::string&) override {} ///< none is ever missing
+  void setAside(const std::string&) override {}                        ///< bytes in memory are not damaged
+  Status remove(const std::string& id) override { return found(id, scenes_.remove(id)); }
+  void keepClean(const SceneListener&) override {}
+  void onRemoved(SceneListener) override {} ///< this process alone removes any
+
+ private:
+  static Status found(const std::string& id, bool isThere) {
+    if (!isThere) return unknownScene(id);
+    return Done{};
+  }
+
+  SceneMemory scenes_;
+};
 
 Result<std::unique_ptr<SceneBackend>> openBackend(const SceneStoreOptions& options) {
   if (!options.directory.empty()) return DirectoryBackend::open(options.directory, options.storedBytes, options.age);
@@ -24,6 +59,10 @@ Result<std::unique_ptr<SceneBackend>> openBackend(const SceneStoreOptions& optio
 }
 
 } // namespace
+
+Problem unknownScene(std::string_view id) {
+  return {ProblemCode::notFound, "id", "No scene with this id is stored.", "", asciiExcerpt(id)};
+}
 
 SceneStore::SceneStore(const SceneStoreOptions& options, std::unique_ptr<SceneBackend> backend)
     : age_(options.age), backend_(std::move(backend)), lightMaps_(options.lightMaps) {}
@@ -113,6 +152,24 @@ void SceneStore::onRemoved(SceneListener listener) {
   backend_->onRemoved(listener);
   const std::lock_guard lock(telling_);
   listener_ = std::move(listener);
+}
+
+std::optional<SceneCounts> KnownCounts::find(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const Entry* const known = entries_.find(id, &Entry::first);
+  return known ? std::optional(known->second) : std::nullopt;
+}
+
+void KnownCounts::keep(const std::string& id, SceneCounts counts) {
+  if (counts.lights.size() > kMostLights) counts.lights.resize(kMostLights);
+  const std::lock_guard lock(mutex_);
+  entries_.add({id, std::move(counts)});
+  entries_.keepNewest(kMost);
+}
+
+bool KnownCounts::forget(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  return entries_.eraseIf([&](const Entry& entry) { return entry.first == id; }) > 0;
 }
 
 } // namespace gnomon

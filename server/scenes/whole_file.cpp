@@ -5,8 +5,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <dirent.h>
 #include <fcntl.h>
 #include <filesystem>
+#include <memory>
 #include <random>
 #include <string_view>
 #include <sys/file.h>
@@ -17,7 +19,6 @@
 
 #include "protocol/base/bytes.h"
 #include "server/scenes/file_use.h"
-#include "server/scenes/folder_names.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
@@ -101,6 +102,16 @@ void removeUnfinished(const std::string& directory) {
   eachName(directory, [&](std::string_view name) {
     if (name.starts_with(kTemporary)) removeIfUnused((directory + "/").append(name), kAge);
   });
+}
+
+void eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit) {
+  const auto close = [](DIR* open) { ::closedir(open); };
+  const std::unique_ptr<DIR, decltype(close)> open(::opendir(folder.c_str()), close);
+  if (!open) return;
+  while (const dirent* entry = ::readdir(open.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") visit(name);
+  }
 }
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "protocol/base/bytes.h"
 
@@ -27,5 +28,9 @@ bool syncDirectory(const std::string& path);
 /// Removes what placeFile has left in a directory where its process died: files without a lock that were not
 /// written to for a minute.
 void removeUnfinished(const std::string& directory);
+
+/// Calls with the name of each entry of a folder, in no order, `.` and `..` left out. What appears or goes meanwhile
+/// may be among them or not. Nothing where the folder can't be read.
+void eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit);
 
 } // namespace gnomon

@@ -1,5 +1,3 @@
-#include "server/worker/evaluate_scene.h"
-
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/bytes.h"
@@ -7,6 +5,7 @@
 #include "protocol/json/quality_json.h"
 #include "renderer/core/parallel.h"
 #include "server/worker/frame_memory.h"
+#include "server/worker/orders.h"
 
 namespace gnomon {
 namespace {

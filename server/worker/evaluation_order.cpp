@@ -2,7 +2,6 @@
 
 #include "protocol/evaluation/evaluation_json.h"
 #include "protocol/json/json_codec.h"
-#include "server/worker/evaluate_scene.h"
 #include "server/worker/orders.h"
 
 namespace gnomon {

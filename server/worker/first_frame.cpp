@@ -1,8 +1,8 @@
-#include "server/worker/first_frame.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
+
+#include "server/worker/render_thread.h"
 
 namespace gnomon {
 namespace {

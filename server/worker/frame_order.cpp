@@ -2,7 +2,6 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
-#include "server/worker/evaluate_scene.h"
 #include "server/worker/frame_file.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"

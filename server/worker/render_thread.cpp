@@ -5,7 +5,6 @@
 #include <future>
 
 #include "protocol/base/elapsed.h"
-#include "server/worker/first_frame.h"
 
 namespace gnomon {
 namespace {

@@ -82,4 +82,7 @@ class RenderThread {
   std::thread thread_;
 };
 
+/// Draws a small frame and looks for the shadow in it: the proof that this renderer works.
+Status drawFirstFrame(Renderer& renderer);
+
 } // namespace gnomon

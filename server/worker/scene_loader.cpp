@@ -1,7 +1,9 @@
 #include "server/worker/scene_loader.h"
 
+#include <functional>
 #include <limits>
 #include <malloc.h>
+#include <numeric>
 
 #include "renderer/core/stop.h"
 #include "server/system/memory_file.h"
@@ -16,7 +18,43 @@ bool isBundleOf(const std::string& id, std::span<const std::uint8_t> bytes) {
   return hash.hex() == id;
 }
 
+const std::string& idOf(const LoadedScene& loaded) {
+  return loaded.summary.id;
+}
+
+std::uint64_t bytesOf(const LoadedScene& loaded) {
+  return loaded.summary.memoryBytes;
+}
+
 } // namespace
+
+std::optional<LoadedScene> SceneCache::get(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const LoadedScene* const found = scenes_.find(id, idOf);
+  return found ? std::optional(*found) : std::nullopt;
+}
+
+void SceneCache::put(LoadedScene loaded) {
+  const std::lock_guard lock(mutex_);
+  if (scenes_.find(loaded.summary.id, idOf)) return;
+  scenes_.add(std::move(loaded));
+  scenes_.keepWithin(budget_, bytesOf);
+}
+
+bool SceneCache::remove(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  return scenes_.eraseIf([&](const LoadedScene& loaded) { return idOf(loaded) == id; }) > 0;
+}
+
+std::size_t SceneCache::bytes() const {
+  const std::lock_guard lock(mutex_);
+  return std::transform_reduce(scenes_.begin(), scenes_.end(), std::size_t{0}, std::plus<>(), bytesOf);
+}
+
+std::size_t SceneCache::count() const {
+  const std::lock_guard lock(mutex_);
+  return scenes_.size();
+}
 
 std::variant<LoadedScene, LoadFailure> SceneLoader::load(const std::string& id, const BundleFile& bundle,
                                                          const GoOn& goOn) {

@@ -1,15 +1,42 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 
+#include "protocol/base/lru.h"
 #include "protocol/base/scene_bundle.h"
+#include "protocol/report/replies.h"
+#include "renderer/render.h"
 #include "server/system/file_descriptor.h"
-#include "server/worker/scene_cache.h"
 #include "server/worker/single_flight.h"
 
 namespace gnomon {
+
+/// A scene that is loaded, and its summary with its id.
+struct LoadedScene {
+  ScenePtr scene;
+  SceneSummary summary;
+};
+
+/// Loaded scenes within a budget of memory, the least recently used dropped first. Any thread.
+class SceneCache {
+ public:
+  explicit SceneCache(std::size_t budgetBytes) : budget_(budgetBytes) {}
+
+  std::optional<LoadedScene> get(const std::string& id); ///< and marks it as used
+  void put(LoadedScene loaded);                          ///< stays at least until the next put
+  bool remove(const std::string& id);
+  std::size_t bytes() const;
+  std::size_t count() const;
+
+ private:
+  mutable std::mutex mutex_;
+  const std::size_t budget_;
+  LruList<LoadedScene> scenes_;
+};
 
 /// A bundle as an order brings it.
 struct BundleFile {

@@ -5,7 +5,7 @@
 #include <set>
 #include <unistd.h>
 
-#include "server/metrics/metrics_text.h"
+#include "server/metrics/request_metrics.h"
 
 namespace gnomon::metrics {
 namespace {

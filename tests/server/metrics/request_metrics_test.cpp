@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "server/metrics/labels.h"
-#include "server/metrics/metrics_text.h"
 
 namespace gnomon::metrics {
 namespace {

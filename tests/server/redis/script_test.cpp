@@ -1,6 +1,6 @@
-#include "server/redis/script.h"
-
 #include <gtest/gtest.h>
+
+#include "server/redis/reply.h"
 
 namespace gnomon::redis {
 namespace {
