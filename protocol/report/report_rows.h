@@ -85,8 +85,7 @@ static_assert(kRowsAreComplete<LightMapReport>);
 template <>
 inline constexpr auto kRows<VolumeReport> = replyRows(
     "VolumeReport", "A volume, and the light that arrives in it.",
-    field("voxels", &VolumeReport::voxels,
-          {.says = "Of its grid, along x, y and z; 0 = it stands at a node that is hidden."}),
+    field("voxels", &VolumeReport::voxels, {.says = "Grid resolution in x, y, z; 0 if its node is hidden."}),
     field("values", &VolumeReport::values, {.says = "The least and the greatest of its grid."}),
     field("reused", &VolumeReport::reused, {.says = "True = an earlier frame made its light; false = this one did."}),
     field("lightSize", &VolumeReport::lightSize, {.says = "Points at which its light is known, along x, y and z."}),

@@ -1,6 +1,6 @@
 #include "renderer/cpu/scene_cache.h"
 
-#include "renderer/scene/alike.h"
+#include "renderer/scene/same_surfaces.h"
 
 namespace gnomon::cpu {
 

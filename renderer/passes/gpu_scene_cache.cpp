@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/scene/alike.h"
+#include "renderer/scene/same_surfaces.h"
 
 namespace gnomon {
 

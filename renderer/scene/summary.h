@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Everything that an upload is told about its scene, but for the id and the warnings.
+/// The scene summary, without id and warnings.
 SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, const Scene& scene);
 
 } // namespace gnomon

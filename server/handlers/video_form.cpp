@@ -43,7 +43,7 @@ Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& firs
   const PictureNews& picture = first.pictures.front();
   constexpr int kMostSide = 65'535;
   if (picture.width < 1 || picture.height < 1 || picture.width > kMostSide || picture.height > kMostSide) {
-    return Problem{ProblemCode::internal, "", "A picture of this size can't be.", "", ""};
+    return Problem{ProblemCode::internal, "", "Unsupported picture size.", "", ""};
   }
   const std::size_t bytes = videoBytes(picture.width, picture.height);
   if (bytes > memory.total()) {
@@ -55,7 +55,8 @@ Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& firs
   if (!lease->grow(bytes)) {
     return Problem{ProblemCode::busy, "", "Other videos use the memory for videos.", bytesText(memory.total()), ""};
   }
-  auto file = VideoFile::create({picture.width, picture.height, settings.framesPerSecond, settings.frames}, settings.quality);
+  auto file =
+      VideoFile::create({picture.width, picture.height, settings.framesPerSecond, settings.frames}, settings.quality);
   if (!file) return file.problems();
   return TypedForm{std::string(kVideoType), std::make_shared<VideoForm>(std::move(lease), *std::move(file))};
 }

@@ -93,7 +93,7 @@ class BodyReader {
       }
       if (!append(size) || !line(text)) return false;
       if (!text.empty()) {
-        refused = brokenChunks("A chunk is longer than its size.");
+        refused = brokenChunks("Chunk data exceeds the declared size.");
         return false;
       }
     }

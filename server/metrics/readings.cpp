@@ -112,7 +112,7 @@ constexpr std::array kRows{
                [](const Snapshot& s) { return one(s.storeState.connections); }},
     ReadingRow{"gnomon_store_calls_total", kCounter, "Calls of the Redis server of the store.",
                [](const Snapshot& s) { return one(s.storeState.calls); }},
-    ReadingRow{"gnomon_store_call_failures_total", kCounter, "Those of them that had no answer.",
+    ReadingRow{"gnomon_store_call_failures_total", kCounter, "Store calls that failed or timed out.",
                [](const Snapshot& s) { return one(s.storeState.failures); }},
     ReadingRow{"gnomon_store_memory_scenes", kGauge, "Scenes of a store in Redis that are in memory, too.",
                [](const Snapshot& s) { return one(s.storeState.inMemory.scenes); }},

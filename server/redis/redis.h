@@ -23,7 +23,7 @@ struct Options {
   std::chrono::milliseconds connectPatience{2'000}; ///< for one attempt to connect, where the call has so much time
 };
 
-/// How it goes, for operators.
+/// Connection statistics.
 struct Use {
   bool isReachable = true;     ///< the last attempt to connect or to call went well, or there was none
   std::size_t connections = 0; ///< open now

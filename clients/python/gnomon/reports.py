@@ -212,7 +212,7 @@ class VolumeReport(TypedDict, total=False):
     """A volume, and the light that arrives in it.
 
     voxels:
-        Of its grid, along x, y and z; 0 = it stands at a node that is hidden.
+        Grid resolution in x, y, z; 0 if its node is hidden.
     values:
         The least and the greatest of its grid.
     reused:

@@ -1,6 +1,6 @@
 #include "renderer/scene/known_content.h"
 
-#include "renderer/scene/alike.h"
+#include "renderer/scene/same_surfaces.h"
 #include "tests/renderer/scene/load.h"
 #include "tests/support/webp_builder.h"
 

@@ -3,7 +3,7 @@
 #include "renderer/scene/scene.h"
 
 /// Whether what was made of one scene serves another one. Decided by contents (Primitive::content) and by the images
-/// that they share; where a content is not known, nothing is alike but a scene, itself and its poses.
+/// that they share; where a content is not known, nothing is shared but by a scene and its poses.
 namespace gnomon {
 
 /// Their vertices, attributes and indices are the same.

@@ -1,4 +1,4 @@
-#include "renderer/scene/alike.h"
+#include "renderer/scene/same_surfaces.h"
 
 #include <algorithm>
 
