@@ -16,7 +16,7 @@ static_assert(kRowsAreComplete<BakedLightReport>);
 
 template <>
 inline constexpr auto kRows<BakeReport> = replyRows(
-    "BakeReport", "What baking ahead made.",
+    "BakeReport", "Result of baking ahead.",
     field("key", &BakeReport::key,
           {.says = "Names the bake: SHA-256 of the scene and of every field that a bake depends on."}),
     field("lights", &BakeReport::lights, {.says = "The lights of technique lightMap."}),
@@ -25,7 +25,7 @@ static_assert(kRowsAreComplete<BakeReport>);
 
 template <>
 inline constexpr auto kRows<BakeStep> =
-    replyRows("BakeStep", "How far a bake has come: the data of an event `progress`.",
+    replyRows("BakeStep", "Progress of a bake: the data of an event `progress`.",
               field("key", &BakeStep::key, {.says = "Names the bake, also for stopping it."}),
               field("light", &BakeStep::light, {.says = "Index of the light that is baked."}),
               field("share", &BakeStep::share, {.says = "Share of this light's texels that are done, 0..1."}),

@@ -18,7 +18,7 @@ void checkPath(const CameraPath& path, ProblemList& problems) {
   if (path.cameras.has_value() == path.step.has_value()) {
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = "/path",
-                  .detail = "A path is of cameras or of steps.",
+                  .detail = "Give either `cameras` or `step`.",
                   .limit = "cameras | step",
                   .actual = path.step ? "both" : "neither"});
   } else if (path.frames && !path.step) {
@@ -36,7 +36,7 @@ void checkPath(const CameraPath& path, ProblemList& problems) {
 Problem targetProblem(const std::string& pointer) {
   return {.code = ProblemCode::invalidValue,
           .pointer = pointer,
-          .detail = "An evaluation measures settings; a target would choose them. Leave quality out."};
+          .detail = "An evaluation measures given settings: leave out the target `quality`."};
 }
 
 /// Reads variants over a spec that may have problems of its own, which are not told once more.
@@ -121,7 +121,7 @@ Result<Evaluation> decodeEvaluation(std::string_view json) {
   const bool given[] = {document.contains("variants"), document.contains("sweep")};
   if (document.is_object() && given[0] == given[1]) {
     problems.add({.code = ProblemCode::invalidValue,
-                  .detail = "An evaluation is of variants or of a sweep.",
+                  .detail = "Give either `variants` or `sweep`.",
                   .limit = "variants | sweep",
                   .actual = given[0] ? "both" : "neither"});
   } else if (request.variants || request.sweep) {

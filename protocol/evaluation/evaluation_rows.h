@@ -76,7 +76,7 @@ inline constexpr auto kRows<VariantProblem> =
                     {.says = "Where: a JSON pointer into the variant's spec; /path = the evaluation's own path."}),
               field("detail", &VariantProblem::detail, {.says = "A sentence for people."}),
               field("limit", &VariantProblem::limit, {.says = "What would have been accepted."}),
-              field("actual", &VariantProblem::actual, {.says = "What came."}));
+              field("actual", &VariantProblem::actual, {.says = "What was sent."}));
 static_assert(kRowsAreComplete<VariantProblem>);
 
 template <>
@@ -84,10 +84,11 @@ inline constexpr auto kRows<EvaluationRow> = replyRows(
     "EvaluationRow", "One variant: its speed and its error, or why there are none.",
     field("variant", &EvaluationRow::variant, {.says = "What it changes in the spec, as given or as generated."}),
     field("name", &EvaluationRow::name, {.says = "Short name."}),
-    field("milliseconds", &EvaluationRow::milliseconds,
-          {.says = "Median time of a whole warm frame, with all tiles drawn anew, without encoding. Absent in an event "
-                   "`row`, and if there is a problem.",
-           .unit = "milliseconds"}),
+    field(
+        "milliseconds", &EvaluationRow::milliseconds,
+        {.says = "Median time of a whole warm frame, with all tiles drawn again, without encoding. Absent in an event "
+                 "`row`, and if there is a problem.",
+         .unit = "milliseconds"}),
     field("stages", &EvaluationRow::stages, {.says = "Median time of each stage.", .unit = "milliseconds"}),
     field("memoryBytes", &EvaluationRow::memoryBytes,
           {.says = "Memory that the frame takes on the device, its scene included.", .unit = "bytes"}),
@@ -119,7 +120,7 @@ static_assert(kRowsAreComplete<EvaluationReport>);
 
 template <>
 inline constexpr auto kRows<EvaluationStep> =
-    replyRows("EvaluationStep", "How far an evaluation has come: the data of an event `progress`.",
+    replyRows("EvaluationStep", "Progress of an evaluation: the data of an event `progress`.",
               field("done", &EvaluationStep::done, {.says = "Frames, references and paths finished."}),
               field("of", &EvaluationStep::of, {.says = "Number of all; fewer are done if a variant has a problem."}),
               field("variant", &EvaluationStep::variant, {.says = "Index of the variant in progress."}));

@@ -24,9 +24,8 @@ void checkRemovalsAt(const Json& patch, const std::string& path, const Place& pl
     const std::string innerPath = path.empty() ? key : path + "." + key;
     if (value.is_object()) checkRemovalsAt(value, innerPath, inner, problems);
     if (!value.is_null() || isField(innerPath)) continue;
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = inner.pointer(),
-                  .detail = "There is no field of this name that could be taken away."});
+    problems.add(
+        {.code = ProblemCode::invalidValue, .pointer = inner.pointer(), .detail = "Unknown field; nothing to remove."});
   }
 }
 

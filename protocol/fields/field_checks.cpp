@@ -112,7 +112,7 @@ bool checkDistinct(const ValueType& type, const void* list, const Notes& notes, 
     if (isFirst) continue;
     problems.add({.code = ProblemCode::invalidValue,
                   .pointer = Place(place, i).pointer(),
-                  .detail = "This stands in its list more than once."});
+                  .detail = "This value appears more than once in its list."});
     good = false;
   }
   return good;

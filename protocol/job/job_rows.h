@@ -12,28 +12,28 @@ inline constexpr std::array kSpellings<JobState>{
     spelling(JobState::running, "running", "some frames were begun"),
     spelling(JobState::done, "done", "all frames are drawn"),
     spelling(JobState::failed, "failed", "a frame could not be drawn"),
-    spelling(JobState::cancelled, "cancelled", "it was removed while somebody waited for it"),
+    spelling(JobState::cancelled, "cancelled", "it was removed while a client waited for it"),
 };
 static_assert(spellsAll<JobState>());
 
 template <>
 inline constexpr auto kRows<Job> = replyRows(
-    "Job", "A sequence that is drawn while nobody waits for it.",
-    field("id", &Job::id, {.says = "Names the job; nobody can guess it."}),
-    field("state", &Job::state, {.says = "What it is doing."}),
+    "Job", "A sequence that is drawn in the background.",
+    field("id", &Job::id, {.says = "Names the job; not guessable."}),
+    field("state", &Job::state, {.says = "State of the job."}),
     field("scene", &Job::scene, {.says = "Id of its scene."}),
     field("first", &Job::first, {.says = "Index of the first frame that is drawn."}),
     field("done", &Job::done, {.says = "Frames that are drawn."}),
     field("of", &Job::of, {.says = "Frames that are to be drawn; the last index is `first` + `of` - 1."}),
     field("bytes", &Job::bytes, {.says = "Size of the pictures so far.", .unit = "bytes"}),
-    field("created", &Job::created, {.says = "When it was asked for; RFC 3339, in UTC, as all its times."}),
+    field("created", &Job::created, {.says = "When it was requested; RFC 3339, in UTC, as all its times."}),
     field("started", &Job::started, {.says = "When its first frame was begun; absent = not yet."}),
     field("ended", &Job::ended, {.says = "When it was done or failed; absent = not yet."}),
     field("expires", &Job::expires, {.says = "When it is removed with its pictures, if no further frame is drawn."}),
     field("problems", &Job::problems, {.says = "Why it failed; pointers are places in the request for the sequence."}),
-    field("address", &Job::address, {.says = "Where it is."}),
-    field("result", &Job::result, {.says = "Where all frames are, in the forms of a sequence."}),
-    field("frames", &Job::frames, {.says = "Where one frame is, with its index for `{index}`."}));
+    field("address", &Job::address, {.says = "Address of the job."}),
+    field("result", &Job::result, {.says = "Address of all frames, in the forms of a sequence."}),
+    field("frames", &Job::frames, {.says = "Address of one frame, with its index for `{index}`."}));
 static_assert(kRowsAreComplete<Job>);
 
 template <>

@@ -61,7 +61,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     if (!object.keys.insert(key).second) {
       problems_.add({.code = ProblemCode::invalidValue,
                      .pointer = pointer(),
-                     .detail = "This key stands in its object more than once."});
+                     .detail = "This key appears more than once in its object."});
     }
     return true;
   }

@@ -37,11 +37,11 @@ static_assert(spellsAll<ProblemCode>());
 
 template <>
 inline constexpr auto kRows<Problem> =
-    rows("ProblemEntry", "One thing that is wrong.", field("code", &Problem::code, {.says = "What kind of thing."}),
+    rows("ProblemEntry", "One problem.", field("code", &Problem::code, {.says = "Kind of problem."}),
          field("pointer", &Problem::pointer, {.says = "Where: a JSON pointer, a query key or the name of a part."}),
          field("detail", &Problem::detail, {.says = "One sentence for people."}),
          field("limit", &Problem::limit, {.says = "What would have been accepted."}),
-         field("actual", &Problem::actual, {.says = "What came, shortened."}));
+         field("actual", &Problem::actual, {.says = "What was sent, shortened."}));
 static_assert(kRowsAreComplete<Problem>);
 
 } // namespace gnomon

@@ -202,7 +202,7 @@ Json evaluationsRoute() {
       "Pareto front; text/event-stream = events while it lasts: `progress` (EvaluationStep), `row` (an EvaluationRow "
       "whose errors are known and whose times are not), and at last `result` (EvaluationReport) or `problem` "
       "(Problem). "
-      "Whoever closes the connection ends the evaluation.";
+      "Closing the connection ends the evaluation.";
   const Json content = {{"application/json", schemaContent("EvaluationReport")},
                         {"text/csv", bytesContent()},
                         {"image/svg+xml", bytesContent()},
@@ -218,8 +218,8 @@ Json bakesRoute() {
   const char* description =
       "Bakes the shadows of the lights whose technique is lightMap, so that frames of the same spec only look them up. "
       "Of the body only what the shadows depend on matters; it may be the spec of such a frame. text/event-stream = "
-      "events while it lasts: `progress` (BakeStep), and at last `result` (BakeReport) or `problem` (Problem). Whoever "
-      "closes the connection ends the bake.";
+      "events while it lasts: `progress` (BakeStep), and at last `result` (BakeReport) or `problem` (Problem). Closing "
+      "the connection ends the bake.";
   const Json content = {{"application/json", schemaContent("BakeReport")},
                         {"text/event-stream", {{"schema", {{"anyOf", {reference("schemas/BakeStep")}}}}}}};
   Json post = operation("bake", "Bake light maps ahead of frames",

@@ -26,7 +26,7 @@ Json sequencesRoute() {
       "the sequence goes on there), and last report.json, or problem.json; application/zip = the same files; "
       "text/event-stream = an event `frame` (SequenceFrame) for each, and at last `result` (SequenceReport) or "
       "`problem` (Problem); video/webm = the first view of every frame as VP9, and last the report as a tag "
-      "GNOMON_REPORT, or the problem as GNOMON_PROBLEM. Whoever closes the connection ends the sequence.";
+      "GNOMON_REPORT, or the problem as GNOMON_PROBLEM. Closing the connection ends the sequence.";
   Json forms = sequenceForms();
   forms["video/webm"] = bytesContent();
   Json post =

@@ -99,7 +99,7 @@ inline constexpr auto kRows<RendererInfo> = rows(
     field("software", &RendererInfo::software, {.says = "True = the CPU draws; there is no GPU."}),
     field("maxTextureSize", &RendererInfo::maxTextureSize, {.says = "Largest side of a texture.", .unit = "texels"}),
     field("maxSamples", &RendererInfo::maxSamples, {.says = "Most samples a pixel."}),
-    field("device", &RendererInfo::device, {.says = "What draws."}),
+    field("device", &RendererInfo::device, {.says = "The device that draws."}),
     field("fingerprint", &RendererInfo::fingerprint,
           {.says = "Changes whenever the same request could give other bytes: with the driver, the CPU's make and the "
                    "build."}));

@@ -29,8 +29,7 @@ inline constexpr auto kRows<TileReport> = replyRows(
           {.says = "x, y, width and height in the atlas, from its lower left corner, border included; width 0 = no "
                    "surface in view lies in it, so it is not drawn.",
            .unit = "texels"}),
-    field("border", &TileReport::border,
-          {.says = "Width of its border, which is there for filters to read.", .unit = "texels"}),
+    field("border", &TileReport::border, {.says = "Width of its border, read by filters only.", .unit = "texels"}),
     field("texelSize", &TileReport::texelSize,
           {.says = "Size of a texel across and along; for a face, at its far end.", .unit = "metres"}),
     field("matrix", &TileReport::matrix,
@@ -86,10 +85,10 @@ template <>
 inline constexpr auto kRows<VolumeReport> = replyRows(
     "VolumeReport", "A volume, and the light that arrives in it.",
     field("voxels", &VolumeReport::voxels, {.says = "Grid resolution in x, y, z; 0 if its node is hidden."}),
-    field("values", &VolumeReport::values, {.says = "The least and the greatest of its grid."}),
+    field("values", &VolumeReport::values, {.says = "Least and greatest value of its grid."}),
     field("reused", &VolumeReport::reused, {.says = "True = an earlier frame made its light; false = this one did."}),
     field("lightSize", &VolumeReport::lightSize, {.says = "Points at which its light is known, along x, y and z."}),
-    field("lightBytes", &VolumeReport::lightBytes, {.says = "What that takes.", .unit = "bytes"}),
+    field("lightBytes", &VolumeReport::lightBytes, {.says = "Memory of these points.", .unit = "bytes"}),
     field("lightMilliseconds", &VolumeReport::lightMilliseconds,
           {.says = "Time that making its light took when it was made.", .unit = "milliseconds"}));
 static_assert(kRowsAreComplete<VolumeReport>);
@@ -98,7 +97,7 @@ template <>
 inline constexpr auto kRows<TechniqueChoice> = replyRows(
     "TechniqueChoice", "What technique auto chose for a light.",
     field("technique", &TechniqueChoice::technique,
-          {.says = "shadowMap or rayTraced; `spec` names it too, so that asking for `spec` again draws the same."}),
+          {.says = "shadowMap or rayTraced; `spec` names it too, so that requesting `spec` again draws the same."}),
     field("why", &TechniqueChoice::why, {.says = "The reason, in a sentence."}),
     field("mapMilliseconds", &TechniqueChoice::mapMilliseconds,
           {.says =
@@ -111,15 +110,15 @@ static_assert(kRowsAreComplete<TechniqueChoice>);
 
 template <>
 inline constexpr auto kRows<LightReport> = replyRows(
-    "LightReport", "What was decided for one light.",
+    "LightReport", "Decisions for one light.",
     field("light", &LightReport::light, {.says = "Index into the lights of `spec`."}),
     field("shadowed", &LightReport::shadowed, {.says = "True = its shadow was drawn."}),
     field("askedTileSize", &LightReport::askedTileSize,
-          {.says = "Side of a tile that was asked for; 0 = no shadow was asked for.", .unit = "texels"}),
+          {.says = "Side of a tile as requested; 0 = no shadow was requested.", .unit = "texels"}),
     field("grantedTileSize", &LightReport::grantedTileSize,
-          {.says = "Side of a tile that it got; 0 = none.", .unit = "texels"}),
+          {.says = "Side of its tiles in the atlas; 0 = none.", .unit = "texels"}),
     field("note", &LightReport::note,
-          {.says = "Why no shadow was drawn, or what was decided differently; empty = as asked."}),
+          {.says = "Why no shadow was drawn, or what differs from the request; empty = nothing."}),
     field("depthRange", &LightReport::depthRange,
           {.says = "View depths that a directional light's cascades cover, without a guard. Pass it as "
                    "`shadow.depthRange.previous` of the next frame. Absent = none was drawn."}),
@@ -188,15 +187,16 @@ static_assert(kRowsAreComplete<FrameCounts>);
 
 template <>
 inline constexpr auto kRows<FrameReport> = rows(
-    "FrameReport", "What a frame's rendering decided and took.",
-    field("spec", &FrameReport::spec,
-          {.says = "The effective request: every default filled in. It asks for the same frame again."}),
+    "FrameReport", "Decisions, times and counts of a rendered frame.",
+    field(
+        "spec", &FrameReport::spec,
+        {.says = "The effective request: every default filled in. Sent as a request, it gives the same frame again."}),
     field("depthRange", &FrameReport::depthRange,
           {.says = "Nearest and farthest surface in view; 0 0 = nothing in view.", .unit = "metres"}),
     field("atlasSize", &FrameReport::atlasSize,
           {.says = "Width and height of the atlas; 0 0 = no atlas.", .unit = "texels"}),
-    field("lights", &FrameReport::lights, {.says = "What was decided for each light."}),
-    field("volumes", &FrameReport::volumes, {.says = "What was made for each volume."}),
+    field("lights", &FrameReport::lights, {.says = "Decisions for each light."}),
+    field("volumes", &FrameReport::volumes, {.says = "Grid and light of each volume."}),
     field("predictedError", &FrameReport::predictedError,
           {.says = "How large the texels of all tiles appear; absent if no tile was drawn."}),
     field("error", &FrameReport::error,
@@ -210,18 +210,20 @@ inline constexpr auto kRows<FrameReport> = rows(
                    "shade, predict (with "
                    "`debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
            .unit = "milliseconds"}),
-    field("warnings", &FrameReport::warnings,
-          {.says = "What the file holds that is drawn differently, what of the request was, and what the picture is "
-                   "likely to lack: each a sentence, with what to set."}));
+    field(
+        "warnings", &FrameReport::warnings,
+        {.says = "What differs from the file or the request, and what the picture is likely to lack: each a sentence, "
+                 "with what to set."}));
 static_assert(kRowsAreComplete<FrameReport>);
 
 template <>
 inline constexpr auto kRows<PlanReport> = rows(
     "PlanReport",
-    "What a frame would do, decided without drawing it: boxes around what the camera may see stand in for its "
+    "What a frame would do, decided without drawing it: boxes around what the camera may see replace its "
     "surfaces, so every tile covers what the frame's would, and perhaps more.",
-    field("spec", &PlanReport::spec,
-          {.says = "The effective request: every default filled in. It asks for the same frame again."}),
+    field(
+        "spec", &PlanReport::spec,
+        {.says = "The effective request: every default filled in. Sent as a request, it gives the same frame again."}),
     field("depthRange", &PlanReport::depthRange,
           {.says = "Nearest and farthest end of a box in view; 0 0 = nothing in view.", .unit = "metres"}),
     field("atlasSize", &PlanReport::atlasSize,
@@ -230,7 +232,7 @@ inline constexpr auto kRows<PlanReport> = rows(
     field("predictedError", &PlanReport::predictedError,
           {.says = "Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn."}),
     field("warnings", &PlanReport::warnings,
-          {.says = "What the frame's report would warn of, as far as it can be told without drawing."}));
+          {.says = "What the frame's report would warn of, as far as it is known without drawing."}));
 static_assert(kRowsAreComplete<PlanReport>);
 
 } // namespace gnomon

@@ -21,7 +21,7 @@ static_assert(kRowsAreComplete<CarriedRange>);
 
 template <>
 inline constexpr auto kRows<Carried> =
-    rows("Carried", "What a frame of a sequence takes from the one before it. Pass it on as it came.",
+    rows("Carried", "What a frame of a sequence takes from the one before it. Pass it on unchanged.",
          field("depthRanges", &Carried::depthRanges,
                {.says = "For each light with cascades the depths that they cover.",
                 .maxCount = std::size_t(kLimits.maxLights)}));
@@ -29,44 +29,43 @@ static_assert(kRowsAreComplete<Carried>);
 
 template <>
 inline constexpr auto kRows<SequenceRequest> =
-    rows(
-        "SequenceRequest", "Many frames of one scene; exactly one of `frames` and `keys`.",
-        field("spec", &SequenceRequest::spec, {.says = "What every frame starts from; must not have `quality`."}),
-        field("frames", &SequenceRequest::frames,
-              {.says = "One frame for each: what it changes in `spec`, as a JSON merge patch (RFC 7396): objects are "
-                       "merged, null removes a field, lists are replaced.",
-               .minCount = 1,
-               .maxCount = kLimits.maxSequenceFrames}),
-        field("keys", &SequenceRequest::keys,
-              {.says = "Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is "
-                       "the first key, the last frame the last key. In between, numbers at the same place of two "
-                       "neighbouring keys are interpolated linearly; whole numbers and all else must be equal.",
-               .minCount = 2,
-               .maxCount = kLimits.maxSequenceKeys}),
-        field("count", &SequenceRequest::count,
-              {.says = "With `keys`: number of frames.",
-               .unit = "frames",
-               .range = {2, double(kLimits.maxSequenceFrames)}}),
-        field("stable", &SequenceRequest::stable,
-              {.says = "Shadows of directional lights hold still while the camera moves, and depth ranges pass from "
-                       "frame to frame, except where the spec has `stabilization` or `depthRange` itself. False = "
-                       "each frame is drawn as if it were alone, with the tightest fit."}),
-        field("framesPerSecond", &SequenceRequest::framesPerSecond,
-              {.says = "How fast the frames of a video follow each other. Every other form tells it in its report, for "
-                       "whoever makes a video of the frames; it changes no frame.",
-               .unit = "frames per second",
-               .range = {1, 240}}),
-        field("videoQuality", &SequenceRequest::videoQuality,
-              {.says = "Of a video (`Accept: video/webm`): 1 = smallest file, 100 = closest to the frames. Each frame "
-                       "is as good as every other, whatever size that takes: 50 is less than half as large as the "
-                       "default, 90 two thirds larger, 100 three times as large.",
-               .range = {1, 100}}),
-        field("first", &SequenceRequest::first,
-              {.says = "Index of the first frame that is drawn: 0, or where a sequence that broke off goes on.",
-               .range = {0, double(kLimits.maxSequenceFrames - 1)}}),
-        field("carried", &SequenceRequest::carried,
-              {.says = "What the frame before `first` left, from its reply. Needed with `first` if the sequence is "
-                       "stable; with `first` 0 it continues another sequence."}))
+    rows("SequenceRequest", "Many frames of one scene; exactly one of `frames` and `keys`.",
+         field("spec", &SequenceRequest::spec, {.says = "What every frame starts from; must not have `quality`."}),
+         field("frames", &SequenceRequest::frames,
+               {.says = "One frame for each: what it changes in `spec`, as a JSON merge patch (RFC 7396): objects are "
+                        "merged, null removes a field, lists are replaced.",
+                .minCount = 1,
+                .maxCount = kLimits.maxSequenceFrames}),
+         field("keys", &SequenceRequest::keys,
+               {.says = "Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is "
+                        "the first key, the last frame the last key. In between, numbers at the same place of two "
+                        "neighbouring keys are interpolated linearly; whole numbers and all else must be equal.",
+                .minCount = 2,
+                .maxCount = kLimits.maxSequenceKeys}),
+         field("count", &SequenceRequest::count,
+               {.says = "With `keys`: number of frames.",
+                .unit = "frames",
+                .range = {2, double(kLimits.maxSequenceFrames)}}),
+         field("stable", &SequenceRequest::stable,
+               {.says = "Shadows of directional lights hold still while the camera moves, and depth ranges pass from "
+                        "frame to frame, except where the spec has `stabilization` or `depthRange` itself. False = "
+                        "each frame is drawn as if it were alone, with the tightest fit."}),
+         field("framesPerSecond", &SequenceRequest::framesPerSecond,
+               {.says = "Frame rate of a video. Every other form repeats it in its report, for making a video of the "
+                        "frames; it changes no frame.",
+                .unit = "frames per second",
+                .range = {1, 240}}),
+         field("videoQuality", &SequenceRequest::videoQuality,
+               {.says = "Of a video (`Accept: video/webm`): 1 = smallest file, 100 = closest to the frames. Each frame "
+                        "is as good as every other, whatever size that takes: 50 is less than half as large as the "
+                        "default, 90 two thirds larger, 100 three times as large.",
+                .range = {1, 100}}),
+         field("first", &SequenceRequest::first,
+               {.says = "Index of the first frame that is drawn: 0, or where a sequence that broke off goes on.",
+                .range = {0, double(kLimits.maxSequenceFrames - 1)}}),
+         field("carried", &SequenceRequest::carried,
+               {.says = "What the frame before `first` left, from its reply. Needed with `first` if the sequence is "
+                        "stable; with `first` 0 it continues another sequence."}))
         .withAlternatives({"frames", "keys"}, {"frames", "count"});
 static_assert(kRowsAreComplete<SequenceRequest>);
 
@@ -82,7 +81,7 @@ static_assert(kRowsAreComplete<SequenceFrame>);
 
 template <>
 inline constexpr auto kRows<SequenceFrameReport> = replyRows(
-    "SequenceFrameReport", "What one frame of a sequence took.",
+    "SequenceFrameReport", "Times of one frame of a sequence.",
     field("index", &SequenceFrameReport::index, {.says = "Which frame."}),
     field("milliseconds", &SequenceFrameReport::milliseconds,
           {.says = "Time from its beginning to its pictures; neighbouring frames overlap.", .unit = "milliseconds"}),
@@ -91,17 +90,16 @@ static_assert(kRowsAreComplete<SequenceFrameReport>);
 
 template <>
 inline constexpr auto kRows<SequenceReport> = replyRows(
-    "SequenceReport", "What a sequence took and leaves behind.",
+    "SequenceReport", "Times of a sequence, and what continues it.",
     field("frames", &SequenceReport::frames, {.says = "One entry for each frame that was drawn."}),
     field("milliseconds", &SequenceReport::milliseconds,
           {.says = "Time from the first frame's beginning to the last one's pictures, waiting for the client included.",
            .unit = "milliseconds"}),
-    field("framesPerSecond", &SequenceReport::framesPerSecond,
-          {.says = "As it was asked for.", .unit = "frames per second"}),
+    field("framesPerSecond", &SequenceReport::framesPerSecond, {.says = "As requested.", .unit = "frames per second"}),
     field("carried", &SequenceReport::carried,
           {.says = "What the last frame leaves to a sequence that continues this one."}),
     field("warnings", &SequenceReport::warnings,
-          {.says = "What was drawn differently from what was asked, over all frames, each once; at most 32."}),
+          {.says = "What differs from the request, over all frames, each once; at most 32."}),
     field("renderer", &SequenceReport::renderer, {.says = "The graphics context that drew the frames."}));
 static_assert(kRowsAreComplete<SequenceReport>);
 

@@ -27,7 +27,7 @@ inline constexpr std::array kSpellings<ShadowTechnique>{
     spelling(
         ShadowTechnique::lightMap, "lightMap",
         "rays for every texel of the scene's surfaces, once, and a lookup in each frame: soft where the light has a "
-        "size, for scenes that stand still"),
+        "size, for static scenes"),
 };
 static_assert(spellsAll<ShadowTechnique>());
 
@@ -137,7 +137,7 @@ inline constexpr std::array kSpellings<View>{
     spelling(View::bias, "bias",
              "metres by which a point is moved for `debug.light`: a heat map (0.1 mm to 1 m), or numbers; 0 = no tile"),
     spelling(View::casterIds, "casterIds",
-             "the node that throws the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
+             "the node that casts the shadow of `debug.light`: a color, or its index; grey, or -1, where none does"),
     spelling(View::lightContribution, "lightContribution",
              "the scene lit by `debug.light` alone: no other light, surroundings, emission or background"),
     spelling(View::reference, "reference",

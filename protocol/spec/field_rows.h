@@ -158,7 +158,7 @@ inline constexpr auto kRows<FrameSpec> = rows(
           {.says = "How edges of surfaces are smoothed. Four samples a pixel take two to three times as long to draw "
                    "on a CPU."}),
     field("views", &FrameSpec::views,
-          {.says = "What to show, each view once. A reply of one picture shows the first. Each view adds a pass over "
+          {.says = "The views to draw, each once. A reply of one picture shows the first. Each view adds a pass over "
                    "the picture; `reference`, `error` and `edgeDistance` also trace rays.",
            .minCount = 1,
            .maxCount = kSpellings<View>.size(),

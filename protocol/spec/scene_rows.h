@@ -11,9 +11,9 @@ namespace gnomon {
 
 template <>
 inline constexpr auto kRows<EyeTarget> = rows(
-    "EyeTarget", "Where the eye stands and what it looks at.",
+    "EyeTarget", "Position of the eye, and the point that it looks at.",
     field("eye", &EyeTarget::eye,
-          {.says = "Where the camera stands; 0 0 5 if only `target` or `up` is given.",
+          {.says = "Position of the camera; 0 0 5 if only `target` or `up` is given.",
            .unit = "metres",
            .range = kPositionRange}),
     field("target", &EyeTarget::target,
@@ -28,7 +28,7 @@ static_assert(kRowsAreComplete<EyeTarget>);
 
 template <>
 inline constexpr auto kRows<Orbit> =
-    rows("Orbit", "Where the camera stands on a sphere around a target.",
+    rows("Orbit", "A position on a sphere around a target.",
          field("target", &Orbit::target,
                {.says = "Centre of the sphere, at which the camera looks; absent = the centre of the scene, or without "
                         "`distance` the point that brings what is seen into the middle of the picture.",
@@ -86,7 +86,7 @@ static_assert(kRowsAreComplete<Intrinsics>);
 
 template <>
 inline constexpr auto kRows<CameraPose> =
-    rows("CameraPose", "Where a camera stands and how it is turned, as a matrix.",
+    rows("CameraPose", "Position and rotation of a camera, as a matrix.",
          field("worldFromCamera", &CameraPose::worldFromCamera,
                {.says = "The matrix, row by row, that takes points of the camera's space into the world: a rotation "
                         "without mirroring or scale, a translation, and 0 0 0 1 as the last row.",
@@ -140,7 +140,7 @@ template <>
 inline constexpr auto kRows<Sun> =
     rows("Sun", "A direction given by the sun's place in the sky.",
          field("azimuthDegrees", &Sun::azimuthDegrees,
-               {.says = "Where the sun stands, clockwise from north (-Z) as seen from above; east (+X) is 90.",
+               {.says = "Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90.",
                 .unit = "degrees",
                 .range = kAzimuthRange}),
          field("elevationDegrees", &Sun::elevationDegrees,
@@ -159,7 +159,7 @@ inline constexpr auto kRows<Light> =
          field("sun", &Light::sun,
                {.says = "The sun's place in the sky, instead of `direction`; directional lights only."}),
          field("position", &Light::position,
-               {.says = "Where the light stands; required for spot and point lights, refused for directional ones.",
+               {.says = "Position of the light; required for spot and point lights, refused for directional ones.",
                 .unit = "metres",
                 .range = kPositionRange}),
          field("range", &Light::range,
@@ -180,13 +180,13 @@ inline constexpr auto kRows<Light> =
          field("angularDiameterDegrees", &Light::angularDiameterDegrees,
                {.says = "Angle that the light's disc spans in the sky, 0.53 for the real sun; directional lights only; "
                         "absent = 0. Techniques rayTraced and lightMap, filter pcss and the exact reference "
-                        "draw a soft shadow for it; the others know no size.",
+                        "draw a soft shadow for it; all other techniques ignore it and draw a hard edge.",
                 .unit = "degrees",
                 .range = {0, 90}}),
          field("radius", &Light::radius,
                {.says = "Radius of the glowing ball; spot and point lights; absent = 0. Techniques rayTraced "
-                        "and lightMap, filter pcss and the exact reference draw a soft shadow for it; the others "
-                        "know no size.",
+                        "and lightMap, filter pcss and the exact reference draw a soft shadow for it; all other "
+                        "techniques ignore it and draw a hard edge.",
                 .unit = "metres",
                 .range = {0, 1e6}}),
          field("color", &Light::color,
@@ -229,7 +229,7 @@ inline constexpr auto kRows<NodeOptions> = rows(
           {.says = "Bit mask of its layers, matched with the lights' `cullingMask`; absent = 1, the first layer.",
            .range = {1, double(kAllLayers)}}),
     field("matrix", &NodeOptions::matrix,
-          {.says = "Where it stands in the space of its parent, instead of where the file or an animation puts it: an "
+          {.says = "Its transform in the space of its parent, instead of that of the file or an animation: an "
                    "affine matrix, column by column, as in glTF.",
            .range = kPositionRange}),
     field(

@@ -104,7 +104,7 @@ void appendPoseRules(const CameraPose& pose, const std::string& camera, std::vec
   }
   if (!isRotation(rows)) {
     broken.push_back({invalid(matrix,
-                              "The upper left of a pose is a rotation: axes of length 1 that stand on each "
+                              "The upper left of a pose is a rotation: axes of length 1, perpendicular to each "
                               "other, not mirrored.",
                               "a rotation within 0.001", "no rotation"),
                       {matrix}});

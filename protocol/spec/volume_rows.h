@@ -20,7 +20,7 @@ static_assert(kRowsAreComplete<VolumeBox>);
 
 template <>
 inline constexpr auto kRows<TransferStop> = rows(
-    "TransferStop", "What a value of the grid means to light.",
+    "TransferStop", "Color and extinction of a value of the grid.",
     field("value", &TransferStop::value,
           {.says = "A value of the grid, more than that of the entry before.", .range = kGridValueRange}),
     field("color", &TransferStop::color,
@@ -46,9 +46,10 @@ inline constexpr auto kRows<VolumeOptions> =
         field("grid", &VolumeOptions::grid,
               {.says = "Name of a float grid of a .vdb; absent = the only one.", .minCount = 1, .maxCount = 255}),
         field("node", &VolumeOptions::node,
-              {.says = "A node of the scene that the volume stands at and moves with, by its index or name: `box` or "
-                       "`matrix` is in its space, without both the grid fills the cube from 0 to 1 there. It is seen, "
-                       "casts and receives as the node does, whose layers do not matter.",
+              {.says =
+                   "A node of the scene that the volume is attached to and moves with, by its index or name: `box` or "
+                   "`matrix` is in its space, without both the grid fills the cube from 0 to 1 there. It is seen, "
+                   "casts and receives as the node does, whose layers do not matter.",
                .range = kNodeRange,
                .minCount = 1,
                .maxCount = 1024}),
@@ -64,8 +65,7 @@ inline constexpr auto kRows<VolumeOptions> =
                .maxCount = kLimits.maxTransferStops}),
         field("castShadow", &VolumeOptions::castShadow,
               {.says = "False = it dims the light of no surface and no volume, itself included."}),
-        field("receiveShadow", &VolumeOptions::receiveShadow,
-              {.says = "False = it is lit as if no surface and no volume stood between it and the lights."}))
+        field("receiveShadow", &VolumeOptions::receiveShadow, {.says = "False = no surface and no volume shades it."}))
         .withAlternatives({"box", "matrix"});
 static_assert(kRowsAreComplete<VolumeOptions>);
 
