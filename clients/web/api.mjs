@@ -54,16 +54,16 @@ export async function sceneNodes(sceneId) {
   return json(await call(`v1/scenes/${sceneId}/nodes?limit=10000`, { headers: { Accept: 'application/json' } }));
 }
 
-// Bakes the light maps of a spec; `onStep` is told {light, share, done, of} as it goes. Stops where the signal says so.
+// Bakes the light maps of a spec; `onStep` gets {light, share, done, of} as it proceeds. Stops where the signal says so.
 export const bakeAhead = (sceneId, spec, onStep, signal) =>
   followed(`v1/scenes/${sceneId}/bakes`, spec, { progress: onStep }, signal);
 
-// Measures the variants of a request ({spec, variants | sweep, repeats}); `listeners` are told of events `progress`
+// Measures the variants of a request ({spec, variants | sweep, repeats}); `listeners` get the events `progress`
 // ({done, of, variant}) and `row`. Its EvaluationReport.
 export const evaluate = (sceneId, request, listeners, signal) =>
   followed(`v1/scenes/${sceneId}/evaluations`, request, listeners, signal);
 
-// Work that is told as events, until the one with its result.
+// Work reported by events, until the one with its result.
 async function followed(address, body, listeners, signal) {
   const reply = await post(address, body, 'text/event-stream', signal);
   if (!reply.ok) throw await refusalIn(reply);
@@ -75,12 +75,12 @@ async function followed(address, body, listeners, signal) {
   throw last.problem ? refusalOf(400, null, last.problem) : new Refusal(0, 'The work has ended without a result.', []);
 }
 
-// A sequence as a WebM Blob. Refused where a problem has ended it, which the file tells last.
+// A sequence as a WebM Blob. Refused where a problem has ended it, which the file ends with.
 export async function recordVideo(sceneId, sequence, signal) {
   const file = await blob(await post(`v1/scenes/${sceneId}/sequences`, sequence, 'video/webm', signal));
-  const [, end, told] = /GNOMON_(REPORT|PROBLEM).*?(\{".*)/s.exec(await file.slice(-kTailBytes).text()) ?? [];
+  const [, end, reply] = /GNOMON_(REPORT|PROBLEM).*?(\{".*)/s.exec(await file.slice(-kTailBytes).text()) ?? [];
   if (end === 'REPORT') return file;
-  throw end ? refusalOf(400, null, told) : new Refusal(0, 'The video ended too early.', []);
+  throw end ? refusalOf(400, null, reply) : new Refusal(0, 'The video ended too early.', []);
 }
 const kTailBytes = 4e6; // a report is shorter
 
@@ -89,8 +89,8 @@ export async function bakeFile(sceneId, key, contentType) {
   return blob(await call(`v1/scenes/${sceneId}/bakes/${key}`, { headers: { Accept: contentType } }));
 }
 
-// Uploads a scene: one .glb or .gltf, or a .gltf and the files that it names. `onShare` is told 0..1 as it goes.
-// XMLHttpRequest, because fetch tells nothing about a body that is on its way.
+// Uploads a scene: one .glb or .gltf, or a .gltf and the files that it names. `onShare` gets 0..1 as it proceeds.
+// XMLHttpRequest, because fetch reports no progress of a request body.
 export async function uploadScene(files, onShare) {
   const upload = uploadBody(files);
   const { status, retryAfter, text } = await withKey((key) => sendUpload(upload, key, onShare));

@@ -78,8 +78,8 @@ async function show({ report, images, roundTripMs, asked }, draft) {
   // The scene's own warnings stand beside its name.
   const warnings = report.warnings.filter((text) => !store.state.summary.warnings.includes(text));
   showReport(byId('report'), { ...report, warnings });
-  const told = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
-  byId('report-section').hidden = !told && !report.volumes.length && !warnings.length;
+  const hasReport = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
+  byId('report-section').hidden = !hasReport && !report.volumes.length && !warnings.length;
   shown = asked;
   store.update({ report, cameraShown: asked.spec.camera });
   announce(`The picture is sharp, after ${Math.round(roundTripMs)} milliseconds`);

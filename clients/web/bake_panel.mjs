@@ -21,14 +21,14 @@ export function createBakePanel(store, { specOf, done, problems }) {
   const files = kFiles.map(([name, type, ending, says]) => element('button', { type: 'button', title: says, onclick: () => save(type, ending) }, name));
   const take = element('div', { class: 'pair', hidden: true, role: 'group', 'aria-label': 'Download the light map' }, ...files);
 
-  function tell(words) {
+  function show(words) {
     text.textContent = words;
     text.hidden = !words;
   }
 
   function follow({ done: finished, of, share }) {
     progress.value = (finished + share) / of;
-    tell(`${of > 1 ? `Light ${finished + 1} of ${of}, ` : ''}${Math.round(100 * share)} %`);
+    show(`${of > 1 ? `Light ${finished + 1} of ${of}, ` : ''}${Math.round(100 * share)} %`);
   }
 
   async function bake() {
@@ -40,15 +40,15 @@ export function createBakePanel(store, { specOf, done, problems }) {
     progress.hidden = false;
     progress.value = 0;
     button.textContent = 'Cancel';
-    tell('Beginning');
+    show('Starting');
     try {
       const report = await bakeAhead(id, specOf(), follow, mine.signal);
       baked = { sceneId: id, key: report.key };
-      tell(report.lights.map(({ lightMap }) => told(lightMap)).join(' '));
+      show(report.lights.map(({ lightMap }) => bakedText(lightMap)).join(' '));
       take.hidden = false;
       done();
     } catch (error) {
-      tell(error.name === 'AbortError' ? 'Cancelled' : '');
+      show(error.name === 'AbortError' ? 'Cancelled' : '');
       if (error.name !== 'AbortError') problems.show(error);
     }
     progress.hidden = true;
@@ -70,12 +70,12 @@ export function createBakePanel(store, { specOf, done, problems }) {
     running?.abort();
     baked = null;
     take.hidden = true;
-    tell('');
+    show('');
   });
   return element('div', { class: 'tail bake' }, element('div', { class: 'pair' }, button, progress), text, take);
 }
 
-function told(lightMap) {
+function bakedText(lightMap) {
   const { reused, bakeMilliseconds } = lightMap;
   return `${texelsOf(lightMap)}, baked ${reused ? 'before ' : ''}in ${short(bakeMilliseconds / 1000)} s.`;
 }

@@ -7,12 +7,12 @@ const pixels = (number) => `${short(Number(number.toFixed(2)))} px`;
 
 export function predictedNumbers(predicted) {
   if (!predicted) return [];
-  return [['Texel', `${pixels(predicted.median)}, at most ${pixels(predicted.max)}`, 'How large a texel of the shadow map looks: median and worst; told from the plan']];
+  return [['Texel', `${pixels(predicted.median)}, at most ${pixels(predicted.max)}`, 'How large a texel of the shadow map looks: median and worst; estimated from the plan']];
 }
 
 export function measuredNumbers(error) {
   if (!error) return [];
-  const rows = [['Wrong', percent(error.misclassified), 'Share of the receivers that are in shadow and should be lit, or the reverse; told by rays']];
+  const rows = [['Wrong', percent(error.misclassified), 'Share of the receivers that the frame and ray tracing classify differently']];
   if (error.misclassified > 0) {
     rows.push(
       ['Acne', percent(error.acne), 'A surface that shadows itself'],

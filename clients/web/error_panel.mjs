@@ -32,7 +32,7 @@ export function createErrorPanel(store, { specOf, problems, announce }) {
   function show({ report, spec, summary }) {
     const error = report?.error ?? (measured?.of === spec ? measured.error : null);
     const known = [...predictedNumbers(report?.predictedError), ...measuredNumbers(error)];
-    const rows = known.length ? known : [['Error', 'not measured yet', 'No shadow map is in view whose texels would tell it beforehand']];
+    const rows = known.length ? known : [['Error', 'not measured yet', 'Estimated only for shadow maps in view']];
     list.replaceChildren(...rows.flatMap(([name, value, says]) => [element('dt', { title: says }, name), element('dd', {}, value)]));
     node.hidden = !summary || !report;
     node.classList.toggle('bad', (error?.misclassified ?? 0) > 0.02);

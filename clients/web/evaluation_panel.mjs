@@ -56,10 +56,10 @@ export function createEvaluationPanel(store, { specOf, problems, announce }) {
 
   function point({ row, x, y }) {
     const text = `${row.name}: ${row.milliseconds === undefined ? 'not timed yet' : `${short(row.milliseconds)} ms`}, ${percent(row.metrics.misclassified)} wrong`;
-    const tell = () => (says.textContent = text);
+    const show = () => (says.textContent = text);
     const node = svgElement(
       'circle',
-      { cx: kBox.left + (x ?? 0) * kBox.width, cy: kBox.top + (1 - y) * kBox.height, r: row.pareto ? 5.5 : 4.5, class: `point${row.pareto ? ' best' : ''}${x === null ? ' untimed' : ''}`, tabindex: 0, role: 'button', 'aria-label': text, onclick: () => take(row), onpointerenter: tell, onfocus: tell },
+      { cx: kBox.left + (x ?? 0) * kBox.width, cy: kBox.top + (1 - y) * kBox.height, r: row.pareto ? 5.5 : 4.5, class: `point${row.pareto ? ' best' : ''}${x === null ? ' untimed' : ''}`, tabindex: 0, role: 'button', 'aria-label': text, onclick: () => take(row), onpointerenter: show, onfocus: show },
       svgElement('title', {}, text),
     );
     node.addEventListener('keydown', (event) => {

@@ -63,7 +63,7 @@ int runBake(const BakeOptions& options) {
 Subcommand addBakeCommand(CLI::App& app) {
   auto options = std::make_shared<BakeOptions>();
   auto* command =
-      app.add_subcommand("bake", "Bake the shadows of what stands still into a file, in this process or on a server");
+      app.add_subcommand("bake", "Bake the shadows of a static scene into a file, in this process or on a server");
   command->add_option("scene", options->scene, "A .glb or .gltf file")->required();
   addSceneFileFlags(*command, options->reading);
   command

@@ -85,7 +85,7 @@ Subcommand addCapabilitiesCommand(CLI::App& app) {
                          "Print what can draw here or on a server, with every limit, as JSON; here also each device, "
                          "format and view");
   addServerFlags(*command, *where);
-  command->get_option("--server")->description("Ask this server instead of this process")->envname("");
+  command->get_option("--server")->description("Capabilities of this server instead of this process")->envname("");
   return {[command] { return command->parsed(); }, [where] { return runCapabilities(*where); }};
 }
 

@@ -49,8 +49,8 @@ void addMannerFlags(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--problems",
-          [](const std::string& form) { tellProblemsAs(form == "json" ? ProblemForm::json : ProblemForm::lines); },
-          "How problems are told on standard error: for people, or as one line of JSON")
+          [](const std::string& form) { setProblemForm(form == "json" ? ProblemForm::json : ProblemForm::lines); },
+          "Form of problems on standard error: text, or one line of JSON")
       ->check(CLI::IsMember({"lines", "json"}))
       ->type_name("")
       ->default_str("lines")

@@ -68,8 +68,8 @@ int runCompare(const CompareOptions& options) {
   if (!second) return printProblems(second.problems());
   const bool isShare = std::holds_alternative<std::vector<std::uint8_t>>(first->front().image.pixels);
   if (isShare && options.threshold > 1) {
-    printProblems({{ProblemCode::invalidValue, "--threshold", "Of 8 bits a channel it is a share of their range.",
-                    "0..1", std::to_string(options.threshold)}});
+    printProblems({{ProblemCode::invalidValue, "--threshold", "With 8 bits a channel, a share of their range.", "0..1",
+                    std::to_string(options.threshold)}});
     return kExitUsage;
   }
   const auto isWithin = compareLayers(options, *first, *second);
@@ -82,7 +82,7 @@ int runCompare(const CompareOptions& options) {
 Subcommand addCompareCommand(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
   auto* command = app.add_subcommand("compare",
-                                     "Tell how far two pictures are apart: exit code 0 within the threshold, "
+                                     "Report the difference of two pictures: exit code 0 within the threshold, "
                                      "else 1");
   command->add_option("first", options->first, "A PNG, JPEG, WebP or EXR file")->required();
   command->add_option("second", options->second, "Another of the same size, with the same layers")->required();

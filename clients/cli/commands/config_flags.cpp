@@ -159,7 +159,7 @@ std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::strin
   CLI::App& command = *app.get_subcommand(typed->get_name());
   const auto places = setFlags(command, *typed, config->file, *layers);
   if (!places) return refused(places.problems());
-  tellPlacesOf(*places);
+  setFlagOrigins(*places);
   if (!order.show) return std::nullopt;
   for (CLI::Option* option : command.get_options()) option->required(false);
   command.parse_complete_callback(nullptr); // asks for what is missing, too

@@ -32,9 +32,9 @@ struct RenderOptions {
   WhereOptions where;
 };
 
-/// Writes the report, and says which files there are where one name does not tell.
-Status tell(const BatchItem& item, const std::string& reportJson, const std::vector<std::string>& names,
-            ProgressLine& progress) {
+/// Writes the report, and prints the names of the pictures if there are several.
+Status writeReport(const BatchItem& item, const std::string& reportJson, const std::vector<std::string>& names,
+                   ProgressLine& progress) {
   if (!item.report.empty()) {
     if (auto done = writeFile(item.report, asBytes(reportJson)); !done) return done;
   }
@@ -49,7 +49,7 @@ Status writeAll(const BatchItem& item, const Rendered& rendered, ProgressLine& p
   progress.stage("writing");
   const auto names = writePictures(rendered.pictures, item.output);
   if (!names) return names.problems();
-  return tell(item, rendered.reportJson, *names, progress);
+  return writeReport(item, rendered.reportJson, *names, progress);
 }
 
 /// The same, and the frame with exact shadows beside it, and how wrong the frame's own are.
@@ -66,12 +66,12 @@ Status writeWithReference(const BatchItem& item, const Rendered& rendered, Frame
   const auto report = maker.measure(errorRequest(*spec), progress);
   const auto metrics = report ? metricsOf(*report) : Result<ErrorMetrics>(report.problems());
   if (!metrics) return about("error", metrics.problems());
-  if (auto told = tell(item, withMetrics(rendered.reportJson, *report), *names, progress); !told) return told;
+  if (auto done = writeReport(item, withMetrics(rendered.reportJson, *report), *names, progress); !done) return done;
   if (item.report != "-") std::cout << errorText(*metrics) << '\n';
   return Done{};
 }
 
-/// What is told before the problems and warnings of one of several pictures.
+/// Prefix of the problems and warnings of one of several pictures.
 std::string nameOf(const BatchItem& item) {
   return item.scene + (item.camera ? ", camera " + *item.camera : "");
 }
@@ -210,8 +210,8 @@ Subcommand addRenderCommand(CLI::App& app) {
               "-o,--output", options->output,
               "The picture; its name's suffix is its format: " + suffixList() +
                   ". - is standard output. Of several views, each file name gets the view's name, frame.depth.png, but "
-                  "for EXR and NPZ, which hold every view. {scene}, {camera} and {view} stand for those names, "
-                  "{folder} for that of the folder that the scene lies in")
+                  "for EXR and NPZ, which hold every view. {scene}, {camera} and {view} are replaced by those "
+                  "names, {folder} by that of the scene's folder")
           ->required()
           ->check(checkOutput);
   command
@@ -223,13 +223,13 @@ Subcommand addRenderCommand(CLI::App& app) {
               throw CLI::ValidationError("--format", "the output's name says " + *suffix);
             options->arguments.format = format;
           },
-          "The picture's format, where its name tells none: on standard output")
+          "The picture's format, where its name has no suffix: on standard output")
       ->type_name("NAME");
   addSpecFlag(*command, options->spec);
   command->add_option("--report", options->report, "Write the frame's report as JSON; - is standard output");
   auto* reference = command->add_flag(
       "--reference", options->reference,
-      "Draw the same with exact shadows, too, as frame.reference.png, and tell how wrong the frame's are: on standard "
+      "Also draw the frame with exact shadows, as frame.reference.png, and report the frame's error: on standard "
       "output, and as `reference` in the report");
   command->parse_complete_callback([output, reference] {
     if (reference->count() > 0 && output->as<std::string>() == "-") {

@@ -36,7 +36,7 @@ int runHealth(const HealthOptions& options) {
 
 Subcommand addHealthCommand(CLI::App& app) {
   auto options = std::make_shared<HealthOptions>();
-  auto* command = app.add_subcommand("health", "Ask a server whether it is ready: exit code 0 if it is, else 1");
+  auto* command = app.add_subcommand("health", "Check whether a server is ready: exit code 0 if it is, else 1");
   command->add_option("--server,--url", options->url, "The server's address")
       ->type_name("URL")
       ->envname("GNOMON_URL")
@@ -45,8 +45,7 @@ Subcommand addHealthCommand(CLI::App& app) {
   command->add_option("--timeout", options->timeoutSeconds, "Seconds to wait for an answer")
       ->check(CLI::Range(1, 600))
       ->capture_default_str();
-  command->add_flag("--live", options->live,
-                    "Ask whether it lives, not whether it takes work: what a container should be restarted for");
+  command->add_flag("--live", options->live, "Check liveness instead of readiness: what a container is restarted for");
   return {[command] { return command->parsed(); }, [options] { return runHealth(*options); }};
 }
 

@@ -284,15 +284,14 @@ int runTurntable(SequenceOptions options) {
 
 void addFrameOutput(CLI::App& command, SequenceOptions& options) {
   command
-      .add_option(
-          "-o,--output", options.output,
-          "The pictures, in a folder that is made if need be; {frame} stands for the number of each, {scene} for the "
-          "scene's name, {view} for the view's. The suffix is the format: " +
-              suffixList() + "; .webm = one video of the first view")
+      .add_option("-o,--output", options.output,
+                  "The pictures, in a folder that is made if need be; {frame} is replaced by the number of each, "
+                  "{scene} by the "
+                  "scene's name, {view} for the view's. The suffix is the format: " +
+                      suffixList() + "; .webm = one video of the first view")
       ->required()
       ->check(checkFrameName);
-  command
-      .add_option("--frames-per-second", options.framesPerSecond, "How fast the frames of a video follow each other")
+  command.add_option("--frames-per-second", options.framesPerSecond, "Frame rate of a video")
       ->check(CLI::Range(1.0, 240.0));
   command
       .add_option("--video-quality", options.videoQuality, "Of a video: 1 = smallest file, 100 = closest to the frames")
@@ -317,7 +316,7 @@ Subcommand addSequenceCommand(CLI::App& app) {
   command->get_option("--output")->required(false);
   command
       ->add_flag("--async", options->isAsync,
-                 "Leave the frames to a job of the server, and print its id, for gnomon jobs")
+                 "Draw the frames as a job of the server, and print its id, for gnomon jobs")
       ->needs("--server")
       ->excludes("--output")
       ->excludes("--report");
@@ -333,7 +332,7 @@ Subcommand addTurntableCommand(CLI::App& app) {
   auto* command = app.add_subcommand("turntable", "Render a scene from all around");
   command->add_option("scene", options->scene, "A .glb or .gltf file; - is standard input")->required();
   addSceneFileFlags(*command, options->reading);
-  command->add_option("--frames", options->frames, "How many pictures one turn has")
+  command->add_option("--frames", options->frames, "Number of pictures in one turn")
       ->check(CLI::Range(2, static_cast<int>(kLimits.maxSequenceFrames)))
       ->capture_default_str();
   addSpecFlag(*command, options->spec);

@@ -166,8 +166,8 @@ void addServerFlags(CLI::App& command, WhereOptions& where) {
   server->type_name("URL")->group("Server");
   command
       .add_option("--key-file", where.keyFile,
-                  "File whose first line is the key that the server asks for; - = standard input. Without it the "
-                  "environment's GNOMON_KEY is taken")
+                  "File whose first line is the server's API key; - = standard input. Without it the "
+                  "environment's GNOMON_KEY is used")
       ->type_name("FILE")
       ->needs(server)
       ->group("Server");
@@ -181,7 +181,7 @@ void addServerFlags(CLI::App& command, WhereOptions& where) {
               where.headers.push_back(*std::move(header));
             }
           },
-          "A header of every call, for what stands before the server. Repeatable")
+          "A header of every call, for a proxy before the server. Repeatable")
       ->type_name("'NAME: VALUE'")
       ->take_all()
       ->needs(server)

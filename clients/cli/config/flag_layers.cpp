@@ -68,9 +68,8 @@ class Choice {
       if (option == nullptr || !isConfigurable(*option) || isOutranked(*option, layer)) continue;
       const std::string place = file_ + ":" + std::to_string(entry.line);
       if (isAnyOf(option->get_excludes(), ours)) {
-        problems_.push_back({ProblemCode::invalidValue, place,
-                             entry.key + " can't stand beside another flag of the same section, which excludes it.", "",
-                             ""});
+        problems_.push_back(
+            {ProblemCode::invalidValue, place, entry.key + " excludes another flag of the same section.", "", ""});
         continue;
       }
       decided_.insert(option);

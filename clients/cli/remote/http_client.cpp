@@ -81,15 +81,15 @@ httplib::Result send(httplib::Client& client, const std::string& path, const Htt
 std::string reasonOf(httplib::Error error) {
   switch (error) {
     case httplib::Error::Connection:
-      return "nobody answers at this address";
+      return "no answer from this address";
     case httplib::Error::ConnectionTimeout:
-      return "nobody answered in time";
+      return "no answer in time";
     case httplib::Error::Read:
       return "the connection ended before the reply did, or the reply took too long";
     case httplib::Error::Write:
       return "the connection ended before the request was sent";
     case httplib::Error::SSLConnection:
-      return "TLS could not be agreed on";
+      return "the TLS handshake failed";
     case httplib::Error::SSLLoadingCerts:
       return "the file of trusted certificates holds none";
     case httplib::Error::SSLServerVerification:

@@ -65,7 +65,7 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
   for (const std::string& other : splitTrimmed(hasCamera ? flag.replaces : "", ' ')) camera->erase(other);
   Json* parent = parentOf(spec, steps);
   if (parent == nullptr) {
-    return Problem{ProblemCode::invalidValue, pointerOf(path), "There is no such place in the spec.", "", ""};
+    return Problem{ProblemCode::invalidValue, pointerOf(path), "Unknown field.", "", ""};
   }
   if (flag.value == FlagValue::nameOrIndex) parent->erase(value->is_number() ? "name" : "index");
   if (flag.value == FlagValue::color) {

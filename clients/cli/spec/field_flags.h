@@ -32,7 +32,7 @@ inline constexpr const char* kOtherPlacements = "orbit node fit pose";
 inline constexpr const char* kOtherLenses = "intrinsics orthographic";
 
 inline constexpr std::array kFieldFlags{
-    FieldFlag{"--eye", "camera.eye", FlagValue::threeNumbers, "X,Y,Z", kOtherPlacements, "Where the camera stands"},
+    FieldFlag{"--eye", "camera.eye", FlagValue::threeNumbers, "X,Y,Z", kOtherPlacements, "Position of the camera"},
     FieldFlag{"--target", "camera.target", FlagValue::threeNumbers, "X,Y,Z", kOtherPlacements,
               "The point that the camera looks at"},
     FieldFlag{"--up", "camera.up", FlagValue::threeNumbers, "X,Y,Z", kOtherPlacements,

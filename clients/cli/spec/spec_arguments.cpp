@@ -56,8 +56,7 @@ Status setAtPath(Json& root, std::string_view path, Json value) {
     taken.push_back(step);
     place = stepInto(*place, step);
     if (!place) {
-      return Problem{ProblemCode::invalidValue, gnomon::pointerOf(taken), "There is no such place in the spec.", "",
-                     ""};
+      return Problem{ProblemCode::invalidValue, gnomon::pointerOf(taken), "Unknown field.", "", ""};
     }
   }
   *place = std::move(value);

@@ -62,7 +62,7 @@ std::string manPage(std::span<const CommandRow> commands, const std::string& ver
   return text +
          ".SH EXIT STATUS\n"
          ".TP\n0\nDone.\n"
-         ".TP\n1\nA problem, told on standard error; of compare, pictures that differ.\n"
+         ".TP\n1\nA problem, printed on standard error; of compare, pictures that differ.\n"
          ".TP\n2\nThe command line is wrong.\n"
          ".SH ENVIRONMENT\n"
          ".TP\n.B GNOMON_KEY\nThe key that a server is shown where no \\-\\-key\\-file is given.\n"

@@ -71,7 +71,7 @@ Problems ofScene(const std::string& file, Problems problems) {
   return problems;
 }
 
-void tellProblemsAs(ProblemForm form) {
+void setProblemForm(ProblemForm form) {
   manners().problems = form;
 }
 
@@ -79,7 +79,7 @@ void showNoProgress() {
   manners().quiet = true;
 }
 
-void tellPlacesOf(std::map<std::string, std::string> flags) {
+void setFlagOrigins(std::map<std::string, std::string> flags) {
   manners().places = std::move(flags);
 }
 

@@ -25,17 +25,17 @@ Problems about(const std::string& what, Problems problems);
 /// The problems of loading a scene, where those that have no place in it get its file as their place.
 Problems ofScene(const std::string& file, Problems problems);
 
-/// How problems are told.
+/// Form of problems on standard error.
 enum class ProblemForm { lines, json };
 
-/// How this process talks. To be set before any command runs.
-void tellProblemsAs(ProblemForm form);
+/// Settings of all messages, set before any command runs.
+void setProblemForm(ProblemForm form);
 void showNoProgress();
-/// Where the values of flags stand that nobody has typed: a problem with one names its place, too.
-void tellPlacesOf(std::map<std::string, std::string> flags);
+/// Origins of the flags that were not typed; a problem of such a flag names its origin.
+void setFlagOrigins(std::map<std::string, std::string> flags);
 
-/// As an RFC 9457 body of one line, each problem with the flag that set its pointer, and where that flag
-/// stands if nobody has typed it.
+/// As an RFC 9457 body of one line, each problem with the flag that set its pointer, and that
+/// flag's origin if it was not typed.
 std::string problemsAsJson(const Problems& problems, const FlagOrigins& origins = {});
 
 /// Every problem on its line on stderr, each after "gnomon: "; or all as JSON on one line. Gives kExitProblem.
