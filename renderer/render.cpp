@@ -78,19 +78,19 @@ Result<Shimmer> Renderer::shimmer(const ScenePtr& scene, const FrameSpec& spec, 
                                   const Progress& progress) {
   const auto device = impl_->devices.of(spec);
   if (!device) return device.problems();
-  std::mutex telling;
+  std::mutex reporting;
   double done = 0;
-  const Progress told = [&](double share) {
-    const std::lock_guard lock(telling);
+  const Progress report = [&](double share) {
+    const std::lock_guard lock(reporting);
     done = share;
     return !progress || progress(share);
   };
   const GoOn goOn = progress ? GoOn([&] {
-    const std::lock_guard lock(telling);
+    const std::lock_guard lock(reporting);
     return progress(done);
   })
                              : GoOn();
-  return untilStopped(goOn, [&] { return measureShimmer(**device, impl_->caches->traced, scene, spec, path, told); });
+  return untilStopped(goOn, [&] { return measureShimmer(**device, impl_->caches->traced, scene, spec, path, report); });
 }
 
 EvaluationTools evaluationTools(Renderer& renderer, const ScenePtr& scene) {

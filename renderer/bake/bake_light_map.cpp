@@ -59,7 +59,7 @@ class Listener {
     if (!progress_) return;
     const std::lock_guard lock(mutex_);
     done_ += texels;
-    tell();
+    report();
   }
 
   /// False = stop. Cheap: asks no more often than every few milliseconds.
@@ -67,21 +67,21 @@ class Listener {
     constexpr std::chrono::milliseconds kPause{10};
     if (!progress_ || stopped_) return !stopped_;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock && std::chrono::steady_clock::now() - told_ >= kPause) tell();
+    if (lock && std::chrono::steady_clock::now() - reported_ >= kPause) report();
     return !stopped_;
   }
 
  private:
   /// With the mutex held.
-  void tell() {
-    told_ = std::chrono::steady_clock::now();
+  void report() {
+    reported_ = std::chrono::steady_clock::now();
     if (!stopped_ && !progress_(static_cast<double>(done_) / static_cast<double>(texels_))) stopped_ = true;
   }
 
   const Progress& progress_;
   std::size_t texels_;
   std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point told_{};
+  std::chrono::steady_clock::time_point reported_{};
   std::mutex mutex_;
   std::atomic<bool> stopped_ = false;
 };

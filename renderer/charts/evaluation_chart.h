@@ -8,7 +8,7 @@ namespace gnomon {
 
 /// What the rows' `milliseconds` are, where a chart shows them as something else.
 struct ChartTime {
-  std::string axis = "milliseconds, whole warm frame, tiles drawn anew";
+  std::string axis = "milliseconds, whole warm frame, tiles drawn again";
   std::string unit = " ms"; ///< written behind each number
 };
 

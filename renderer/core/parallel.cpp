@@ -76,7 +76,7 @@ void onAllCores(const std::function<void()>& task) {
   // A thread that waits for its own pieces takes none of another task's, which may be long and can't be stopped by it.
   arena.execute([&] {
     tbb::this_task_arena::isolate([&] {
-      const Listening listening(stop);
+      const CancellationScope scope(stop);
       task();
     });
   });
@@ -93,7 +93,7 @@ void forEachPiece(std::size_t count, std::size_t size, const std::function<void(
   Stop* const stop = Stop::current();
   onAllCores([&] {
     tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
-      const Listening listening(stop);
+      const CancellationScope scope(stop);
       stopIfAsked();
       each(piece * size, std::min(count, (piece + 1) * size));
     });

@@ -3,7 +3,7 @@
 namespace gnomon {
 namespace {
 
-thread_local Stop* listenedTo = nullptr;
+thread_local Stop* currentStop = nullptr;
 
 } // namespace
 
@@ -19,17 +19,17 @@ bool Stop::asked() {
 }
 
 Stop* Stop::current() {
-  return listenedTo;
+  return currentStop;
 }
 
-Listening::Listening(Stop* stop) : before_(std::exchange(listenedTo, stop)) {}
+CancellationScope::CancellationScope(Stop* stop) : before_(std::exchange(currentStop, stop)) {}
 
-Listening::~Listening() {
-  listenedTo = before_;
+CancellationScope::~CancellationScope() {
+  currentStop = before_;
 }
 
 void stopIfAsked() {
-  if (listenedTo != nullptr && listenedTo->asked()) throw Stopped{};
+  if (currentStop != nullptr && currentStop->asked()) throw Stopped{};
 }
 
 std::unique_lock<std::timed_mutex> lockUnlessStopped(std::timed_mutex& mutex) {
@@ -40,7 +40,7 @@ std::unique_lock<std::timed_mutex> lockUnlessStopped(std::timed_mutex& mutex) {
 }
 
 Problem stoppedProblem() {
-  return {ProblemCode::unavailable, "", "This was stopped before it was done: nobody waits for it any more."};
+  return {ProblemCode::unavailable, "", "Cancelled: the client no longer waits for it."};
 }
 
 } // namespace gnomon

@@ -11,25 +11,25 @@
 
 namespace gnomon {
 
-/// Asked while a long task runs; false ends it. By one thread at a time, but not always by the same one. Empty = nobody
-/// listens.
+/// Called while a long task runs; false cancels it. By one thread at a time, not always the same one. Empty = never
+/// cancelled.
 using GoOn = std::function<bool()>;
 
-/// Thrown out of a task that is to end, so that nothing half made is kept; `untilStopped` catches it. No
-/// std::exception: what catches those lets it pass.
+/// Thrown by a cancelled task, so that no partial result is kept; `untilStopped` catches it. Not a std::exception, so
+/// that handlers of those let it pass.
 struct Stopped {};
 
-/// Whether somebody still wants what a task makes. Any thread.
+/// Cancellation state of a task. Any thread.
 class Stop {
  public:
   explicit Stop(const GoOn& goOn) : goOn_(goOn) {}
   Stop(const Stop&) = delete;
   Stop& operator=(const Stop&) = delete;
 
-  /// Cheap enough for every tile: reads a clock, and asks only every few milliseconds. Once true, always true.
+  /// Cheap enough for every tile: reads a clock, and calls GoOn only every few milliseconds. Once true, always true.
   bool asked();
 
-  /// What this thread's task listens to; nullptr = nothing.
+  /// That of this thread's task; nullptr = it can't be cancelled.
   static Stop* current();
 
  private:
@@ -37,39 +37,39 @@ class Stop {
 
   const GoOn& goOn_;
   std::mutex asking_;
-  std::atomic<Clock::rep> next_{0}; ///< when to ask again
+  std::atomic<Clock::rep> next_{0}; ///< time of the next call of GoOn
   std::atomic<bool> stopped_{false};
 };
 
-/// While this lives, the thread's task listens to `stop`; nullptr = to nothing.
-class Listening {
+/// Scope in which `stop` is the state of this thread's task; nullptr = none.
+class CancellationScope {
  public:
-  explicit Listening(Stop* stop);
-  ~Listening();
-  Listening(const Listening&) = delete;
-  Listening& operator=(const Listening&) = delete;
+  explicit CancellationScope(Stop* stop);
+  ~CancellationScope();
+  CancellationScope(const CancellationScope&) = delete;
+  CancellationScope& operator=(const CancellationScope&) = delete;
 
  private:
   Stop* before_;
 };
 
-/// Throws Stopped where the thread's task is to end. The loops of parallel.h do this before each of their pieces, which
-/// listen to what the thread that started them listens to; long work between them does it itself.
+/// Throws Stopped if this thread's task is cancelled. The loops of parallel.h call it before each piece, in the scope
+/// of the thread that started them; long work between them calls it itself.
 void stopIfAsked();
 
-/// Locks, and meanwhile listens: another task may hold the mutex for long.
+/// Locks, and throws Stopped if cancelled meanwhile: another task may hold the mutex for long.
 std::unique_lock<std::timed_mutex> lockUnlessStopped(std::timed_mutex& mutex);
 
-/// The problem of what was stopped: of code unavailable.
+/// The problem of a cancelled task, of code unavailable.
 Problem stoppedProblem();
 
-/// What `task` returns, a Result or a Status, or `stoppedProblem` as soon as `goOn` says false. Where `goOn` is empty
-/// the task listens to what this thread listens to already.
+/// What `task` returns, a Result or a Status, or `stoppedProblem` as soon as `goOn` returns false. With an empty `goOn`
+/// the task keeps this thread's state.
 template <class Task>
 auto untilStopped(const GoOn& goOn, Task&& task) -> decltype(task()) {
   std::optional<Stop> own;
   if (goOn) own.emplace(goOn);
-  const Listening listening(own ? &*own : Stop::current());
+  const CancellationScope scope(own ? &*own : Stop::current());
   try {
     return std::forward<Task>(task)();
   } catch (const Stopped&) {

@@ -25,7 +25,7 @@ void setProblems(EvaluationRow& row, const Problems& problems) {
   }
 }
 
-void tell(const EvaluationListener& listener, std::size_t index, const EvaluationRow& row) {
+void reportRow(const EvaluationListener& listener, std::size_t index, const EvaluationRow& row) {
   if (listener.row) listener.row(index, row);
 }
 
@@ -64,7 +64,7 @@ class Run {
     const auto groups = shareReferences(subjects_);
     EvaluationSteps steps(listener_, stepCount(subjects_, evaluation_) + static_cast<int>(groups.size()));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (rows_[i].problems) tell(listener_, i, rows_[i]);
+      if (rows_[i].problems) reportRow(listener_, i, rows_[i]);
     }
     for (const auto& group : groups) {
       if (const Status done = measureGroup(group, steps); !done) return done.problems();
@@ -90,7 +90,7 @@ class Run {
         setProblems(row, metrics.problems());
         steps.finish(laterSteps(evaluation_));
       }
-      tell(listener_, subject.index, row);
+      reportRow(listener_, subject.index, row);
     }
     return Done{};
   }

@@ -50,11 +50,10 @@ Status checkBaked(const ScenePtr& loaded, const ScenePtr& posed, const FrameSpec
   if (node < 0) return Done{};
   ProblemList problems;
   for (const int light : lights) {
-    collect(
-        {{ProblemCode::unsupportedFeature, shadowPlace(asked, light) + "/technique",
-          "A light map holds the shadow of what stands still, but this pose moves node " + nameOf(*loaded, node) + ".",
-          "another technique, or no animation", "lightMap"}},
-        problems);
+    collect({{ProblemCode::unsupportedFeature, shadowPlace(asked, light) + "/technique",
+              "A light map holds shadows of static nodes, but this pose moves node " + nameOf(*loaded, node) + ".",
+              "another technique, or no animation", "lightMap"}},
+            problems);
   }
   return std::move(problems).take();
 }

@@ -25,13 +25,13 @@ std::optional<std::string> warningOfNoTexel(const PlannedLight& planned) {
     case NoTexels::none:
       return std::nullopt;
     case NoTexels::atlasFull:
-      return lightName(planned.light) + " throws no shadow: the atlas has no room for its tiles of " +
+      return lightName(planned.light) + " casts no shadow: the atlas has no room for its tiles of " +
              std::to_string(planned.askedTileSize) +
              " texels. Raise atlas.size, lower shadow.size or "
              "shadow.importance of other lights, or take shadow.technique rayTraced, which needs no atlas.";
     case NoTexels::outOfRange:
       return lightName(planned.light) +
-             " throws no shadow: nothing in view lies within its shadow.depthRange. "
+             " casts no shadow: nothing in view lies within its shadow.depthRange. "
              "Widen shadow.depthRange.min to max, or set its mode to automatic.";
   }
   return std::nullopt;

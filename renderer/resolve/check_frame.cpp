@@ -57,7 +57,7 @@ Status checkAtlas(const ShadowPlan& plan, int samples) {
 
 namespace {
 
-std::string told(const std::string& name, int index) {
+std::string quotedName(const std::string& name, int index) {
   return name.empty() ? std::to_string(index) : "\"" + name + "\"";
 }
 
@@ -87,9 +87,9 @@ Status checkTechniques(const FrameSpec& asked, const Scene& scene, const Resolve
     const int material = materialOf(scene, *instance);
     problems.add({ProblemCode::unsupportedFeature, pointer,
                   "Technique " + std::string(spell(settled.shadow->technique)) + " does not support alpha: node " +
-                      told(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
+                      quotedName(scene.nodes[static_cast<std::size_t>(instance->node)].name, instance->node) +
                       " casts, and its material " +
-                      told(scene.materials[static_cast<std::size_t>(material)].name, material) +
+                      quotedName(scene.materials[static_cast<std::size_t>(material)].name, material) +
                       " is masked, blended or lets light through.",
                   "opaque casters: turn the node's castShadow off, or choose another technique",
                   std::string(spell(settled.shadow->technique))});

@@ -92,7 +92,7 @@ DepthInterval moved(const CameraView& view, const DepthInterval& previous, const
 
 std::string movedNote(const DepthInterval& previous, const DepthInterval& surfaces, bool outside) {
   std::ostringstream text;
-  text << "the depth range was planned anew: the previous one, " << previous.near << ".." << previous.far << " m, "
+  text << "the depth range was planned again: the previous one, " << previous.near << ".." << previous.far << " m, "
        << (outside ? "does not cover" : "is far longer than") << " this frame's " << surfaces.near << ".."
        << surfaces.far << " m";
   return text.str();

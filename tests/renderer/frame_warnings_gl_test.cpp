@@ -143,7 +143,7 @@ TEST(FrameWarnings, RaysHaveNoTexelsThatAreCoarse) {
 TEST(FrameWarnings, ADepthRangeThatHoldsNothingInView) {
   const Json range = {{"depthRange", {{"mode", "manual"}, {"min", 500}, {"max", 600}}}};
   EXPECT_THAT(warningsOf(wallOnGround(), specFrom(kFront, {{"shadow", range}})),
-              Contains(AllOf(HasSubstr("Light 0 throws no shadow"), HasSubstr("shadow.depthRange"))));
+              Contains(AllOf(HasSubstr("Light 0 casts no shadow"), HasSubstr("shadow.depthRange"))));
 }
 
 TEST(FrameWarnings, AnAtlasWithoutRoomForALight) {
@@ -153,7 +153,7 @@ TEST(FrameWarnings, AnAtlasWithoutRoomForALight) {
   }
   const Json full = {{"lights", lights}, {"atlas", {{"size", 128}, {"baseSize", 128}}}};
   EXPECT_THAT(warningsOf(wallOnGround(), specFrom(kFront, full)),
-              Contains(AllOf(HasSubstr("throws no shadow: the atlas has no room"), HasSubstr("atlas.size"))));
+              Contains(AllOf(HasSubstr("casts no shadow: the atlas has no room"), HasSubstr("atlas.size"))));
 }
 
 TEST(FrameWarnings, ALightMapThatIsCoarserThan8Pixels) {

@@ -42,7 +42,7 @@ std::future<void> Textures::makeAhead(std::span<const ReadTexture> wanted) const
   if (lacking.empty()) return {};
   try {
     return std::async(std::launch::async, [this, lacking = std::move(lacking), stop = Stop::current()] {
-      const Listening listening(stop);
+      const CancellationScope scope(stop);
       (void)untilStopped({}, [&] { return makeAll(*this, lacking); }); // need() tells what is broken
     });
   } catch (const std::system_error&) { // no thread to be had: need() does it all

@@ -49,7 +49,7 @@ std::vector<openvdb::FloatGrid::Ptr> floatGrids(const openvdb::GridPtrVec& grids
   return floats;
 }
 
-bool tellNames(const std::vector<openvdb::FloatGrid::Ptr>& grids) {
+bool writeNames(const std::vector<openvdb::FloatGrid::Ptr>& grids) {
   std::string text;
   for (const auto& grid : grids) text += (text.empty() ? "" : ", ") + grid->getName();
   text.resize(std::min<std::size_t>(text.size(), vdb::kMaxNameBytes));
@@ -57,7 +57,7 @@ bool tellNames(const std::vector<openvdb::FloatGrid::Ptr>& grids) {
   return writeAll(&reply, sizeof(reply)) && writeAll(text.data(), text.size());
 }
 
-bool tellGrid(const openvdb::FloatGrid& grid) {
+bool writeGrid(const openvdb::FloatGrid& grid) {
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   vdb::Reply reply{box.empty() ? vdb::empty : vdb::grid, 0, {}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -80,7 +80,7 @@ bool readVdb(const std::string& name) {
   std::vector<openvdb::FloatGrid::Ptr> named;
   std::copy_if(all.begin(), all.end(), std::back_inserter(named),
                [&](const auto& grid) { return name.empty() || grid->getName() == name; });
-  return named.size() == 1 ? tellGrid(*named.front()) : tellNames(all);
+  return named.size() == 1 ? writeGrid(*named.front()) : writeNames(all);
 }
 
 } // namespace

@@ -52,7 +52,7 @@ TEST(DepthRangeSequence, X20_AFrameThatLeavesTheGuardedRangeIsPlannedAnewAndSays
   const PlannedRange next = *depthRangeOf(viewFrom(0.1), surfacesBetween(3.5, 47), after({5, 40}, 2.0));
   EXPECT_DOUBLE_EQ(next.base.near, 5) << "3.5 lies within the guard";
   EXPECT_NEAR(next.base.far, 40 * 1.1 * 1.1, 1e-9);
-  EXPECT_NE(next.note.find("planned anew"), std::string::npos);
+  EXPECT_NE(next.note.find("planned again"), std::string::npos);
   expectHeld(next, 3.5, 47);
 }
 
